@@ -27,6 +27,8 @@ _UNITS = {
     "kN m": ("N m", 1e3),
     "m/s": ("m/s", 1.0),
     "km/h": ("m/s", 1.0 / 3.6),
+    "s^2": ("s^2", 1.0),
+    "g": ("m/s^2", 9.80665),
     "Pa": ("Pa", 1.0),
     "kPa": ("Pa", 1e3),
     "bar": ("Pa", 1e5),
@@ -50,6 +52,7 @@ _SPELLINGS = {
     "N m": ("Nm",),
     "100 N m": ("100 Nm",),
     "kN m": ("kNm",),
+    "s^2": ("s\u00b2", "s2"),
     "%": ("percent",),
     "1": ("none",),
 }
@@ -77,8 +80,8 @@ def in_si(text: str) -> tuple[str, float]:
     --------
     >>> in_si("N/mm")
     ('N/m', 1000.0)
-    >>> in_si("furlong")[0]
-    ''
+    >>> in_si("m/s\u00b2"), in_si("furlong")[0]
+    (('m/s^2', 1.0), '')
     """
     text = text.strip()
     if len(text) > 1 and text[0] + text[-1] in ("[]", "()"):
@@ -90,6 +93,8 @@ def in_si(text: str) -> tuple[str, float]:
     factor = known[0][1] / (known[1][1] if len(known) == 2 else 1.0)
     if len(known) == 1 or known[1][0] == "1":
         return known[0][0], factor
+    if known[1][0] == "m/s^2":
+        return f"{known[0][0]} s^2/m", factor
     below = f"({known[1][0]})" if " " in known[1][0] else known[1][0]
     return ("1" if known[0][0] == known[1][0] else f"{known[0][0]}/{below}"), factor
 

@@ -16,20 +16,39 @@ from ...core.validator import Validator
 from ..assembly.assembly import Assembly
 from ..assembly.by_wheel import flat
 from ..assembly.of import given_assemblies
-from ..assembly.quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
-from .characteristics.datasets import ALONG, DATA_SET, KNOWN, OF_AXLES, dataset
+from ..assembly.quantity import (
+    HEAVE,
+    LATERAL_ACCELERATION,
+    PITCH,
+    RACK,
+    ROLL,
+    STEERING_WHEEL,
+    TRAVEL,
+    Quantity,
+)
+from ..models.car.car import WHEELS
+from .characteristics.datasets import ALONG, DATA_SET, KNOWN, OF_AXLES, OF_CARS, dataset
 from .compare import with_compliance
 from .compliance.flexibility import HELD, WheelSupport
 from .compliance.linear import COMPLIANCES, COMPLIANCES_OF_AXLES
+from .handling.circle import columns_of_turns
 
 Array = NDArray[np.float64]
 
-_ALONG = {quantity.name: quantity for quantity in (*ALONG.values(), ROLL, STEERING_WHEEL)}
+_OF_BODY = (HEAVE, PITCH, LATERAL_ACCELERATION)
+_ALONG = {
+    quantity.name: quantity for quantity in (*ALONG.values(), ROLL, STEERING_WHEEL, *_OF_BODY)
+}
 _SOFT = COMPLIANCES_OF_AXLES | COMPLIANCES
 _KNOWN: dict[str, dict[str, Quantity]] = {name: dict(known) for name, known in OF_AXLES.items()}
 for _over, _known in KNOWN.items():
     _KNOWN[ALONG[_over].name] |= _known
 _KNOWN[TRAVEL.name] |= _SOFT
+# what a car has of a wheel or an axle: other names are those of suspensions and axles
+_OF_ENDS = {name: q for name, q in OF_CARS.items() if {"front", "rear"} & {*name.split("_")}}
+_KNOWN[ROLL.name] |= _OF_ENDS
+_KNOWN |= {HEAVE.name: dict(_OF_ENDS), PITCH.name: dict(_OF_ENDS)}
+_KNOWN[LATERAL_ACCELERATION.name] = columns_of_turns(WHEELS)
 _EVERY = {
     name: quantity
     for known in _KNOWN.values()
@@ -48,7 +67,9 @@ def measured_curves(path: str | Path) -> xr.Dataset:
     their names in kintrafo; over wheel travel compliance, too, ``toe_by_lateral [deg/kN]``. Of an
     axle they are over ``wheel_travel`` of both wheels, ``roll_angle [deg]``, ``rack_position`` or
     ``steering_wheel_angle [deg]``, and names of characteristics of a wheel end in ``_left`` or
-    ``_right``, ``toe_left [deg]``. Columns of other names are left out. `kintrafo.core.tables`
+    ``_right``, ``toe_left [deg]``. Of a car they are over ``body_heave``, ``body_pitch`` or
+    ``roll_angle``, or over the ``lateral_acceleration [m/s^2]`` of steady turns, such as
+    ``steering_wheel_angle [deg]``. Columns of other names are left out. `kintrafo.core.tables`
     describes the spellings of names and units: ``Wheel Travel (mm)`` is the same, and units may be
     in a separate row or comment. Rows may be in any order, and a position may be there more than
     once, as of a loop with friction. A cell may be empty. Where both positions are there, one must
@@ -61,9 +82,8 @@ def measured_curves(path: str | Path) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        Over ``wheel_travel``, ``rack_position`` [m], ``roll_angle`` or ``steering_wheel_angle``
-        [rad]; SI units. The
-        attribute ``left_out`` names the columns that were not read.
+        Over what varies, such as ``wheel_travel`` [m]; SI units. The attribute
+        ``left_out`` names the columns that were not read.
 
     Raises
     ------
@@ -77,8 +97,7 @@ def measured_curves(path: str | Path) -> xr.Dataset:
     units = {column.name: _quantity(column.name).units for column in columns}
     _check(sheet, columns, units)
     curves = {name: _EVERY[name] for name in units if name in _EVERY}
-    # where the steering wheel turns, the rack is what it moves
-    moved = {RACK.name: RACK} if {STEERING_WHEEL.name, RACK.name} <= units.keys() else {}
+    moved = _moved(units)
     curves |= moved
     places = [
         column.name for column in columns if column.name in _ALONG and column.name not in moved
@@ -108,6 +127,15 @@ def measured_curves(path: str | Path) -> xr.Dataset:
     read = {column.at for column in columns if column.name in (*places, *data)}
     left = ", ".join(name for i, name in enumerate(sheet.names) if i not in read)
     return xr.Dataset(data, coordinates, {"title": "measured curves", "left_out": left})
+
+
+def _moved(names: Mapping[str, Any]) -> dict[str, Quantity]:
+    """Return the positions among some columns that are curves there."""
+    if LATERAL_ACCELERATION.name in names:  # of steady turns, that of the steering wheel too
+        turns = _KNOWN[LATERAL_ACCELERATION.name]
+        return {name: turns[name] for name in names if name in turns}
+    # where the steering wheel turns, the rack is what it moves
+    return {RACK.name: RACK} if {STEERING_WHEEL.name, RACK.name} <= names.keys() else {}
 
 
 def _quantity(name: str) -> Quantity:
@@ -243,7 +271,8 @@ def _check(sheet: Table, columns: Sequence[Column], units: Mapping[str, str]) ->
             f"one column {TRAVEL.name} [mm] or {RACK.name} [mm] is needed; the first line has "
             f"{sheet.names}."
         )
-    if {*names}.isdisjoint(_EVERY) and not problems:
+    of_turns = _moved(units) if LATERAL_ACCELERATION.name in names else {}
+    if {*names}.isdisjoint(_EVERY) and not of_turns and not problems:
         read = {column.at for column in columns}
         others = [h.label for i, h in enumerate(sheet.headings) if i not in read]
         hints = [f"Did you mean {h}?" for h in (nearest(name, _EVERY) for name in others) if h]

@@ -11,6 +11,7 @@ from ...terminal.exits import Exit
 from .loading import variable_subject
 from .options import File, Held, Of, among, argument, option
 from .outputs import CarOptions, name_files
+from .variation_options import Over
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -29,7 +30,8 @@ def command(
         Path,
         argument(
             "CSV: wheel_travel [mm] or rack_position [mm], toe [deg], ...; of a rigid axle also "
-            "over roll_angle [deg].",
+            "over roll_angle [deg]; of a car over lateral_acceleration [m/s^2], "
+            "steering_wheel_angle [deg], ...",
             "MEASURED",
         ),
     ],
@@ -40,6 +42,7 @@ def command(
     *,
     of: Of = None,
     held: Annotated[Held, option("Support of the wheel when compliance was measured.")] = "height",
+    over: Over = None,
     output: CarOptions,
 ) -> None:
     """Find the errors of values of the file that explain measured curves.
@@ -49,9 +52,12 @@ def command(
     """
     from .. import studies as variation
     from ..analysis import rig
+    from ..assembly.of import assembly_of
 
     outputs = output.files(file, measured, tolerances, car=output.car)
-    subject = variable_subject(file, "fit")
+    subject = variable_subject(file)
+    if assembly_of(subject).body_moves and outputs.pages:
+        raise typer.BadParameter("--plot is only for suspensions and axles")
     curves = rig.measured_curves(measured)
     asked = variation.read(tolerances)
     names = among(of, map(str, curves)) if of else None
@@ -63,11 +69,11 @@ def command(
             accuracy=asked.get("accuracy"),
             names=names,
             held=held,
+            over=over,
             progress=lambda left: progress(1.0 - left),
         )
     written: list[Path] = []
     if outputs.pages:
-        from ..assembly.of import assembly_of
         from ..plots.curves import write_overview
 
         models = {"file": assembly_of(found.start), "fitted": assembly_of(found.suspension)}

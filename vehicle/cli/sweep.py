@@ -12,12 +12,14 @@ from .loading import variable_subject
 from .options import File, argument, option
 from .outputs import PlotOptions, name_files, title_of
 from .simulation_options import ScenarioOptions
+from .variation_options import StudyCurves, StudyOptions
 
 if TYPE_CHECKING:
     from rich.table import Table
     from xarray import Dataset
 
     from ...systems.system import System
+    from ..studies.evaluation import Subject
 
 # Most values of one place.
 _MOST_VALUES = 100_000
@@ -25,6 +27,7 @@ _MOST_VALUES = 100_000
 EXAMPLES = (
     "kintrafo sweep my_car.toml strut.damper_rate_N_s_per_m=500:3000:11 --road-step 20",
     "kintrafo sweep my_car.toml hardpoints.tie_rod_inner.z=270,280,290 --keep toe:max -o toe.csv",
+    "kintrafo sweep quarter_car corner.strut.spring_rate_N_per_m=20e3:30e3:3 --over speed:road=C",
 )
 
 _USUAL = ("wheel_acceleration:rms", "tyre_force:min", "tyre_force:rms")
@@ -50,40 +53,109 @@ def command(
             "SIGNAL:KIND,...",
         ),
     ] = None,
+    asked: StudyOptions,
     driven: ScenarioOptions,
     output: PlotOptions,
 ) -> None:
     """Simulate the suspension with all combinations of some values, many at once.
 
     Each motion starts at rest, or at --height. The exit code is 1 if one does not reach the end.
+    A sweep of a car simulates nothing: its table has numbers of steady turns, of the ride or of
+    motions of the body, as of kintrafo sensitivity (--over, --of, --at).
     """
     from ...datasets import export
-    from .. import studies as variation
-    from ..assembly.of import model_of
+    from ..models.car import Car
 
     outputs = output.files(file, driven.measured)
-    subject = variable_subject(file, "sweep")
-    scenario = driven.scenario()
+    subject = variable_subject(file)
+    of_car = isinstance(subject, Car)
+    _refuse_other_options(keep, asked, driven, of_car=of_car)
     grid = dict(map(_numbers, values))
     if len(grid) < len(values):
         raise typer.BadParameter("a place is named twice: write all of its values together")
     if outputs.pages and len(grid) > 2:
         raise typer.BadParameter("a figure shows one value or two; leave out --plot, or a value")
+    if of_car:
+        kept, names = _of_cars(subject, grid, asked)
+    else:
+        kept, names = _motions(subject, grid, keep, driven)
+    written = outputs.write(kept, title=title_of(file), names=names)
+    if output.json:
+        print_json(export.as_dict(kept))
+    else:
+        console.print(_table(kept, names, file))
+        say(str(kept.attrs["message"]))
+        name_files(written)
+    if not kept["success"].all():
+        raise typer.Exit(Exit.REFUSED)
+
+
+def _refuse_other_options(
+    keep: list[str] | None, asked: StudyOptions, driven: ScenarioOptions, *, of_car: bool
+) -> None:
+    """Refuse options of motions for a car, and those of cars for a suspension."""
+    if of_car and (keep or driven != ScenarioOptions()):
+        raise typer.BadParameter(
+            "a sweep of a car simulates nothing: leave out --keep and the options of road, rack, "
+            "start and time; --over, --of and --at choose its numbers"
+        )
+    if not of_car and asked != StudyOptions():
+        raise typer.BadParameter("--over, --of, --at and --held are only for cars: --keep chooses")
+
+
+def _of_cars(
+    subject: "Subject", grid: dict[str, list[float]], asked: StudyOptions
+) -> "tuple[Dataset, list[str]]":
+    """Return numbers of cars over a grid of values at one position, and their names."""
+    import xarray as xr
+
+    from ...core.validator import Validator
+    from .. import studies as variation
+    from ..studies.design_variables import matching
+
+    look = StudyCurves.of(subject, asked)
+    with Validator("sweep") as given:
+        matched = [matching(given, subject, [name]) for name in grid]
+        for name, several in zip(grid, matched, strict=True):
+            if len(several) > 1:
+                given.fail(f"{name} names {len(several)} numbers: name one of them.")
+    places = {n: place for several in matched for n, place in several.items()}
+    grid = dict(zip(places, grid.values(), strict=True))
+    with progress_bar("cars") as progress:
+        found = variation.cars(
+            subject, xr.Dataset(coords=grid), over=look.over, positions=[look.at],
+            names=look.names, progress=progress,
+        )  # fmt: skip
+    along = next(str(name) for name in found.dims if name not in grid)
+    found = found.isel({along: 0})
+    for name in grid:
+        place = places[name]
+        found[name] = found[name] * place.to_si
+        found[name].attrs = place.attributes()
+    found["success"] = found["reason"] == ""
+    words = f"{found.attrs['message']}, {look.where}"
+    failed = [str(reason) for reason in dict.fromkeys(found["reason"].values.ravel()) if reason]
+    return found.assign_attrs(message=". ".join([words, *failed[:1]])), look.names
+
+
+def _motions(
+    subject: "Subject",
+    grid: dict[str, list[float]],
+    keep: list[str] | None,
+    driven: ScenarioOptions,
+) -> "tuple[Dataset, list[str]]":
+    """Return results of motions over a grid of values, and their names."""
+    from .. import studies as variation
+    from ..assembly.of import model_of
+
+    scenario = driven.scenario()
     model = model_of(subject)
     reductions = _reductions(model, keep or _usual(model))
     with progress_bar("suspensions") as progress:
         found = variation.sweep(subject, grid, scenario, reductions=reductions, progress=progress)
     kept = found.drop_dims(["time", "state_element", "bound"])
     names = [str(n) for n in kept.data_vars if kept[n].dtype.kind == "f" and n != "end_time"]
-    written = outputs.write(kept, title=title_of(file), names=names)
-    if output.json:
-        print_json(export.as_dict(kept))
-    else:
-        console.print(_table(kept, names, file))
-        say(str(found.attrs["message"]))
-        name_files(written)
-    if not found["success"].all():
-        raise typer.Exit(Exit.REFUSED)
+    return kept, names
 
 
 def _numbers(text: str) -> tuple[str, list[float]]:

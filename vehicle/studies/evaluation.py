@@ -12,7 +12,7 @@ from ..analysis.characteristics.datasets import dataset
 from ..analysis.compare import common_positions as common_to
 from ..analysis.compliance.flexibility import HELD, WheelSupport
 from ..analysis.compliance.linear import linear
-from ..assembly.assembly import NOT_A_CAR, Assembly
+from ..assembly.assembly import Assembly
 from ..assembly.by_wheel import flat
 from ..kinds import Suspension
 from ..models.axle import Axle
@@ -36,7 +36,10 @@ def check_held_subject(given: Validator, subject: Any) -> None:
     """Refuse a subject without design variables, and a car, whose body moves."""
     check_subject(given, subject)
     if isinstance(subject, Car):
-        given.fail(f"suspension: {NOT_A_CAR}")
+        given.fail(
+            "suspension: this is a whole car. kintrafo.variation.cars has its numbers over a grid "
+            'of values; motions are those of car.axles["front"], car.axles["rear"], car.corner.'
+        )
 
 
 def usual_positions(assembly: Assembly, over: str) -> Array:

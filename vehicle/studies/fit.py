@@ -13,10 +13,10 @@ from ...core.quantities import display_of
 from ...core.validator import Validator
 from ..analysis.compliance.flexibility import HELD, WheelSupport
 from .design_variables import DesignVariable, amounts
-from .evaluation import Subject, check_held_subject
+from .evaluation import Subject, check_subject
 from .goals import GREATEST, LEAST, TargetValue, check_data
 from .search import Search, in_words, least
-from .sweep_axes import SWEEP_AXES, UNDER_LOADS, sweep_axes_of
+from .sweep_axes import UNDER_LOADS, given_axis, sweep_axes_of, sweep_axis
 from .tolerance import SIGMAS
 
 Array = NDArray[np.float64]
@@ -116,6 +116,7 @@ def fit(
     accuracy: Mapping[str, float] | None = None,
     names: Sequence[str] | None = None,
     held: WheelSupport = "height",
+    over: str | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> Fit:
     """Return the errors of the input file that explain measured curves.
@@ -138,6 +139,9 @@ def fit(
         Which of the curves are to be explained; by default all.
     held : {'height', 'tyre', 'spring', 'locked'}, optional
         What held the wheel when compliance was measured, see `kintrafo.compliance.linear`.
+    over : str, optional
+        What the curves of a car are over, with its options:
+        ``lateral_acceleration:radius_m=60``. Steady turns are at 100 km/h by default.
     progress : callable, optional
         Called after every step of the solver with the remaining cost, as a fraction of that at the
         start.
@@ -171,7 +175,7 @@ def fit(
     [-0.1, 1.98]
     """
     with Validator("fit") as given:
-        check_held_subject(given, suspension)
+        check_subject(given, suspension)
         given.function("progress", progress)
         given.dataset(measured)
         accuracies = given.mapping(
@@ -179,7 +183,7 @@ def fit(
         )
         if not given.failed:
             given.among("held", held, HELD)
-            targets = _targets(given, suspension, measured, names, (accuracies, held))
+            targets = _targets(given, suspension, measured, names, (accuracies, held, over))
         if not given.failed:
             check_data(given, suspension, targets)
             by_pattern = given.mapping("tolerances", tolerances, "places and numbers")
@@ -198,12 +202,12 @@ def _targets(
     suspension: Subject,
     measured: xr.Dataset,
     names: Any,
-    how: tuple[Mapping[str, Any], WheelSupport],
+    how: tuple[Mapping[str, Any], WheelSupport, Any],
 ) -> list[TargetValue]:
     """Return the measured curves as targets, without the cells that are empty."""
-    accuracies, held_by = how
+    accuracies, held_by, asked = how
     # parallel travel is the first of the ways over wheel travel
-    ways = {SWEEP_AXES[way].along.name: way for way in reversed(sweep_axes_of(suspension))}
+    ways = {sweep_axis(way).along.name: way for way in reversed(sweep_axes_of(suspension))}
     over = [name for name in ways if name in measured.dims]
     if len(over) != 1:
         given.fail(
@@ -213,6 +217,8 @@ def _targets(
         return []
     (along,) = over
     way = ways[along]
+    if asked is not None:
+        way = given_axis(given, "over", asked, [way])
     for name in (other for other in ways if other != along and other in measured.coords):
         held = measured[name].values
         if not (held.size == 1 and abs(float(held.item())) <= _HELD):
@@ -226,7 +232,7 @@ def _targets(
         if measured[name].dims == (along,) and np.issubdtype(measured[name].dtype, np.floating)
     ]
     under_loads = UNDER_LOADS[held_by].known if way == "travel" else {}
-    known = [name for name in there if name in SWEEP_AXES[way].known or name in under_loads]
+    known = [name for name in there if name in sweep_axis(way).known or name in under_loads]
     chosen = known if names is None else given.names("names", names, known)
     if not chosen and not given.failed:
         given.fail("measured: one curve or more is needed.")
@@ -247,7 +253,7 @@ def _target(given: Validator, curve: xr.DataArray, over: str, accuracy: Any) -> 
     if not values.size:
         given.fail(f"measured: {name} has no value.")
         return None
-    quantity = (SWEEP_AXES | UNDER_LOADS)[over].known[name]
+    quantity = sweep_axis(over).known[name]
     shown = display_of(quantity.attributes())
     if accuracy is not None:
         number = given.number(

@@ -1,5 +1,6 @@
 """Tables of ``kintrafo ride``: the wheels have a column each, the body has its figures in one."""
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -61,6 +62,26 @@ def test_mistakes_are_named_before_equations_are_derived(kintrafo, monkeypatch, 
     code, out, err = kintrafo("ride", *words)
     assert (code, out) == (2, "")
     assert said in " ".join(err.split())
+
+
+def test_a_sweep_of_a_car_is_a_table_of_its_numbers(kintrafo):
+    grid = ["sweep", "quarter_car", "body.mass_kg=340,390"]
+    code, printed, _ = kintrafo(
+        *grid, "--over", "speed:road=C", "--of", "weighted_rms,heave_frequency", "--json"
+    )
+    assert code == 0
+    found = json.loads(printed)
+    # a mass on a spring: the frequency falls as the root of the mass grows, but for the tyre
+    low, high = found["variables"]["heave_frequency"]["values"]
+    assert high / low == pytest.approx((340.0 / 390.0) ** 0.5, rel=0.02)
+    for others, words in (
+        ([*grid, "--keep", "toe:max"], "simulates nothing"),
+        (["sweep", "reference_car", "wheel.mass_kg=30,40", "--at", "3"], "only for cars"),
+        (["sweep", "quarter_car", "body.mas_kg=340,390"], "body.mass_kg"),
+    ):
+        code, _, said = kintrafo(*others)
+        assert code == 2
+        assert words in said
 
 
 def test_curves_of_four_wheels_are_drawn():

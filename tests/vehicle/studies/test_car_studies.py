@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import kintrafo
 import numpy as np
@@ -16,6 +16,9 @@ from kintrafo.vehicle.models.car import equations
 from kintrafo.vehicle.models.car.equations import CarModel
 from kintrafo.vehicle.studies.design_variables import places_of
 from kintrafo.vehicle.studies.sweep_axes import TURNS
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 TURNING_SPEED = 100.0 / 3.6
 RIDES = kintrafo.load("reference_vehicle")
@@ -122,6 +125,29 @@ def test_something_is_constant_in_steady_turns(option: str, constant: str, value
     )
     wanted = float((more - less).item()) / 2.0
     assert slope["roll_angle"].item() == pytest.approx(wanted, rel=SECOND_ORDER)
+
+
+def test_an_error_is_found_by_measured_turns(tmp_path: Path) -> None:
+    """Of a car with another tie rod and a softer rear spring: steering and roll on a radius."""
+    height, rate = (places_of(DRIVES)[place].value for place in (ROD, RATE))
+    built = DRIVES.with_changes({ROD: height + 2.0, RATE: 0.95 * rate})
+    at = np.linspace(1.0, 5.0, 5)
+    turns = circle(built, radius=60.0, lateral_acceleration=at).curves[""]
+    columns = {n: np.rad2deg(turns[n].values) for n in ("steering_wheel_angle", "roll_angle")}
+    head = "lateral_acceleration [m/s^2],steering_wheel_angle [deg],roll_angle [deg]"
+    table = np.column_stack([at, *columns.values()])
+    np.savetxt(tmp_path / "turns.csv", table, delimiter=",", header=head, comments="")
+    measured = kintrafo.rig.measured_curves(tmp_path / "turns.csv")
+    found = variation.fit(
+        DRIVES, measured, {ROD: 10.0, RATE: "30 %"}, over=f"{TURNS}:radius_m=60",
+        accuracy={"steering_wheel_angle": 0.01, "roll_angle": 0.001},
+    )  # fmt: skip
+    assert found.success, found.message
+    # what is measured so well outweighs that values are probably right as they are
+    assert found.moved[ROD] == pytest.approx(2.0, abs=0.05)
+    assert found.moved[RATE] == pytest.approx(-0.05 * rate, rel=0.02)
+    with pytest.raises(InputError, match="lateral_acceleration"):
+        variation.fit(DRIVES, measured, {ROD: 10.0}, over="heave")
 
 
 QUARTER = kintrafo.load("quarter_car")
