@@ -84,10 +84,11 @@ def cycles_line(topology: JointGraph) -> str:
     bodies, joints = len(topology.mechanism.bodies), len(topology.mechanism.joints)
     return (
         "Horton's construction closes a path over each joint from each body that the joint does "
-        f"not touch: {joints} x ({bodies} - 2) = {topology.pair_count} candidates. Where the "
-        f"shortest ways to the two ends share a body, nothing closes; {topology.closing_pairs} "
-        f"candidates do close. A pair counts once for each way where several are equally short, "
-        f"which makes {len(topology.horton_candidates())} simple cycles with repetitions; "
+        f"not touch: {joints} x ({bodies} - 2) = {topology.pair_count} candidates. A candidate "
+        "whose shortest paths to the two ends share a body is not a cycle; "
+        f"{topology.closing_pairs} candidates are cycles. Where several paths are equally short, "
+        "a candidate counts once for each of them, which makes "
+        f"{len(topology.horton_candidates())} simple cycles with repetitions; "
         f"{len(topology.candidate_cycles)} of them are distinct:"
     )
 
@@ -201,8 +202,8 @@ def _summary(derivation: Derivation) -> str:
         f"{_counted(freedoms, 'degree')} of freedom. {way} "
         "position and velocity of every body, and from these, projected onto the independent "
         "coordinates, the equations of motion themselves. The method is that of J. A. M. Góis and "
-        "C. A. P. Sarzeto (Instituto Militar de Engenharia, Rio de Janeiro, 2000); numbers of "
-        "equations and figures behind the word paper are theirs."
+        "C. A. P. Sarzeto (Instituto Militar de Engenharia, Rio de Janeiro, 2000); numbers "
+        "after the word paper are those of its equations and figures."
     )
 
 
@@ -267,8 +268,8 @@ def _transformers(derivation: Derivation, number: EquationNumbers) -> Iterator[B
     yield Paragraph(
         "A loop is cut at a pair of joints whose points keep a known distance. Of the six "
         "equations of a loop in space, or the three of one in a plane, one is left then, with one "
-        "unknown; a table lists the pairs of each loop. What a transformer takes is "
-        "known when its turn has come."
+        "unknown; a table lists the pairs of each loop. The inputs of a transformer "
+        "are known from the transformers before it."
     )
     yield Picture(
         "transformers",
@@ -308,10 +309,10 @@ def _turns(derivation: Derivation, number: EquationNumbers) -> Iterator[Block]:
         r"\sin x = \frac{b\,c + s\,a\,w}{a^2+b^2}, \qquad w = \sqrt{a^2+b^2-c^2}"
     )
     yield Paragraph(
-        f"Its two solutions are the two ways to assemble the loop, {inline('s = 1')} and "
-        f"{inline('s = -1')}. The sign is that of the design position, and a constant: the motion "
-        f"ends at {inline('w = 0')}, the dead point, where both meet. Poses need the cosine and "
-        "the sine alone; an angle is computed only where it is reported."
+        f"Its two solutions, {inline('s = 1')} and {inline('s = -1')}, are the two assembly modes "
+        "of the loop. The sign is constant, that of the design position: the motion ends at the "
+        f"dead point {inline('w = 0')}, where both solutions meet. Poses need only the cosine and "
+        "the sine; an angle is computed only if it is reported."
     )
 
 
@@ -336,9 +337,7 @@ def _validity(derivation: Derivation) -> Iterator[Block]:
             [(f"`{a.quantity}`", a.unit, a.meaning) for a in derivation.assumptions],
         )
     if derivation.conditions:
-        yield Paragraph(
-            "Parameters are refused for which one of these is not more than its least amount:"
-        )
+        yield Paragraph("Parameters are refused if one of these is not above its least value:")
         yield TextTable(
             ("quantity", "least", "unit", "meaning when it is less"),
             [

@@ -365,8 +365,8 @@ def _coordinates(motion: MotionFormulas) -> list[Block]:
     return [
         Heading(2, "Relative coordinates"),
         Paragraph(
-            "The coordinates in which everything below is written, and where the value of each "
-            "comes from."
+            "The equations below are written in these coordinates; each has its value from the "
+            "transformer or input in its row."
         ),
         TextTable(("", "name", "joint", "value", "meaning"), motion.coordinate_rows()),
     ]
@@ -385,8 +385,8 @@ def _relative(motion: MotionFormulas, number: EquationNumbers) -> list[Block]:
     return [
         Heading(2, "Relative Jacobian"),
         Paragraph(
-            "For each coordinate there is one closure equation (`residuals`). What it reads, "
-            "beside hardpoints, is where its row of the derivative is not zero:"
+            "For each coordinate there is one closure equation (`residuals`). Its "
+            "derivative is zero except with respect to these coordinates:"
         ),
         TextTable(("equation", "relative coordinates", "independent and given"), rows),
         Paragraph(
@@ -464,8 +464,8 @@ def _absolute(motion: MotionFormulas, number: EquationNumbers) -> list[Block]:
         sections.append(
             Paragraph(
                 "No chain of coordinates of this table leads to "
-                f"{', '.join(f'`{b}`' for b in missing)}: a joint is on the way whose coordinates "
-                "are not all reported. Their velocities follow from their pose as the closed form "
+                f"{', '.join(f'`{b}`' for b in missing)}: not all coordinates of a joint on the "
+                "way are reported. Their velocities follow from their pose as the closed form "
                 "gives it, by exact differentiation (`global_jacobian`)."
             )
         )
@@ -536,7 +536,7 @@ def _dynamics(motion: MotionFormulas, number: EquationNumbers) -> list[Block]:
             r"Here $`\ddot{\mathbf{s}}_b`$ has the angular acceleration of a body and that of its "
             r"centre of mass, $`\boldsymbol{\Xi}_b`$ its inertia and mass, $`\mathbf{b}_b`$ the "
             r"torque $`\boldsymbol{\omega}_b\times\boldsymbol{\Theta}_b\boldsymbol{\omega}_b`$ of "
-            r"its turning, and $`\mathbf{w}_b`$ torque and force that are applied to it. "
+            r"its turning, and $`\mathbf{w}_b`$ applied torque and force. "
             f"{inline(rf'{inertia} = {turned}')} is the inertia about its centre of mass, which "
             "turns with it. Sorted by accelerations, rates and forces:"
         ),
@@ -558,8 +558,8 @@ def _dynamics(motion: MotionFormulas, number: EquationNumbers) -> list[Block]:
         ),
         Paragraph(
             r"The accelerations $`\bar{\boldsymbol{\alpha}}_b`$ and $`\bar{\mathbf{a}}_b`$ are "
-            r"those at $`\ddot{\mathbf{q}} = \mathbf{0}`$: what changes of the Jacobian with the "
-            "pose, and what prescribed motions accelerate. The compiled `mass_matrix`, `bias` and "
+            r"those at $`\ddot{\mathbf{q}} = \mathbf{0}`$: the parts from the change of "
+            "the Jacobian and from prescribed motions. The compiled `mass_matrix`, `bias` and "
             r"`forces` return $`\mathbf{M}`$, $`\mathbf{B}`$ and $`\mathbf{Q}`$; `rhs` solves this "
             r"system for $`\ddot{\mathbf{q}}`$."
         ),
@@ -597,7 +597,7 @@ def _dynamics(motion: MotionFormulas, number: EquationNumbers) -> list[Block]:
             Paragraph(
                 f"Body {numbers[rotor.name]}, `{rotor.name}`, is a body of revolution: {name} has "
                 f"`{rotor.name}_inertia_spin` about its axis and `{rotor.name}_inertia_diametral` "
-                "across it, however far it has turned."
+                "across it, at every angle of rotation."
             )
         )
     rows = _force_rows(motion.formulation)
