@@ -195,10 +195,6 @@ class JointGraph:
             for start in self._numbers
         ]
 
-    def path_length(self, path: Sequence[str]) -> int:
-        """Return the sum of the joint degrees of freedom along a path."""
-        return sum(self.joint_between(a, b).freedoms for a, b in pairwise(path))
-
     def _path_numbers(self, path: Sequence[str]) -> tuple[int, ...]:
         return tuple(self._numbers[b] for b in path)
 
@@ -275,14 +271,6 @@ class JointGraph:
         """Return whether no cycle is a sum of others (edges modulo two)."""
         span = CycleSpan(self)
         return all(span.add(cycle) for cycle in cycles)
-
-    def minimal_next(self, chosen: Sequence[Cycle]) -> list[Cycle]:
-        """Return the shortest cycles that extend a basis.
-
-        Taking any one of them until `loop_count` are chosen gives a minimal cycle basis (the
-        independent sets of cycles are a matroid, so the greedy choice is optimal).
-        """
-        return MinimalBasis(self, chosen).options()
 
 
 class _ShortestPaths:

@@ -94,13 +94,15 @@ def _of_corner(suspension: Suspension, bushes: Any) -> Analyses:
 
 
 def _of_axle(axle: Axle, bushes: Any) -> Analyses:
+    # the values are from when an axle without a drive had the case "drive", too
+    driven = axle if axle.drive else axle.with_changes({"drive": {"share": 1.0}})
     found: Analyses = {
         "check": lambda: _looked(checkup.checkup(axle)),
         "bump": _flat(characteristics.over, axle, "bump", TRAVEL),
         "roll": _flat(characteristics.over, axle, "roll", ROLL),
         "left": _flat(characteristics.over, axle, "left", TRAVEL),
         "right": _flat(characteristics.over, axle, "right", TRAVEL),
-        "static loads": partial(loads.static, axle),
+        "static loads": partial(loads.static, axle, loads.standard_cases(driven)),
         "elastokinematics, bump": partial(
             compliance.elastokinematics, axle, bushes, "bump", TRAVEL
         ),

@@ -330,9 +330,9 @@ class AxleAssembly(HeldAssembly):
         return getattr(self.axle.sides[wheel], which) is not None
 
     def torque_on(self, what: Literal["brakes", "drive"]) -> TorqueReaction | None:
-        """Return what holds the torque of brakes or drive: as its file says, else as usual."""
+        """Return what holds the torque of brakes or drive; None of an axle without a drive."""
         part = getattr(self.axle, what)
-        return super().torque_on(what) if part is None else part.torque_on
+        return None if part is None else part.torque_on
 
     @property
     def rules(self) -> tuple[str, ...]:

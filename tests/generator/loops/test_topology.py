@@ -1,8 +1,9 @@
 """Mobility, shortest paths, cycles and characteristic pairs, against the paper and at large."""
 
 import random
+from collections.abc import Sequence
 from dataclasses import replace
-from itertools import combinations
+from itertools import combinations, pairwise
 from typing import Any
 
 import networkx as nx
@@ -33,7 +34,7 @@ from kintrafo.generator.closed_forms.revolute import RevoluteByLength
 from kintrafo.generator.closed_forms.telescope import Telescope
 from kintrafo.generator.closed_forms.turn import TurnByLength
 from kintrafo.generator.loops.errors import NoClosedFormError, TopologyError
-from kintrafo.generator.loops.graph import Cycle, JointGraph
+from kintrafo.generator.loops.graph import Cycle, JointGraph, MinimalBasis
 from kintrafo.generator.loops.tilted import tilted
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
@@ -98,11 +99,16 @@ def test_table_2(topology: JointGraph, ends: tuple[int, int], edges: str) -> Non
     paths = topology.shortest_paths(start, end)
     assert (path[0], path[-1]) == (start, end)
     assert tuple(path) in paths
-    assert len({topology.path_length(p) for p in paths}) == 1
+    assert len({length_of(topology, p) for p in paths}) == 1
     # no simple path of the graph is shorter, and none of that length is missing
     simple = list(nx.all_simple_paths(topology.graph, start, end))
-    least = min(map(topology.path_length, simple))
-    assert sorted(paths) == sorted(tuple(p) for p in simple if topology.path_length(p) == least)
+    least = min(length_of(topology, p) for p in simple)
+    assert sorted(paths) == sorted(tuple(p) for p in simple if length_of(topology, p) == least)
+
+
+def length_of(topology: JointGraph, path: Sequence[str]) -> int:
+    """Return the sum of the joint degrees of freedom along a path."""
+    return sum(topology.joint_between(a, b).freedoms for a, b in pairwise(path))
 
 
 def test_three_cycles(topology: JointGraph) -> None:
@@ -194,9 +200,9 @@ def test_chain_of_four_bars_has_one_freedom(count: int) -> None:
 
 
 def test_hinges_along_lines_between_points_are_not_taken_for_parallel() -> None:
-    cycle = JointGraph(loop_of(*[Revolute] * 4).mechanism).minimal_next([])[0]
+    cycle = MinimalBasis(JointGraph(loop_of(*[Revolute] * 4).mechanism)).options()[0]
     assert not cycle.planar
-    planar = JointGraph(BY_NAME["four_bar"].mechanism).minimal_next([])[0]
+    planar = MinimalBasis(JointGraph(BY_NAME["four_bar"].mechanism)).options()[0]
     assert planar.planar
 
 
@@ -248,7 +254,7 @@ def test_minimal_cycle_basis(mechanism: Mechanism, choice: random.Random) -> Non
     """Any choice among the shortest extensions ends at a basis as short as networkx's."""
     topology = JointGraph(mechanism)
     chosen: list[Cycle] = []
-    while options := topology.minimal_next(chosen):
+    while options := MinimalBasis(topology, chosen).options():
         chosen.append(choice.choice(options))
     assert len(chosen) == topology.loop_count
     assert topology.independent(chosen)

@@ -254,6 +254,8 @@ def test_usual_cases_of_an_axle_act_where_its_file_holds_the_torque(
     elsewhere = loads.standard_cases(axle.with_changes({"drive.torque_on": other}))
     assert elsewhere["drive"] == moved
     assert [*inboard, *elsewhere] == [*usual, *usual]
+    undriven = loads.standard_cases(axle.with_changes({"drive": None}))
+    assert [*undriven] == [name for name in usual if name != "drive"]
 
 
 @pytest.mark.parametrize("subject", SHORT.values(), ids=SHORT)

@@ -265,7 +265,6 @@ def test_usual_cases_are_all_carried_between_stops() -> None:
     found = loads.static(STOPPED)
     assert [*found["case"].values] == [*loads.standard_cases(AXLE)]
     assert not any(found["reason"].values)
-    assert "drive" not in loads.standard_cases(AXLE.with_changes({"drive": None}))
 
 
 # -- along a motion -------------------------------------------------------------------------------

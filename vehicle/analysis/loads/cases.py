@@ -211,7 +211,7 @@ def standard_cases(subject: Any) -> dict[str, dict[str, Any]]:
     Sideways forces push the wheel of a corner inward. In cases of an axle that differ between its
     wheels the right one has the greater load. Forces along x act where what holds the torque of
     brakes or drive finds them: at the contact if it is on the carrier or the axle, at the wheel
-    centre if it is on the body. An axle that is known not to be driven has no case ``drive``.
+    centre if it is on the body. An axle without ``drive`` in its file has no case ``drive``.
 
     Parameters
     ----------
