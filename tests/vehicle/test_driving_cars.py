@@ -15,6 +15,7 @@ from kintrafo.vehicle.models.car.car import center_of_gravity, masses
 from kintrafo.vehicle.models.car.equations import CarModel, _parameters, declared
 
 SPEED = 20.0
+_ANGLES = ("camber", "steer")
 
 
 @pytest.fixture(scope="module")
@@ -306,3 +307,25 @@ def test_a_small_angle_steers_it_like_the_bicycle_model(assembly: CarAssembly) -
     rate = float(state[model.state_names.index("body_r")])
     assert rate > 0.0
     assert rate == pytest.approx(expected, rel=0.01)
+
+
+def test_camber_is_to_the_vertical_and_inclination_follows_from_it(assembly: CarAssembly) -> None:
+    """By the axis of a steered wheel in the world, of a car that yaws, pitches and rolls."""
+    model = assembly.model
+    state, inputs = model.design_state.copy(), np.zeros(len(model.input_names))
+    first = model.state_names.index("body_e0")
+    state[first : first + 4] = turned = np.array([0.9, 0.03, 0.02, 0.4]) / np.sqrt(0.9713)
+    inputs[model.input_names.index("rack_position")] = 0.03
+    heading = rotation(turned)[:, 0]
+    ahead = np.array([heading[0], heading[1], 0.0]) / np.hypot(heading[0], heading[1])
+    for wheel in assembly.wheels[:2]:
+        carrier = model.equations.BODIES.index(f"{wheel}_knuckle")
+        spin = [model.parameters[f"{wheel}_spin_axis_{axis}"] for axis in "xyz"]
+        axis = model.evaluate("orientations", state, inputs)[carrier] @ spin
+        side = 1.0 if wheel.endswith("left") else -1.0
+        across = axis @ np.cross([0.0, 0.0, 1.0], ahead)
+        camber, steer = (float(model.signal(f"{wheel}_{k}", state, inputs)) for k in _ANGLES)
+        assert camber == pytest.approx(np.arctan2(-side * axis[2], across), rel=1e-9)
+        assert steer == pytest.approx(np.arctan2(-axis @ ahead, across), rel=1e-9)
+        sine = np.tan(camber) / np.sqrt(1.0 + np.tan(camber) ** 2 + np.tan(steer) ** 2)
+        assert sine == pytest.approx(-side * axis[2], rel=1e-9)  # docs/reference/conventions.md

@@ -370,7 +370,7 @@ class CarAssembly(Assembly):
     def _free_heights(self) -> list[float]:
         """The heights of wheel centres above the road at which tyres carry nothing [m]."""
         if self.car.drives:
-            return [self.car.tyre(wheel).radius for wheel in self.wheels]
+            return [self.car.tyre(wheel).free_radius for wheel in self.wheels]
         return [in_metres(tyre.free_height_mm, "mm") for tyre in self.tyres]
 
     def _refuse_on_stops(self, state: Array, inputs: Array) -> None:

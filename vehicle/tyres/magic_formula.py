@@ -140,6 +140,11 @@ class MagicFormula(Tyre):
             raise InputError([f"{k} is not a coefficient in use." for k in unknown], self.name)
         return replace(self, coefficients={**self.coefficients, **changes})
 
+    @property
+    def free_radius(self) -> float:
+        """The radius in equations of motion at no load [m]: that of the file times ``Q_RE0``."""
+        return float(vertical.free_radius(self.coefficients, 0.0))
+
     def mirrored(self) -> Self:
         """Return the mirror image: the same tyre on the other side of the vehicle."""
         return replace(

@@ -91,7 +91,7 @@ class Tyre(ABC):
     nominal_load : float
         [N].
     radius : float
-        Without load [m].
+        Of its file, without load [m].
     ranges : dict of str to (float, float)
         By argument of `evaluate`, where the tyre is known.
     side : str
@@ -118,6 +118,11 @@ class Tyre(ABC):
     usual_pressure: float = 0.0
     left_out: tuple[str, ...] = ()
     assumed: tuple[str, ...] = ()
+
+    @property
+    def free_radius(self) -> float:
+        """The radius in equations of motion at no load [m]."""
+        return self.radius
 
     @abstractmethod
     def mirrored(self) -> Self:

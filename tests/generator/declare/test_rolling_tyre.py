@@ -131,7 +131,7 @@ def test_forces_are_those_of_the_tyre_on_arrays(system_of, name):
     slow, inputs = tyre.with_changes({"Q_V1": 0.0}), system.inputs({})
     for state in states(12):
         signals = system.signals(state, inputs)
-        wheel = Wheel(state, tyre.radius * tyre.coefficients["Q_RE0"])
+        wheel = Wheel(state, tyre.free_radius)
         assert signals["tyre_deflection"] == pytest.approx(wheel.deflection, abs=1e-13)
         share = wheel.deflection / tyre.radius
         first, second = (tyre.parameters()[f"tyre_q_fz{i}"] for i in (1, 2))
@@ -254,7 +254,7 @@ def test_deflections_follow_the_slip_along_the_relaxation_length(relaxing, name)
         state = np.append(position, [0.008, -0.011])
         signals, rates = system.signals(state, inputs), system.evaluate("rhs", state, inputs)
         load = float(signals["tyre_fz"])
-        wheel = Wheel(position, tyre.radius * tyre.coefficients["Q_RE0"])
+        wheel = Wheel(position, tyre.free_radius)
         camber = np.arcsin(wheel.axis[2])
         still = slow.evaluate(load, camber=camber, extrapolate=True)
         ahead, slip, angle = wheel.slips(float(still.effective_radius), 1e-5)

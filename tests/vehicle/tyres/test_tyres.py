@@ -177,3 +177,10 @@ def test_arguments_are_refused_by_name(tyre_of, arguments, refused):
     if "pressure" in arguments:
         with pytest.raises(kintrafo.InputError, match="does not depend on it"):
             tyre_of(FILES["PAC2002"]).evaluate(**arguments)
+
+
+def test_the_free_radius_is_the_loaded_one_without_load():
+    tyre = kintrafo.tyres.load("passenger_205_55")
+    loaded = float(tyre.evaluate(1e-9, speed=0.0, extrapolate=True).loaded_radius)
+    assert tyre.free_radius == pytest.approx(loaded, abs=1e-12)
+    assert tyre.free_radius < tyre.radius - 9e-4  # Q_RE0 is 0.997

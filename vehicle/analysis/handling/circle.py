@@ -70,7 +70,7 @@ _OF_WHEELS = {
     "fz": "vertical force of the road on the tyre",
     "slip": "longitudinal slip, positive in driving",
     "slip_angle": "slip angle, positive moving to the left",
-    "camber": "camber to the road, positive with the top outboard",
+    "camber": "camber to the vertical along the heading, positive with the top outboard",
     "steer": "steer angle of the wheel to the body, positive to the left",
 }
 _UNITS = {"fx": "N", "fy": "N", "fz": "N", "slip": "1"}

@@ -29,8 +29,9 @@ def at_rest(subject: Any) -> xr.Dataset:
     -------
     xarray.Dataset
         Over ``wheel``: ``load``, the vertical force of the road [N]; ``travel``, height of the
-        wheel centre on the body above that at design [m]; ``camber`` and ``toe`` of the wheel to
-        the road [rad]. Of the body, as far as it moves so: ``heave``, ``pitch`` and ``roll``.
+        wheel centre on the body above that at design [m]; ``camber`` and ``toe`` of the wheel in
+        level axes along the heading of the body [rad]. Of the body, as far as it moves so:
+        ``heave``, ``pitch`` and ``roll``.
 
     Raises
     ------
@@ -75,6 +76,6 @@ _READ = ("camber", "toe")
 _OF_WHEELS = {
     "load": ("vertical force of the road on the wheel", "N"),
     "travel": ("height of the wheel centre on the body above that at design", "m"),
-    "camber": ("camber to the road, positive with the top outboard", "rad"),
+    "camber": ("camber to the vertical, positive with the top outboard", "rad"),
     "toe": ("toe angle, positive toe-in", "rad"),
 }

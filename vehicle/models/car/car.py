@@ -496,11 +496,11 @@ def _problems_of_driving(car: Car) -> list[str]:
         problems += _problems_of_brakes(car)
     for end, tyre in car.tyres.items():
         height = max(float(car.wheel_centers[f"{end}_{side}"][2]) for side in SIDES)
-        if not height < tyre.radius + _HIGHEST:
+        if not height < tyre.free_radius + _HIGHEST:
             problems.append(
-                f"[tyres] {end}: the tyre has a radius of {1e3 * tyre.radius:g} mm without load, "
-                f"and the wheel centre is {1e3 * height:g} mm above the ground at design. Use a "
-                "tyre that reaches the ground."
+                f"[tyres] {end}: the tyre has a radius of {1e3 * tyre.free_radius:g} mm without "
+                f"load, and the wheel centre is {1e3 * height:g} mm above the ground at design. "
+                "Use a tyre that reaches the ground."
             )
     return problems
 
