@@ -24,13 +24,7 @@ from ...core.validator import Validator, shown
 from ...core.vectors import components, unit_vector
 from ...systems.allowed import LengthLimit
 from ..data import data_sets
-from ..data.starter import (
-    DEFAULT,
-    not_of_a_suspension,
-    packaged_axles,
-    whole_axle_in,
-    whole_axles,
-)
+from ..data.starter import AXLE, CAR, DEFAULT, not_of_a_suspension, whole_axle_in
 from ..input.bodies import Bodies
 from ..input.described import check_keys
 from ..input.hardpoints import Hardpoints
@@ -50,10 +44,12 @@ from .wheeled import WheeledSection
 # The top-level key that says which suspension a file describes.
 KIND = "suspension"
 
-_AN_AXLE = (
-    "this is the file of an axle, and one suspension is needed here. Give the hardpoint file that "
-    "it names as `side`, `right` or `left`."
-)
+_OTHERS = {
+    AXLE: "this is the file of an axle, and one suspension is needed here. Give the hardpoint file "
+    "that it names as `side`, `right` or `left`.",
+    CAR: "this is the file of a car, and one suspension is needed here. Give a hardpoint file: the "
+    "one that it names as `corner`, or one that the files of its axles name.",
+}
 
 
 class Suspension(WheeledSection):
@@ -142,13 +138,6 @@ class Suspension(WheeledSection):
     def packaged(cls) -> Mapping[str, Traversable]:
         """Return the files of those that come with kintrafo, by their names."""
         return data_sets()
-
-    @classmethod
-    def _problem_of_name(cls, path_or_name: str | Path) -> str:
-        if path_or_name in packaged_axles():
-            return _AN_AXLE
-        is_whole = path_or_name in whole_axles()
-        return not_of_a_suspension(str(path_or_name)) if is_whole else ""
 
     @classmethod
     def _called(cls) -> str:
@@ -476,8 +465,9 @@ def _kind_of(data: Mapping[str, Any], wanted: type[SuspensionT]) -> type[Suspens
         If there is no such kind, it is not the one that is wanted, or it is not said although the
         hardpoints are not those of a MacPherson suspension.
     """
-    if "axle" in data and "hardpoints" not in data:
-        raise InputError([_AN_AXLE])
+    for key, problem in _OTHERS.items():
+        if key in data and "hardpoints" not in data:
+            raise InputError([problem])
     other = whole_axle_in(data)
     if other is not None:
         raise InputError([not_of_a_suspension(other)])

@@ -10,7 +10,7 @@ from typing import Any, Self
 from ...core.errors import InputError
 from ...core.validator import Validator, shown
 from ..data import data_sets, find
-from ..data.starter import AXLE, AXLES, CAR, CARS, whole_axle_in, whole_axles
+from ..data.starter import AXLE, AXLES, CAR, CARS, all_packaged, whole_axle_in, whole_axles
 from .messages import is_named
 from .places import put
 from .section import Section
@@ -131,19 +131,12 @@ class Described:
         """
         with Validator(cls.__name__) as given:
             given.path("path_or_name", path_or_name)
-        problem = cls._problem_of_name(path_or_name)
-        if problem:
-            raise InputError([problem], str(path_or_name))
-        file = find(path_or_name, cls.packaged())
+        # the content of another sort of file says what it is; names to suggest are of this sort
+        others = all_packaged()
+        file = find(path_or_name, others if path_or_name in others else cls.packaged())
         folder = file.parent if isinstance(file, Path) else Path()
         # a path inside the package would not help where a name was given
         return cls._of_file(read_toml(file), str(path_or_name), folder)
-
-    @classmethod
-    def _problem_of_name(cls, path_or_name: str | Path) -> str:
-        """Return why what has a packaged name is none of these; empty if it may be one."""
-        del path_or_name
-        return ""
 
     @classmethod
     def _of_file(cls, data: Mapping[str, Any], source: str, folder: Path) -> Self:

@@ -496,6 +496,10 @@ def test_files_of_the_other_sort_are_told() -> None:
             read(name)
     with pytest.raises(InputError, match="not of an axle"):
         Axle.from_dict(CAR.to_dict())
+    for name in ("quarter_car", "driving_car"):
+        for sort in (Suspension, Axle):
+            with pytest.raises(InputError, match=f"{name}: .*\n.*this is the file of a car"):
+                sort.load(name)
 
 
 def test_sides_are_found_beside_the_file(tmp_path: Path) -> None:

@@ -18,7 +18,7 @@ from ....core.vectors import components, unit_vector
 from ....systems.allowed import LengthLimit
 from ...corner.bushes import RACK
 from ...data import data_sets
-from ...data.starter import AXLE, AXLES, not_of_a_suspension, whole_axle_in, whole_axles
+from ...data.starter import AXLE, AXLES, CAR, not_of_a_suspension, whole_axle_in
 from ...input.described import Described, check_keys, described_by, parts_of
 from ...input.messages import messages_of
 from ...input.places import put
@@ -90,11 +90,6 @@ class Axle(Described):
     def packaged(cls) -> Mapping[str, Traversable]:
         """Return the files of those that come with kintrafo, by their names."""
         return data_sets(AXLES)
-
-    @classmethod
-    def _problem_of_name(cls, path_or_name: str | Path) -> str:
-        is_whole = path_or_name in whole_axles()
-        return not_of_a_suspension(str(path_or_name)) if is_whole else ""
 
     @classmethod
     def _of_file(cls, data: Mapping[str, Any], source: str, folder: Path) -> Self:
@@ -358,6 +353,11 @@ def _refuse_other_files(data: Mapping[str, Any], source: str) -> None:
     other = whole_axle_in(data)
     if other is not None:
         problem = not_of_a_suspension(other)
+    elif CAR in data:
+        problem = (
+            "this is the file of a car, and that of an axle is needed. Give a file that it names "
+            "as `front` or `rear`."
+        )
     elif "hardpoints" in data:
         problem = (
             "this is the file of one suspension, not of an axle. Name it in an axle's file, as "
