@@ -44,9 +44,11 @@ def check_held_subject(given: Validator, subject: Any) -> None:
 
 def usual_positions(assembly: Assembly, over: str) -> Array:
     """Return the usual positions, as far as the wheels go, SI units."""
+    if over in assembly.motions:  # some are no axis of studies, such as those of the steering
+        return assembly.usual(over)
     if usual := sweep_axis(over).usual:
         return np.array(usual)
-    return assembly.usual(assembly.usual_motion if over in HELD else over)
+    return assembly.usual(assembly.usual_motion)
 
 
 def common_positions(assemblies: Sequence[Assembly], over: str) -> Array:
