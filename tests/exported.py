@@ -16,9 +16,11 @@ CC = ("cc", "-std=c99", UNOPTIMISED, "-ffp-contract=off", *STRICT)
 
 @cache
 def system_named(name: str) -> kintrafo.System:
-    """Return a small mechanism, one without signals, one without states, or a suspension."""
+    """Return a small mechanism, one without signals or states, a suspension or a car."""
     if name == "reference_car":
         return kintrafo.Model("reference_car")
+    if name == "quarter_car":
+        return kintrafo.CarModel(kintrafo.load(name))
     if name == "prescribed":
         return kintrafo.System(own(_prescribed()))
     return kintrafo.System(importlib.import_module(f"kintrafo.generated.{name}"))

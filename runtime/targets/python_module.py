@@ -1,5 +1,6 @@
 """A Python module of the equations, for CasADi or JAX: with values of one parameter set."""
 
+import warnings
 from collections.abc import Mapping
 from importlib.metadata import version
 from pathlib import Path
@@ -18,6 +19,11 @@ if TYPE_CHECKING:
     from ..generator.equations.outputs import Derivation
 
 ENDING = ".py"
+MOST_OF_JAX = 3000
+"""Operations of a right-hand side that XLA compiles within about 15 s.
+
+Its time grows with their cube: 1 s for the 1,154 of an axle, 95 s for the 5,385 of a car.
+"""
 
 
 def write_casadi(emitted: Emitted, path: Path, *, force: bool, read: Paths) -> Path:
@@ -26,7 +32,15 @@ def write_casadi(emitted: Emitted, path: Path, *, force: bool, read: Paths) -> P
 
 
 def write_jax(emitted: Emitted, path: Path, *, force: bool, read: Paths) -> Path:
-    """Write functions over arrays of JAX; see `_write`."""
+    """Write functions over arrays of JAX, with a warning if they are long; see `_write`."""
+    count = emitted.manifest["functions"]["rhs"]["operations"]["total"]
+    if count > MOST_OF_JAX:
+        message = (
+            f"{emitted.name}: the right-hand side has {count} operations. Above {MOST_OF_JAX} XLA "
+            "takes minutes to compile it, longer with derivatives. Export to 'c' instead, whose "
+            "compiled functions JAX calls by jax.ffi with their derivatives."
+        )
+        warnings.warn(message, RuntimeWarning, stacklevel=4)
     return _write("jax", emitted, path, force=force, read=read)
 
 

@@ -77,7 +77,9 @@ def command(
         suspension = _suspension_in(file)
         facts = {"path": str(write_points(suspension, path, force=force, inputs=[file])), "to": to}
     else:
-        with problems.status("export"):
+        # these derive the equations again, which takes minutes for a car
+        text = "deriving the equations, and writing them" if to in ("casadi", "jax") else "export"
+        with problems.status(text):
             system = _described_by(file, model)
             chosen: Any = {name: value for name, value in options.items() if value is not None}
             written = export_model(system, path, to, force=force, read=[file], **chosen)

@@ -52,7 +52,7 @@ def unit(tmp_path_factory):
 
 def start(name):
     system = system_named(name)
-    return kintrafo.equilibrium(system) if name == "reference_car" else system.state()
+    return kintrafo.equilibrium(system) if name.endswith("_car") else system.state()
 
 
 def parameters(values):
@@ -106,6 +106,42 @@ def test_fmpy_simulates_as_simulate_does(tmp_path, version, kind):
     # the accumulated error of both integrations: 1e-13 a step, hundreds of steps
     np.testing.assert_allclose(found["crank_angle"], wanted.y[0], atol=1e-9)
     np.testing.assert_allclose(found["spring_force"], wanted.signals["spring_force"], rtol=1e-9)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("version", VERSIONS)
+def test_a_car_over_a_step_of_the_road_moves_as_by_simulate(unit, version, kind):
+    """FMPy reads its description without a remark; CVode or our steps integrate it."""
+    fmpy = pytest.importorskip("fmpy")
+    validation = pytest.importorskip("fmpy.validation")
+    folder = str(unit("quarter_car", version).folder)
+    assert validation.validate_fmu(folder) == []
+    times, road = np.linspace(0.0, 0.2, 11), {"road_height": 0.02}
+    motion = truth("quarter_car", times, inputs=road)
+    states = zip(system_named("quarter_car").state_names, motion.y, strict=True)
+    wanted = dict(states) | {"tyre_force": motion.signals["tyre_force"]}
+    found = fmpy.simulate_fmu(
+        folder, stop_time=0.2, output_interval=0.02, fmi_type=kind, relative_tolerance=1e-12,
+        start_values=road, output=[*wanted],
+    )  # fmt: skip
+    for name, values in wanted.items():
+        # the accumulated error of hundreds of steps, 1e-12 each
+        scale = max(1.0, np.abs(values).max())
+        np.testing.assert_allclose(found[name], values, rtol=0.0, atol=1e-9 * scale)
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_nothing_breaks_the_rules_that_the_schema_has_not(unit, version):
+    """Of causality, variability, starts and references, as another tool reads the standard."""
+    operations = pytest.importorskip("fmu_manipulation_toolbox.operations")
+    checker = pytest.importorskip("fmu_manipulation_toolbox.checker")
+    for name in (*NAMES, "quarter_car"):
+        read = operations.FMU(str(unit(name, version).folder.with_name(f"{name}.fmu")))
+        schema, rules = checker.OperationGenericCheck(), checker.OperationSemanticCheck()
+        for check in (schema, rules):
+            read.apply_operation(check)
+        assert schema.compliant_with_version == f"{version}.0"
+        assert rules.errors == []
 
 
 @pytest.mark.parametrize("version", VERSIONS)

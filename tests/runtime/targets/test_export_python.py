@@ -23,6 +23,7 @@ from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.simulation.lanes.options import OF_WIDTH
 from kintrafo.systems.compile.compiler import find_compiler
+from kintrafo.targets import python_module
 
 CLOSED, OPEN = "four_bar", {"crank_pin_y": 0.3}  # a crank that reaches beyond the dead point
 AT_THE_DEAD_POINT = {"crank_angle": 1.5}
@@ -378,6 +379,16 @@ def test_what_cannot_be_exported_is_refused(tmp_path):
     assert not [*tmp_path.iterdir()]
     (tmp_path / "bar_casadi.py").write_text("by hand")
     refused("exists already")
+
+
+def test_jax_warns_of_many_operations(tmp_path, monkeypatch):
+    """They are named before the equations are derived; CasADi takes them."""
+    monkeypatch.setattr(python_module, "MOST_OF_JAX", 100)
+    monkeypatch.setattr(python_module, "_write", lambda library, *_, **__: library)
+    count = system_named(CLOSED).equations.equations.manifest["functions"]["rhs"]["operations"]
+    with pytest.warns(RuntimeWarning, match=f"{count['total']} operations. Above 100 .* jax.ffi"):
+        kintrafo.export_model(system_named(CLOSED), tmp_path / "a.py", "jax")
+    kintrafo.export_model(system_named(CLOSED), tmp_path / "a.py", "casadi")
 
 
 def test_equations_must_be_those_of_their_declaration(tmp_path, monkeypatch):
