@@ -51,6 +51,7 @@ typedef struct {
     double *stage;                      /* a state; the rates at the begin are those of all stages, 4 x states */
     double *jacobian, *matrix, *square; /* states x states */
     double *weights; /* of the states, in which the Jacobian is balanced */
+    double *most;    /* differences of each state since the last Jacobian: of stages at one time; over a step */
     double norm;     /* of the balanced Jacobian */
     double length;   /* of the longest step that the Jacobian lets be stable, as was seen */
     int due;         /* the next step has a Jacobian of its own */
@@ -79,6 +80,7 @@ static int check(worker *w, double time, const double *state, double step)
     }
     m->length = step;
     m->due = m->steps = 0;
+    memset(m->most, 0, 2 * (size_t)n * sizeof *m->most);
     return 0;
 }
 
@@ -103,6 +105,39 @@ static double weighed(const method *m, int n, const double *vector)
     return sqrt(sum);
 }
 
+/* Return whether a rate differs from what the last Jacobian has by no more than rounding makes it. */
+static int rounded(const method *m, int n, int row, double beyond)
+{
+    double size = fabs(m->fixed.rates[row]);
+    for (int j = 0; j < n; ++j) {
+        size += fabs(m->jacobian[row * n + j] * m->fixed.state[j]);
+    }
+    return beyond <= ROUNDINGS * DBL_EPSILON * size; /* no NaN is */
+}
+
+/*
+ * Return whether each rate differs by little more than the last Jacobian has it, beside what its state differs by
+ * and what the Jacobian adds up. That holds in any units, and of states that had no part in any eigenvalue but zero:
+ * a body that falls onto something stiff.
+ */
+static int rows_explained(const method *m, int n, double *most, const double *states, const double *rates)
+{
+    for (int i = 0; i < n; ++i) {
+        double linear = 0.0, size = 0.0;
+        for (int j = 0; j < n; ++j) {
+            double term = m->jacobian[i * n + j] * states[j];
+            linear += term;
+            size += fabs(term);
+        }
+        double beyond = fabs(rates[i] - linear);
+        most[i] = fmax(most[i], fabs(states[i]));
+        if (!(m->length * beyond <= LITTLE * (most[i] + m->length * size)) && !rounded(m, n, i, beyond)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
 /*
  * Return whether the rates at two states of one time differ by no more than those of a stable step may: little,
  * or as the last Jacobian has it. Both differences are overwritten. The next step may be longer than this one.
@@ -110,6 +145,9 @@ static double weighed(const method *m, int n, const double *vector)
 static int explained(const method *m, int n, double *states, double *rates)
 {
     double step = m->length;
+    if (!rows_explained(m, n, m->most, states, rates)) {
+        return 0;
+    }
     double by_states = weighed(m, n, states), by_rates = step * weighed(m, n, rates);
     double rounding = step * m->norm * weighed(m, n, m->fixed.state);
     if (by_rates <= LITTLE * by_states || by_rates <= ROUNDINGS * DBL_EPSILON * rounding) {
@@ -152,6 +190,20 @@ static int end_explained(const worker *w, double step)
     return explained(m, n, m->matrix, m->square);
 }
 
+/* The same of the third stage and one of another time, by each row alone: the first one or the fourth. */
+static int other_explained(const worker *w, double step, int stage)
+{
+    const method *m = w->own;
+    int n = w->problem->state_count;
+    const double *k = m->fixed.rates;
+    for (int i = 0; i < n; ++i) {
+        double there = stage ? step * k[2 * n + i] : 0.0;
+        m->matrix[i] = there - 0.5 * step * k[n + i];
+        m->square[i] = k[stage * n + i] - k[2 * n + i];
+    }
+    return rows_explained(m, n, m->most + n, m->matrix, m->square);
+}
+
 /* -- a step ----------------------------------------------------------------------------------- */
 
 /* Find the rates of the stages, and state and rates at the end; positive where the model refuses one. */
@@ -190,7 +242,8 @@ static int prepare(worker *w, double step)
 {
     method *m = w->own;
     m->here = 0;
-    m->due |= m->fixed.elsewhere || ++m->steps > STEPS_OF_ONE || fabs(step) > m->length;
+    m->due |= m->fixed.elsewhere || ++m->steps > STEPS_OF_ONE
+        || fabs(step) > m->length * (1.0 + ROUNDINGS * DBL_EPSILON);
     return m->due ? check_here(w, step) : 0;
 }
 
@@ -230,7 +283,7 @@ static int jumped(worker *w, double step)
     method *m = w->own;
     int known = middle_explained(w, step);
     int code = known ? 0 : check_here(w, step);
-    m->due = !end_explained(w, step);
+    m->due = !known || !other_explained(w, step, 0) || !other_explained(w, step, 3) || !end_explained(w, step);
     return code ? code : !known && jump(w, step);
 }
 
@@ -301,7 +354,7 @@ static int open_method(worker *w, double start)
     if (!m) {
         return KT_MEMORY;
     }
-    m->memory = calloc((9 + KT_TERMS + 3 * n) * n, sizeof *m->memory);
+    m->memory = calloc((11 + KT_TERMS + 3 * n) * n, sizeof *m->memory);
     if (!m->memory) {
         return KT_MEMORY;
     }
@@ -315,6 +368,7 @@ static int open_method(worker *w, double start)
     m->matrix = m->jacobian + n * n;
     m->square = m->matrix + n * n;
     m->weights = m->square + n * n;
+    m->most = m->weights + n;
     kt_fixed_open(w, &METHOD, start);
     return KT_DONE;
 }

@@ -6,6 +6,8 @@ import shutil
 from importlib import import_module
 from itertools import pairwise
 
+import kintrafo
+import kintrafo.generator as g
 import lanes
 import numpy as np
 import pytest
@@ -210,6 +212,53 @@ def test_no_step_of_a_result_is_unstable(friction, step) -> None:
         truth = simulate(model, (0.0, 0.4), start, method="BDF", rtol=1e-9, atol=1e-12)
         moved = np.abs(START[0] - truth.y[0, -1])
         assert abs(found.y[0, -1] - truth.y[0, -1]) < 1e-3 * moved
+
+
+@pytest.fixture(scope="module")
+def thrown():
+    """Return a block that slides freely on its guide until it meets a stop, where slide is zero."""
+    block = g.Body("block", 2.0, (0.1, 0.0, 0.0))
+    guide = g.Prismatic("way", g.Ground("base"), block, g.FORWARD)
+    stop = g.Stop(
+        side="bump",
+        length=g.Displacement("meeting", 0.0, "slide where the stop is met"),
+        rate=g.SpringRate("stop_rate", 1.0, "rate"),
+        progression=g.Progression("stop_progression", 0.0, "progression"),
+    )
+    push = g.Input("push", "N", "force on the block")
+    return kintrafo.compile(
+        g.Mechanism(
+            name="thrown",
+            title="Block that meets a stop",
+            joints=(guide,),
+            forces=(
+                g.ForceElement("end", g.AlongGuide(guide), (stop,)),
+                g.JointForce(guide, push),
+            ),
+            coordinates=(guide.slide("slide", "slide of the block"),),
+        )
+    )
+
+
+@pytest.mark.parametrize("fast", [3.0, 8.0, 20.0])
+@pytest.mark.parametrize("push", [0.0, -20.0])
+def test_no_step_begins_on_something_stiff(thrown, push: float, fast: float) -> None:
+    """In free motion no state has a part in any eigenvalue but zero; contact begins in a stage."""
+    step, refusals = 1e-3, 0
+    model = System(thrown, {"stop_rate": 2.0 * (fast / step) ** 2})
+    for part in np.linspace(0.0, 0.95, 12):
+        options = {"start": (0.02 + step * part, -1.0), "inputs": {"push": push}, "t_eval": None}
+        try:
+            found = run(step, span=(0.0, 0.05), model=model, **options)
+        except SimulationError as error:
+            found = error.partial
+            told = float(error.reason.split("steps of ")[2].split(" s")[0])
+            assert told == pytest.approx(2.61 / fast * step, rel=0.1)
+            refusals += 1
+        # it may be thrown back within one step, but no step begins where it meets the stop
+        assert (found.y[0, :-1] >= 0.0).all()
+        assert found.njev < 5
+    assert refusals >= 5
 
 
 def test_the_jacobian_is_evaluated_now_and_then() -> None:
