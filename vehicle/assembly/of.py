@@ -177,6 +177,29 @@ def given_assemblies(given: Validator, name: str, subjects: Any, *, cars: bool =
     }
 
 
+def car_assembly_of(source: str, subject: Any, needed: str) -> CarAssembly:
+    """Return a car, or its equations, as an assembly.
+
+    Parameters
+    ----------
+    source : str
+        The function that is given it.
+    subject : Car, CarModel or CarAssembly
+    needed : str
+        The end of the message about all else.
+
+    Raises
+    ------
+    InputError
+        If it is something else.
+    """
+    with Validator(source) as given:
+        given.instance("subject", subject, (Car, CarModel, CarAssembly), needed)
+    found = assembly_of(subject)
+    assert isinstance(found, CarAssembly)
+    return found
+
+
 @overload
 def given_assembly(given: Validator, subject: Any, name: str = "subject") -> HeldAssembly: ...
 @overload

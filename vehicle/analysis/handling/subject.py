@@ -4,13 +4,10 @@ from typing import Any
 
 import numpy as np
 
-from ....core.validator import Validator
-from ...assembly.car import CarAssembly
 from ...assembly.controls import Controls
 from ...assembly.equilibrium import equilibrium
-from ...assembly.of import assembly_of
+from ...assembly.of import car_assembly_of
 from ...models.car.car import Car, center_of_gravity, masses
-from ...models.car.equations import CarModel
 from .body_motion import ReferencePoint
 from .car import DrivingCar
 
@@ -27,10 +24,7 @@ def driving_car(source: str, subject: Any) -> DrivingCar:
     """
     if isinstance(subject, DrivingCar):
         return subject
-    with Validator(source) as given:
-        given.instance("subject", subject, (Car, CarModel, CarAssembly), _NEEDED)
-    found = assembly_of(subject)
-    assert isinstance(found, CarAssembly)
+    found = car_assembly_of(source, subject, _NEEDED)
     found.require_driving()
     rest = equilibrium(found.model)
     assert rest.inputs is not None

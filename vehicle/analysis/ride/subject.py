@@ -6,12 +6,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.validator import Validator
 from ....systems.system import System
 from ...assembly.car import CarAssembly
-from ...assembly.of import assembly_of
-from ...models.car import Car
-from ...models.car.equations import CarModel
+from ...assembly.of import car_assembly_of
 
 Array = NDArray[np.float64]
 
@@ -31,10 +28,7 @@ def car_assembly(source: str, subject: Any, *, riding: bool = True) -> CarAssemb
     ------
     InputError
     """
-    with Validator(source) as given:
-        given.instance("subject", subject, (Car, CarModel, CarAssembly), _NEEDED)
-    found = assembly_of(subject)
-    assert isinstance(found, CarAssembly)
+    found = car_assembly_of(source, subject, _NEEDED)
     if riding:
         found.require_riding()
     return found
