@@ -35,14 +35,16 @@ _MOST_LINES = 7
 COLUMNS = 3
 # Width and height of a panel, its position along the horizontal or the vertical axis [in].
 _LEVEL, _UPRIGHT = (3.7, 2.5), (3.0, 3.1)
-# So many narrow panels fill rows of four.
-_FOUR_IN_A_ROW = (4, 7, 8)
+# So many narrow panels fill rows of four, and so many wide ones rows of two.
+_FOUR_IN_A_ROW, _TWO_IN_A_ROW = (4, 7, 8), 4
 # Letters of a title above a narrow panel, and ticks below it.
 _NARROW_TITLE, _NARROW_TICKS = 34, 4
 # What labels and ticks take of a panel [in].
 _AROUND = np.array([0.9, 0.7])
-# What the names of targets and limits take below the panels, which keep their size [in].
-_BELOW = 0.4
+# What a row of names takes below the panels, which keep their size, and each further one [in].
+_BELOW, _FURTHER = 0.4, 0.2
+# So many names are in a row below the panels.
+_IN_A_ROW = 4
 # Round values only, and never an offset that must be added in the head.
 _TICK_STEPS = [1, 2, 2.5, 5, 10]
 # Less variation than this part of its size is rounding, and the curve a constant.
@@ -67,8 +69,10 @@ _FEW_NAMES = 3
 # A figure with more rows than this has the names of the lines in each row.
 _SHORT = 3
 
-# A curve with more ups and downs than this, such as a rough road, is a thin line.
+# Where one curve has more ups and downs than this, as over a rough road, all lines are thin.
 _MANY_TURNS, _THIN = 40, 0.7
+# An up or a down of less than a level is not seen, and may be rounding.
+_LEVELS = 200
 
 
 Mark = Callable[[Axes, xr.DataArray, str, Mapping[str, str]], Array]
@@ -130,9 +134,12 @@ def draw(
     vertical = {dimension_along(dataset[name]) in upright for name in names} == {True}
     columns, rows, size = _grid(len(names), columns, vertical=vertical, alone=alone)
     result = Figure(figsize=size, layout="constrained")
-    panels = result.subplots(rows, columns, squeeze=False).ravel()
-    for index, (axes, name) in enumerate(zip(panels, names, strict=False)):
-        along = _draw(axes, dataset[name], positions, mark)
+    cells = result.subplots(rows, columns, squeeze=False).ravel()
+    panels, free = cells[: len(names)], cells[len(names) :]
+    curves = [dataset[name] for name in names]
+    width = min(_width(values) for data in curves for _, values in _lines(data)[1])
+    for index, (axes, name) in enumerate(zip(panels, names, strict=True)):
+        along = _draw(axes, dataset[name], positions, mark, width)
         (_describe_alone if alone else _describe_panel)(axes, dataset[name])
         at_edge = index % columns == 0 if along in upright else index + columns >= len(names)
         if at_edge:
@@ -141,19 +148,9 @@ def draw(
             turn(axes)
             if not alone:
                 _narrow(axes)
-    for axes in panels[len(names) :]:
-        axes.remove()
-    curves = [dataset[name] for name in names]
-    once = _named_once(panels, curves) if vertical else None
-    marks = _marks_of_goals(panels[: len(names)])
-    if marks or once:
-        result.set_size_inches(size[0], size[1] + _BELOW)
-    if once:
-        _legend_below(result, once, marks)
-        _name_rows(panels[: len(names)].tolist(), once, columns)
-    else:
-        shape = np.array(size) / (columns, rows) - _AROUND
-        _name_lines(result, panels, curves, shape, alone=alone)
+    shape = np.array(size) / (columns, rows) - _AROUND
+    page = _Page(panels, free, curves, shape, alone, dense=width == _THIN)
+    _name_lines(result, page, vertical=vertical)
     result.suptitle("\n".join(line for line in (title, _held(dataset)) if line), fontsize=11)
     return written_plainly(result)
 
@@ -164,6 +161,8 @@ def _grid(
     """Return columns and rows of panels, and the size of their figure [in]."""
     if vertical and columns == COLUMNS and count in _FOUR_IN_A_ROW:
         columns = 4
+    if not vertical and columns == COLUMNS and count == _TWO_IN_A_ROW:
+        columns = 2
     columns = min(columns, count)
     rows = -(-count // columns)
     panel = _UPRIGHT if vertical else _LEVEL
@@ -197,14 +196,16 @@ def drawable(dataset: xr.Dataset) -> tuple[Hashable, ...]:
     return tuple(n for n, data in dataset.items() if data.ndim in (1, 2) and data.dtype.kind == "f")
 
 
-def _draw(axes: Axes, data: xr.DataArray, positions: Collection[str], mark: Mark) -> str:
+def _draw(
+    axes: Axes, data: xr.DataArray, positions: Collection[str], mark: Mark, width: float
+) -> str:
     """Draw one variable with its zero lines and its design position; return what it is over."""
     along, lines = _lines(data)
     position = displayed(data[along])
     styles = _styles(data, len(lines))
     measured = _measured(data)
     curves = [
-        axes.plot(position, values, dashes, color=colour, linewidth=_width(values))[0]
+        axes.plot(position, values, dashes, color=colour, linewidth=width)[0]
         for (_, values), (colour, dashes) in zip(lines, styles, strict=True)
     ]
     for curve in curves[:measured]:
@@ -395,30 +396,57 @@ class _Named:
     title: str | None = None
 
 
-def _name_lines(
-    result: Figure, panels: Array, curves: Sequence[xr.DataArray], shape: Array, *, alone: bool
-) -> None:
+@dataclass(frozen=True)
+class _Page:
+    """The panels of a figure, its free cells, and the curves in the panels.
+
+    A panel is about `shape` wide and high [in]; `alone` as in `draw`. Where curves are `dense`, no
+    name has room beside one.
+    """
+
+    panels: Array
+    free: Array
+    curves: Sequence[xr.DataArray]
+    shape: Array
+    alone: bool
+    dense: bool
+
+
+def _name_lines(result: Figure, page: _Page, *, vertical: bool) -> None:
     """Name the lines: few beside them, wherever a panel has room; else in one legend."""
+    for axes in page.free:
+        axes.set_axis_off()
+    marks = _marks_of_goals(page.panels)
+    once = _named_once(page.panels, page.curves) if vertical else None
+    lines = _unnamed(page) if once is None else once
+    if once is not None or marks or page.alone:
+        _legend_below(result, lines, marks, alone=page.alone and once is None)
+    elif lines.handles:
+        _legend_apart(result, page, lines)
+    if once is not None:
+        _name_rows(page.panels, once)
+    for axes in page.free:
+        if axes.get_legend() is None:
+            axes.remove()
+
+
+def _unnamed(page: _Page) -> _Named:
+    """Name few lines beside them, wherever a panel has room; return those that need a legend."""
     named = False
-    for axes, data in zip(panels, curves, strict=False):
+    pairs = list(zip(page.panels, page.curves, strict=True))
+    for axes, data in pairs:
         family = _family(data)
-        if data.ndim < 2 or family is None or data.sizes[family] > _FEW_NAMES:
+        if page.dense or family is None or data.ndim < 2 or data.sizes[family] > _FEW_NAMES:
             continue
         names = [name for name, _ in _lines(data)[1]]
-        named |= label_lines(axes, _drawn_lines(axes, len(names)), names, shape)
-    pairs = zip(panels, curves, strict=False)
+        named |= label_lines(axes, _drawn_lines(axes, len(names)), names, page.shape)
     several = next(((axes, data) for axes, data in pairs if data.ndim > 1), None)
-    lines = _Named() if named or several is None else _named_lines(*several)
-    marks = _marks_of_goals(panels[: len(curves)])
-    if several is not None and not (alone or marks):
-        _legend_in(several[0], lines)
-    elif lines.handles or marks:
-        _legend_below(result, lines, marks)
+    return _Named() if named or several is None else _named_lines(*several)
 
 
 def _named_once(panels: Array, curves: Sequence[xr.DataArray]) -> _Named | None:
     """Return the names of the lines of all panels; none where some have others."""
-    found = [(axes, data) for axes, data in zip(panels, curves, strict=False) if data.ndim > 1]
+    found = [(axes, data) for axes, data in zip(panels, curves, strict=True) if data.ndim > 1]
     if not found or any(_family(data) is None for _, data in found):
         return None
     named = [_named_lines(axes, data) for axes, data in found]
@@ -436,31 +464,41 @@ def _named_lines(axes: Axes, data: xr.DataArray) -> _Named:
     return _Named(_drawn_lines(axes, len(lines)), [label for label, _ in lines], title)
 
 
-def _legend_in(axes: Axes, lines: _Named) -> None:
-    """Name lines in a panel of a page."""
-    if lines.handles:
-        size = {"fontsize": 8, "title_fontsize": 8}
-        axes.legend(lines.handles, lines.labels, title=lines.title, loc="best", **size)
+def _legend_apart(result: Figure, page: _Page, lines: _Named) -> None:
+    """Name the lines of a page where they cover no curve; of one panel, where it has most room."""
+    panels, free = page.panels, page.free
+    if len(panels) > 1 and not free.size:
+        _legend_below(result, lines, {}, alone=False)
+        return
+    axes, loc = (free[0], "center") if free.size else (panels[0], "best")
+    how = {"fontsize": 8, "title_fontsize": 8, "frameon": not free.size}
+    axes.legend(lines.handles, lines.labels, title=lines.title, loc=loc, **how)
 
 
-def _name_rows(panels: Sequence[Axes], lines: _Named, columns: int) -> None:
+def _name_rows(panels: Array, lines: _Named) -> None:
     """Name the lines of a high figure in each row too: its legend below is far away."""
+    columns = panels[0].get_gridspec().ncols
     if len(panels) <= _SHORT * columns:
         return
     for axes in panels[::columns]:
         axes.legend(lines.handles, lines.labels, loc="best", frameon=False, fontsize=7)
 
 
-def _legend_below(result: Figure, lines: _Named, marks: Mapping[str, Any]) -> None:
-    """Name lines, and marks of targets and limits, where they cover nothing."""
-    if not (lines.handles or marks):
+def _legend_below(result: Figure, lines: _Named, marks: Mapping[str, Any], *, alone: bool) -> None:
+    """Name lines, and marks of targets and limits, below panels that keep their size."""
+    names = [*lines.labels, *marks]
+    if not names:
         return
+    if marks or not alone:
+        further = (len(names) - 1) // _IN_A_ROW + (lines.title is not None)
+        width, height = result.get_size_inches()
+        result.set_size_inches(width, height + _BELOW + _FURTHER * further)
     result.legend(
         [*lines.handles, *marks.values()],
-        [*lines.labels, *marks],
+        names,
         title=lines.title,
         loc="outside lower center",
-        ncols=4,
+        ncols=_IN_A_ROW,
         frameon=False,
         fontsize=9,
     )
@@ -488,7 +526,11 @@ def _held(dataset: xr.Dataset) -> str:
 
 def _width(values: Array) -> float:
     """Return how wide a curve is: thin, where it goes up and down so often that it fills."""
-    steps = np.diff(values[np.isfinite(values)])
+    finite = values[np.isfinite(values)]
+    if finite.size == 0 or is_constant(finite):
+        return float(rcParams["lines.linewidth"])
+    steps = np.diff(np.round(_LEVELS * (finite - finite.min()) / np.ptp(finite)))
+    steps = steps[steps != 0.0]
     turns = np.count_nonzero(steps[1:] * steps[:-1] < 0.0)
     width: float = _THIN if turns > _MANY_TURNS else rcParams["lines.linewidth"]
     return width

@@ -93,7 +93,7 @@ def command(
     from ...datasets import export
     from ..analysis import ride
     from ..plots.by_axle import by_axle
-    from ..plots.motion import ENDINGS
+    from ..plots.motion import ENDINGS, shown_names
     from ..plots.motion import animate as write_motion
 
     with Validator("kintrafo ride") as given:
@@ -122,7 +122,8 @@ def command(
             assembly, profile, v, duration=duration, settle=settle, output_step=output_step / 1e3
         )
     motion = run.motion
-    written = outputs.write(motion, title=title_of(file), drawn=by_axle(motion))
+    drawn = by_axle(motion)
+    written = outputs.write(motion, title=title_of(file), drawn=drawn, names=shown_names(drawn))
     if "linear" in found:
         written += outputs.write_data(found["linear"], "_response")
     title = f"{title_of(file)}: {profile.words}, {speed:g} km/h"

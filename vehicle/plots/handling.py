@@ -33,6 +33,8 @@ _SHOWN: Mapping[str, tuple[str, ...]] = {
     ),
 }  # fmt: skip
 _SIDESLIP = "sideslip_angle"
+# What is nowhere larger, as it is shown, is rounding, such as the steering torque straight ahead.
+_ROUNDING = 1e-6
 _COLUMNS = 3
 # Less width of a path is drawn as little as it is [m].
 _LEAST = 2.0
@@ -76,7 +78,8 @@ def write_curves(
 def first_names(dataset: xr.Dataset) -> list[str]:
     """Return the names of the curves of a manoeuvre that are looked at first."""
     moving = {str(name) for name in varying(dataset)}
-    return [name for name in _SHOWN[_along(dataset)] if name in moving]
+    there = [name for name in _SHOWN[_along(dataset)] if name in moving]
+    return [name for name in there if np.nanmax(np.abs(displayed(dataset[name]))) > _ROUNDING]
 
 
 def _along(dataset: xr.Dataset) -> str:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from kintrafo.core.quantities import variable
-from kintrafo.pictures.curves import LEAST_SPANS
+from kintrafo.pictures.curves import LEAST_SPANS, draw
 from kintrafo.vehicle.cli.outputs import title_of
 from kintrafo.vehicle.plots.curves import figure, grouped
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -103,3 +103,40 @@ def test_a_high_figure_names_its_lines_in_each_row():
     panels = figure(several, list(several)).axes
     named = [panel.get_legend() is not None for panel in panels]
     assert named == [index % 3 == 0 for index in range(11)]
+
+
+def over_time(*values, amplitudes=()):
+    """Return a dataset of curves over time, each of several amplitudes where there are some."""
+    dims = ("time", "amplitude") if amplitudes else ("time",)
+    time = variable("time", np.linspace(0.0, 1.0, len(values[0])), "time", "s")
+    runs = {"amplitude": variable("amplitude", list(amplitudes), "amplitude", "N")}
+    lines = [np.multiply.outer(one, amplitudes) if amplitudes else one for one in values]
+    return xr.Dataset(
+        {f"curve_{i}": variable(dims, line, "force", "N") for i, line in enumerate(lines)},
+        {"time": time} | (runs if amplitudes else {}),
+    )
+
+
+@pytest.mark.parametrize(("count", "free"), [(3, 0), (5, 1)])
+def test_names_of_many_lines_cover_no_curve(count, free):
+    """They are below the panels, or in a cell without one."""
+    several = over_time(*[np.arange(9.0) ** i for i in range(1, count + 1)], amplitudes=[1.0, 2.0])
+    drawn = draw(several, list(several), alone=False)
+    cells = drawn.axes[count:]
+    assert len(cells) == free
+    assert all(axes.get_legend() is None for axes in drawn.axes[:count])
+    legend = cells[0].get_legend() if free else drawn.legends[0]
+    assert [text.get_text() for text in legend.get_texts()] == ["1 N", "2 N"]
+
+
+def test_lines_of_a_page_are_equally_wide():
+    """Thin beside a curve of many turns; those of rounding are none."""
+    x = np.linspace(0.0, 1.0, 1001)
+    smooth, dense = np.sin(2 * np.pi * x), np.sin(200 * np.pi * x)
+    rounded = np.where(x < 0.5, 1e-12 * dense, x - 0.5)
+    widths = []
+    for both in ((smooth, dense), (smooth, rounded)):
+        panels = draw(dataset := over_time(*both), list(dataset), alone=False).axes
+        widths.append({axes.get_lines()[0].get_linewidth() for axes in panels})
+    assert [len(own) for own in widths] == [1, 1]
+    assert widths[0].pop() < 1.0 < widths[1].pop()

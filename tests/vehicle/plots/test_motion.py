@@ -9,7 +9,8 @@ import pytest
 import rail_car
 from kintrafo import InputError
 from kintrafo.vehicle.analysis.handling import HandlingResult, load_manoeuvre
-from kintrafo.vehicle.plots.motion import animate
+from kintrafo.vehicle.plots.handling import first_names
+from kintrafo.vehicle.plots.motion import animate, shown_names
 from kintrafo.vehicle.plots.motion.scene import scene_of
 from PIL import Image
 from xarray import Dataset
@@ -144,3 +145,16 @@ def test_what_does_not_move_is_not_shown(tmp_path) -> None:
         animate(HandlingResult(Dataset(), {}), tmp_path / "a.gif")
     with pytest.raises(InputError, match="gif"):
         animate(HandlingResult(Dataset(), {}), tmp_path / "a.mp4")
+
+
+def test_curves_are_in_the_order_in_which_they_are_looked_at() -> None:
+    """Accelerations come before the pitch, and what is rounding alone is not drawn."""
+    time = np.linspace(0.0, 1.0, 9)
+    names = ("pitch", "driver_acceleration", "body_acceleration")
+    coords = {"time": ("time", time, {"units": "s", "long_name": "time"})}
+    motion = Dataset({name: ("time", np.sin(time)) for name in names}, coords)
+    assert shown_names(motion) == ["body_acceleration", "driver_acceleration", "pitch"]
+    straight = Dataset(
+        {"speed": ("time", time), "steering_torque": ("time", 1e-10 * np.sin(9.0 * time))}, coords
+    )
+    assert first_names(straight) == ["speed"]

@@ -7,5 +7,6 @@
 """
 
 from .animate import ENDINGS, animate
+from .charts import shown_names
 
-__all__ = ["ENDINGS", "animate"]
+__all__ = ["ENDINGS", "animate", "shown_names"]

@@ -73,12 +73,22 @@ def charts_of(motion: xr.Dataset, rows: NDArray[np.intp]) -> list[Chart]:
         The outputs that a scene shows.
     """
     dataset = for_print(by_axle(motion.transpose("time", ...)), "time")
+    with rc_context(STYLE):
+        return [_chart(dataset, name, rows) for name in shown_names(dataset)]
+
+
+def shown_names(dataset: xr.Dataset) -> list[str]:
+    """Return the names of the curves of a motion that are looked at first, in their order.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        Over time, from `by_axle`.
+    """
     moving = {str(name) for name in varying(dataset)}
     seats = sorted(n for n in moving if n.endswith("_acceleration") and n not in _SHOWN)
     order = [own for name in _SHOWN for own in (seats if name == _SEATS else [name])]
-    names = [name for name in order if name in moving]
-    with rc_context(STYLE):
-        return [_chart(dataset, name, rows) for name in names]
+    return [name for name in order if name in moving]
 
 
 def _chart(dataset: xr.Dataset, name: str, rows: NDArray[np.intp]) -> Chart:

@@ -13,8 +13,8 @@ from ...plots.motion.animate import played
 from .chapter import Chapter
 from .curves import small_pictures
 
-# Speed of the steady turns [m/s].
-_SPEED = 80.0 / 3.6
+# Speed of the steady turns [m/s], and the step between them: near the limit curves bend [m/s^2].
+_SPEED, _STEP = 80.0 / 3.6, 0.1
 
 
 def steady_turns_chapter(subject: Any) -> Chapter:
@@ -31,7 +31,7 @@ def steady_turns_chapter(subject: Any) -> Chapter:
     """
     title = "Steady turns"
     try:
-        found = circle(subject, speed=_SPEED)
+        found = circle(subject, speed=_SPEED, step=_STEP)
     except KintrafoError as error:
         return Chapter(title, (f"There are none: {error}",))
     curves = found.curves[""]
