@@ -87,8 +87,8 @@ def command(
     further = [*(loads or ()), *([] if animate is None else [animate])]
     refuse([*outputs.data, *outputs.pages, *further], **outputs.rule)
     if further and not chosen.TRAVELS:
-        option_of = "--loads" if loads else "--animate"
-        raise InputError([_NOT_SIMULATED], option_of)
+        problem = f"the manoeuvre {chosen.manoeuvre} {_NO_MOTION}"
+        raise InputError([problem], "--loads" if loads else "--animate")
     if animate is not None:
         refuse([animate], endings=ENDINGS, **outputs.rule)
     assembly = car_of(file)
@@ -180,7 +180,7 @@ _OF_TURNS = (
 
 # Smaller forces are rounding [N].
 _LEAST = 0.5
-_NOT_SIMULATED = "steady turns are not simulated: there is no motion to show. Leave it out."
+_NO_MOTION = "has no simulation, and so no motion to show. Leave it out."
 
 
 def _greatest(on_every: "Dataset", title: str) -> "Table":

@@ -10,7 +10,7 @@ from ...core.tabulated import significant
 from ...terminal.console import console, print_json, problems, table
 from ...terminal.exits import Exit
 from .loading import car_of, derived, naming, note_unused
-from .options import OUTPUT, argument, option
+from .options import OUTPUT, argument, option, refuse_options
 from .outputs import PlotOptions, name_files, title_of
 
 if TYPE_CHECKING:
@@ -29,6 +29,7 @@ EXAMPLES = (
     "kintrafo ride quarter_car --kerb 60 --contact-length 120 --speed 15",
 )
 
+_BUMP_LENGTH = 0.5  # [m]
 _DURATION = 30.0  # of the simulation, where nothing else ends it [s]
 
 
@@ -38,28 +39,30 @@ def command(
     ],
     *,
     road: Annotated[
-        str,
+        str | None,
         option(
             "Rough road, a class of ISO 8608 from A to H; or the file of a measured one: CSV with "
-            "distance_m, left_height_mm and right_height_mm, or OpenCRG (.crg).",
+            "distance_m, left_height_mm and right_height_mm, or OpenCRG (.crg). Default: B.",
             "CLASS|FILE",
         ),
-    ] = "B",
+    ] = None,
     seed: Annotated[
-        int, option("Seed of the rough road: equal seeds give equal roads.", "NUMBER")
-    ] = 1,
+        int | None,
+        option("Seed of the rough road: equal seeds give equal roads. Default: 1.", "NUMBER"),
+    ] = None,
     bump: Annotated[
         float | None,
         option("Height of one bump instead of the rough road; negative: a pothole.", "MM"),
     ] = None,
-    bump_length: Annotated[float, option("Length of the bump.", "M")] = 0.5,
+    bump_length: Annotated[float | None, option("Length of the bump. Default: 0.5 m.", "M")] = None,
     kerb: Annotated[
         float | None,
         option("Height of an edge instead of the rough road; negative: a drop.", "MM"),
     ] = None,
     under: Annotated[
-        Literal["both", "left", "right"], option("Wheels that meet the bump or the kerb.")
-    ] = "both",
+        Literal["both", "left", "right"] | None,
+        option("Wheels that meet the bump or the kerb. Default: both."),
+    ] = None,
     contact_length: Annotated[
         float | None,
         option(
@@ -103,7 +106,7 @@ def command(
     chosen = _Chosen(road, seed, bump, bump_length, kerb, under, contact_length)
     suffixes = ["", "_response"] if chosen.is_rough else [""]
     outputs = output.files(
-        file, *([road] if chosen.is_measured else []), suffixes=suffixes, drawn=[""]
+        file, *([chosen.name] if chosen.is_measured else []), suffixes=suffixes, drawn=[""]
     )
     if animate is not None:
         refuse([animate], endings=ENDINGS, **outputs.rule)
@@ -115,7 +118,7 @@ def command(
     assembly = derived(assembly)
     found = {"at_rest": ride.at_rest(assembly), "modes": ride.modes(assembly)}
     if chosen.is_rough and contact_length is None:
-        found["linear"] = ride.response(assembly, v, road)
+        found["linear"] = ride.response(assembly, v, chosen.name)
     settle = min(5.0, 0.2 * duration) if chosen.is_rough else 0.0
     with problems.status("the motion over the road"):
         run = ride.run(
@@ -150,23 +153,53 @@ def command(
 
 @dataclass(frozen=True)
 class _Chosen:
-    """The road that the options say."""
+    """The road that the options say; None is an option that is not given."""
 
-    name: str
-    seed: int
+    road: str | None
+    seed: int | None
     bump: float | None
-    bump_length: float
+    bump_length: float | None
     kerb: float | None
-    under: str
+    under: Literal["both", "left", "right"] | None
     contact_length: float | None
 
     def __post_init__(self) -> None:
-        if self.bump is not None and self.kerb is not None:
-            raise typer.BadParameter("--bump and --kerb are both given: choose one of them")
+        from ...core.validator import Validator
+
+        roads = {"--road": self.road, "--bump": self.bump, "--kerb": self.kerb}
+        chosen = [name for name, value in roads.items() if value is not None]
+        if len(chosen) > 1:
+            raise typer.BadParameter(f"{' and '.join(chosen)} are given: choose one of them")
+        if self.bump is None:
+            refuse_options("--bump", {"--bump-length": self.bump_length})
+        if not self.is_single:
+            refuse_options("--bump and --kerb", {"--under": self.under})
+        if not self.is_rough:
+            refuse_options("a rough road", {"--seed": self.seed})
+        lengths = {
+            "--bump-length": (self.bump_length, "m"),
+            "--contact-length": (self.contact_length, "mm"),
+        }
+        with Validator("kintrafo ride") as given:
+            for name, (length, unit) in lengths.items():
+                if length is not None:
+                    given.number(name, length, unit, above=0.0)
+            if self.seed is not None:
+                given.whole("--seed", self.seed, least=0)
         if self.kerb is not None and self.contact_length is None:
             raise typer.BadParameter(
                 "--kerb needs --contact-length, as a wheel does not touch an edge at a point"
             )
+
+    @property
+    def name(self) -> str:
+        """The class of a rough road, or the file of a measured one."""
+        return self.road or "B"
+
+    @property
+    def sides(self) -> Literal["both", "left", "right"]:
+        """Which wheels meet an obstacle."""
+        return self.under or "both"
 
     @property
     def is_single(self) -> bool:
@@ -199,22 +232,23 @@ class _Chosen:
         from .. import roads
 
         sides = {wheel.rpartition("_")[2] for wheel in assembly.wheels}
-        if self.is_single and self.under in {"left", "right"} - sides:
+        if self.is_single and self.sides in {"left", "right"} - sides:
             raise typer.BadParameter(
-                f"--under {self.under}: this car has its wheel on the other side"
+                f"--under {self.sides}: this car has its wheel on the other side"
             )
         if self.kerb is not None:
             at = min(5.0, 0.2 * way)
-            how: Any = {**self._tyre(assembly), "sides": self.under}
+            how: Any = {**self._tyre(assembly), "sides": self.sides}
             return roads.kerb(self.kerb / 1e3, at=at, end=max(way, 2.0 * at), **how)
         if self.bump is not None:
             at = min(5.0, 0.1 * way)
-            end = max(way, at + self.bump_length)
-            height = self.bump / 1e3
-            found = roads.bump(height, self.bump_length, at=at, end=end, sides=self.under)
+            length = _BUMP_LENGTH if self.bump_length is None else self.bump_length
+            end = max(way, at + length)
+            found = roads.bump(self.bump / 1e3, length, at=at, end=end, sides=self.sides)
         elif self.is_rough:
             longest = max(way, 1.01 / roads.rough.WAVES[0])
-            found = roads.iso8608(self.name, length=longest, seed=self.seed, track=assembly.track)
+            seed = 1 if self.seed is None else self.seed
+            found = roads.iso8608(self.name, length=longest, seed=seed, track=assembly.track)
         else:
             found = self._measured(assembly)
         if self.contact_length is None:

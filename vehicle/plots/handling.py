@@ -26,7 +26,9 @@ _SHOWN: Mapping[str, tuple[str, ...]] = {
         "steering_wheel_angle", "steering_torque", "steer_angle", "understeer_gradient",
         "sideslip_angle", "roll_angle", "drive_torque", "slip_angle", "fz", "fy",
     ),
-    "steering_wheel_angle": ("steering_torque", "lifting_torque", "mz", "steer", "fz"),
+    "steering_wheel_angle": (
+        "steering_torque", "lifting_torque", "friction_torque", "mz", "steer", "fz",
+    ),
     "frequency": (
         "yaw_rate_gain", "lateral_acceleration_gain", "sideslip_angle_gain", "yaw_rate_phase",
         "lateral_acceleration_phase", "sideslip_angle_phase",

@@ -245,4 +245,4 @@ def test_the_command_writes_them_and_prints_the_greatest(kintrafo, tmp_path) -> 
     assert "ball_joint_front_left" in (tmp_path / "loads.csv").read_text(encoding="utf-8")
     words = ("--manoeuvre", "circle", "--loads", "loads.csv")
     code, _, said = kintrafo("drive", "driving_car", *words)
-    assert (code, "not simulated" in said) == (2, True)
+    assert (code, "no simulation" in said) == (2, True)

@@ -416,6 +416,8 @@ def test_a_packaged_manoeuvre_has_all_keys_with_a_comment(name) -> None:
     ("step_steer", {"manoeuvre": None}, "manoeuvre is missing"),
     ("constant_speed_circle", {"speed_km_per_h": 0.0}, "a car that does not move is on no circle"),
     ("circle", {"radius_m": None}, "give one of the three"),
+    ("circle", {"step_m_per_s2": 100.0}, "0.001 to 5 m/s^2 are allowed"),
+    ("circle", {"step_m_per_s2": 1e-9}, "0.001 to 5 m/s^2 are allowed"),
     ("double_lane_change", {"lanes": {}}, "the driver has no path"),
     ("double_lane_change", {"lanes.second.start_m": 2.0}, "where lanes.first ends"),
     ("double_lane_change", {"lanes.second.width_of_car": 0.5}, "narrower than the car"),

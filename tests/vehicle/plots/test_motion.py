@@ -141,7 +141,7 @@ def test_a_ride_is_written_in_both_ways(ridden, tmp_path) -> None:
 
 
 def test_what_does_not_move_is_not_shown(tmp_path) -> None:
-    with pytest.raises(InputError, match="steady turns are not simulated"):
+    with pytest.raises(InputError, match="steady turns and parking have no simulation"):
         animate(HandlingResult(Dataset(), {}), tmp_path / "a.gif")
     with pytest.raises(InputError, match="gif"):
         animate(HandlingResult(Dataset(), {}), tmp_path / "a.mp4")

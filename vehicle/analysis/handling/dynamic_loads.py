@@ -29,14 +29,15 @@ def dynamic_loads(result: HandlingResult) -> xr.Dataset:
     Raises
     ------
     InputError
-        If nothing was simulated, as in steady turns, or the car has no linkages.
+        If nothing was simulated, as in steady turns and parking, or the car has no linkages.
     PositionError
         If the motion comes to a dead point, where what is carried has no bound.
     """
     with Validator("dynamic_loads") as given:
         given.instance("result", result, HandlingResult, "what kintrafo.handling.drive returns")
     if not result.runs:
-        raise InputError(["steady turns are not simulated: there is no motion."], "dynamic_loads")
+        problem = "steady turns and parking have no simulation, and so no loads over time."
+        raise InputError([problem], "dynamic_loads")
     run = result.runs[-1]
     assembly = run.car.assembly if isinstance(run.car, DrivingCar) else None
     if assembly is None:

@@ -102,7 +102,8 @@ def _shown(result: HandlingResult | Run) -> tuple[Run, xr.Dataset | None]:
     if isinstance(result, Run):
         return result, None
     if not result.runs:
-        raise InputError(["steady turns are not simulated: there is no motion to show"], "animate")
+        problem = "steady turns and parking have no simulation, and so no motion to show."
+        raise InputError([problem], "animate")
     return result.runs[-1], result.curves.get("_cones")
 
 

@@ -14,6 +14,9 @@ from ..steady import SteadyCondition
 from ..subject import see_controls
 from .manoeuvre import Progress
 
+# The finest step makes some ten thousand turns, the coarsest one or two [m/s^2].
+_STEPS = 1e-3, 5.0
+
 
 class Circle(Section):
     """Steady turns of one speed, radius or steering wheel angle, up to the limit of the tyres."""
@@ -44,6 +47,10 @@ class Circle(Section):
                 "than 0 km/h, or radius_m."
             )
             return [problem]
+        least, most = _STEPS
+        if not least <= self.step_m_per_s2 <= most:
+            step = f"step_m_per_s2 = {self.step_m_per_s2:g} m/s^2"
+            return [f"{step}: {least:g} to {most:g} m/s^2 are allowed."]
         return []
 
     def check(self, car: Car) -> None:

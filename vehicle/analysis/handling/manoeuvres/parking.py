@@ -33,10 +33,13 @@ Array = NDArray[np.float64]
 
 ALONG = "steering_wheel_angle"
 
+# So many states of rest to a side take seconds.
+_MOST_STEPS = 1000
+
 _DESCRIBED = {
     "steering_torque": STEERING_TORQUE,
-    "lifting_torque": ("part of it that lifts the car and leans it", "N m"),
-    "friction_torque": ("part of it that turns the tyres on the road", "N m"),
+    "lifting_torque": ("torque of the steering wheel that lifts the car and leans it", "N m"),
+    "friction_torque": ("torque of the steering wheel that turns the tyres on the road", "N m"),
 }
 _OF_WHEELS = {
     "steer": ("steer angle of the wheel to the body, positive to the left", "rad"),
@@ -69,9 +72,9 @@ class Parking(Section):
 
     def problems(self) -> list[str]:
         """Say what cannot be."""
-        if self.step_deg > 0.25 * self.largest_deg:
-            least = 0.25 * self.largest_deg
-            return [f"step_deg = {self.step_deg:g} deg: {least:g} deg at most is allowed."]
+        least, most = self.largest_deg / _MOST_STEPS, 0.25 * self.largest_deg
+        if not least <= self.step_deg <= most:
+            return [f"step_deg = {self.step_deg:g} deg: {least:g} to {most:g} deg are allowed."]
         return []
 
     def check(self, car: Car) -> None:
