@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
-from ...core.quantities import heading_of
+from ...core.quantities import displayed, heading_of
 from ...core.validator import Validator
 from ...pictures.curves import draw
 from ...pictures.figures import small
@@ -53,7 +53,7 @@ def response_figures(response: xr.Dataset) -> dict[str, Figure]:
 def _figure(data: xr.DataArray) -> Figure:
     drawn = draw(data.transpose("frequency", ...).to_dataset(), [str(data.name)], alone=False)
     (axes,) = drawn.axes
-    _make_logarithmic(axes, data.values)
+    _make_logarithmic(axes, displayed(data))
     if _ROAD_WHEEL in data.dims:
         names = list(map(str, data[_ROAD_WHEEL].values))
         lines = axes.get_lines()[: len(names)]

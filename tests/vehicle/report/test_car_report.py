@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from browser import CHROMIUM, running
 from kintrafo.vehicle.plots.by_axle import by_axle, names_by_axle
+from kintrafo.vehicle.plots.ride import response_figures
 from kintrafo.vehicle.report.chapters import axle, handling
 from xarray import Dataset
 
@@ -111,3 +112,16 @@ def test_the_car_is_played_on_every_width(report, width) -> None:
         assert page.evaluate(wide) == 0
         assert complaints == []
         assert requests == [report.as_uri()]
+
+
+def test_curves_over_the_frequency_are_within_their_axes():
+    """In the units that are drawn: a response of the tyre in N/mm, its greatest value inside."""
+    figures = response_figures(kintrafo.ride.response(kintrafo.load("quarter_car"), 20.0))
+    assert any("N/mm" in words for words in figures)
+    for words, figure in figures.items():
+        (axes,) = figure.axes
+        (line,) = (one for one in axes.get_lines() if len(one.get_xdata()) > 2)
+        low, high = axes.get_ylim()
+        drawn = line.get_ydata()
+        assert 3.0 * drawn.max() == pytest.approx(high), words
+        assert low < 0.1 * drawn.max(), words
