@@ -87,7 +87,7 @@ def command(
     further = [*(loads or ()), *([] if animate is None else [animate])]
     refuse([*outputs.data, *outputs.pages, *further], **outputs.rule)
     if further and not chosen.TRAVELS:
-        problem = f"the manoeuvre {chosen.manoeuvre} {_NO_MOTION}"
+        problem = f"{chosen.TITLE} {_NO_MOTION}"
         raise InputError([problem], "--loads" if loads else "--animate")
     if animate is not None:
         refuse([animate], endings=ENDINGS, **outputs.rule)

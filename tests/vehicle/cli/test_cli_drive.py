@@ -131,9 +131,9 @@ def test_values_that_are_not_used_are_counted(capsys):
     (["driving_car", "--speed", "-5"], "speed_km_per_h = -5.0 km/h is out of range"),
     (["driving_car", "--manoeuvre", "circle", "--speed", "50"], "give one of the three"),
     (["driving_car", "--manoeuvre", "circle", "--animate", "a.gif"],
-     "manoeuvre circle has no simulation"),
+     "steady-state circle has no simulation"),
     (["driving_car", "--manoeuvre", "parking", "--loads", "a.csv"],
-     "manoeuvre parking has no simulation"),
+     "parking has no simulation"),
     (["driving_car", "--animate", "a.mp4"], ".gif"),
 ])  # fmt: skip
 def test_mistakes_are_named_before_equations_are_derived(kintrafo, words, said):
