@@ -68,6 +68,14 @@ def test_one_wheel_has_no_motions_of_a_rig() -> None:
         axle.axle_chapter(kintrafo.load("quarter_car"))
 
 
+def test_curves_of_a_car_are_small_pictures(monkeypatch) -> None:
+    monkeypatch.setattr(axle, "_DRAWN", {"heave": ("camber",)})
+    chapter = axle.axle_chapter(kintrafo.load("formula_student_car"))
+    assert chapter.pictures == ()
+    words = "camber [deg]: the body rises and falls on all wheels"
+    assert [panel.words for panel in chapter.panels] == [f"front: {words}", f"rear: {words}"]
+
+
 @pytest.mark.parametrize("option", ["--goals", "--cases", "--bushes"])
 def test_what_is_about_an_axle_needs_its_file(kintrafo, option) -> None:
     code, _, said = kintrafo("report", "quarter_car", option, "some.toml")

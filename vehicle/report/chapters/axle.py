@@ -19,7 +19,7 @@ from ...plots.by_axle import by_axle, names_by_axle
 from ...plots.whole_axle import views
 from ...studies.goals import Goal, check_goals
 from .chapter import Chapter, ChapterPicture
-from .curves import pictures, positions_of, with_wanted
+from .curves import pictures, positions_of, small_pictures, with_wanted
 
 # The curves of each motion; those that an axle does not have are left out.
 _DRAWN = {
@@ -104,6 +104,7 @@ def axle_chapter(axle: Any, goals: Sequence[Goal] = ()) -> Chapter:
     words, looks, drawings = _of_a_beam(assembly) if assembly.on_a_beam else ((), (), ())
     usual = assembly.usual_motion
     over = assembly.motions[usual].title if assembly.axles else "parallel travel"
+    shown = tuple(_pictures(assembly, curves, goals))
     return Chapter(
         title="Over motions of the body" if assembly.axles else "The axle",
         words=() if assembly.axles else (assembly.words, *words),
@@ -112,7 +113,8 @@ def axle_chapter(axle: Any, goals: Sequence[Goal] = ()) -> Chapter:
             *at_design(_not_on_the_page(assembly, curves[usual]), f"Over {over}: "),
             *_input_data(assembly),
         ),
-        pictures=(*drawings, *_pictures(assembly, curves, goals)),
+        panels=shown if assembly.axles else (),
+        pictures=drawings if assembly.axles else (*drawings, *shown),
     )
 
 
@@ -161,6 +163,9 @@ def _pictures(
         shown, usual = _by_axle(assembly, found, _DRAWN.get(motion, ()))
         names = with_wanted(shown, usual, own)
         words = assembly.motions[motion].words
+        if assembly.axles:  # both axles have twice as many curves: small ones are read anywhere
+            yield from small_pictures(shown.reset_coords(drop=True), names, words, goals=own)
+            continue
         title = words[:1].upper() + words[1:]
         yield from pictures(shown, names, title, f"Curves: {words}", goals=own)
 

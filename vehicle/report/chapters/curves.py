@@ -60,11 +60,27 @@ def pictures(
     return tuple(found)
 
 
-def small_pictures(dataset: xr.Dataset, names: Sequence[str]) -> tuple[ChapterPicture, ...]:
-    """Return a small picture of each curve, for the panels of a chapter."""
+def small_pictures(
+    dataset: xr.Dataset, names: Sequence[str], words: str = "", *, goals: Sequence[Goal] = ()
+) -> tuple[ChapterPicture, ...]:
+    """Return a small picture of each curve, for the panels of a chapter.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+    names : sequence of str
+    words : str, optional
+        What the curves are over, where they are not alone in their chapter.
+    goals : sequence of Goal, optional
+        About these curves; those of others are left out.
+    """
+    found = []
     with rc_context(STYLE):
-        drawn = [(name, small(figure(dataset, [name], alone=False))) for name in names]
-        return tuple(ChapterPicture.of(one, heading_of(dataset[name])) for name, one in drawn)
+        for name in names:
+            drawn = small(figure(dataset, [name], alone=False, goals=goals))
+            heading = heading_of(dataset[name])
+            found.append(ChapterPicture.of(drawn, f"{heading}: {words}" if words else heading))
+    return tuple(found)
 
 
 def with_wanted(dataset: xr.Dataset, usual: Iterable[str], goals: Iterable[Goal]) -> list[str]:
