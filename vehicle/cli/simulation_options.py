@@ -8,12 +8,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ...terminal.console import note
-from .options import metres, option
+from .options import metres, option, refuse_options
 
 if TYPE_CHECKING:
     from ..analysis.scenario import Scenario
 
 _Number = float | None
+
+_STEP_AT = 0.1  # [s]
+_FREQUENCY = 1.0  # [Hz]
 
 
 @dataclass(frozen=True)
@@ -29,11 +32,15 @@ class ScenarioOptions:
     road_step: Annotated[_Number, option("Height of a step of the road.", "MM", panel="Road")] = (
         None
     )
-    road_step_at: Annotated[float, option("Time of the step.", "S", panel="Road")] = 0.1
+    road_step_at: Annotated[
+        _Number, option("Time of the step. Default: 0.1 s.", "S", panel="Road")
+    ] = None
     road_sine: Annotated[_Number, option("Amplitude of a harmonic road.", "MM", panel="Road")] = (
         None
     )
-    road_frequency: Annotated[float, option("Frequency of that road.", "HZ", panel="Road")] = 1.0
+    road_frequency: Annotated[
+        _Number, option("Frequency of that road. Default: 1 Hz.", "HZ", panel="Road")
+    ] = None
     measured: Annotated[
         Path | None,
         option(
@@ -50,7 +57,9 @@ class ScenarioOptions:
     rack_sine: Annotated[
         _Number, option("Amplitude of a harmonic rack motion.", "MM", panel="Rack")
     ] = None
-    rack_frequency: Annotated[float, option("Frequency of that motion.", "HZ", panel="Rack")] = 1.0
+    rack_frequency: Annotated[
+        _Number, option("Frequency of that motion. Default: 1 Hz.", "HZ", panel="Rack")
+    ] = None
     duration: Annotated[
         _Number, option("Default: 1, or the duration of the measurement.", "S", panel="Time")
     ] = None
@@ -64,6 +73,7 @@ class ScenarioOptions:
 
         if self.speed is not None and self.measured is None:
             raise typer.BadParameter("only a road from --measured is driven on at a --speed")
+        self._refuse_details()
         recording = None
         if self.measured is not None:
             speed = None if self.speed is None else self.speed / 3.6
@@ -77,14 +87,14 @@ class ScenarioOptions:
         courses: dict[str, Any] = {
             "road_height": TimeProfile(
                 step=metres(self.road_step),
-                step_at=self.road_step_at,
+                step_at=_STEP_AT if self.road_step_at is None else self.road_step_at,
                 sine=metres(self.road_sine),
-                frequency=self.road_frequency,
+                frequency=_FREQUENCY if self.road_frequency is None else self.road_frequency,
             ),
             "rack_position": TimeProfile(
                 held=metres(self.rack),
                 sine=metres(self.rack_sine),
-                frequency=self.rack_frequency,
+                frequency=_FREQUENCY if self.rack_frequency is None else self.rack_frequency,
             ),
         }
         return Scenario(
@@ -94,6 +104,17 @@ class ScenarioOptions:
             spin_rate=self.spin * math.tau,
             inputs=excitation(courses, end, recording),
         )
+
+    def _refuse_details(self) -> None:
+        """Refuse details of a motion that is not asked for: nothing would use them."""
+        details = {
+            "--road-step": (self.road_step, {"--road-step-at": self.road_step_at}),
+            "--road-sine": (self.road_sine, {"--road-frequency": self.road_frequency}),
+            "--rack-sine": (self.rack_sine, {"--rack-frequency": self.rack_frequency}),
+        }
+        for name, (amplitude, given) in details.items():
+            if amplitude is None:
+                refuse_options(name, given)
 
 
 @dataclass(frozen=True)

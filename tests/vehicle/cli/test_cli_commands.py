@@ -316,6 +316,8 @@ def test_topology_needs_no_sympy(kintrafo, monkeypatch):
         (["simulate", CAR, "--road-step", "9", "--road-sine", "9"], 2, "2 ways"),
         (["simulate", CAR, "--road-step", "9", "--road-step-at", "7"], 2, "ends at 1 s"),
         (["simulate", CAR, "--road-sine", "9", "--road-frequency", "0"], 2, "0 Hz"),
+        (["simulate", CAR, "--road-step-at", "0.2"], 2, "--road-step-at is only for --road-step"),
+        (["simulate", CAR, "--rack-frequency", "2"], 2, "--rack-frequency is only for --rack-sine"),
         (["simulate", CAR, "--measured", "none.csv"], 2, "none.csv"),
         (["simulate", CAR, "--road-step", "nan"], 2, "finite"),
         (["characteristics", CAR, "--bump", "1e400"], 2, "a finite number in mm"),

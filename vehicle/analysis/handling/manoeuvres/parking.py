@@ -10,7 +10,7 @@ Sharp and R. Granger, Proc. IMechE D 217, 2003), which slides with the moment
 and is reached along an exponential as the wheel turns on the road (P. R. Dahl, 1968).
 """
 
-from typing import ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 import xarray as xr
@@ -21,7 +21,7 @@ from scipy.interpolate import CubicSpline
 from .....core.errors import InputError, KintrafoError
 from ....assembly.by_wheel import WHEEL, wheel_coordinate
 from ....assembly.equilibrium import equilibrium
-from ....input.section import NonNegative, Positive, Section
+from ....input.section import AllowedRange, Number, Positive, Section
 from ....models.car.car import Car
 from ..car import DrivingCar
 from ..driven import STEERING_TORQUE
@@ -35,6 +35,18 @@ ALONG = "steering_wheel_angle"
 
 # So many states of rest to a side take seconds.
 _MOST_STEPS = 1000
+
+# From tyres of karts to those of trucks: a value in bar is not within it.
+_Pressure = Annotated[
+    Number,
+    Field(ge=20.0, le=2000.0),
+    AllowedRange("20 {unit} to 2,000 {unit}", "Check the unit of the value: 2.3 bar are 230 kPa."),
+]
+_Friction = Annotated[
+    Number,
+    Field(ge=0.0, le=3.0),
+    AllowedRange("0 to 3", "Enter a coefficient: about 0.8 on dry asphalt."),
+]
 
 _DESCRIBED = {
     "steering_torque": STEERING_TORQUE,
@@ -60,10 +72,10 @@ class Parking(Section):
         default=360.0, description="steering wheel angle to which it is turned, to both sides"
     )
     step_deg: Positive = Field(default=5.0, description="step of the steering wheel angle")
-    friction: NonNegative = Field(
+    friction: _Friction = Field(
         default=0.8, description="friction of a tyre that turns on the road; 0: none"
     )
-    pressure_kPa: Positive = Field(  # noqa: N815 (Pa is the pascal)
+    pressure_kPa: _Pressure = Field(  # noqa: N815 (Pa is the pascal)
         default=230.0, description="inflation pressure of the steered tyres"
     )
     twist_deg: Positive = Field(
