@@ -4,8 +4,6 @@
 its right-hand side in JAX.
 """
 
-import importlib.util
-import math
 import os
 import re
 import subprocess
@@ -20,7 +18,6 @@ from tempfile import TemporaryDirectory
 from typing import Annotated
 
 import jax
-import numpy as np
 import typer
 from fmpy import read_model_description
 from fmpy.fmi2 import FMU2Slave
@@ -31,6 +28,7 @@ from kintrafo.systems.compile.compiler import FLAGS, find_compiler
 from rich.console import Console
 from rich.markdown import Markdown
 
+from .jax_states import nanoseconds
 from .report import environment, fill_page, machine_line, markdown_table
 
 CAR = "reference_car"
@@ -38,7 +36,6 @@ DRIVER = Path(__file__).with_name("export_steps.c")
 VERSIONS = {2: "guid", 3: "instantiationToken"}
 # a step of the solver each [s], as in export_steps.c; so many by FMPy
 LENGTH, STEPS = 1e-5, 2000
-STATES = 100_000
 
 
 def written(folder: Path) -> dict[int, tuple[float, float, int]]:
@@ -140,30 +137,14 @@ def in_jax(folder: Path, rounds: int) -> str:
         subprocess.run(made, check=True)
         # functions are registered once in a process
         with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
-            found.append(pool.submit(_by_jax, code / f"{name}_ffi.py", library, rounds).result())
+            found.append(
+                pool.submit(nanoseconds, code / f"{name}_ffi.py", library, rounds).result()
+            )
     one, lanes = found
     return (
         f"A right-hand side by `jax.ffi` takes {one:.0f} ns state by state, and {lanes:.0f} ns in "
         "lanes."
     )
-
-
-def _by_jax(script: Path, library: Path, rounds: int) -> float:
-    """Return what one of many right-hand sides takes [ns]."""
-    jax.config.update("jax_enable_x64", True)
-    spec = importlib.util.spec_from_file_location("car", script)
-    assert spec is not None
-    assert spec.loader is not None
-    car = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(car)
-    car.load(library)
-    states, rates = np.tile(car.STATE, (STATES, 1)), jax.jit(car.rhs)
-    best = math.inf
-    for _ in range(rounds + 1):
-        begin = time.process_time()
-        rates(states, car.INPUTS).block_until_ready()
-        best = min(best, time.process_time() - begin)
-    return 1e9 * best / STATES
 
 
 def run(
