@@ -530,7 +530,7 @@ class Oracle:
         """Return the force that pushes the ends of an element apart."""
         given, length, velocity = self.parameters, float(path.value[0]), float(path.rate[0])
         if isinstance(law, LinearSpring):
-            return given[law.rate.name] * (self._free_length(element, law) - length)
+            return given[law.rate.name] * (self.free_length(element, law) - length)
         if isinstance(law, LinearDamper):
             return -given[law.rate.name] * velocity
         if isinstance(law, Friction):
@@ -547,7 +547,8 @@ class Oracle:
         assert isinstance(law, Actuator)
         return inputs[law.input.name]
 
-    def _free_length(self, element: ForceElement, spring: LinearSpring) -> float:
+    def free_length(self, element: ForceElement, spring: LinearSpring) -> float:
+        """Return the length of a spring without force, m."""
         if spring.free_length is not None:
             return self.parameters[spring.free_length.name]
         full = self.parameters[element.path.joint.length_at_zero_slide.name]
@@ -664,7 +665,7 @@ class Oracle:
     def _stored(self, element: ForceElement, law: Law, length: float) -> float:
         given = self.parameters
         if isinstance(law, LinearSpring):
-            return 0.5 * given[law.rate.name] * (self._free_length(element, law) - length) ** 2
+            return 0.5 * given[law.rate.name] * (self.free_length(element, law) - length) ** 2
         if isinstance(law, Stop):
             sense = {"bump": 1.0, "rebound": -1.0}[law.side]
             depth = max(sense * (given[law.length.name] - length), 0.0)
