@@ -1,7 +1,7 @@
 # `make` or `make help` lists what can be done.
 .DEFAULT_GOAL := help
 .PHONY: docs drawings help setup sundials generate build run test test-elsewhere golden fuzz package wheel lint tree types format baseline clean \
-	benchmark benchmark-andrews benchmark-axles benchmark-bits benchmark-braking benchmark-bushes benchmark-cluster benchmark-derivatives benchmark-drive benchmark-ensemble benchmark-export benchmark-growth benchmark-loads benchmark-loops benchmark-microcontroller benchmark-page benchmark-peers benchmark-real-time benchmark-ride benchmark-speed benchmark-stiff benchmark-studies format-page front-axle-page report-assets
+	benchmark benchmark-andrews benchmark-axles benchmark-bits benchmark-braking benchmark-bushes benchmark-car-peers benchmark-cluster benchmark-derivatives benchmark-drive benchmark-ensemble benchmark-export benchmark-growth benchmark-loads benchmark-loops benchmark-microcontroller benchmark-page benchmark-peers benchmark-real-time benchmark-ride benchmark-speed benchmark-stiff benchmark-studies format-page front-axle-page report-assets
 PYTHON := .venv/bin/python
 
 EMITTED := $(wildcard generated/*.pyx generated/c/* runtime/equations/*.pyx runtime/simulation/*.pyx runtime/simulation/native/*.pyx runtime/simulation/*/*.[ch])
@@ -78,6 +78,10 @@ benchmark-page: build ## The same, and its page in docs/
 benchmark-peers: build ## The same suspension in CasADi, Exudyn, SymPy and Pinocchio
 	@.venv/bin/pip install -q -e ".[peers]" --no-build-isolation
 	@PYTHONPATH=tests $(PYTHON) -m benchmarks.peers --out out/benchmark --page docs/theory/other-tools.md
+
+benchmark-car-peers: build ## A step steer of the driving car in Exudyn
+	@.venv/bin/pip install -q -e ".[peers]" --no-build-isolation
+	@PYTHONPATH=tests $(PYTHON) -W ignore::DeprecationWarning -m benchmarks.peers.exudyn_car --page
 
 benchmark-andrews: build ## Andrews' squeezer here and as a differential-algebraic equation
 	@.venv/bin/pip install -q -e ".[peers]" --no-build-isolation
