@@ -55,7 +55,7 @@ BOUNDED = "bounded"
 TOGETHER = {
     "dynamics": ("The parts of M q'' + B = Q.", ("mass_matrix", "bias", "forces")),
     "poses": (
-        "Where the bodies are, and how they move.",
+        "Positions, orientations and velocities of the bodies, and relative coordinates.",
         ("relative_coordinates", "positions", "orientations", "velocities"),
     ),
     "jacobians": (
@@ -63,7 +63,7 @@ TOGETHER = {
         ("relative_jacobian", "absolute_jacobian", "global_jacobian"),
     ),
     "linearisation": (
-        "What linearises the equations beside the derivative of rhs with respect to the state.",
+        "Jacobians of rhs with respect to inputs, and of signals with respect to state and inputs.",
         ("rhs_input_jacobian", "signals_jacobian", "signals_input_jacobian"),
     ),
 }
@@ -269,8 +269,8 @@ class _Builder:
         guards = self._acting_guards()
         margins = self.program.pruned(
             "margins",
-            "Quantities that are positive where the model is valid; where one is not, those "
-            "behind it mean nothing.",
+            "Quantities that are positive where the model is valid; if one is not, those "
+            "after it are meaningless.",
             {g.name: g.margin for g in guards},
         )
         self.functions["margins"] = replace(margins, guards=())  # it reports, and does not refuse

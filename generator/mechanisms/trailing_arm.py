@@ -70,7 +70,7 @@ TRAILING_ARM = d.Mechanism(
 MODELS = (
     d.Formulation(
         name="trailing_arm",
-        title="Trailing arm, whose axis may be askew",
+        title="Trailing arm with an oblique axis",
         mechanism=TRAILING_ARM,
         independent=(HINGE, BEARING),
         massive=(ARM, WHEEL),

@@ -59,12 +59,18 @@ class Header(CText):
 
     def _conventions(self) -> str:
         return (
-            "\n\nAxes are ISO 8855 (x forward, y left, z up), units SI. Arrays of several "
-            "dimensions are row-major.\nAll functions are pure: no allocation, no global state, "
-            "safe to call from any thread. They return 0,\nor status bits that say what is wrong; "
-            "the results then are finite but meaningless."
+            f"\n\nUnits are SI. Axes are right-handed{self._gravity()}.\n"
+            "Arrays of several dimensions are row-major.\n"
+            "All functions are pure: no allocation, no global state, safe to call from any thread."
+            "\nThey return 0, or status bits, which name the error; results are then finite, but "
+            "meaningless."
             f"{self._iteration_note()}"
         )
+
+    def _gravity(self) -> str:
+        if any(entry.name == "gravity" for entry in self.derivation.parameters):
+            return ", with gravity along -z; in a vehicle x is forward and y left (ISO 8855)"
+        return ""
 
     def _state_title(self) -> str:
         if self.derivation.states.free:
@@ -95,7 +101,8 @@ class Header(CText):
         names = "\n".join(unbroken(labels, initial_indent=indent, subsequent_indent=indent))
         count = len(self.derivation.prepare.labels)
         return (
-            "/* Constants of one parameter set, computed by prepare: an array of that many. */"
+            "/* Number of constants of one parameter set, and their order in the array that "
+            "prepare writes. */"
             f"\nenum {{ {self.upper}_CONSTANT_COUNT = {count} }};\n#ifndef __cplusplus\n"
             f"struct {self.prefix}_constants {{\n    double\n{names};\n}};\n#endif"
         )

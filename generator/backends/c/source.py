@@ -35,12 +35,12 @@ if TYPE_CHECKING:
     from .pieces import Cut, Piece
 
 COMPUTE = (
-    "/* All functions of this file: the steps, each once, and the results of the one wanted. */"
+    "/* The steps of all functions of this file, each once, and the results of the selected one. */"
 )
 
 NOT_INLINED = """/*
- * In pieces: what a compiler does to a function grows with its length squared. Of what they hand
- * over, GCC tries for minutes to make vectors; -fno-tree-slp-vectorize spares that.
+ * Long functions are cut into pieces, since the time of a compiler grows with the square of their
+ * length. Use -fno-tree-slp-vectorize with GCC: it would search for minutes for vectors in structs.
  */
 #ifdef __GNUC__
 #define NOT_INLINED __attribute__((noinline))
@@ -112,9 +112,7 @@ class Source(CText):
     def _rounding(self) -> list[str]:
         if not self.derivation.assumptions:
             return []
-        comment = (
-            "/* What is still zero: of an angle in rad, of a distance as a part of a length. */"
-        )
+        comment = "/* Limit of zero: of an angle in rad, of a distance relative to a length. */"
         return [f"{comment}\n#define ROUNDING {ROUNDING}"]
 
     def _blocks(self, blocks: Sequence[IterationBlock]) -> list[str]:

@@ -41,7 +41,7 @@ def _facts(derivation: Derivation) -> dict[str, Any]:
     return {
         "name": name,
         "title": derivation.formulation.title,
-        "written_by": f"kintrafo {GENERATOR_VERSION}; do not edit: `make generate` writes it anew",
+        "written_by": f"kintrafo {GENERATOR_VERSION}; do not edit: `make generate` overwrites it",
         "mechanism": mechanism_hash(derivation),
         "note": iteration_note(derivation),
         "sources": [
