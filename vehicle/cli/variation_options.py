@@ -26,8 +26,8 @@ Over = Annotated[
     option(
         "What varies along the curves: travel or rack of a suspension; bump, roll, left or right "
         "of an axle; heave, pitch or roll of the body of a car; speed of a car on a rough road "
-        "(options road and seat: speed:road=C); or the lateral acceleration of steady turns at a "
-        "speed of 100 km/h (options speed_km_per_h, radius_m, steering_wheel_deg: "
+        "(options road, seat: speed:road=C); lateral acceleration of steady turns at 100 km/h "
+        "(options speed_km_per_h, radius_m, steering_wheel_deg: "
         "lateral_acceleration:radius_m=60). Default: travel, bump of an axle, heave of a car.",
         "NAME[:OPTION=VALUE]",
         show_default=False,

@@ -6,6 +6,7 @@ from typing import Any
 
 from pydantic.json_schema import models_json_schema
 
+from ...core.validator import Validator
 from ..corner.base import KIND
 from ..corner.bushes import BUSH_SCHEMA
 from ..data.starter import CAR, DEFAULT, whole_axles, words_of
@@ -160,6 +161,8 @@ def schema(manoeuvres: Manoeuvres) -> dict[str, Any]:
         that of a car, one with ``manoeuvre`` that of a manoeuvre; of others the kind that they name
         decides which sections there are.
     """
+    with Validator("schema") as given:
+        given.mapping("manoeuvres", manoeuvres, "sections by the words for them")
     whole = _whole_axles()
     models: list[type[Section]] = [
         *KINDS.values(),

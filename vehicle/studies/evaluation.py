@@ -48,7 +48,7 @@ def usual_positions(assembly: Assembly, over: str) -> Array:
         return assembly.usual(over)
     if usual := sweep_axis(over).usual:
         return np.array(usual)
-    return assembly.usual(assembly.usual_motion)
+    return assembly.usual(assembly.usual_motion if over in HELD else over)
 
 
 def common_positions(assemblies: Sequence[Assembly], over: str) -> Array:

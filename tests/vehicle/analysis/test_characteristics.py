@@ -29,7 +29,7 @@ from kintrafo import (
 )
 from kintrafo.vehicle.assembly import wheel
 from kintrafo.vehicle.assembly.by_wheel import flat
-from kintrafo.vehicle.assembly.corner_kinematics import corner, vehicle
+from kintrafo.vehicle.assembly.corner_kinematics import corner, vehicle_of
 from kintrafo.vehicle.assembly.measures import ackermann as axle
 from kintrafo.vehicle.corner.corner import RoadWheel
 
@@ -297,7 +297,7 @@ def test_camber_is_seen_from_the_front_and_toe_from_above():
     """Not the arcsine of a component: of a wheel that leans by 4 deg and is steered by 30 deg."""
     lean, steered = np.radians([4.0, 30.0])
     axis = np.array([np.cos(lean) * np.sin(steered), np.cos(lean) * np.cos(steered), -np.sin(lean)])
-    still = RoadWheel(vehicle(MODEL.suspension.mirrored()), np.zeros(3), np.zeros(3), axis, axis)
+    still = RoadWheel(vehicle_of(MODEL.suspension.mirrored()), np.zeros(3), np.zeros(3), axis, axis)
     assert np.degrees(wheel.camber(still)) == pytest.approx(4.62, abs=5e-3)
     assert np.degrees(wheel.toe(still)) == pytest.approx(30.0, rel=1e-12)
     assert np.degrees(np.arcsin(-axis[2])) == pytest.approx(4.0, rel=1e-12)

@@ -106,7 +106,7 @@ def test_what_does_not_take_a_rigid_axle_says_so(kintrafo):
     kintrafo("new", "rear.toml", "--rigid-axle")
     code, _, err = kintrafo("export", "rear.toml", "--to", "points")
     assert code == 2
-    assert "the file of a rigid axle" in " ".join(err.split())
+    assert "the file of a rigid rear axle" in " ".join(err.split())
 
 
 @pytest.mark.parametrize("file", ["twist_beam", "quarter_car"])

@@ -81,11 +81,10 @@ def drawn(monkeypatch):
 
 
 def names_in(figure):
-    return [
-        text.get_text()
-        for axes in figure.axes
-        for text in (*axes.texts, *(axes.get_legend().get_texts() if axes.get_legend() else ()))
-    ]
+    own = [legend for axes in figure.axes if (legend := axes.get_legend())]
+    named = [text for axes in figure.axes for text in axes.texts]
+    named += [text for legend in (*own, *figure.legends) for text in legend.get_texts()]
+    return [text.get_text() for text in named]
 
 
 def test_wheels_and_runs_have_names(drawn):

@@ -166,9 +166,9 @@ def test_topology_command_prints_tables_and_draws_the_graph(tmp_path):
 @pytest.mark.parametrize("name", cli.COMMANDS)
 def test_help_says_all_that_the_function_does(name, monkeypatch):
     """What is in brackets is not taken for mark-up, and lines break where the terminal ends."""
-    monkeypatch.setenv("COLUMNS", "400")
+    monkeypatch.setenv("COLUMNS", "600")
     words = [*name.split(), "--help"]
-    shown = CliRunner().invoke(cli.app, words, env={"COLUMNS": "400"}).output
+    shown = CliRunner().invoke(cli.app, words, env={"COLUMNS": "600"}).output
     command = cli.COMMANDS[name].command
     for paragraph in command.__doc__.split("\n\n"):
         assert " ".join(paragraph.split()) in " ".join(shown.split())
