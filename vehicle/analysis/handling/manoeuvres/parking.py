@@ -161,6 +161,7 @@ class Parking(Section):
         states, inputs = [], []
         for i, (angle, rack) in enumerate(zip(angles.tolist(), racks.tolist(), strict=True)):
             try:
+                # a car with a steering rack is one with linkages
                 rest = equilibrium(car.model, rack_position=rack)  # type: ignore[arg-type]
             except KintrafoError as error:
                 problem = (
