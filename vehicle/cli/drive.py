@@ -1,19 +1,26 @@
 """``kintrafo drive``: manoeuvres of a car that drives."""
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
-
-import typer
 
 from ...core.tabulated import significant, whole
 from ...terminal.console import console, print_json, problems, progress_bar, table
-from ...terminal.exits import Exit
 from ..data.starter import manoeuvres
 from .loading import car_of, derived, naming, note_unused
-from .options import OUTPUT, argument, option
-from .outputs import DataOptions, Outputs, PlotOptions, name_files, title_of
+from .options import argument, option
+from .outputs import (
+    Animation,
+    DataOptions,
+    FigureOptions,
+    Loads,
+    Outputs,
+    end_if_not_valid,
+    name_files,
+    title_of,
+)
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from rich.table import Table
     from xarray import DataArray, Dataset
 
@@ -45,20 +52,9 @@ def command(
     turn: Annotated[
         Literal["left", "right"] | None, option("Side in place of that of the manoeuvre.")
     ] = None,
-    animate: Annotated[
-        Path | None,
-        option("Write the motion, in real time: .gif, or .html to play.", "PATH", panel=OUTPUT),
-    ] = None,
-    loads: Annotated[
-        list[Path] | None,
-        option(
-            "Write the loads on every part: .csv or .xlsx (mm), .nc, .parquet or .mat. May be "
-            "repeated.",
-            "PATH",
-            panel=OUTPUT,
-        ),
-    ] = None,
-    output: PlotOptions,
+    animate: Animation = None,
+    loads: Loads = None,
+    output: FigureOptions,
 ) -> None:
     """Drive a car through a manoeuvre: step steer, circle, lane change, braking, and others.
 
@@ -120,10 +116,7 @@ def command(
         for each in made:
             console.print(each)
         name_files(written)
-    for text in left:
-        problems.print(f"not valid: {text}", style="red", highlight=False, markup=False)
-    if left:
-        raise typer.Exit(Exit.REFUSED)
+    end_if_not_valid(left)
 
 
 def _drawn(chosen: "AnyManoeuvre") -> tuple[str, ...]:

@@ -4,12 +4,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 from ...terminal.console import print_json, problems, say
-from .loading import model_of, system_of
+from .loading import model_of, subject_of, system_of
 from .options import Force, Json, Which, argument, option, refuse_options, refuse_which
 
 if TYPE_CHECKING:
     from ...systems.system import System
-    from ..kinds import Suspension
 
 EXAMPLES = (
     "kintrafo export my_car.toml --to c -o my_car_c",
@@ -20,6 +19,8 @@ EXAMPLES = (
     "kintrafo export my_mechanism.py --model crane --to c",
     "kintrafo export my_car.toml --to points -o points.csv",
 )
+
+_NOT_A_TABLE = "and a table of hardpoints is that of a suspension. Name the file of its side."
 
 
 def command(
@@ -64,6 +65,7 @@ def command(
     from ...core.validator import Validator
     from ...targets.export import ENDINGS, export_model
     from ..files.point_table import write_points
+    from ..kinds import Suspension
 
     endings = {**ENDINGS, "points": "_points.csv"}
     with Validator("export") as given:
@@ -74,7 +76,8 @@ def command(
     path = Path(f"{stem}{endings[to]}") if out is None else out
     if to == "points":
         refuse_options("--to fmu", {"--fmi": fmi, "--platform": platform or None})
-        suspension = _suspension_in(file)
+        kind: type[Any] = Suspension  # an abstract class, of which one is loaded
+        suspension = subject_of(file, kind, _NOT_A_TABLE)
         facts = {"path": str(write_points(suspension, path, force=force, inputs=[file])), "to": to}
     else:
         # these derive the equations again, which takes minutes for a car
@@ -88,27 +91,6 @@ def command(
         print_json(facts)
     else:
         say(f"  {facts['path']}")
-
-
-def _suspension_in(file: str) -> "Suspension":
-    """Return the suspension that a file describes; axles and cars are refused.
-
-    Raises
-    ------
-    InputError
-    """
-    from ...core.errors import InputError
-    from ..files.loading import load
-    from ..kinds import Suspension
-
-    subject = load(file)
-    if not isinstance(subject, Suspension):
-        problem = (
-            f"this is the file of a {subject.heading()}, and a table of hardpoints is that of a "
-            "suspension. Name the file of its side."
-        )
-        raise InputError([problem], file)
-    return subject
 
 
 def _described_by(file: str, model: str | None) -> "System":

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 from ...terminal.console import note, problems
 
@@ -14,6 +14,9 @@ if TYPE_CHECKING:
     from ..assembly.of import AnyModel
     from ..models.car import Car
     from ..studies.evaluation import Subject
+
+
+_Kind = TypeVar("_Kind")
 
 
 def assembly_of_file(file: str, held: str | None = None) -> "Assembly":
@@ -87,6 +90,31 @@ def variable_subject(file: str, held: str | None = None) -> "Subject":
     return subject
 
 
+def subject_of(file: str, kind: type[_Kind], needed: str) -> _Kind:
+    """Return what a file describes, which is of one kind; others are refused.
+
+    Parameters
+    ----------
+    file : str
+    kind : type
+        `Suspension`, `Car`, ...
+    needed : str
+        End of the message behind the kind of the file: why it is refused, and what to do.
+
+    Raises
+    ------
+    InputError
+        If the file describes something else.
+    """
+    from ...core.errors import InputError
+    from ..files.loading import load
+
+    subject = load(file)
+    if not isinstance(subject, kind):
+        raise InputError([f"this is the file of a {subject.heading()}, {needed}"], file)
+    return subject
+
+
 def car_of(file: str) -> "CarAssembly":
     """Return the car that a file describes, its equations not yet derived; others are refused.
 
@@ -95,23 +123,18 @@ def car_of(file: str) -> "CarAssembly":
     InputError
         That names what the file describes.
     """
-    from ...core.errors import InputError
     from ..assembly.car import CarAssembly
     from ..data import data_sets, find
     from ..data.starter import CARS, all_packaged
-    from ..files.loading import load
     from ..models.car import Car
 
     if file not in all_packaged():
         find(file, data_sets(CARS))  # says which cars there are
-    subject = load(file)
-    if not isinstance(subject, Car):
-        problem = (
-            f"this is the file of a {subject.heading()}, whose body is held. A car's file is "
-            "needed: quarter_car, or what kintrafo new FILE --car writes."
-        )
-        raise InputError([problem], file)
-    return CarAssembly(subject)
+    needed = (
+        "whose body is held. A car's file is needed: quarter_car, or what kintrafo new FILE --car "
+        "writes."
+    )
+    return CarAssembly(subject_of(file, Car, needed))
 
 
 @contextmanager

@@ -5,7 +5,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TypedDict
 
-from ...terminal.console import progress_bar, say
+import typer
+
+from ...terminal.console import problems, progress_bar, say
+from ...terminal.exits import Exit
 from .options import OUTPUT, Force, Json, among, option
 
 if TYPE_CHECKING:
@@ -32,7 +35,7 @@ Plot = Annotated[
         panel=OUTPUT,
     ),
 ]
-Bars = Annotated[
+Figure = Annotated[
     list[Path] | None,
     option("Write a figure: .pdf, .png or .svg. May be repeated.", "PATH", "--plot", panel=OUTPUT),
 ]
@@ -41,6 +44,19 @@ Figures = Annotated[
 ]
 Formats = Annotated[
     list[str] | None, option("Of --figures: png, svg or pdf.", "NAME,...", "--format", panel=OUTPUT)
+]
+Animation = Annotated[
+    Path | None,
+    option("Write the motion, in real time: .gif, or .html to play.", "PATH", panel=OUTPUT),
+]
+Loads = Annotated[
+    list[Path] | None,
+    option(
+        "Write the loads on every part: .csv or .xlsx (mm), .nc, .parquet or .mat. May be "
+        "repeated.",
+        "PATH",
+        panel=OUTPUT,
+    ),
 ]
 CarFile = Annotated[
     Path | None,
@@ -128,11 +144,11 @@ class CurveOptions(_Files):
 
 
 @dataclass(frozen=True)
-class BarOptions(_Files):
+class FigureOptions(_Files):
     """The options of a command that writes data and a figure of its own."""
 
     out: Out = None
-    plot: Bars = None
+    plot: Figure = None
     force: Force = False
     json: Json = False
 
@@ -142,7 +158,7 @@ class CarOptions(_Files):
     """The options of a command that finds a car: its hardpoint file, and a figure."""
 
     car: CarFile = None
-    plot: Bars = None
+    plot: Figure = None
     force: Force = False
     json: Json = False
 
@@ -299,6 +315,14 @@ def name_files(files: Sequence[Path]) -> None:
     """Name the files that were written, below the results."""
     for path in files:
         say(f"  {path}")
+
+
+def end_if_not_valid(reasons: Sequence[str]) -> None:
+    """Print the reasons why a result is not valid, and end the command with `Exit.REFUSED`."""
+    for text in reasons:
+        problems.print(f"not valid: {text}", style="red", highlight=False, markup=False)
+    if reasons:
+        raise typer.Exit(Exit.REFUSED)
 
 
 def _named(path: Path, suffix: str) -> Path:

@@ -1,24 +1,17 @@
 """``kintrafo ride``: rest, modes and motion of a car over a road."""
 
-from dataclasses import dataclass
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
-
-import typer
+from typing import TYPE_CHECKING, Annotated, Any
 
 from ...core.tabulated import significant
 from ...terminal.console import console, print_json, problems, table
-from ...terminal.exits import Exit
 from .loading import car_of, derived, naming, note_unused
-from .options import OUTPUT, argument, option, refuse_options
-from .outputs import PlotOptions, name_files, title_of
+from .options import argument, option
+from .outputs import Animation, FigureOptions, end_if_not_valid, name_files, title_of
+from .ride_road import DURATION, RoadOptions
 
 if TYPE_CHECKING:
     from rich.table import Table
     from xarray import DataArray, Dataset
-
-    from ..assembly.car import CarAssembly
-    from ..roads import Road
 
 EXAMPLES = (
     "kintrafo ride quarter_car",
@@ -29,59 +22,21 @@ EXAMPLES = (
     "kintrafo ride quarter_car --kerb 60 --contact-length 120 --speed 15",
 )
 
-_BUMP_LENGTH = 0.5  # [m]
-_DURATION = 30.0  # of the simulation, where nothing else ends it [s]
-
 
 def command(
     file: Annotated[
         str, argument("File of a car (TOML), or the name of a packaged one: quarter_car.", "FILE")
     ],
     *,
-    road: Annotated[
-        str | None,
-        option(
-            "Rough road, a class of ISO 8608 from A to H; or the file of a measured one: CSV with "
-            "distance_m, left_height_mm and right_height_mm, or OpenCRG (.crg). Default: B.",
-            "CLASS|FILE",
-        ),
-    ] = None,
-    seed: Annotated[
-        int | None,
-        option("Seed of the rough road: equal seeds give equal roads. Default: 1.", "NUMBER"),
-    ] = None,
-    bump: Annotated[
-        float | None,
-        option("Height of one bump instead of the rough road; negative: a pothole.", "MM"),
-    ] = None,
-    bump_length: Annotated[float | None, option("Length of the bump. Default: 0.5 m.", "M")] = None,
-    kerb: Annotated[
-        float | None,
-        option("Height of an edge instead of the rough road; negative: a drop.", "MM"),
-    ] = None,
-    under: Annotated[
-        Literal["both", "left", "right"] | None,
-        option("Wheels that meet the bump or the kerb. Default: both."),
-    ] = None,
-    contact_length: Annotated[
-        float | None,
-        option(
-            "Length of the contact of a tyre, which then envelopes short waves and edges: by two "
-            "elliptical cams. A kerb needs it. Default: contact in a point.",
-            "MM",
-        ),
-    ] = None,
+    road: RoadOptions,
     speed: Annotated[float, option("Speed of the car.", "KM/H")] = 80.0,
     duration: Annotated[
         float | None,
         option("Duration of the simulation. Default: 30 s; to the end of a measured road.", "S"),
     ] = None,
     output_step: Annotated[float, option("Time between outputs.", "MS")] = 5.0,
-    animate: Annotated[
-        Path | None,
-        option("Write the motion, in real time: .gif, or .html to play.", "PATH", panel=OUTPUT),
-    ] = None,
-    output: PlotOptions,
+    animate: Animation = None,
+    output: FigureOptions,
 ) -> None:
     """Simulate a car over a road: rest, modes, accelerations, wheel loads, wheel travel.
 
@@ -101,12 +56,11 @@ def command(
 
     with Validator("kintrafo ride") as given:
         given.number("--speed", speed, "km/h", above=0.0)
-        given.number("--duration", _DURATION if duration is None else duration, "s", above=0.0)
+        given.number("--duration", DURATION if duration is None else duration, "s", above=0.0)
         given.number("--output-step", output_step, "ms", above=0.0)
-    chosen = _Chosen(road, seed, bump, bump_length, kerb, under, contact_length)
-    suffixes = ["", "_response"] if chosen.is_rough else [""]
+    suffixes = ["", "_response"] if road.is_rough else [""]
     outputs = output.files(
-        file, *([chosen.name] if chosen.is_measured else []), suffixes=suffixes, drawn=[""]
+        file, *([road.name] if road.is_measured else []), suffixes=suffixes, drawn=[""]
     )
     if animate is not None:
         refuse([animate], endings=ENDINGS, **outputs.rule)
@@ -114,12 +68,12 @@ def command(
     with naming(file):
         assembly.require_riding()
     v = speed / 3.6
-    profile, duration = chosen.for_time(assembly, v, duration)
+    profile, duration = road.for_time(assembly, v, duration)
     assembly = derived(assembly)
     found = {"at_rest": ride.at_rest(assembly), "modes": ride.modes(assembly)}
-    if chosen.is_rough and contact_length is None:
-        found["linear"] = ride.response(assembly, v, chosen.name)
-    settle = min(5.0, 0.2 * duration) if chosen.is_rough else 0.0
+    if road.is_rough and road.contact_length is None:
+        found["linear"] = ride.response(assembly, v, road.name)
+    settle = min(5.0, 0.2 * duration) if road.is_rough else 0.0
     with problems.status("the motion over the road"):
         run = ride.run(
             assembly, profile, v, duration=duration, settle=settle, output_step=output_step / 1e3
@@ -144,149 +98,7 @@ def command(
     for made in _ride(motion, found.get("linear"), title):
         console.print(made)
     name_files(written)
-    left = motion.attrs["not_valid"]
-    for text in left:
-        problems.print(f"not valid: {text}", style="red", highlight=False, markup=False)
-    if left:
-        raise typer.Exit(Exit.REFUSED)
-
-
-@dataclass(frozen=True)
-class _Chosen:
-    """The road that the options say; None is an option that is not given."""
-
-    road: str | None
-    seed: int | None
-    bump: float | None
-    bump_length: float | None
-    kerb: float | None
-    under: Literal["both", "left", "right"] | None
-    contact_length: float | None
-
-    def __post_init__(self) -> None:
-        from ...core.validator import Validator
-
-        roads = {"--road": self.road, "--bump": self.bump, "--kerb": self.kerb}
-        chosen = [name for name, value in roads.items() if value is not None]
-        if len(chosen) > 1:
-            raise typer.BadParameter(f"{' and '.join(chosen)} are given: choose one of them")
-        if self.bump is None:
-            refuse_options("--bump", {"--bump-length": self.bump_length})
-        if not self.is_single:
-            refuse_options("--bump and --kerb", {"--under": self.under})
-        if not self.is_rough:
-            refuse_options("a rough road", {"--seed": self.seed})
-        lengths = {
-            "--bump-length": (self.bump_length, "m"),
-            "--contact-length": (self.contact_length, "mm"),
-        }
-        with Validator("kintrafo ride") as given:
-            for name, (length, unit) in lengths.items():
-                if length is not None:
-                    given.number(name, length, unit, above=0.0)
-            if self.seed is not None:
-                given.whole("--seed", self.seed, least=0)
-        if self.kerb is not None and self.contact_length is None:
-            raise typer.BadParameter(
-                "--kerb needs --contact-length, as a wheel does not touch an edge at a point"
-            )
-
-    @property
-    def name(self) -> str:
-        """The class of a rough road, or the file of a measured one."""
-        return self.road or "B"
-
-    @property
-    def sides(self) -> Literal["both", "left", "right"]:
-        """Which wheels meet an obstacle."""
-        return self.under or "both"
-
-    @property
-    def is_single(self) -> bool:
-        """Whether it is one obstacle."""
-        return self.bump is not None or self.kerb is not None
-
-    @property
-    def is_rough(self) -> bool:
-        """Whether it is a class of ISO 8608."""
-        from ..roads import CLASSES
-
-        return not self.is_single and self.name in CLASSES
-
-    @property
-    def is_measured(self) -> bool:
-        """Whether it is a file."""
-        return not self.is_single and not self.is_rough
-
-    def for_time(
-        self, assembly: "CarAssembly", speed: float, duration: float | None
-    ) -> "tuple[Road, float]":
-        """Return the road, and how long a car is on it where nothing else is said [s]."""
-        found = self._road(assembly, speed * (duration or _DURATION))
-        if duration is None and self.is_measured:
-            return found, (found.length + max(assembly.behind().values())) / speed
-        return found, duration or _DURATION
-
-    def _road(self, assembly: "CarAssembly", way: float) -> "Road":
-        """Return the road for a way [m]."""
-        from .. import roads
-
-        sides = {wheel.rpartition("_")[2] for wheel in assembly.wheels}
-        if self.is_single and self.sides in {"left", "right"} - sides:
-            raise typer.BadParameter(
-                f"--under {self.sides}: this car has its wheel on the other side"
-            )
-        if self.kerb is not None:
-            at = min(5.0, 0.2 * way)
-            how: Any = {**self._tyre(assembly), "sides": self.sides}
-            return roads.kerb(self.kerb / 1e3, at=at, end=max(way, 2.0 * at), **how)
-        if self.bump is not None:
-            at = min(5.0, 0.1 * way)
-            length = _BUMP_LENGTH if self.bump_length is None else self.bump_length
-            end = max(way, at + length)
-            found = roads.bump(self.bump / 1e3, length, at=at, end=end, sides=self.sides)
-        elif self.is_rough:
-            longest = max(way, 1.01 / roads.rough.WAVES[0])
-            seed = 1 if self.seed is None else self.seed
-            found = roads.iso8608(self.name, length=longest, seed=seed, track=assembly.track)
-        else:
-            found = self._measured(assembly)
-        if self.contact_length is None:
-            return found
-        return roads.enveloped(found, **self._tyre(assembly))
-
-    def _measured(self, assembly: "CarAssembly") -> "Road":
-        from ...core.errors import InputError
-        from .. import roads
-
-        if not Path(self.name).suffix and not Path(self.name).is_file():
-            raise typer.BadParameter(
-                f"--road {self.name}: a class of ISO 8608, {', '.join(roads.CLASSES)}, or a file "
-                "is needed"
-            )
-        found = roads.read(self.name, track=assembly.track)
-        least = max(assembly.behind().values())
-        if found.length <= least:
-            problem = (
-                f"the road is {found.length:g} m long, and the wheelbase {least:g} m: the rear "
-                "wheels would not reach it. Give a longer road."
-            )
-            raise InputError([problem], self.name)
-        return found
-
-    def _tyre(self, assembly: "CarAssembly") -> dict[str, float]:
-        """Return what envelopes: the mean radius of the tyres, and the contact [m]."""
-        from ...core.errors import InputError
-
-        radii = [radius for radius in assembly.tyre_radii if radius]
-        if not radii:
-            problem = "no tyre has a radius, which --contact-length needs: enter [tyre] radius_mm."
-            raise InputError([problem], "--contact-length")
-        assert self.contact_length is not None
-        return {
-            "radius": sum(radii) / len(radii),
-            "contact_length": self.contact_length / 1e3,
-        }
+    end_if_not_valid(motion.attrs["not_valid"])
 
 
 def _rest(found: "Dataset", file: str) -> "list[Table]":

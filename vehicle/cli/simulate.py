@@ -9,8 +9,8 @@ from ...core.tabulated import number
 from ...terminal.console import console, print_json, problems, say, table
 from ...terminal.exits import Exit
 from .loading import model_of
-from .options import OUTPUT, File, option
-from .outputs import CurveOptions, DataOptions, Outputs, name_files, title_of
+from .options import File, option
+from .outputs import CurveOptions, DataOptions, Loads, Outputs, name_files, title_of
 from .simulation_options import ScenarioOptions, SolverOptions
 
 if TYPE_CHECKING:
@@ -65,15 +65,7 @@ def command(
     ] = None,
     solver: SolverOptions,
     output: CurveOptions,
-    loads: Annotated[
-        list[Path] | None,
-        option(
-            "Write the loads on every part: .csv or .xlsx (mm), .nc, .parquet or .mat. May be "
-            "repeated.",
-            "PATH",
-            panel=OUTPUT,
-        ),
-    ] = None,
+    loads: Loads = None,
 ) -> None:
     """Simulate a suspension, an axle or a car over a step, a sine or a measured road.
 
