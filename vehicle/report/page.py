@@ -2,18 +2,18 @@
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
-from importlib import resources
 from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
-from jinja2 import Environment, PackageLoader, StrictUndefined
+from jinja2 import Environment
 from markupsafe import Markup
 from numpy.typing import NDArray
 
 from ...core.files import Paths, refuse, replacing
 from ...core.legible import legible
 from ...core.validator import Validator, shown
+from ...pages.embedded import asset, page_environment
 from ...pages.mechanism.page import report_page
 from ...simulation.result import Simulation
 from ...systems.system import System
@@ -177,9 +177,9 @@ def render(
         chapters=chapters,
         drop=DROP,
         spin=SPIN_RATE / (2.0 * np.pi),
-        data=Markup(_data(model, samples)),  # noqa: S704 (page_data leaves no end tag in it)
-        script=_asset("report.js"),
-        style=_asset("report.css"),
+        data=_data(model, samples),
+        script=asset(__package__, "assets/report.js"),
+        style=asset(__package__, "assets/report.css"),
     )
 
 
@@ -230,7 +230,7 @@ def write_chapters(
             moves=any(chapter.players for chapter in chapters),
             player_script=player_script(),
             player_style=player_style(),
-            style=_asset("report.css"),
+            style=asset(__package__, "assets/report.css"),
         )
     )
     with replacing(path, force=force, inputs=inputs) as temporary:
@@ -307,7 +307,7 @@ def _over_rack(
     return [c for c in along if c.name in first], [c for c in along if c.name not in first]
 
 
-def _data(model: Model, samples: _Samples) -> str:
+def _data(model: Model, samples: _Samples) -> Markup:
     return page_data(
         model.suspension,
         samples.grid,
@@ -321,13 +321,7 @@ def _data(model: Model, samples: _Samples) -> str:
 
 
 def _environment() -> Environment:
-    environment = Environment(
-        loader=PackageLoader(__package__, "."),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
+    environment = page_environment(__package__)
     environment.filters["fixed"] = _fixed
     environment.filters["minus"] = _with_minus
     environment.filters["upper_limit"] = _upper_limit
@@ -358,9 +352,3 @@ def _upper_limit(error: float) -> str:
     if -4 <= exponent <= 2:
         return f"{digit * 10.0**exponent:.{max(-exponent, 0)}f}"
     return f"{digit} \u00b7 10{str(exponent).translate(_SUPERSCRIPTS)}"
-
-
-def _asset(name: str) -> Markup:
-    """Return a file that was bundled from web/, which is trusted."""
-    text = resources.files(__package__).joinpath("assets", name).read_text(encoding="utf-8")
-    return Markup(text)  # noqa: S704

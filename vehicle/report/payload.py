@@ -3,6 +3,7 @@
 from typing import Any, NamedTuple
 
 import numpy as np
+from markupsafe import Markup
 from numpy.typing import NDArray
 
 from ...pages.embedded import embedded
@@ -49,7 +50,7 @@ def page_data(
     looks: dict[str, Look],
     marks: Marks,
     motion: ReportedMotion | NoMotion,
-) -> str:
+) -> Markup:
     """Return the data of the page as JSON that is safe inside an HTML element.
 
     Parameters

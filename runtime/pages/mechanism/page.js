@@ -1,4 +1,3 @@
-"use strict";
 // Draws a mechanism from the places of its points, one row of them for each position of a slider.
 const data = JSON.parse(document.getElementById("payload").textContent);
 const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#7b5ea7", "#56a0d3", "#a6761d", "#666600"];
@@ -8,11 +7,10 @@ const moving = data.bodies.filter((body) => body !== data.ground);
 const colours = Object.fromEntries(moving.map((body, i) => [body, COLOURS[i % COLOURS.length]]));
 const sliders = [...document.querySelectorAll("input[data-scene]")];
 let current = { scene: 0, index: 0 };
-let playing = null;
 
 // -- numbers ----------------------------------------------------------------------------------
 
-// what a reader wants to see: degrees and millimetres
+// units that are shown: degrees and millimetres
 const READ = { rad: [180 / Math.PI, "°"], "rad/s": [180 / Math.PI, "°/s"], m: [1000, "mm"], "m/s": [1, "m/s"] };
 function read(unit) { return READ[unit] ?? [1, unit === "1" ? "" : unit]; }
 function text(value, unit) {
@@ -143,7 +141,7 @@ function triad() {
 
 // -- table and charts -------------------------------------------------------------------------
 
-function tell() {
+function fillTable() {
   const scene = data.scenes[current.scene];
   const rows = data.states.map((name, i) => [name, scene.states[i][current.index]]);
   rows.push(...Object.entries(scene.signals).map(([name, values]) => [name, values[current.index]]));
@@ -249,49 +247,28 @@ function show(scene, index) {
     slider.nextElementSibling.textContent = text(values[slider.value], unit);
   });
   draw();
-  tell();
+  fillTable();
   charts();
 }
-function stop() {
-  cancelAnimationFrame(playing);
-  playing = null;
-  play.textContent = "Play";
-}
+const play = document.getElementById("play"), speed = document.getElementById("speed");
+const last = data.scenes.length - 1;
+const playback = new Playback(play, speed, (index) => show(last, index));
 sliders.forEach((slider, i) => slider.addEventListener("input", () => {
-  stop();
+  playback.stop();
   show(i, Number(slider.value));
 }));
-const play = document.getElementById("play");
-const last = data.scenes.length - 1;
 const timed = data.scenes.length && data.scenes[last].name === "time";
-play.hidden = document.getElementById("speed").hidden = document.querySelector('label[for="speed"]').hidden = !timed;
+play.hidden = speed.hidden = document.querySelector('label[for="speed"]').hidden = !timed;
 play.addEventListener("click", () => {
-  if (playing !== null) return stop();
-  const { values } = data.scenes[last];
-  let time = current.scene === last && current.index < values.length - 1 ? values[current.index] : values[0];
-  let before = null;
-  play.textContent = "Pause";
-  const step = (now) => {
-    if (before !== null) time += ((now - before) / 1000) * Number(document.getElementById("speed").value);
-    before = now;
-    const next = values.findIndex((v) => v >= time);
-    show(last, next < 0 ? values.length - 1 : next);
-    if (next < 0) return stop();
-    playing = requestAnimationFrame(step);
-  };
-  playing = requestAnimationFrame(step);
+  if (playback.isPlaying) return playback.stop();
+  playback.start(data.scenes[last].values, current.scene === last ? current.index : 0);
 });
-document.getElementById("design").addEventListener("click", () => { stop(); show(0, designOf(0)); });
-let grabbed = null;
-view.addEventListener("pointerdown", (event) => { grabbed = [event.clientX, event.clientY]; view.setPointerCapture(event.pointerId); });
-view.addEventListener("pointermove", (event) => {
-  if (!grabbed) return;
-  turn -= (event.clientX - grabbed[0]) * 0.4;
-  tilt = Math.max(-90, Math.min(90, tilt + (event.clientY - grabbed[1]) * 0.4));
-  grabbed = [event.clientX, event.clientY];
+document.getElementById("design").addEventListener("click", () => { playback.stop(); show(0, designOf(0)); });
+onDrag(view, (about, upward) => {
+  turn += about;
+  tilt = Math.max(-90, Math.min(90, tilt + upward));
   draw();
 });
-view.addEventListener("pointerup", () => { grabbed = null; });
 for (const body of moving) {
   const item = document.createElement("li");
   item.style.setProperty("--colour", colours[body]);

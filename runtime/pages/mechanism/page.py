@@ -1,12 +1,10 @@
 """Pages of a mechanism: self-contained HTML that draws, moves and plays it."""
 
 from collections.abc import Sequence
-from importlib import resources
 from importlib.metadata import version
 from typing import Any
 
 import numpy as np
-from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from ...core.errors import KintrafoError
@@ -18,7 +16,7 @@ from ...systems.modes import Mode
 from ...systems.rest import rest
 from ...systems.skeleton import Skeleton
 from ...systems.system import System
-from ..embedded import embedded
+from ..embedded import asset, embedded, moving_script, page_environment
 from .scenes import Scene, by_hand, extent, of_motion
 
 # Of eigenvalues that are zero twice, the root of that of doubles is left, and some powers of ten.
@@ -75,21 +73,21 @@ def _page(
     skeleton: Skeleton, scenes: Sequence[Scene], title: str | None, words: str, *, chapters: bool
 ) -> str:
     system = skeleton.system
-    loader = PackageLoader(__package__, ".")
-    environment = Environment(
-        loader=loader, autoescape=True, undefined=StrictUndefined, trim_blocks=True
-    )
-    return environment.get_template("page.html.jinja").render(
-        title=legible(title or system.equations.equations.manifest["title"]),
-        version=version("kintrafo"),
-        scenes=scenes,
-        chapters=chapters,
-        words=words,
-        parameters=_parameters(system) if chapters else [],
-        modes=_modes(system) if chapters else {},
-        data=Markup(_data(skeleton, scenes)),  # noqa: S704 (no end tag is left in it)
-        script=Markup(_asset("page.js")),  # noqa: S704 (our own)
-        style=Markup(_asset("page.css")),  # noqa: S704 (our own)
+    return (
+        page_environment(__package__)
+        .get_template("page.html.jinja")
+        .render(
+            title=legible(title or system.equations.equations.manifest["title"]),
+            version=version("kintrafo"),
+            scenes=scenes,
+            chapters=chapters,
+            words=words,
+            parameters=_parameters(system) if chapters else [],
+            modes=_modes(system) if chapters else {},
+            data=_data(skeleton, scenes),
+            script=moving_script() + asset(__package__, "page.js"),
+            style=asset(__package__, "page.css"),
+        )
     )
 
 
@@ -126,7 +124,7 @@ def _grows(modes: Sequence[Mode]) -> bool:
     return bool((values.real > _ROUNDING * np.abs(values).max(initial=0.0)).any())
 
 
-def _data(skeleton: Skeleton, scenes: Sequence[Scene]) -> str:
+def _data(skeleton: Skeleton, scenes: Sequence[Scene]) -> Markup:
     system = skeleton.system
     size = extent(skeleton.places(system.design_state))
     entries = {**system.equations.STATE, **system.equations.SIGNALS}
@@ -172,7 +170,3 @@ def _digits(size: float) -> int:
 def _short(values: Any) -> list[float | None]:
     """Return numbers of six digits, and nothing for what is none."""
     return [float(f"{v:.6g}") if np.isfinite(v) else None for v in np.asarray(values)]
-
-
-def _asset(name: str) -> str:
-    return resources.files(__package__).joinpath(name).read_text(encoding="utf-8")

@@ -1,16 +1,14 @@
 """Pages that play the motion of a car: self-contained HTML, or a part of one."""
 
 from collections.abc import Sequence
-from importlib import resources
 from importlib.metadata import version
 from typing import Any
 
 import numpy as np
-from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 from numpy.typing import NDArray
 
-from ....pages.embedded import embedded
+from ....pages.embedded import asset, embedded, moving_script, page_environment
 from .charts import Chart
 from .picture import GRID, PER_NEWTON
 from .scene import LOOKED_AT, WIDTH, CarScene
@@ -27,12 +25,12 @@ def motion_page(scene: CarScene, charts: Sequence[Chart], title: str) -> str:
     charts : sequence of Chart
     title : str
     """
-    return _environment().get_template("page.html.jinja").render(
+    return page_environment(__package__).get_template("page.html.jinja").render(
         title=title,
         version=version("kintrafo"),
         player=player(scene, charts),
         script=player_script(),
-        style=Markup(_asset("kintrafo.pages.mechanism", "page.css")),  # noqa: S704 (our own)
+        style=asset("kintrafo.pages.mechanism", "page.css"),
         own_style=player_style(),
     )  # fmt: skip
 
@@ -48,29 +46,29 @@ def player(scene: CarScene, charts: Sequence[Chart] = ()) -> Markup:
         Curves that follow.
     """
     data = _data(scene) | {"charts": [chart.data for chart in charts]}
-    text = _environment().get_template("player.html.jinja").render(
+    text = page_environment(__package__).get_template("player.html.jinja").render(
         moves=len(scene.times) > 1,
         turns=scene.turns and len(scene.times) > 1,
         last=len(scene.times) - 1,
         whole=scene.centers.shape[1] > 1,
         charts=charts,
-        data=Markup(embedded(data)),  # noqa: S704 (no end tag is left in it)
+        data=embedded(data),
     )  # fmt: skip
     return Markup(text)  # noqa: S704 (the template escapes)
 
 
 def player_script() -> Markup:
     """Return the script that moves every player of a page."""
-    return Markup(_asset(__package__, "player.js"))  # noqa: S704 (our own)
+    return moving_script() + asset(__package__, "player.js")
 
 
 def player_style() -> Markup:
-    """Return how players look."""
-    return Markup(_asset(__package__, "player.css"))  # noqa: S704 (our own)
+    """Return the style sheet of players."""
+    return asset(__package__, "player.css")
 
 
 def _data(scene: CarScene) -> dict[str, Any]:
-    """Return the payload: places from the reference point of the car [mm]."""
+    """Return the payload: positions relative to the reference point of the car [mm]."""
     at = np.concatenate([scene.places, np.zeros((len(scene.times), 1))], axis=1)
 
     def beside(points: Array) -> list[Any]:
@@ -112,12 +110,3 @@ def _whole(values: Array) -> list[Any]:
     """Return values as whole numbers."""
     found: list[Any] = np.round(values).astype(int).tolist()
     return found
-
-
-def _environment() -> Environment:
-    loader = PackageLoader(__package__, ".")
-    return Environment(loader=loader, autoescape=True, undefined=StrictUndefined, trim_blocks=True)
-
-
-def _asset(package: str, name: str) -> str:
-    return resources.files(package).joinpath(name).read_text(encoding="utf-8")

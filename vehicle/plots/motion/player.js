@@ -1,5 +1,4 @@
-"use strict";
-// Draws cars on their roads from the places of their points, one row of them for each time [mm].
+// Draws cars on their roads from the positions of their points, a row for each time [mm].
 const INK = "#222222", TYRE = "#4a4a4a", RIM = "#d9d9d9", BODY = "0, 114, 178", LINK = "#7b5ea7";
 const SPRING = "#8a8a8a", FORCE = "#d55e00", PATH = "#009e73";
 const AROUND = Array.from({ length: 37 }, (_, i) => (2 * Math.PI * i) / 36);
@@ -18,7 +17,7 @@ function connect(root) {
   const data = JSON.parse(root.querySelector("script").textContent);
   const view = find("scene"), road = find("path"), slider = find("time");
   const plots = [...root.querySelectorAll(".curve")];
-  let index = 0, turn = -38, tilt = 22, nearer = 1, playing = null;
+  let index = 0, turn = -38, tilt = 22, nearer = 1;
 
   // -- what follows the car ---------------------------------------------------------------------
 
@@ -210,9 +209,8 @@ function connect(root) {
     const part = ((event.clientX - frame.left) / frame.width - box[0]) / (box[1] - box[0]);
     const time = times[0] + part * (times[1] - times[0]);
     const distance = (i) => Math.abs(data.times[i] - time);
-    stop();
-    index = data.times.reduce((best, _, i) => (distance(i) < distance(best) ? i : best), 0);
-    draw();
+    playback.stop();
+    set(data.times.reduce((best, _, i) => (distance(i) < distance(best) ? i : best), 0));
   }
   plots.forEach((plot, which) => {
     plot.addEventListener("pointerdown", (event) => {
@@ -226,34 +224,19 @@ function connect(root) {
 
   // -- moving -----------------------------------------------------------------------------------
 
-  function stop() {
-    if (playing === null) return;
-    cancelAnimationFrame(playing);
-    playing = null;
-    find("play").textContent = "Play";
+  function set(position) {
+    index = position;
+    draw();
   }
-  function play() {
-    if (playing !== null) return stop();
-    if (index === data.times.length - 1) index = 0;
-    let time = data.times[index], before = null;
-    find("play").textContent = "Pause";
-    const step = (now) => {
-      if (before !== null) time += ((now - before) / 1000) * Number(find("speed").value);
-      before = now;
-      const next = data.times.findIndex((t) => t >= time);
-      index = next < 0 ? data.times.length - 1 : next;
-      draw();
-      if (next < 0) return stop();
-      playing = requestAnimationFrame(step);
-    };
-    playing = requestAnimationFrame(step);
-  }
+  const playback = new Playback(find("play"), find("speed"), set);
   if (data.times.length > 1) {
-    find("play").addEventListener("click", play);
+    find("play").addEventListener("click", () => {
+      if (playback.isPlaying) return playback.stop();
+      playback.start(data.times, index);
+    });
     slider.addEventListener("input", () => {
-      stop();
-      index = Number(slider.value);
-      draw();
+      playback.stop();
+      set(Number(slider.value));
     });
   }
   find("body").addEventListener("input", draw);
@@ -269,21 +252,11 @@ function connect(root) {
       draw();
     });
   }
-  let grabbed = null;
-  view.addEventListener("pointerdown", (event) => {
-    grabbed = [event.clientX, event.clientY];
-    view.setPointerCapture(event.pointerId);
-  });
-  view.addEventListener("pointermove", (event) => {
-    if (!grabbed) return;
-    turn -= (event.clientX - grabbed[0]) * 0.4;
-    tilt = Math.max(-10, Math.min(90, tilt + (event.clientY - grabbed[1]) * 0.4));
-    grabbed = [event.clientX, event.clientY];
+  onDrag(view, (about, upward) => {
+    turn += about;
+    tilt = Math.max(-10, Math.min(90, tilt + upward));
     draw();
   });
-  for (const end of ["pointerup", "pointercancel"]) {
-    view.addEventListener(end, () => { grabbed = null; });
-  }
   window.addEventListener("resize", draw);
   draw();
 }
