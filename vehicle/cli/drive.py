@@ -108,15 +108,14 @@ def command(
         sheets = study.workbook(on_every)
         written += on_parts.write_data(on_every, rows=study.table(on_every), sheets=sheets)
         made.append(_greatest(on_every, title))
-    left = [text for one in found.curves.values() for text in one.attrs.get("not_valid", ())]
     if output.json:
-        print_json({"metrics": export.as_dict(found.metrics), "not_valid": left})
+        print_json({"metrics": export.as_dict(found.metrics), "not_valid": found.not_valid})
     else:
         note_unused(assembly.car, file)
         for each in made:
             console.print(each)
         name_files(written)
-    end_if_not_valid(left)
+    end_if_not_valid(found.not_valid)
 
 
 def _drawn(chosen: "AnyManoeuvre") -> tuple[str, ...]:

@@ -104,24 +104,16 @@ def command(
 def _rest(found: "Dataset", file: str) -> "list[Table]":
     """Return a table of the wheels, a column for each, and one of the body."""
     from ...core.quantities import displayed, heading_of
+    from ..analysis.ride.rest import wheels_and_body
     from ..assembly.by_wheel import WHEEL
 
     wheels, body = (
         [(heading_of(data), *map(significant, displayed(data).ravel())) for data in some]
-        for some in _wheels_and_body(found)
+        for some in wheels_and_body(found)
     )
     return [
         table(f"{file}: at rest", ("wheels", *_words(found[WHEEL])), wheels),
         table(f"{file}: at rest", ("body", "value"), body),
-    ]
-
-
-def _wheels_and_body(found: "Dataset") -> "list[list[DataArray]]":
-    """Return the variables of the wheels, and those of the body."""
-    variables = found.data_vars.items()
-    return [
-        [data for name, data in variables if (name in _OF_WHEELS) is of_wheels]
-        for of_wheels in (True, False)
     ]
 
 
@@ -143,11 +135,12 @@ def _modes(found: "Dataset", file: str) -> "Table":
 def _ride(motion: "Dataset", linear: "Dataset | None", title: str) -> "list[Table]":
     """Return a table of the body, and one of the wheels, a column for each."""
     from ...core.quantities import heading_of
+    from ..analysis.ride.rest import wheels_and_body
     from ..assembly.by_wheel import WHEEL
 
     wheels, body = (
         {heading_of(data): _figures(data, linear) for data in some}
-        for some in _wheels_and_body(motion)
+        for some in wheels_and_body(motion)
     )
     heads = list(dict.fromkeys(name for own in body.values() for name in own))
     of_body = [
@@ -165,7 +158,7 @@ def _ride(motion: "Dataset", linear: "Dataset | None", title: str) -> "list[Tabl
 
 
 def _figures(data: "DataArray", linear: "Dataset | None") -> dict[str, list[str]]:
-    """Return the texts of what a variable is judged by, each by wheel if it is of the wheels."""
+    """Return the texts of the RMS and the extreme values of a variable, by wheel."""
     import numpy as np
 
     from ...core.quantities import display_of
@@ -181,7 +174,6 @@ def _figures(data: "DataArray", linear: "Dataset | None") -> dict[str, list[str]
     }
 
 
-_OF_WHEELS = {"load", "travel", "camber", "toe", "road"}
 _FIGURES = {key: key.replace("_", " ") for key in ("rms", "weighted_rms", "smallest", "largest")}
 
 

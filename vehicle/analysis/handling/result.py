@@ -27,6 +27,11 @@ class HandlingResult(NamedTuple):
     curves: Mapping[str, xr.Dataset]
     runs: Sequence[Run] = ()
 
+    @property
+    def not_valid(self) -> list[str]:
+        """The reasons why curves are not valid; empty if all of them are."""
+        return [text for one in self.curves.values() for text in one.attrs.get("not_valid", ())]
+
 
 def quantity(
     dimensions: str | tuple[str, ...], values: Any, meaning: str, units: str

@@ -50,7 +50,7 @@ def at_rest(subject: Any) -> xr.Dataset:
 
 
 def of_state(assembly: CarAssembly, state: Any) -> xr.Dataset:
-    """Return what `at_rest` does of a state of rest."""
+    """Return the dataset of `at_rest` for a state of rest."""
     model = assembly.model
     signals = model.signals(state)
     values: dict[str, list[float]] = {"load": [], "travel": [], "camber": [], "toe": []}
@@ -70,6 +70,22 @@ def of_state(assembly: CarAssembly, state: Any) -> xr.Dataset:
     for name, value in assembly.body_at(state).items():
         found[name] = variable((), np.array(value), *_OF_BODY[name])
     return xr.Dataset(found, {WHEEL: wheel_coordinate(assembly.wheels)}, {"title": "car at rest"})
+
+
+def wheels_and_body(found: xr.Dataset) -> tuple[list[xr.DataArray], list[xr.DataArray]]:
+    """Return the variables of the wheels, and those of the body.
+
+    Parameters
+    ----------
+    found : xarray.Dataset
+        From `at_rest`, or the motion of a car on a road.
+    """
+    of_wheels = {*_OF_WHEELS, "road"}
+    variables = found.data_vars.items()
+    return (
+        [data for name, data in variables if name in of_wheels],
+        [data for name, data in variables if name not in of_wheels],
+    )
 
 
 _READ = ("camber", "toe")

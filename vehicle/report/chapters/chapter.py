@@ -1,5 +1,6 @@
 """A chapter of a report: words, tables, pictures, and motions to be played."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -29,7 +30,7 @@ class ChapterPicture:
     def of(
         cls, figure: Figure, words: str, ending: Literal["svg", "png"] = "svg"
     ) -> "ChapterPicture":
-        """Return a figure as a picture: of sharp lines, or of points where it has many letters."""
+        """Return a figure as a picture: svg, or png where it has many letters."""
         return cls(image_address(figure, ending), words)
 
 
@@ -56,3 +57,8 @@ class Chapter:
     pictures: tuple[ChapterPicture, ...] = ()
     panels: tuple[ChapterPicture, ...] = ()
     players: tuple[Markup, ...] = ()
+
+
+def not_valid(reasons: Iterable[str]) -> list[str]:
+    """Return the paragraphs with the reasons why a result is not valid."""
+    return [f"Not valid: {text}." for text in reasons]

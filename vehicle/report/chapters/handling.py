@@ -10,7 +10,7 @@ from ...analysis.handling.result import HandlingResult
 from ...plots.by_axle import by_axle, names_by_axle
 from ...plots.handling import first_names
 from ...plots.motion.animate import played
-from .chapter import Chapter
+from .chapter import Chapter, not_valid
 from .curves import small_pictures
 
 # Speed of the steady turns [m/s], and the step between them: near the limit curves bend [m/s^2].
@@ -23,7 +23,7 @@ def steady_turns_chapter(subject: Any) -> Chapter:
     Parameters
     ----------
     subject : Car or CarModel
-        A car that drives; of one that cannot turn steadily the chapter says why.
+        A car that drives. The chapter has the reason if it has no steady turns.
 
     Returns
     -------
@@ -39,9 +39,9 @@ def steady_turns_chapter(subject: Any) -> Chapter:
     words = (
         "At 80 km/h, from straight running to the greatest lateral acceleration of a steady turn. "
         "Each turn is a solution of the equations of motion, without a simulation. The gradients "
-        "in the table are those of the straightest turn."
+        "in the table are those of the turn with the least lateral acceleration."
     )
-    return Chapter(title, (words, *_not_valid(found)), (_metrics(found),), panels=panels)
+    return Chapter(title, (words, *not_valid(found.not_valid)), (_metrics(found),), panels=panels)
 
 
 def step_steer_chapter(subject: Any) -> Chapter:
@@ -50,7 +50,7 @@ def step_steer_chapter(subject: Any) -> Chapter:
     Parameters
     ----------
     subject : Car or CarModel
-        A car that drives; of one that cannot be driven so the chapter says why.
+        A car that drives. The chapter has the reason if it does not complete the manoeuvre.
 
     Returns
     -------
@@ -64,7 +64,7 @@ def step_steer_chapter(subject: Any) -> Chapter:
     words = "The packaged manoeuvre step_steer: metrics are those of ISO 7401, in its axes."
     return Chapter(
         title=title[:1].upper() + title[1:],
-        words=(words, *_not_valid(found)),
+        words=(words, *not_valid(found.not_valid)),
         tables=(_metrics(found),),
         players=(played(found),),
     )
@@ -74,8 +74,3 @@ def _metrics(found: HandlingResult) -> Tabulated:
     single = [data for data in found.metrics.values() if not data.ndim]
     rows = tuple((heading_of(data), significant(float(displayed(data)))) for data in single)
     return Tabulated("Metrics", ("metric", "value"), rows)
-
-
-def _not_valid(found: HandlingResult) -> list[str]:
-    left = [text for one in found.curves.values() for text in one.attrs.get("not_valid", ())]
-    return [f"Not valid: {text}." for text in left]

@@ -1,4 +1,4 @@
-"""The chapter about a car at rest: what it is, how it looks, and what its wheels carry."""
+"""The chapter about a car at rest: its data, a view of it, and the loads of its wheels."""
 
 from typing import Any
 
@@ -7,7 +7,7 @@ import xarray as xr
 
 from ....core.quantities import displayed, heading_of
 from ....core.tabulated import Tabulated, number
-from ...analysis.ride.rest import of_state
+from ...analysis.ride.rest import of_state, wheels_and_body
 from ...analysis.ride.subject import car_assembly, riding_car
 from ...analysis.run import Run
 from ...assembly.by_wheel import WHEEL
@@ -56,9 +56,8 @@ def rest_chapter(subject: Any) -> Chapter:
 
 
 def _tables(found: xr.Dataset) -> tuple[Tabulated, ...]:
-    """Return what is of the wheels, a column for each, and what is of the body."""
-    of_body = [data for data in found.values() if str(data.name) in _OF_BODY]
-    of_wheels = [data for data in found.values() if str(data.name) not in _OF_BODY]
+    """Return a table of the wheels, with a column for each, and one of the body."""
+    of_wheels, of_body = wheels_and_body(found)
     wheels = [str(name).replace("_", " ") for name in found[WHEEL].values.ravel()]
     sheets = []
     for title, heads, some in (
@@ -70,9 +69,6 @@ def _tables(found: xr.Dataset) -> tuple[Tabulated, ...]:
 
 
 def _written(data: xr.DataArray) -> list[str]:
-    """Return values with the digits that matter: a tenth of a newton, thousandths of others."""
+    """Return the texts of values: forces with one decimal, others with three."""
     values = displayed(data).ravel()
     return [f"{v:.1f}" if data.attrs["units"] == "N" else number(float(v)) for v in values]
-
-
-_OF_BODY = ("heave", "pitch", "roll")

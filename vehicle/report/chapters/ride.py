@@ -14,7 +14,7 @@ from ...analysis.ride.subject import car_assembly
 from ...assembly.by_wheel import WHEEL
 from ...plots.motion.animate import played
 from ...plots.ride import response_figures
-from .chapter import Chapter, ChapterPicture
+from .chapter import Chapter, ChapterPicture, not_valid
 
 # A rough road, and the speed on it [m/s].
 _CLASS, _SPEED = "B", 80.0 / 3.6
@@ -28,7 +28,7 @@ def ride_chapter(subject: Any) -> Chapter:
     Parameters
     ----------
     subject : Car or CarModel
-        Of one that drives the ride is that of the same files with ``car = "roll"``.
+        The ride of a car that drives is that of the same files with ``car = "roll"``.
 
     Returns
     -------
@@ -54,10 +54,9 @@ def ride_chapter(subject: Any) -> Chapter:
     ]
     if whole.drives:
         words.append("The body does not travel here: it heaves, pitches and rolls.")
-    left = [f"Not valid: {text}." for text in run.motion.attrs["not_valid"]]
     return Chapter(
         title="Ride",
-        words=(" ".join(words), *left),
+        words=(" ".join(words), *not_valid(run.motion.attrs["not_valid"])),
         tables=(_modes(modes), _levels(response)),
         panels=panels,
         players=(played(run),),
@@ -72,7 +71,7 @@ def _modes(found: xr.Dataset) -> Tabulated:
 
 
 def _levels(response: xr.Dataset) -> Tabulated:
-    """Return the RMS of what the road does, by wheel where there are several."""
+    """Return the RMS of accelerations, wheel loads and travels, by wheel if there are several."""
     rows = []
     for name, data in response.items():
         for key, words in _RMS.items():
