@@ -2,18 +2,15 @@
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from PIL import Image
 
 from ..systems.skeleton import Skeleton
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 Array = NDArray[np.float64]
 
@@ -142,6 +139,22 @@ def seen_from(turn: float, tilt: float) -> Array:
     return np.array([right, up])
 
 
+def start_frame(axes: Axes, low: Array, high: Array) -> None:
+    """Clear axes for a frame that shows a rectangle in equal scales, without ticks.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    low, high : array_like, shape (2,)
+        Its lower left and its upper right corner.
+    """
+    axes.clear()
+    axes.set_axis_off()
+    axes.set_aspect("equal")
+    axes.set_xlim(low[0], high[0])
+    axes.set_ylim(low[1], high[1])
+
+
 class _Drawer:
     """Frames of one motion on one figure: the same view, the same limits."""
 
@@ -163,12 +176,7 @@ class _Drawer:
     def draw(self, index: int, words: str) -> None:
         """Draw one frame in the place of what was drawn before."""
         axes, skeleton = self._axes, self._skeleton
-        axes.clear()
-        axes.set_axis_off()
-        axes.set_aspect("equal")
-        (left, low), (right, high) = self._limits
-        axes.set_xlim(left, right)
-        axes.set_ylim(low, high)
+        start_frame(axes, *self._limits)
         at = {body: seen[index] for body, seen in self._seen.items()}
 
         def end(which: tuple[str, str]) -> Array:

@@ -10,9 +10,9 @@ from .options import argument, option
 from .outputs import (
     Animation,
     DataOptions,
-    FigureOptions,
     Loads,
     Outputs,
+    SingleFigureOptions,
     end_if_not_valid,
     name_files,
     title_of,
@@ -54,7 +54,7 @@ def command(
     ] = None,
     animate: Animation = None,
     loads: Loads = None,
-    output: FigureOptions,
+    output: SingleFigureOptions,
 ) -> None:
     """Drive a car through a manoeuvre: step steer, circle, lane change, braking, and others.
 

@@ -12,7 +12,7 @@ from ...terminal.console import console, print_json, print_table, say, table
 from ...terminal.exits import Exit
 from .loading import assembly_of_file
 from .options import OUTPUT, File, among, option
-from .outputs import FigureOptions, name_files, title_of
+from .outputs import SingleFigureOptions, name_files, title_of
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -31,7 +31,7 @@ EXAMPLES = (
 
 
 @dataclass(frozen=True)
-class LoadOptions(FigureOptions):
+class LoadOptions(SingleFigureOptions):
     """The options of files, which may be load cards."""
 
     out: Annotated[

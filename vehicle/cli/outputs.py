@@ -144,7 +144,7 @@ class CurveOptions(_Files):
 
 
 @dataclass(frozen=True)
-class FigureOptions(_Files):
+class SingleFigureOptions(_Files):
     """The options of a command that writes data and a figure of its own."""
 
     out: Out = None

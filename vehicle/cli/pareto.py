@@ -12,7 +12,7 @@ from ...terminal.exits import Exit
 from .loading import variable_subject
 from .moved_values import moved_table
 from .options import OUTPUT, File, argument, option
-from .outputs import FigureOptions, Outputs, name_files, title_of
+from .outputs import Outputs, SingleFigureOptions, name_files, title_of
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -56,7 +56,7 @@ def command(
         Path | None,
         option("Write the hardpoint file of the chosen member: .toml.", "PATH", panel=OUTPUT),
     ] = None,
-    output: FigureOptions,
+    output: SingleFigureOptions,
 ) -> None:
     """Find suspensions of which none is better than another in every objective.
 

@@ -6,7 +6,7 @@ from ...core.tabulated import significant
 from ...terminal.console import console, print_json, problems, table
 from .loading import car_of, derived, naming, note_unused
 from .options import argument, option
-from .outputs import Animation, FigureOptions, end_if_not_valid, name_files, title_of
+from .outputs import Animation, SingleFigureOptions, end_if_not_valid, name_files, title_of
 from .ride_road import DURATION, RoadOptions
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ def command(
     ] = None,
     output_step: Annotated[float, option("Time between outputs.", "MS")] = 5.0,
     animate: Animation = None,
-    output: FigureOptions,
+    output: SingleFigureOptions,
 ) -> None:
     """Simulate a car over a road: rest, modes, accelerations, wheel loads, wheel travel.
 

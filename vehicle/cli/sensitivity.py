@@ -7,7 +7,7 @@ from ...core.tabulated import significant
 from ...terminal.console import console, note, print_json, progress_bar, table
 from .loading import variable_subject
 from .options import File, option
-from .outputs import FigureOptions, name_files, title_of
+from .outputs import SingleFigureOptions, name_files, title_of
 from .variation_options import StudyCurves, StudyOptions
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ def command(
         ),
     ] = None,
     asked: StudyOptions,
-    output: FigureOptions,
+    output: SingleFigureOptions,
 ) -> None:
     """Print the change of characteristics per millimetre or degree of each value of the file.
 

@@ -10,7 +10,7 @@ from ...terminal.exits import Exit
 from ..models.sides import SIDES
 from .loading import variable_subject
 from .options import File, argument, option
-from .outputs import FigureOptions, name_files, title_of
+from .outputs import SingleFigureOptions, name_files, title_of
 from .simulation_options import ScenarioOptions
 from .variation_options import StudyCurves, StudyOptions
 
@@ -55,7 +55,7 @@ def command(
     ] = None,
     asked: StudyOptions,
     driven: ScenarioOptions,
-    output: FigureOptions,
+    output: SingleFigureOptions,
 ) -> None:
     """Simulate the suspension with all combinations of some values, many at once.
 

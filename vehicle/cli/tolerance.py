@@ -7,7 +7,7 @@ from ...core.tabulated import significant
 from ...terminal.console import console, print_json, progress_bar, say, table
 from .loading import variable_subject
 from .options import File, argument, option
-from .outputs import FigureOptions, name_files, title_of
+from .outputs import SingleFigureOptions, name_files, title_of
 from .variation_options import StudyCurves, StudyOptions
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ def command(
     cars: Annotated[int, option("Number of random cars.", "N")] = 500,
     seed: Annotated[int, option("Seed of the random cars.", "N")] = 1,
     asked: StudyOptions,
-    output: FigureOptions,
+    output: SingleFigureOptions,
 ) -> None:
     """Print bands of the characteristics of many cars within tolerances, and their causes.
 

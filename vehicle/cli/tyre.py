@@ -4,7 +4,7 @@ from typing import Annotated
 
 from ...terminal.console import print_json, print_table, say
 from .options import argument, option
-from .outputs import FigureOptions, name_files, title_of
+from .outputs import SingleFigureOptions, name_files, title_of
 
 EXAMPLES = (
     "kintrafo tyre passenger_205_55",
@@ -22,7 +22,7 @@ def command(
         list[str] | None,
         option("Loads [N]. Default: 0.5, 1 and 1.5 times the nominal load.", "NUMBER,..."),
     ] = None,
-    output: FigureOptions,
+    output: SingleFigureOptions,
 ) -> None:
     """Print stiffnesses, friction, load sensitivity and lengths of a tyre; --plot draws curves.
 

@@ -11,7 +11,7 @@ from kintrafo.vehicle.analysis.handling import HandlingResult, load_manoeuvre
 from kintrafo.vehicle.analysis.handling.result import quantity
 from kintrafo.vehicle.cli import drive
 from kintrafo.vehicle.cli.loading import note_unused
-from kintrafo.vehicle.cli.outputs import FigureOptions
+from kintrafo.vehicle.cli.outputs import SingleFigureOptions
 from kintrafo.vehicle.plots import handling
 from kintrafo.vehicle.plots.handling import write_curves, write_path
 from xarray import Dataset
@@ -55,7 +55,7 @@ def test_curves_and_path_with_cones_are_written(tmp_path):
     }, attrs={"car_front": 2.0, "car_length": 4.0, "car_width": 1.8})  # fmt: skip
     found = HandlingResult(Dataset(), {"": motion(), "_cones": cones})
     chosen = load_manoeuvre("double_lane_change")
-    options = FigureOptions(out=[tmp_path / "a.csv"], plot=[tmp_path / "a.png"])
+    options = SingleFigureOptions(out=[tmp_path / "a.csv"], plot=[tmp_path / "a.png"])
     pages = (*drive._drawn(chosen), "_path")
     outputs = options.files("car.toml", suffixes=chosen.CURVES, drawn=pages)
     written = drive._write(outputs, found, chosen, "a car")

@@ -1,9 +1,9 @@
 """The motion of a car as a GIF, or as a page that plays it.
 
-`scene`    where everything is that is drawn
+`scene`    positions of all drawn points over time
 `picture`  frames of a GIF
-`charts`   curves over time that follow
-`page`     a page to play, stop and turn, and the part of a page that does so
+`charts`   curves over time, with a line at the shown time
+`page`     a page to play, stop and turn, and the part of a page for a report
 """
 
 from .animate import ENDINGS, animate

@@ -5,7 +5,6 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 from markupsafe import Markup
-from numpy.typing import NDArray
 
 from ....core.errors import InputError
 from ....core.files import Paths, refuse, replacing
@@ -20,7 +19,7 @@ from .scene import scene_of
 
 ENDINGS = (".gif", ".html", ".htm")
 _FPS = 25.0
-# Positions of a page at most: one for a tenth of a second of a manoeuvre of 100 s.
+# Most positions of a page: one for each tenth of a second of a manoeuvre of 100 s.
 _MOST_POSITIONS = 1000
 _ROUNDING = 1e-9
 
@@ -36,14 +35,14 @@ def animate(
     """Write an animation of a car, in real time, and return its path.
 
     Links, springs and wheels are drawn at their solved positions, with the forces of the road on
-    the tyres; of a car that drives with the path of the reference point and cones, of others with
-    the road under the wheels. The outline of the body is schematic: it has the wheelbase and track
-    of the car.
+    the tyres. A car that drives is shown with the path of its reference point and cones, other cars
+    with the road under the wheels. The outline of the body is schematic: it has the wheelbase and
+    track of the car.
 
     Parameters
     ----------
     result : HandlingResult or Run
-        What `kintrafo.handling.drive` or `kintrafo.ride.run` returned. Of several simulations of a
+        Result of `kintrafo.handling.drive` or `kintrafo.ride.run`. Of several simulations of a
         manoeuvre the last one is shown.
     path : str or pathlib.Path
         Ends in ``.gif``, for an animated picture with 25 frames per second, fewer of a motion
@@ -93,7 +92,7 @@ def played(result: HandlingResult | Run) -> Markup:
         As of `animate`.
     """
     run, cones = _shown(result)
-    rows = _frames(run)
+    rows = frames(run.motion["time"].values, _per_second(run, _MOST_POSITIONS))[1]
     return player(scene_of(run, rows, cones=cones), charts_of(run.motion, rows))
 
 
@@ -107,13 +106,8 @@ def _shown(result: HandlingResult | Run) -> tuple[Run, xr.Dataset | None]:
     return result.runs[-1], result.curves.get("_cones")
 
 
-def _frames(run: Run) -> NDArray[np.intp]:
-    """Return the outputs that a page shows."""
-    return frames(run.motion["time"].values, _per_second(run, _MOST_POSITIONS))[1]
-
-
 def _per_second(run: Run, most: int) -> float:
-    """Return how many frames are shown per second, so that there are no more than some."""
+    """Return the number of frames per second with which there are `most` frames at most."""
     times = run.motion["time"].values
     return min(_FPS, (most - 1) / max(float(times[-1] - times[0]), 1.0))
 

@@ -15,7 +15,7 @@ from ..by_axle import by_axle
 from ..handling import for_print
 
 _SEATS = "seats"
-# In this order, as far as they are there and vary.
+# The drawn curves in their order, if they exist and vary.
 _SHOWN = (
     "steering_wheel_angle", "lateral_acceleration", "yaw_rate", "sideslip_angle", "roll_angle",
     "speed", "longitudinal_acceleration", "pitch_angle", "body_acceleration", _SEATS, "heave",
@@ -27,22 +27,22 @@ _DIGITS = 4  # of the greatest value
 
 @dataclass(frozen=True)
 class Chart:
-    """A curve over time as a picture, and where its values are there.
+    """A curve over time as a picture, and the positions of its values in it.
 
     Attributes
     ----------
     source : str
         The picture, as the address of an image.
     words : str
-        What it shows.
+        Description of the picture.
     box : list of float
         Left, right, top and bottom end of its axes, as parts of its width and height.
     times : list of float
-        Of the left and the right end [s].
+        At the left and the right end of its axes [s].
     lines : list of tuple
         Name, empty for one line alone, and the values at the times of the scene.
     decimals : int
-        With which they are written.
+        Number of decimals of the values as text.
     unit : str
         Of the values.
     """
@@ -57,7 +57,7 @@ class Chart:
 
     @property
     def data(self) -> dict[str, Any]:
-        """What a page moves it by."""
+        """The data with which a page moves its line."""
         names = ("box", "times", "lines", "decimals", "unit")
         return {name: getattr(self, name) for name in names}
 

@@ -13,7 +13,7 @@ from matplotlib.patches import Polygon
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
-from ....pictures.animation import save_frames, seen_from
+from ....pictures.animation import save_frames, seen_from, start_frame
 from .scene import LOOKED_AT, WIDTH, CarScene
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Draws = Callable[[float], None]
-# How near something is to who looks, and what draws it.
+# Distance towards the viewer, and the function that draws.
 Item = tuple[float, Draws]
 
 INK, TYRE, RIM, BODY, LINK, SPRING, FORCE, PATH, CONE = (
@@ -35,7 +35,7 @@ _ARROW = {"arrowstyle": "-|>", "color": FORCE, "lw": 2.0, "shrinkA": 0, "shrinkB
 _LEAST_ARROW = 0.03  # a shorter one has no shaft [m]
 _AROUND = np.linspace(0.0, 2.0 * np.pi, 37)
 _SPOKES = 5
-# What the follower sees of the road on each side of the car, by its wheelbase.
+# Half the width of the drawn road around the car, by that of the view.
 _FAR = 4.0
 
 
@@ -94,14 +94,9 @@ class Drawer:
 
     def _follow(self, index: int) -> None:
         axes, scene = self._axes, self._scene
-        axes.clear()
-        axes.set_axis_off()
-        axes.set_aspect("equal")
         middle = np.array([*scene.outline[index].mean(axis=(0, 1))[:2], LOOKED_AT])
         self._from = middle
-        (right, up) = self._half
-        axes.set_xlim(-right, right)
-        axes.set_ylim(-0.9 * up, 1.1 * up)
+        start_frame(axes, np.array([-1.0, -0.9]) * self._half, np.array([1.0, 1.1]) * self._half)
         self._road(index)
         items = [*self._bodywork(index), *self._links(index), *self._rolling(index), *self._cones()]
         for order, (_, draw) in enumerate(sorted(items, key=lambda item: item[0])):
@@ -221,7 +216,7 @@ class Drawer:
         return draw
 
     def _link(self, on: Array) -> Draws:
-        """Return what draws a part: a line, a triangle, or a star of lines."""
+        """Return the function that draws a part: a line, or lines from its centre."""
         center = on.mean(axis=0)
         lines = [on] if len(on) == 2 else [np.array([center, point]) for point in on]
 
@@ -235,12 +230,7 @@ class Drawer:
 
     def _from_above(self, index: int) -> None:
         axes, scene = self._above, self._scene
-        axes.clear()
-        axes.set_axis_off()
-        axes.set_aspect("equal")
-        (left, low), (right, high) = self._limits
-        axes.set_xlim(left, right)
-        axes.set_ylim(low, high)
+        start_frame(axes, *self._limits)
         axes.plot(*scene.places.T, color=PATH, lw=0.8)
         axes.plot(*scene.places[: index + 1].T, color=PATH, lw=2.4)
         axes.plot(*scene.cones.T, "^", color=CONE, ms=3)

@@ -1,4 +1,4 @@
-"""Where everything is that is drawn of a car in motion."""
+"""Positions of all drawn points of a car in motion."""
 
 from dataclasses import dataclass
 
@@ -63,7 +63,7 @@ class CarScene:
     tracks : list of ndarray, shape (m, 3)
         The road under the left and the right wheels, where it is not level.
     words : list of str
-        What is to be read of each position.
+        Numbers at each position, as text.
     """
 
     times: Array
@@ -83,7 +83,7 @@ class CarScene:
 
     @property
     def turns(self) -> bool:
-        """Whether its path is worth seeing from above: one along a road under it is straight."""
+        """Whether the car may turn: along a road with heights its path is straight."""
         return not self.tracks
 
     @property
@@ -100,7 +100,7 @@ def scene_of(run: Run, rows: NDArray[np.intp], *, cones: xr.Dataset | None = Non
     ----------
     run : Run
     rows : ndarray of int
-        Which of its outputs.
+        Indices of the shown outputs.
     cones : xarray.Dataset, optional
     """
     car, motion = run.car, run.motion.isel(time=rows)
@@ -143,7 +143,7 @@ def scene_of(run: Run, rows: NDArray[np.intp], *, cones: xr.Dataset | None = Non
 
 
 def _beside(run: Run, cones: xr.Dataset | None) -> Array:
-    """Return the places of cones: a manoeuvre counts from its own place, such as its first ones."""
+    """Return the positions of cones relative to the start of the car, shape (cones, 2) [m]."""
     if cones is None:
         return np.zeros((0, 2))
     named = np.array([run.motion[name].values[0] for name in ("x", "y")])
@@ -168,7 +168,7 @@ def _tracks(road: Road, car: MovingCar, centers: Array, way: Array) -> list[Arra
 
 
 def _spinning(car: MovingCar) -> list[int]:
-    """Return the bodies that the spins turn, and nothing else does."""
+    """Return the rotating bodies of the wheels, which their spin angles alone turn."""
     model = car.model
     before = model.evaluate("orientations", model.design_state)
     found = []
@@ -185,7 +185,7 @@ def _wheels(
 ) -> tuple[Array, Array, Array]:
     """Return centres, axes and spokes of the wheels.
 
-    The axis is that about which a quarter of a turn moves the wheel at design.
+    The axis of a wheel follows from its rotation by a quarter of a turn at design.
     """
     model = car.model
     design = model.evaluate("orientations", model.design_state)[bodies]
@@ -268,7 +268,7 @@ _ENDS = ("front", "rear")
 
 
 _UNITS = {"deg": "°", "m/s^2": " m/s²"}
-# What is read of a motion, as far as it has it: words, and decimals.
+# Numbers that are shown of a motion, if it has them: words, and decimals.
 _READ = {
     "speed": ("", 1),
     "lateral_acceleration": ("lateral ", 1),
