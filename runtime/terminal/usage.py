@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 
 import typer
 from rich.markup import escape
-from typer.core import TyperCommand, TyperGroup
+from typer.core import TyperArgument, TyperCommand, TyperGroup, TyperOption
 
 from ..core.suggestions import nearest, suggestion
 
@@ -32,9 +32,8 @@ class Command(TyperCommand):
     def __init__(self, *args: Any, **options: Any) -> None:
         super().__init__(*args, **options)
         for parameter in self.params:
-            words = getattr(parameter, "help", None)
-            if words:
-                parameter.help = escape(words)  # type: ignore[attr-defined] # arguments have one, too
+            if isinstance(parameter, TyperArgument | TyperOption) and parameter.help:
+                parameter.help = escape(parameter.help)
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Return the remaining arguments, of which there are none."""

@@ -286,7 +286,7 @@ def _refuse_options(
 
 
 def _title(assembly: "Assembly", file: str, motion: str) -> str:
-    """Return what is above curves."""
+    """Return the title of curves."""
     if len(assembly.wheels) == 1:
         return title_of(file)
     return f"{title_of(file)}: {assembly.motions[motion].words}"

@@ -117,7 +117,7 @@ def command(
 
 
 class _Rig(NamedTuple):
-    """What is on the rig, and where: a file, its bushes, lengths in m."""
+    """A suspension or an axle on the rig, its bushes and its position; lengths in m."""
 
     file: str
     assembly: "Assembly"
@@ -134,7 +134,7 @@ class _Rig(NamedTuple):
         where: tuple[float, float],
         ends: tuple[float | None, float | None],
     ) -> "_Rig":
-        """Return what is on the rig at a travel and a place of the rack, and its ends [mm]."""
+        """Return the rig of a file at a travel and a rack position, from ends of travel [mm]."""
         from ..assembly.rig import SweepRange
 
         assembly = assembly_of_file(file, "compliance")

@@ -145,7 +145,7 @@ def _write(
 
 
 def _tables(found: "HandlingResult", title: str) -> "list[Table]":
-    """Return a table of numbers, and one of those that there are for each run or turn."""
+    """Return a table of single metrics, and one of the metrics of each run or turn."""
     from ...core.quantities import displayed, heading_of
 
     single = {n: data for n, data in found.metrics.data_vars.items() if not data.ndim}
@@ -163,7 +163,7 @@ def _tables(found: "HandlingResult", title: str) -> "list[Table]":
 
 
 _TURNS = "lateral_acceleration"
-# Letters that the heads of rows take, and a column of numbers [1].
+# Widths of the heads of rows, and of a column of numbers [characters].
 _HEADS, _COLUMN = 30, 10
 _OF_TURNS = (
     "steering_wheel_angle", "understeer_gradient", "roll_angle", "sideslip_angle", "drive_torque",
@@ -176,7 +176,7 @@ _NO_MOTION = "has no simulation, and so no motion to show. Leave it out."
 
 
 def _greatest(on_every: "Dataset", title: str) -> "Table":
-    """Return a table of the greatest force at every joint, spring and tyre, and when it is."""
+    """Return a table of the greatest force at every joint, spring and tyre, with its time."""
     from ..analysis.loads import peaks
     from ..analysis.loads.sheets import shown_rows, without_side
 

@@ -44,7 +44,7 @@ def read(
     ----------
     path : Path or None
     ways : sequence of str
-        Those that are looked at, and what holds the wheels of what is looked at under loads.
+        Axes of the curves, and supports of the wheels under loads.
     known : sequence of str, optional
         Those that the file may have, the usual first.
     """

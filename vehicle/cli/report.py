@@ -113,7 +113,7 @@ def _page(
     chapters: "Sequence[Chapter]",
     goals: "Sequence[Goal]",
 ) -> "tuple[System | None, dict[str, Any]]":
-    """Return what is moved by hand, if something is, and what the page has besides."""
+    """Return the equations that are moved by hand, if there are some, and the page's arguments."""
     from ..report.marks import of_shown_side
 
     page: dict[str, Any] = {"title": title, "chapters": chapters}
@@ -197,7 +197,7 @@ def _of_held(
     *,
     loads: bool,
 ) -> "Iterator[Chapter]":
-    """Yield loads, compliance, goals and the K&C sheet of what has a body that is held."""
+    """Yield the chapters of a suspension or an axle: loads, compliance, goals, K&C sheet."""
     from ..analysis import compliance
     from ..analysis import loads as study
     from ..analysis.sheet import sheet

@@ -1,4 +1,4 @@
-"""Values on the command line: numbers and choices, with messages that say which are allowed."""
+"""Values on the command line: numbers and choices, with the allowed ones in messages."""
 
 import math
 import re

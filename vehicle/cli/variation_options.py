@@ -1,4 +1,4 @@
-"""What the commands about values that vary look at."""
+"""The curves of the commands that vary values."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
@@ -66,7 +66,7 @@ class StudyOptions:
     at: AtOfAxis = None
 
 
-# What is shown where nothing is said, as far as the file has the data for it.
+# The default characteristics, where the file has the data for them.
 _USUAL = {
     "travel": (
         "bump_steer",
@@ -142,7 +142,7 @@ class StudyCurves:
     where : str
         The same in words: 'at 20 mm of wheel travel'.
     how : dict
-        As studies take what curves are over, and at which positions.
+        The axis and the positions, as arguments of studies.
     """
 
     over: str
@@ -153,7 +153,7 @@ class StudyCurves:
 
     @classmethod
     def of(cls, subject: "Subject", asked: StudyOptions) -> "StudyCurves":
-        """Return what is looked at; what there is not is refused."""
+        """Return the curves that the options choose; unknown ones are refused."""
         from ...core.validator import Validator
         from ..assembly.of import assembly_of
         from ..studies.evaluation import usual_positions
@@ -175,7 +175,7 @@ class StudyCurves:
 
 
 def _chosen(assembly: "Assembly", wanted: list[str] | None, over: str) -> list[str]:
-    """Return the characteristics that are shown, those that were asked for or the usual ones."""
+    """Return the characteristics that are shown: those of the option, or the default ones."""
     from ..studies.evaluation import available
     from ..studies.sweep_axes import UNDER_LOADS, name_of_axis
 

@@ -151,7 +151,7 @@ def schema(manoeuvres: Manoeuvres) -> dict[str, Any]:
     Parameters
     ----------
     manoeuvres : mapping of str to type
-        The sections of manoeuvres, by the words for them.
+        The sections of manoeuvres, by their names in files.
 
     Returns
     -------

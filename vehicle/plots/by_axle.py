@@ -1,4 +1,4 @@
-"""What the wheels of a car do, as curves of each axle: four lines in one panel are a thicket."""
+"""Curves of the wheels of a car by axle: two lines in a panel are easier to read than four."""
 
 from collections.abc import Iterable
 
@@ -43,7 +43,7 @@ def by_axle(dataset: xr.Dataset) -> xr.Dataset:
 
 
 def names_by_axle(dataset: xr.Dataset, names: Iterable[str]) -> list[str]:
-    """Return the names that some variables have in what `by_axle` returns, as far as they exist."""
+    """Return the names of some variables in the dataset of `by_axle`; missing ones are left out."""
     ends = _ends(dataset)
     return [
         own

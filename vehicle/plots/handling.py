@@ -16,7 +16,7 @@ from ...pictures.curves import draw, named_values, varying
 from ...pictures.figures import BLUE, ORANGE, STYLE, save, written_plainly
 from ..assembly.by_wheel import WHEEL
 
-# The drawn curves by their axis: in this order, as far as they are there and vary.
+# The drawn curves by their axis, in their order, if they exist and vary.
 _SHOWN: Mapping[str, tuple[str, ...]] = {
     "time": (
         "steering_wheel_angle", "steering_torque", "lateral_acceleration", "yaw_rate",
@@ -35,7 +35,7 @@ _SHOWN: Mapping[str, tuple[str, ...]] = {
     ),
 }  # fmt: skip
 _SIDESLIP = "sideslip_angle"
-# What is nowhere larger, as it is shown, is rounding, such as the steering torque straight ahead.
+# Curves without larger values, in display units, are rounding: steering torque straight ahead.
 _ROUNDING = 1e-6
 _COLUMNS = 3
 # Less width of a path is drawn as little as it is [m].
@@ -54,7 +54,7 @@ def write_curves(
     force: bool = False,
     inputs: Paths = (),
 ) -> Path:
-    """Write the curves of a manoeuvre that are looked at first.
+    """Write the main curves of a manoeuvre.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def write_curves(
     pathlib.Path
     """
     along = _along(dataset)
-    # what comes first is along the axis: several runs are lines
+    # the first dimension is the axis; several runs are lines
     shown, names = for_print(dataset.transpose(along, ...), along), first_names(dataset)
     with rc_context(STYLE):
         drawn = draw(shown, names, title=title, alone=False, columns=_COLUMNS)
@@ -78,7 +78,7 @@ def write_curves(
 
 
 def first_names(dataset: xr.Dataset) -> list[str]:
-    """Return the names of the curves of a manoeuvre that are looked at first."""
+    """Return the names of the main curves of a manoeuvre, in their order."""
     moving = {str(name) for name in varying(dataset)}
     there = [name for name in _SHOWN[_along(dataset)] if name in moving]
     return [name for name in there if np.nanmax(np.abs(displayed(dataset[name]))) > _ROUNDING]

@@ -16,7 +16,7 @@ _COLUMNS = 2
 
 
 class FigureOptions(TypedDict, total=False):
-    """What every function takes that writes a figure of panels.
+    """Options of all functions that write a figure of panels.
 
     Attributes
     ----------

@@ -15,16 +15,16 @@ from .by_axle import by_axle
 
 _ROAD_WHEEL = "road_wheel"
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-# Responses of each wheel to the road under each wheel are too many lines.
+# Most dimensions: responses of each wheel to the road under each wheel are too many lines.
 _MOST = 2
-# Less than this part of the greatest value is below the axis.
+# Least value of an axis, by the greatest value of its curve.
 _LEAST = 1e-4
 # Room below the least value, for the names of lines.
 _BELOW = 0.1
 
 
 def response_figures(response: xr.Dataset) -> dict[str, Figure]:
-    """Return spectra and responses over the frequency, both axes logarithmic, by what they show.
+    """Return spectra and responses over the frequency, in logarithmic axes, by their headings.
 
     Parameters
     ----------

@@ -202,7 +202,7 @@ def write_chapters(
         Heading of the page.
     chapters : sequence of Chapter
     data : mapping of str to Section
-        What the input files say, by what begins the names of sections.
+        Sections of the input files, by the prefix of their names on the page.
 
     Returns
     -------

@@ -1,7 +1,8 @@
-"""What varies along the curves of a study."""
+"""The axis of the curves of a study."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -16,7 +17,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class SweepAxis:
-    """What varies along some curves.
+    """The quantity that varies along curves, and the curves over it.
 
     Attributes
     ----------
@@ -26,11 +27,11 @@ class SweepAxis:
     words : str
         'wheel travel'.
     curves : callable, optional
-        Returns the curves of an assembly at some positions, where no motion of a rig has them.
+        Returns the curves of an assembly at some positions, if they are not those of a motion.
     usual : tuple of float, optional
         The usual positions of such curves, SI units.
     at : float, optional
-        The position where none is named, SI units.
+        The default position, SI units.
     """
 
     along: Quantity
@@ -42,7 +43,7 @@ class SweepAxis:
 
     @property
     def unit(self) -> str:
-        """The display unit of what varies."""
+        """The display unit of the positions."""
         return display_of(self.along.attributes()).units
 
     @property
@@ -52,5 +53,15 @@ class SweepAxis:
 
     @property
     def factor(self) -> float:
-        """How many of them the SI unit has."""
+        """The number of display units in the SI unit."""
         return display_of(self.along.attributes()).factor
+
+
+def number_of(value: Any) -> Any:
+    """Return the number that a text is; all other values as they are, to be checked."""
+    if not isinstance(value, str):
+        return value
+    try:
+        return float(value)
+    except ValueError:
+        return value

@@ -1,10 +1,10 @@
 """Characteristics of many suspensions that differ in values of their files, all together.
 
 They go through one evaluation of the equations with constants of their own, some hundred at a time,
-on all cores. What is found is that of one by one but for rounding: the arm's angle that meets a
-height is found to its last digits either way, by other steps. Who cannot be built like the others,
-or does not reach all positions for sure, is looked at one by one, and so are all of them where an
-equation refuses a position: so reasons are those of one by one.
+on all cores. The results agree with those of single suspensions to rounding: both ways find the
+arm's angle for a height to its last digits, by different steps. Suspensions that cannot be built
+like the others, or may not reach all positions, are evaluated one by one; so are all of them if an
+equation refuses a position, so that the reasons are those of single suspensions.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -33,8 +33,8 @@ from .evaluation import Subject
 
 Array = NDArray[np.float64]
 
-# Cars of a batch: so many that what is done once for them does not count, and so few that what is
-# computed of them stays in the cache.
+# Cars of a batch: enough that work done once for all is negligible, and few enough that their
+# results stay in the cache.
 _TOGETHER = 256
 # Fewer cars are quicker one by one.
 _FEWEST = 3
@@ -194,7 +194,7 @@ def _corners(batch: ModelBatch, look: Curves) -> Iterator[Corner]:
 
     These are that of the other side, and the own one with the rack in its middle.
 
-    Suspensions that do not get there are taken out, and no more corners are looked at then.
+    Suspensions that do not reach the positions are taken out, and no more corners follow then.
     """
     at = look.positions
     still = np.zeros(at.size)

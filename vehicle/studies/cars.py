@@ -20,7 +20,7 @@ from .evaluation import Subject, check_subject
 Array = NDArray[np.float64]
 
 CAR = "car"
-"""The dimension of what is given as rows of numbers."""
+"""The dimension of values that are given as rows of numbers."""
 
 # So many numbers take 0.8 GB.
 _MOST_NUMBERS = 100_000_000
@@ -113,7 +113,7 @@ def cars(
 
 
 class _Collected:
-    """What is kept of the cars.
+    """The results of the cars.
 
     Parameters
     ----------

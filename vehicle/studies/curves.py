@@ -1,4 +1,4 @@
-"""The characteristics that are looked at, of a suspension whose values change."""
+"""The characteristics of a study, for a suspension whose values change."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -21,12 +21,12 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Curves:
-    """Which characteristics are looked at, and where.
+    """The characteristics of a study, and their positions.
 
     Attributes
     ----------
     over : str
-        Of `sweep_axes.ALL_AXES`, with its options; or what holds the wheel under loads.
+        Of `sweep_axes.ALL_AXES`, with its options; or the support of the wheel under loads.
     positions : ndarray
         [m]; over roll [rad].
     names : tuple of str
@@ -100,9 +100,9 @@ def curves_of(
     names: Sequence[str] | None,
     held: Any = None,
 ) -> Curves:
-    """Check what is to be looked at; by default all characteristics over the usual positions.
+    """Return the checked curves; by default all characteristics over the usual positions.
 
-    With what holds the wheels under loads these are compliances.
+    With a support of the wheels under loads (`held`) these are compliances.
     """
     ways = sweep_axes_of(suspension)
     over = ways[0] if over is None else given_axis(given, "over", over, ways)

@@ -29,7 +29,7 @@ _INDEPENDENT = 10
 _LEAST_DETERMINED = 0.1
 # A curve of a car whose errors are found is farther off than this once in a hundred times.
 _CHANCE = 0.01
-# What is held is held so well [m].
+# Greatest deviation of a constant position [m].
 _HELD = 1e-4
 
 
@@ -88,8 +88,8 @@ class Fit:
         away: near 0 the curves do not determine the value, and it stays where it was.
     curves : tuple of Fitted
     success : bool
-        Whether the solver has come to its end and every curve is explained: what is left of it is
-        no more than errors of its accuracy make it 99 times of 100.
+        Whether the solver converged and every curve is explained: the remaining deviations are
+        within those that errors of its accuracy cause in 99 of 100 cases.
     message : str
         What there is to say about it.
     evaluations : int

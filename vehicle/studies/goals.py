@@ -39,7 +39,7 @@ _SECTIONS = (
     "limits",
     "accuracy",
 )
-# What is not named where curves are over it.
+# Axes that are not named in titles.
 _USUAL = ("travel", "bump", "heave")
 # No characteristic is as great as this in any unit, and no deviation as small matters.
 GREATEST, LEAST = 1e9, 1e-9
@@ -193,7 +193,7 @@ def goals(described: Mapping[str, Any], ways: Sequence[str] = OF_CORNERS) -> lis
 
 
 def _ways(given: Validator, ways: Any) -> Sequence[str]:
-    """Return what goals may be over; the usual where what is given is no such names."""
+    """Return the axes of goals; the usual ones if the argument is not valid."""
     names = given.names("ways", ways, ALL_AXES)
     if not names and not given.failed:
         given.fail(f"ways is empty: one is needed, of {', '.join(ALL_AXES)}.")
@@ -300,7 +300,7 @@ def _verdict(goal: Goal, values: Array) -> Verdict:
 
 
 def check_goals(given: Validator, name: str, wanted: Any) -> None:
-    """Refuse what is no list of goals."""
+    """Refuse anything but a list of goals."""
     if not isinstance(wanted, list | tuple) or not all(
         isinstance(one, TargetValue | Limit) for one in wanted
     ):

@@ -168,9 +168,9 @@ def pareto(
     Notes
     -----
     By the genetic algorithm NSGA-II of pymoo. The first generation is the suspension as it is, and
-    a Latin hypercube over the ranges. What cannot be built, or does not reach a position, counts as
-    far beyond all limits. The front is that of all suspensions that were looked at, thinned out to
-    the size of a generation where it has more.
+    a Latin hypercube over the ranges. Suspensions that cannot be built, or do not reach a position,
+    count as far beyond all limits. The front is that of all evaluated suspensions, thinned out to
+    the size of a generation if it has more.
 
     Examples
     --------
@@ -250,7 +250,7 @@ def _first(population: int, values: int, seed: int) -> Array:
 
 
 class _Judge:
-    """What candidates are worth, and all that were looked at.
+    """The objectives and limits of candidates, and all evaluated candidates.
 
     Parameters
     ----------
@@ -338,7 +338,7 @@ def _alike(several: list[list[Array] | None]) -> bool:
 
 
 def _front(judge: _Judge, idle: list[str], most: int) -> Front:
-    """Return the front of all candidates that were looked at."""
+    """Return the front of all evaluated candidates."""
     x, costs, excess = (np.array(rows) for rows in zip(*judge.seen, strict=True))
     within = np.flatnonzero((excess <= 0.0).all(axis=1))
     members = within[unbeaten(costs[within])]

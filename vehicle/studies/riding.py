@@ -14,7 +14,7 @@ from ..assembly.by_wheel import of_wheel
 from ..assembly.quantity import SPEED
 from ..models.car.car import WHEELS
 from ..roads.rough import roughness_of
-from .axis import SweepAxis
+from .axis import SweepAxis, number_of
 
 Array = NDArray[np.float64]
 
@@ -33,7 +33,7 @@ _KNOWN = OF_CAR | {
 
 def axis(given: Validator, options: Mapping[str, Any]) -> SweepAxis:
     """Return the axis of speeds on a road."""
-    road, seat = options.get("road", "B"), options.get("seat")
+    road, seat = number_of(options.get("road", "B")), options.get("seat")
     roughness_of(given, road)
     if seat is not None:
         given.text("seat", seat)

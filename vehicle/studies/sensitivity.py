@@ -155,7 +155,7 @@ def _is_asked_for(place: DesignVariable, patterns: Sequence[str]) -> bool:
 
 
 def _message(left_out: Mapping[str, str]) -> str:
-    """Say what is left out, and why."""
+    """Return the text of the values that are left out, with reasons."""
     parts = []
     for reason in dict.fromkeys(left_out.values()):
         names = [name for name, why in left_out.items() if why == reason]
@@ -173,7 +173,7 @@ def derivatives(
 ) -> Array:
     """Return the derivatives of some curves by values; (places, names, positions), SI units.
 
-    The neighbours to both sides are looked at together; a car that lacks one goes by itself.
+    The neighbours to both sides are evaluated together; a car that lacks one, separately.
     """
     steps = [*_BOTH_SIDES[0]]
     off = np.zeros((len(places) * len(steps), len(places)))

@@ -50,7 +50,7 @@ def sweep(
         starts at its own rest. A rigid axle has the road under both wheels, or inputs by its own
         names, such as ``left_road_height``.
     signals, reductions
-        What is kept, as of `kintrafo.ensemble`: signals at the output times, and numbers.
+        Results, as of `kintrafo.ensemble`: signals at the output times, and numbers.
     rtol, atol, max_steps
         As of `kintrafo.ensemble`.
     progress : callable, optional

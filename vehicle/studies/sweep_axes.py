@@ -71,7 +71,7 @@ _FAMILIES = {
 
 
 def options_of(over: str) -> tuple[str, ...]:
-    """Return the names of the options of an axis; none of most of them."""
+    """Return the names of the options of an axis; most have none."""
     return _FAMILIES[name_of_axis(over)].options if name_of_axis(over) in _FAMILIES else ()
 
 
@@ -93,7 +93,7 @@ def given_axis(
     ----------
     given : Validator
     title : str
-        What the axis is in messages.
+        Name of the argument in messages.
     over : str
         Its name, with or without options.
     ways : iterable of str
@@ -117,44 +117,29 @@ def given_axis(
     written = ",".join(f"{key}={found[key]}" for key in options_of(name) if key in found)
     chosen = f"{name}:{written}" if written else name
     if found:
-        _axis_of(given, name, found)
+        _FAMILIES[name].axis(given, found)
     return name if given.failed else chosen
-
-
-def _axis_of(given: Validator, name: str, options: Mapping[str, Any]) -> SweepAxis:
-    """Return an axis of a family; numbers may be texts."""
-    numbers = {key: _number(value) if key != "seat" else value for key, value in options.items()}
-    return _FAMILIES[name].axis(given, numbers)
-
-
-def _number(value: Any) -> Any:
-    if not isinstance(value, str):
-        return value
-    try:
-        return float(value)
-    except ValueError:
-        return value
 
 
 @lru_cache(maxsize=256)
 def sweep_axis(over: str) -> SweepAxis:
-    """Return what some curves are over.
+    """Return the axis of some curves, by its name with options.
 
     Raises
     ------
     InputError
-        If its options cannot be.
+        If an option is not allowed.
     """
     name, _, text = over.partition(":")
     if name not in _FAMILIES:
         return (SWEEP_AXES | UNDER_LOADS)[name]
     pairs = (option.partition("=") for option in text.split(",") if option)
     with Validator(name) as given:
-        return _axis_of(given, name, {key: value for key, _, value in pairs})
+        return _FAMILIES[name].axis(given, {key: value for key, _, value in pairs})
 
 
 def known_anywhere(name: str) -> Quantity:
-    """Return what a name of a curve represents over any axis."""
+    """Return the quantity of a curve by its name, over any axis that has it."""
     axes = [*SWEEP_AXES.values(), *UNDER_LOADS.values(), *map(sweep_axis, _FAMILIES)]
     return next(axis.known[name] for axis in axes if name in axis.known)
 

@@ -166,7 +166,7 @@ def _drawn(distribution: str, root: Array, count: int, seed: int) -> Array:
 
 
 class _Cars:
-    """Cars that are looked at.
+    """The cars of a study.
 
     Parameters
     ----------

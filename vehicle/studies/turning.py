@@ -1,4 +1,4 @@
-"""Curves of studies over the lateral acceleration of steady turns, by what is constant."""
+"""Curves of studies over the lateral acceleration of steady turns with a constant quantity."""
 
 from collections.abc import Mapping
 
@@ -13,17 +13,17 @@ from ..analysis.handling.subject import driving_car
 from ..assembly.assembly import Assembly
 from ..assembly.quantity import LATERAL_ACCELERATION
 from ..models.car.car import WHEELS
-from .axis import SweepAxis
+from .axis import SweepAxis, number_of
 
 Array = NDArray[np.float64]
 
 TURNS = "lateral_acceleration"
 """Steady turns of cars that drive (ISO 4138)."""
 TURNING_SPEED_KM_PER_H = 100.0
-"""Constant speed of the steady turns where nothing else is constant."""
+"""Default of the constant speed of steady turns [km/h]."""
 
-# What is constant: its kind, its SI unit, how many of them the unit of the key has, and the
-# greatest value in that unit.
+# The constant quantity: its kind, the unit of the key in SI units, the greatest value in the unit
+# of the key, and words.
 _CONSTANT = {
     "speed_km_per_h": ("speed", 1.0 / 3.6, 500.0, "speed of {:g} km/h"),
     "radius_m": ("curvature", 1.0, 1e5, "radius of {:g} m"),
@@ -40,7 +40,7 @@ def axis(given: Validator, options: Mapping[str, object]) -> SweepAxis:
     chosen = dict(options) or {OPTIONS[0]: TURNING_SPEED_KM_PER_H}
     key, value = next(iter(chosen.items()))
     kind, to_si, most, words = _CONSTANT[key]
-    number = given.number(key, value, above=0.0, below=most)
+    number = given.number(key, number_of(value), above=0.0, below=most)
     size = 1.0 / number if kind == "curvature" else number * to_si
     moving = kind == "speed"  # others have no turn without lateral acceleration
 

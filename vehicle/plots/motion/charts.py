@@ -63,14 +63,14 @@ class Chart:
 
 
 def charts_of(motion: xr.Dataset, rows: NDArray[np.intp]) -> list[Chart]:
-    """Return the curves of a motion that are looked at first.
+    """Return the main curves of a motion.
 
     Parameters
     ----------
     motion : xarray.Dataset
         Over time.
     rows : ndarray of int
-        The outputs that a scene shows.
+        Indices of the outputs that a scene shows.
     """
     dataset = for_print(by_axle(motion.transpose("time", ...)), "time")
     with rc_context(STYLE):
@@ -78,7 +78,7 @@ def charts_of(motion: xr.Dataset, rows: NDArray[np.intp]) -> list[Chart]:
 
 
 def shown_names(dataset: xr.Dataset) -> list[str]:
-    """Return the names of the curves of a motion that are looked at first, in their order.
+    """Return the names of the main curves of a motion, in their order.
 
     Parameters
     ----------

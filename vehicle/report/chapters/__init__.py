@@ -7,7 +7,7 @@
 `goals`       targets and limits of characteristics
 `elastokinematics`  what bushes do to the curves over wheel travel
 `sheet`       kinematic and compliance gradients at design
-`rest`        a car at rest, to be looked at
+`rest`        a car at rest: data, a view, wheel loads
 `ride`        modes and responses of a car, and its motion over a bump
 `handling`    steady turns of a car that drives, and its motion in a step steer
 """

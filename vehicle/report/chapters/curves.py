@@ -70,7 +70,7 @@ def small_pictures(
     dataset : xarray.Dataset
     names : sequence of str
     words : str, optional
-        What the curves are over, where they are not alone in their chapter.
+        The motion of the curves, in a chapter with several motions.
     goals : sequence of Goal, optional
         About these curves; those of others are left out.
     """

@@ -46,7 +46,7 @@ def rest_chapter(subject: Any) -> Chapter:
     car = riding_car(assembly, state, inputs)
     run = Run(car, motion, state[None], inputs[None], np.zeros((1, 2)))
     facts = tuple(assembly.described().items())
-    described = Tabulated("What it is", ("", "value"), facts, frozenset({0, 1}))
+    described = Tabulated("Description", ("", "value"), facts, frozenset({0, 1}))
     return Chapter(
         title="The car at rest",
         words=(assembly.words,),
