@@ -38,5 +38,6 @@ def with_groups(command: Callable[..., None]) -> Callable[..., None]:
         command(*arguments, **options)
 
     expanded.__annotations__ = {each.name: each.annotation for each in parameters}
+    # inspect reads this attribute, which the type of functions does not declare
     expanded.__signature__ = signature(command).replace(parameters=parameters)  # type: ignore[attr-defined]
     return expanded
