@@ -4,3 +4,8 @@
 there judges the agreement. A peer that is not installed is skipped, a peer that disagrees is not
 timed.
 """
+
+import sys
+
+# Exudyn reads this at its import: the module without range checks.
+sys.exudynFast = True  # type: ignore[attr-defined]  # no attribute of the standard library

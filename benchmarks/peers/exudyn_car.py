@@ -1,4 +1,4 @@
-"""A step steer of a car here and in Exudyn: the declaration of the car, read once for each of them.
+"""A step steer of a car here and in Exudyn, from one declaration of the car.
 
 ``make benchmark-car-peers`` fills docs/theory/other-tools.md. The car in Exudyn has a rigid body
 for each part that has mass, with the joints of the declaration as constraints. Rods without mass
@@ -12,12 +12,13 @@ from __future__ import annotations
 
 import argparse
 import math
-import sys
-from dataclasses import dataclass
+from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import exudyn as exu
+import exudyn.itemInterface as items
 import kintrafo
 import numpy as np
 from kintrafo.generator import (
@@ -42,11 +43,7 @@ from oracle.constraints import Array, perpendiculars
 from oracle.maximal import Motion, Oracle
 
 from ..report import fill_page, markdown_table, one_core, seconds_of
-
-sys.exudynFast = True  # type: ignore[attr-defined]  # its module without range checks
-import exudyn as exu
-import exudyn.itemInterface as items
-from exudyn.rigidBodyUtilities import RigidBodyInertia
+from .exudyn_system import ExudynSystem, Setting
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -55,13 +52,13 @@ if TYPE_CHECKING:
 
 PAGE = Path(__file__).parents[2] / "docs/theory/other-tools.md"
 SPEED, DURATION = 80.0 / 3.6, 4.0  # m/s, s
-BEGIN, RISE, ANGLE = 0.5, 0.2, np.deg2rad(40.0)  # of the step with the steering wheel
+BEGIN, RISE, ANGLE = 0.5, 0.2, np.deg2rad(40.0)  # of the step of the steering wheel: s, s, rad
 TIMES = np.linspace(0.0, DURATION, 401)
-SAMPLED = np.linspace(0.0, DURATION, 4001)  # of the rack, where a spline goes through samples
+SAMPLED = np.linspace(0.0, DURATION, 4001)  # times at which the rack is sampled for its spline
 STEPS = (1600, 2000, 4000)  # of Exudyn, from loose to tight
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6)
-LENT, LENT_INERTIA = 0.1, 0.01  # kg, kg m^2
-ENOUGH = 1e-4  # of the largest lateral acceleration
+LENT, LENT_INERTIA = 0.1, 0.01  # of a body without mass: kg, kg m^2
+ENOUGH = 1e-4  # error, relative to the largest lateral acceleration
 TYRE = {
     "radius_mm": 316.0,
     "effective_radius_mm": 307.0,
@@ -69,18 +66,16 @@ TYRE = {
     "slip_stiffness_N": 90000.0,
     "cornering_stiffness_N_per_rad": 70000.0,
 }
-STILL_AIR = {
+NO_AIR_FORCES = {
     f"air.{key}": 0.0 for key in ("drag_area_m2", "front_lift_area_m2", "rear_lift_area_m2")
 }
 
-exu.config.printToConsole = False
-
 
 def the_car() -> Any:
-    """Return the driving car on linear tyres without relaxation, which coasts."""
+    """Return the driving car, which coasts on linear tyres without relaxation."""
     given = {f"tyres.{axle}": TYRE for axle in ("front", "rear")}
     return kintrafo.load("driving_car").with_changes(
-        given | {"tyres.relaxation": False, **STILL_AIR}
+        given | {"tyres.relaxation": False, **NO_AIR_FORCES}
     )
 
 
@@ -126,7 +121,8 @@ def _compared() -> str:
         _loosest("kintrafo.simulate, DormandPrince", ours, TOLERANCES, "rtol {:g}", exact, 5),
         _loosest(
             "Exudyn, generalised-alpha 0.9, modified Newton",
-            lambda steps: theirs.run(Setting(int(steps))), STEPS, "{:g} steps", exact, 3,
+            lambda steps: theirs.run(Setting(int(steps), modified_newton=True)),
+            STEPS, "{:g} steps", exact, 3,
         ),
     ]  # fmt: skip
     least = rows[0][-1]
@@ -149,18 +145,24 @@ def _loosest(
 ) -> tuple[str, str, float, float]:
     """Return name, setting, error and processor time [s] of the loosest setting that is enough."""
     for setting in settings:
-        found: list[Array] = []
         try:
-            took = seconds_of(lambda: found.append(run(setting)))  # noqa: B023 (called here)
+            took, found = _timed(partial(run, setting))
         except exu.SolverError:
             continue
-        error = float(np.abs(found[0] - exact).max() / np.abs(exact).max())
+        error = float(np.abs(found - exact).max() / np.abs(exact).max())
         print(f"{name}, {words.format(setting)}: {error:.1e}, {took:.3g} s", flush=True)
         if error <= ENOUGH:
-            again = [seconds_of(lambda: run(setting)) for _ in range(repeated - 1)]  # noqa: B023
-            return name, words.format(setting), error, min(took, *again, took)
+            again = [seconds_of(partial(run, setting)) for _ in range(repeated - 1)]
+            return name, words.format(setting), error, min(took, *again)
     message = f"{name}: no setting is accurate to {ENOUGH:g}."
     raise RuntimeError(message)
+
+
+def _timed(call: Callable[[], Array]) -> tuple[float, Array]:
+    """Return the processor time of a call [s], and its result."""
+    found: list[Array] = []
+    took = seconds_of(lambda: found.append(call()))
+    return took, found[0]
 
 
 def _motion(model: CarModel, start: Any) -> Motion:
@@ -176,16 +178,7 @@ def _motion(model: CarModel, start: Any) -> Motion:
     )
 
 
-@dataclass(frozen=True)
-class Setting:
-    """How Exudyn integrates: steps of all the time, by the generalised-alpha method."""
-
-    steps: int
-    spectral_radius: float = 0.9
-    modified_newton: bool = True
-
-
-class ExudynCar:
+class ExudynCar(ExudynSystem):
     """The declared car as an Exudyn system.
 
     Parameters
@@ -199,10 +192,8 @@ class ExudynCar:
     """
 
     def __init__(self, oracle: Oracle, start: Motion, rack: Callable[[float], float]) -> None:
+        super().__init__()
         self._oracle, self._start = oracle, start
-        self._container = exu.SystemContainer()
-        self._system = self._container.AddSystem()
-        self._ground = self._system.AddObject(items.ObjectGround())
         self._centers = oracle.centers.copy()
         self._lent = [b.name for b in oracle.bodies if b.name.endswith(("rack", "_bar"))]
         joints = oracle.mechanism.joints
@@ -216,52 +207,29 @@ class ExudynCar:
             self._joint(joint, rack)
         for ends in self._rods.values():
             (first, one), (second, other) = ends
-            self._system.AddObject(
-                items.ObjectConnectorDistance(
-                    markerNumbers=[self._marker(first, one), self._marker(second, other)],
-                    distance=float(np.linalg.norm(one - other)),
-                )
-            )
+            markers = [self._marker(first, one), self._marker(second, other)]
+            self._keep_distance(markers, float(np.linalg.norm(one - other)))
         for force in oracle.mechanism.forces:
             self._force(force)
-        self._sensor = self._system.AddSensor(
-            items.SensorBody(
-                bodyNumber=self._bodies["body"],
-                localPosition=oracle.centers[oracle.index["body"]]
-                - self._centers[oracle.index["body"]],
-                outputVariableType=exu.OutputVariableType.Acceleration,
-                storeInternal=True,
-                writeToFile=False,
-            )
-        )
-        self._system.Assemble()
+        place = oracle.index["body"]
+        from_center = oracle.centers[place] - self._centers[place]
+        self._assemble(self._bodies["body"], from_center, exu.OutputVariableType.Acceleration)
 
     def run(self, setting: Setting) -> Array:
         """Simulate; return the lateral acceleration of the body at `TIMES`, m/s^2."""
-        given = exu.SimulationSettings()
-        given.timeIntegration.numberOfSteps = setting.steps
-        given.timeIntegration.endTime = DURATION
-        given.timeIntegration.adaptiveStep = False
-        given.timeIntegration.verboseMode = 0
-        newton = given.timeIntegration.newton
-        newton.useModifiedNewton = setting.modified_newton
+        settings = setting.simulation(TIMES)
+        newton = settings.timeIntegration.newton
         newton.relativeTolerance, newton.absoluteTolerance = 1e-8, 1e-10
-        alpha = given.timeIntegration.generalizedAlpha
-        alpha.spectralRadius = setting.spectral_radius
-        alpha.computeInitialAccelerations = True
-        alpha.useIndex2Constraints = False
-        alpha.useNewmark = False
-        given.linearSolverType = exu.LinearSolverType.EigenSparse
-        given.solutionSettings.writeSolutionToFile = False
-        given.solutionSettings.sensorsWritePeriod = float(TIMES[1])
-        self._system.SolveDynamic(given)
-        stored = self._system.GetSensorStoredData(self._sensor)
+        alpha = settings.timeIntegration.generalizedAlpha
+        alpha.useIndex2Constraints = alpha.useNewmark = False
+        settings.linearSolverType = exu.LinearSolverType.EigenSparse
+        stored = self._simulate(settings)
         return np.interp(TIMES, stored[:, 0], stored[:, 2])
 
     # -- bodies -----------------------------------------------------------------------------------
 
     def _is_rod(self, name: str) -> bool:
-        """Return whether a body is a distance, or a part of a joint."""
+        """Return whether a body is a distance in Exudyn, or a part of a joint."""
         rod = any(name.endswith(kind) for kind in ("tie_rod", "drop_link"))
         return rod or name in self._struts
 
@@ -274,19 +242,17 @@ class ExudynCar:
         if name == "body":
             mass, inertia = self._lending()
         motion = self._start
-        return self._system.CreateRigidBody(
-            inertia=RigidBodyInertia(mass=mass, inertiaTensor=inertia),
-            referencePosition=motion.position[place]
-            + motion.rotation[place] @ (self._centers[place] - oracle.centers[place]),
-            referenceRotationMatrix=motion.rotation[place],
-            initialVelocity=motion.twist[place, :3],
-            initialAngularVelocity=motion.twist[place, 3:],
-            gravity=[0.0, 0.0, -oracle.parameters["gravity"]],
-            nodeType=exu.NodeType.RotationEulerParameters,
+        moved = motion.rotation[place] @ (self._centers[place] - oracle.centers[place])
+        return self._rigid_body(
+            mass,
+            inertia,
+            (motion.position[place] + moved, motion.rotation[place]),
+            motion.twist[place],
+            oracle.parameters["gravity"],
         )
 
     def _lending(self) -> tuple[float, Array]:
-        """Return mass and inertia of the body without what it lends to rack and bar."""
+        """Return mass and inertia of the body less those lent to rack and bar."""
         oracle, place = self._oracle, self._oracle.index["body"]
         mass, inertia = oracle.mass[place], oracle.inertia[place].copy()
         first, center = mass * oracle.centers[place], oracle.centers[place]
@@ -301,11 +267,7 @@ class ExudynCar:
     def _marker(self, body: str, point: Array) -> Any:
         """Return a marker of a body at a point given in the design position."""
         center = self._centers[self._oracle.index[body]]
-        return self._system.AddMarker(
-            items.MarkerBodyRigid(
-                bodyNumber=self._bodies[body], localPosition=np.asarray(point) - center
-            )
-        )
+        return self._body_marker(self._bodies[body], np.asarray(point) - center)
 
     # -- joints -----------------------------------------------------------------------------------
 
@@ -348,12 +310,7 @@ class ExudynCar:
         **more: Any,
     ) -> None:
         markers = [self._marker(b, p) for b, p in zip(bodies, points, strict=True)]
-        self._system.AddObject(
-            items.ObjectJointGeneric(
-                markerNumbers=markers, constrainedAxes=held,
-                rotationMarker0=axes, rotationMarker1=axes, **more,
-            )
-        )  # fmt: skip
+        self._constrain(markers, held, axes, **more)
 
     def _strut(self, joint: Cylindrical) -> None:
         """Keep the top of the strut, a point of the body, on the axis of the knuckle."""
@@ -370,7 +327,7 @@ class ExudynCar:
         if isinstance(force, RollingTyre):
             self._tyre(force)
         if not isinstance(force, ForceElement):
-            return  # weight belongs to the bodies; torques are zero, and so is the air here
+            return  # bodies have their weight; torques and the forces of the air are zero here
         path = force.path
         rate = sum(
             oracle.parameters[law.rate.name] for law in force.laws if isinstance(law, LinearSpring)
@@ -435,7 +392,7 @@ def _of_point(mass: float, arm: Array) -> Array:
 
 
 def _road_force(given: dict[str, float], design: Array) -> Any:
-    """Return the user function: force and moment of a level road on a wheel, reversed."""
+    """Return the user function: force and moment of a wheel on a level road [N, N m]."""
     stiff, radius = given["vertical_stiffness"], given["unloaded_radius"]
     limit = given["friction"]
 

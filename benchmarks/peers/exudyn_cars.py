@@ -5,11 +5,11 @@ from functools import cache, partial
 from typing import Any
 
 import numpy as np
+from exudyn.processing import ProcessParameterList
 
 from .case import SAMPLES, Array, Instant, instant
-from .exudyn_model import Exudyn, Setting, extrapolated
-
-from exudyn.processing import ProcessParameterList  # isort: skip (the model chooses which Exudyn)
+from .exudyn_model import Exudyn, extrapolated
+from .exudyn_system import Setting
 
 STEPS = (1200, 1600, 2400, 4800)
 """Of the second, from loose to tight; of a quarter less it finds no solution."""

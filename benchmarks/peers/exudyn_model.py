@@ -5,49 +5,23 @@ the massless upper strut a generic joint that keeps the strut top on the knuckle
 force is a user function in Exudyn's symbolic form, so that no Python runs during integration.
 """
 
-import sys
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
-from .case import ARM, KNUCKLE, SAMPLES, WHEEL, Array, Instant, Parameters, car, parameters
-from .geometry import strut_frame
-
-sys.exudynFast = True  # type: ignore[attr-defined]  # its module without range checks
 import exudyn as exu
 import exudyn.itemInterface as items
+import numpy as np
 from exudyn.advancedUtilities import CreateSymbolicUserFunction
-from exudyn.rigidBodyUtilities import RigidBodyInertia
+
+from .case import ARM, KNUCKLE, SAMPLES, WHEEL, Array, Instant, Parameters, car, parameters
+from .exudyn_system import ExudynSystem, Setting
+from .geometry import strut_frame
 
 esym = exu.symbolic
-exu.config.printToConsole = False
 
 
-@dataclass(frozen=True)
-class Setting:
-    """How Exudyn integrates.
-
-    Attributes
-    ----------
-    steps : int
-        Of the second.
-    spectral_radius : float
-        Of the generalised-alpha method at infinite frequency.
-    modified_newton : bool
-        Whether the Jacobian is kept from step to step.
-    """
-
-    steps: int
-    spectral_radius: float = 0.9
-    modified_newton: bool = False
-
-    def __str__(self) -> str:
-        return f"{self.steps} steps"
-
-
-class Exudyn:
+class Exudyn(ExudynSystem):
     """The suspension as an Exudyn system.
 
     Parameters
@@ -59,79 +33,40 @@ class Exudyn:
     """
 
     def __init__(self, begin: Instant, rates: Mapping[str, float] | None = None) -> None:
-        self._container = exu.SystemContainer()
-        self._system = self._container.AddSystem()
+        super().__init__()
         self._bodies = {body: self._body(begin, body) for body in (ARM, KNUCKLE, WHEEL)}
-        self._ground = self._system.AddObject(items.ObjectGround())
         self._joints()
         self._forces(parameters() | dict(rates or {}))
         arm = car().points["ball_joint"] - car().centres[ARM]
-        self._sensor = self._system.AddSensor(
-            items.SensorBody(
-                bodyNumber=self._bodies[ARM],
-                localPosition=arm,
-                outputVariableType=exu.OutputVariableType.Position,
-                storeInternal=True,
-                writeToFile=False,
-            )
-        )
-        self._system.Assemble()
+        self._assemble(self._bodies[ARM], arm, exu.OutputVariableType.Position)
 
     def run(self, setting: Setting) -> Array:
         """Simulate the second; return beta1 at `SAMPLES`, rad."""
-        given = exu.SimulationSettings()
-        given.timeIntegration.numberOfSteps = setting.steps
-        given.timeIntegration.endTime = float(SAMPLES[-1])
-        given.timeIntegration.adaptiveStep = False
-        given.timeIntegration.verboseMode = 0
-        given.timeIntegration.newton.useModifiedNewton = setting.modified_newton
-        alpha = given.timeIntegration.generalizedAlpha
-        alpha.spectralRadius = setting.spectral_radius
-        alpha.computeInitialAccelerations = True
-        given.linearSolverType = exu.LinearSolverType.EXUdense
-        given.solutionSettings.writeSolutionToFile = False
-        given.solutionSettings.sensorsWritePeriod = float(SAMPLES[1])
-        self._system.SolveDynamic(given)
-        stored = self._system.GetSensorStoredData(self._sensor)
+        settings = setting.simulation(SAMPLES)
+        settings.linearSolverType = exu.LinearSolverType.EXUdense
+        stored = self._simulate(settings)
         lever = stored[:, 1:] - car().hinge_foot
         return np.arctan2(lever @ car().hinge[1], lever @ car().hinge[2])
 
     def _body(self, begin: Instant, body: int) -> Any:
         mechanism = car()
-        rotation = begin.pose.rotation[body - 1]
-        inertia = RigidBodyInertia(
-            mass=mechanism.masses[body - 1], inertiaTensor=mechanism.inertias[body - 1]
-        )
-        return self._system.CreateRigidBody(
-            inertia=inertia,
-            referencePosition=begin.pose.position[body - 1],
-            referenceRotationMatrix=rotation,
-            initialVelocity=begin.twist[body - 1, :3],
-            initialAngularVelocity=begin.twist[body - 1, 3:],
-            gravity=[0.0, 0.0, -mechanism.parameters["gravity"]],
-            nodeType=exu.NodeType.RotationEulerParameters,
+        place = body - 1
+        return self._rigid_body(
+            mechanism.masses[place],
+            mechanism.inertias[place],
+            (begin.pose.position[place], begin.pose.rotation[place]),
+            begin.twist[place],
+            mechanism.parameters["gravity"],
         )
 
     def _marker(self, body: int, point: Array) -> Any:
         """Return a marker of a body at a point given in the design position."""
-        return self._system.AddMarker(
-            items.MarkerBodyRigid(
-                bodyNumber=self._bodies[body] if body else self._ground,
-                localPosition=np.asarray(point) - car().centres[body],
-            )
-        )
+        number = self._bodies[body] if body else self._ground
+        return self._body_marker(number, np.asarray(point) - car().centres[body])
 
     def _joint(self, bodies: tuple[int, int], points: tuple[Array, Array], axes: Any) -> None:
-        first, second = bodies
-        rotation = np.array(axes[1]).T
-        self._system.AddObject(
-            items.ObjectJointGeneric(
-                markerNumbers=[self._marker(first, points[0]), self._marker(second, points[1])],
-                constrainedAxes=axes[0],
-                rotationMarker0=rotation,
-                rotationMarker1=rotation,
-            )
-        )
+        markers = [self._marker(*end) for end in zip(bodies, points, strict=True)]
+        self._constrain(markers, axes[0], np.array(axes[1]).T)
 
     def _joints(self) -> None:
         point, mechanism = car().points, car()
@@ -147,12 +82,8 @@ class Exudyn:
         # The strut top may lie anywhere on the first axis of the strut frame.
         self._joint((KNUCKLE, 0), (ball, point["strut_top"]), ([0, 1, 1, 0, 0, 0], strut_frame()))
         ends = point["tie_rod_outer"], point["tie_rod_inner"]
-        self._system.AddObject(
-            items.ObjectConnectorDistance(
-                markerNumbers=[self._marker(KNUCKLE, ends[0]), self._marker(0, ends[1])],
-                distance=float(np.linalg.norm(ends[0] - ends[1])),
-            )
-        )
+        markers = [self._marker(KNUCKLE, ends[0]), self._marker(0, ends[1])]
+        self._keep_distance(markers, float(np.linalg.norm(ends[0] - ends[1])))
 
     def _forces(self, given: Parameters) -> None:
         point = car().points
@@ -214,6 +145,6 @@ def _tyre_force(rate: float) -> Any:
 
 def extrapolated(system: Exudyn, setting: Setting) -> Array:
     """Return beta1 by Richardson's extrapolation of runs with half and all of the steps."""
-    half = Setting(setting.steps // 2, setting.spectral_radius, setting.modified_newton)
+    half = replace(setting, steps=setting.steps // 2)
     fine, coarse = system.run(setting), system.run(half)
     return (4.0 * fine - coarse) / 3.0
