@@ -244,7 +244,7 @@ def timed(
 ) -> Iterator[Rate]:
     """Yield how fast one way is, for every number of cars."""
     setting, error = loosest(solve, min(CHECKED, sizes[0]), settings)
-    told = f"{setting} steps" if isinstance(setting, int) else f"{setting:.0e}"
+    label = f"{setting} steps" if isinstance(setting, int) else f"{setting:.0e}"
     for number in sizes:
         taken = []
         for _ in range(REPEATS):
@@ -252,7 +252,7 @@ def timed(
             solve(number, setting)
             taken.append((time.perf_counter() - before[0], processor_time() - before[1]))
         clock, processor = map(min, zip(*taken, strict=True))
-        yield Rate(what, number, threads, told, error, clock, processor)
+        yield Rate(what, number, threads, label, error, clock, processor)
 
 
 def processor_time() -> float:
@@ -323,9 +323,9 @@ def iterating(most: int) -> str:
     alone, in_lanes = _processor_times(in_a_loop) / few, _processor_times(together) / many
     return (
         f"For a second of motion, one of {count(many)} cars on five links, whose loops iterate, "
-        f"takes {_told(1e6 * in_lanes)} µs of a core in {library.widths()[-1]} lanes, and "
-        f"{_told(1e6 * alone)} µs in a loop over `simulate` by the same method and tolerances, "
-        f"{_told(alone / in_lanes, digits=2)} times as long."
+        f"takes {_rounded(1e6 * in_lanes)} µs of a core in {library.widths()[-1]} lanes, and "
+        f"{_rounded(1e6 * alone)} µs in a loop over `simulate` by the same method and tolerances, "
+        f"{_rounded(alone / in_lanes, digits=2)} times as long."
     )
 
 
@@ -370,7 +370,7 @@ def table_of_rates(found: list[Rate]) -> str:
             count(rate.cars),
             rate.setting,
             f"{rate.error:.0e}",
-            _told(_of_a_core(rate)),
+            _rounded(_of_a_core(rate)),
             count(float(f"{rate.per_second:.2g}")),
         )
         for rate in largest
@@ -390,8 +390,8 @@ def table_of_others(found: list[Rate]) -> str:
             count(rate.cars),
             rate.setting,
             f"{rate.error:.0e}",
-            _told(_of_a_core(rate)),
-            _told(_of_a_core(rate) / _of_a_core(found[0]), digits=2),
+            _rounded(_of_a_core(rate)),
+            _rounded(_of_a_core(rate) / _of_a_core(found[0]), digits=2),
         )
         for rate in found
     ]
@@ -405,7 +405,7 @@ def _beside() -> str:
     return f"{versions}. {load()}"
 
 
-def _told(number: float, digits: int = 3) -> str:
+def _rounded(number: float, digits: int = 3) -> str:
     """Return a number in so many digits."""
     short = f"{number:.{digits}g}"
     return count(float(short)) if number >= 100.0 else short

@@ -78,10 +78,10 @@ def kept_rows(what: list[str], cars: int) -> Iterator[tuple[str, ...]]:
     """Yield what it takes to keep something of many cars, each in a process of its own."""
     for one in what:
         command = [sys.executable, "-m", "benchmarks.ensemble_stiff", "--kept", one]
-        told = subprocess.run(
+        output = subprocess.run(
             [*command, "--cars", str(cars)], check=True, capture_output=True, text=True
         )
-        seconds, megabytes = map(float, told.stdout.split())
+        seconds, megabytes = map(float, output.stdout.split())
         yield one, f"{seconds:.2g}", f"{megabytes:.0f}"
 
 

@@ -1,4 +1,4 @@
-"""What an export takes: files, seconds, and communication steps above their arithmetic.
+"""Size and time of exports, and the time of communication steps beyond their arithmetic.
 
 ``make benchmark-export`` measures the units of the reference car, called from C and by FMPy, and
 its right-hand side in JAX.
@@ -34,7 +34,7 @@ from .report import environment, fill_page, machine_line, markdown_table
 CAR = "reference_car"
 DRIVER = Path(__file__).with_name("export_steps.c")
 VERSIONS = {2: "guid", 3: "instantiationToken"}
-# a step of the solver each [s], as in export_steps.c; so many by FMPy
+# length of a communication step, one step of the solver, as in export_steps.c [s]; steps by FMPy
 LENGTH, STEPS = 1e-5, 2000
 
 
@@ -66,7 +66,7 @@ def with_windows(folder: Path) -> str:
 
 
 def steps(folder: Path, rounds: int) -> list[float]:
-    """Return what the program in C measures [us, us, us, MB]."""
+    """Return the measurements of the program in C [us, us, us, MB]."""
     compiler = find_compiler()
     assert compiler is not None
     model = Model(CAR)
@@ -91,12 +91,12 @@ def steps(folder: Path, rounds: int) -> list[float]:
         text = (folder / f"fmi{version}/modelDescription.xml").read_text(encoding="utf-8")
         library = next((folder / f"fmi{version}").glob("binaries/*linux*/*.so"))
         given += [str(library), re.findall(f'{key}="(.*?)"', text)[0]]
-    said = subprocess.run([program, *given], check=True, capture_output=True, text=True).stdout
-    return [float(number) for number in said.split()]
+    output = subprocess.run([program, *given], check=True, capture_output=True, text=True).stdout
+    return [float(number) for number in output.split()]
 
 
 def by_fmpy(folder: Path, rounds: int) -> list[float]:
-    """Return what a step takes that FMPy calls, in each version [us]."""
+    """Return the processor time of a step called by FMPy, in each version of FMI [us]."""
     found = []
     for version, kind in ((2, FMU2Slave), (3, FMU3Slave)):
         place = str(folder / f"fmi{version}")
@@ -122,7 +122,7 @@ def _seconds(step: Callable[..., object], times: Iterator[float]) -> float:
 
 
 def in_jax(folder: Path, rounds: int) -> str:
-    """Return what a right-hand side takes by jax.ffi, state by state and in lanes."""
+    """Return the time of a right-hand side by jax.ffi, state by state and in lanes."""
     compiler = find_compiler()
     assert compiler is not None
     code, command = folder / "c", compiler.command[0]

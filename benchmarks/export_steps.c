@@ -90,7 +90,7 @@ static double bare_step(const double *state)
     return error + status + stage[0] + margins[0] + NODES[1] + DENSE[0];
 }
 
-/* Seconds of a step, in one round each. The machine may be faster in one round than in another: all are measured in turn. */
+/* Seconds of a step in one round. All are measured in turn, since the machine may be faster in one round than another. */
 
 static double arithmetic(double *state)
 {

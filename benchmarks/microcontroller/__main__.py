@@ -20,7 +20,7 @@ _HEADER = (
 
 
 def systems() -> dict[str, kintrafo.System]:
-    """Return the measured figures."""
+    """Return the systems that are measured, by name."""
     return {
         "four_bar": kintrafo.System(four_bar),
         "reference_car": kintrafo.Model("reference_car"),

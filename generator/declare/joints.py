@@ -125,7 +125,7 @@ class TurningJoint(Joint):
         Parameters
         ----------
         name, meaning
-            What it is called, and what it means for the documentation of the generated code.
+            Of the coordinate: its name, and its description in the documentation of the code.
         """
         return self._coordinate("angle", name, meaning)
 
@@ -139,7 +139,7 @@ class SlidingJoint(Joint):
         Parameters
         ----------
         name, meaning
-            What it is called, and what it means for the documentation of the generated code.
+            Of the coordinate: its name, and its description in the documentation of the code.
         """
         return self._coordinate("slide", name, meaning)
 
@@ -270,7 +270,7 @@ class Universal(Joint):
         Parameters
         ----------
         name, meaning
-            What it is called, and what it means for the documentation of the generated code.
+            Of the coordinate: its name, and its description in the documentation of the code.
         """
         return self._coordinate("azimuth", name, meaning)
 
@@ -280,7 +280,7 @@ class Universal(Joint):
         Parameters
         ----------
         name, meaning
-            What it is called, and what it means for the documentation of the generated code.
+            Of the coordinate: its name, and its description in the documentation of the code.
         """
         return self._coordinate("elevation", name, meaning)
 
@@ -323,14 +323,14 @@ class Free(Joint):
         name: Name,
         meaning: str,
     ) -> RelativeCoordinate:
-        """Return one of them as a relative coordinate [m or rad].
+        """Return one of its coordinates as a relative coordinate [m or rad].
 
         Parameters
         ----------
         kind
-            Which of them.
+            Which one.
         name, meaning
-            What it is called, and what it means for the documentation of the generated code.
+            Of the coordinate: its name, and its description in the documentation of the code.
         """
         return self._coordinate(kind, name, meaning)
 

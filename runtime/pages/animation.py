@@ -104,15 +104,8 @@ def frames(times: Array, fps: float, slower: float = 1.0) -> tuple[Array, Indice
     ----------
     times : ndarray, shape (n,)
         Of the outputs [s].
-    fps : float
-        Frames that are shown per second.
-    slower : float, optional
-        How many times slower than real time it plays.
-
-    Raises
-    ------
-    InputError
-        If there are more frames than viewers show.
+    fps, slower
+        As in `frames_in`, with its errors.
     """
     count = frames_in(abs(float(times[-1] - times[0])), fps, slower)
     wanted = np.linspace(times[0], times[-1], count)
@@ -120,7 +113,7 @@ def frames(times: Array, fps: float, slower: float = 1.0) -> tuple[Array, Indice
 
 
 def frames_in(seconds: float, fps: float, slower: float = 1.0) -> int:
-    """Return how many frames a GIF of a motion has.
+    """Return the number of frames of a GIF of a motion.
 
     Parameters
     ----------
@@ -129,7 +122,7 @@ def frames_in(seconds: float, fps: float, slower: float = 1.0) -> int:
     fps : float
         Frames that are shown per second.
     slower : float, optional
-        How many times slower than real time it plays.
+        Factor by which it plays slower than real time.
 
     Raises
     ------

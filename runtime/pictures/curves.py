@@ -35,15 +35,15 @@ _MOST_LINES = 7
 COLUMNS = 3
 # Width and height of a panel, its position along the horizontal or the vertical axis [in].
 _LEVEL, _UPRIGHT = (3.7, 2.5), (3.0, 3.1)
-# So many narrow panels fill rows of four, and so many wide ones rows of two.
+# Numbers of narrow panels that are in rows of four, and of wide panels in rows of two.
 _FOUR_IN_A_ROW, _TWO_IN_A_ROW = (4, 7, 8), 4
 # Letters of a title above a narrow panel, and ticks below it.
 _NARROW_TITLE, _NARROW_TICKS = 34, 4
 # What labels and ticks take of a panel [in].
 _AROUND = np.array([0.9, 0.7])
-# What a row of names takes below the panels, which keep their size, and each further one [in].
+# Height of a row of names below the panels, which keep their size, and of each further row [in].
 _BELOW, _FURTHER = 0.4, 0.2
-# So many names are in a row below the panels.
+# Names in a row below the panels.
 _IN_A_ROW = 4
 # Round values only, and never an offset that must be added in the head.
 _TICK_STEPS = [1, 2, 2.5, 5, 10]
@@ -66,12 +66,12 @@ LEAST_SPANS = {
 }
 # So many curves have their names beside them, more have a legend.
 _FEW_NAMES = 3
-# A figure with more rows than this has the names of the lines in each row.
+# A figure with more rows of panels than this has the names of the lines in each row.
 _SHORT = 3
 
-# Where one curve has more ups and downs than this, as over a rough road, all lines are thin.
+# All lines are thin if one of them turns up or down more often than this, as over a rough road.
 _MANY_TURNS, _THIN = 40, 0.7
-# An up or a down of less than a level is not seen, and may be rounding.
+# Values are rounded to so many levels before turns are counted: smaller turns may be rounding.
 _LEVELS = 200
 
 
@@ -465,7 +465,7 @@ def _named_lines(axes: Axes, data: xr.DataArray) -> _Named:
 
 
 def _legend_apart(result: Figure, page: _Page, lines: _Named) -> None:
-    """Name the lines of a page where they cover no curve; of one panel, where it has most room."""
+    """Name the lines of a page below or in a free cell; in a single panel, where most room is."""
     panels, free = page.panels, page.free
     if len(panels) > 1 and not free.size:
         _legend_below(result, lines, {}, alone=False)
@@ -476,7 +476,7 @@ def _legend_apart(result: Figure, page: _Page, lines: _Named) -> None:
 
 
 def _name_rows(panels: Array, lines: _Named) -> None:
-    """Name the lines of a high figure in each row too: its legend below is far away."""
+    """Name the lines also in each row of a high figure, since its legend below is far away."""
     columns = panels[0].get_gridspec().ncols
     if len(panels) <= _SHORT * columns:
         return
@@ -525,7 +525,7 @@ def _held(dataset: xr.Dataset) -> str:
 
 
 def _width(values: Array) -> float:
-    """Return how wide a curve is: thin, where it goes up and down so often that it fills."""
+    """Return the line width of a curve: thin, if a line with many turns would fill its area."""
     finite = values[np.isfinite(values)]
     if finite.size == 0 or is_constant(finite):
         return float(rcParams["lines.linewidth"])

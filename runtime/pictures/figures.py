@@ -67,17 +67,17 @@ def save(figure: Figure, path: str | Path, *, force: bool = False, inputs: Paths
     return Path(path)
 
 
-def image_address(figure: Figure, ending: Literal["svg", "png"] = "svg") -> str:
-    """Return a figure as the address of an image, which a page has in it.
+def data_uri(figure: Figure, ending: Literal["svg", "png"] = "svg") -> str:
+    """Return a figure as the data URI of an image, which needs no file beside a page.
 
     Parameters
     ----------
     figure : matplotlib.figure.Figure
     ending : {'svg', 'png'}, optional
-        Of sharp lines, or of points where it has many letters.
+        Vector graphics, or pixels, which are smaller for a figure with many letters.
     """
     drawn = BytesIO()
-    # letters stay letters: they can be searched for, and take a tenth of the room
+    # text stays text: it can be searched for, and takes a tenth of the room
     with rc_context({"svg.fonttype": "none"}):
         lay_out(figure).savefig(drawn, dpi=110, format=ending, metadata=METADATA[ending])
     kind = {"svg": "svg+xml", "png": "png"}[ending]
@@ -93,7 +93,7 @@ def written_plainly(figure: Figure) -> Figure:
 
 
 def small(figure: Figure) -> Figure:
-    """Give a figure of one curve the size of a panel, which a page has several of in a row."""
+    """Give a figure of one curve the size of a panel, so that several fit in a row of a page."""
     figure.set_size_inches(*_PANEL)
     return lay_out(figure)
 

@@ -12,9 +12,9 @@ from ..core.validator import Validator, shown
 Array = NDArray[np.float64]
 
 _MOST_STEPS = 2**62
-# What steps may err by for the rounding of time [s], where all of it is so many spans from zero.
+# Rounding of time that is too coarse for steps [s], if times are so many spans from zero.
 # On the clock of a computer, which counts from 1970, times are 2e-7 s apart.
-_TOLD_APART, _FAR = 1e-9, 1e3
+_COARSE, _FAR = 1e-9, 1e3
 _SMALLEST_RTOL = 100.0 * np.finfo(float).eps  # what double precision can do
 
 
@@ -79,7 +79,7 @@ def span_of(given: Validator, t_span: Any) -> tuple[float, float]:
         return 0.0, 1.0
     farthest = max(abs(first), abs(last))
     apart = math.ulp(farthest)
-    if apart > _TOLD_APART and farthest > _FAR * abs(last - first):
+    if apart > _COARSE and farthest > _FAR * abs(last - first):
         given.fail(
             f"t_span = {shown(t_span)}: times of this size are rounded to {apart:.1g} s, "
             "which is an error of every step. Measure all times from the first one, which is "

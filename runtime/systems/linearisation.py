@@ -198,7 +198,7 @@ class Linearisation:
         return self.responses(frequency, [source])[0][..., 0]
 
     def responses(self, frequency: ArrayLike, sources: Sequence[str]) -> tuple[Complex, Complex]:
-        """Return how states and outputs follow small harmonic inputs, each by itself.
+        """Return the complex amplitudes of states and outputs per unit amplitude of each input.
 
         Parameters
         ----------

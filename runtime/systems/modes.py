@@ -194,7 +194,7 @@ def modes_of_motions(
     matrix, names
         As in `mode_of_states`.
     motions : ndarray, shape (motions, states)
-        Amplitude of each motion by the states: no more of them than modes.
+        Amplitude of each motion by the states. There are no more motions than modes.
     weights : ndarray, shape (motions,)
         The mass or moment of inertia of each.
     """
@@ -203,7 +203,7 @@ def modes_of_motions(
     values, _, right = _decompose(matrix)
     energies = weights[:, None] * np.abs(motions @ right) ** 2
     total = energies.sum(axis=0)
-    # none of those in which no motion takes part, such as the zeros of wheels that spin freely:
+    # without modes in which no motion takes part, such as the zeros of wheels that spin freely;
     # eigenvectors have the length one, rates included
     size = total * (1.0 + np.abs(values) ** 2)
     moving = size > _LEAST_SHARE * size.max()
@@ -247,10 +247,10 @@ def _decompose(matrix: Array) -> tuple[Complex, Complex, Complex]:
 
 
 def _rounding(matrix: Array, left: Complex, right: Complex) -> Array:
-    """Return how far rounding moves each eigenvalue, to first order.
+    """Return the error of each eigenvalue from rounding of the matrix, to first order.
 
-    That is the rounding of the matrix over the product of the two eigenvectors, of length one. Two
-    zeros that belong to one eigenvector move by the square root of rounding.
+    It is the rounding of the matrix over the product of left and right eigenvector, both of length
+    one. Two zeros with one eigenvector have an error of the square root of rounding.
     """
     eps, size = float(np.finfo(np.float64).eps), float(np.linalg.norm(matrix))
     product = np.abs(np.einsum("ik,ik->k", left.conj(), right))

@@ -84,10 +84,10 @@ def files(emitted: Emitted) -> dict[str, str]:
 
 
 def _of_lanes(emitted: Emitted) -> dict[str, str]:
-    """Return the headers by which emitted equations are ones about vectors."""
+    """Return the headers that compile emitted equations for vectors, by file name."""
     named = {"lanes.h": READER} | {name: name for name in HEADERS}
     if not _iterating(emitted.manifest):
-        del named["follow.h"]  # which follows loops without a closed form
+        del named["follow.h"]  # only for loops without a closed form
     here = resources(lanes)
     return {name: (here / file).read_text(encoding="utf-8") for name, file in named.items()}
 

@@ -32,7 +32,7 @@ class ShaftTorque(Force):
     Without `standstill` the torque is the input, positive as the wheel rolls forward. With it the
     input is the torque of a brake: it opposes the spin of the wheel relative to the reacting part,
     as ``torque * w / sqrt(w^2 + standstill^2)`` of the spin w, and so vanishes with the spin. A
-    brake does not drive: less than zero is no torque.
+    brake does not drive: a torque below zero counts as zero.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ class ShaftTorque(Force):
         The carrier, as of a brake or a motor at the wheel; or a body that the whole suspension
         hangs on, as of a final drive or an inboard brake behind a shaft.
     torque
-        [N m]; of a brake zero or more, less is taken as zero.
+        [N m]; of a brake zero or more.
     standstill
         Of a brake: the spin at which 71 % of its torque acts [rad/s].
     """
@@ -100,7 +100,7 @@ class ShaftTorque(Force):
             turning = sum((rate * at.rate(k) for k, rate in rates.items()), sp.Integer(0))
             turning = at.program.define(f"{self.name}_spin", turning)
             slow = self.standstill.symbol
-            # of zero the derivative by the torque is that to the side on which a brake acts
+            # at zero the derivative by the torque is the one-sided one, of torques above zero
             pressed = torque * (1 - IsPositive(-torque))
             torque = -pressed * turning / sp.sqrt(turning * turning + slow * slow)
         torque = at.program.define(f"{self.name}_acting", torque)

@@ -1,4 +1,4 @@
-"""Bodies that move in a plane with their base: one moment of inertia is all that counts."""
+"""Bodies that move in a plane with their base: the equations have one moment of inertia of each."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 def in_plane(carried: Carried, inertia: SpatialInertia) -> SpatialInertia:
     """Return the inertia of a body, or of a lamina with the same equations in a plane.
 
-    Where base and body turn about one direction only, the second moments along the plane enter the
-    equations by their sum, which is the moment of inertia about the normal; so a body of a plane
-    has no other. Each of the two is taken as half of it.
+    If base and body turn about one direction only, the second moments along the plane enter the
+    equations only by their sum, which is the moment of inertia about the normal of the plane. Each
+    of the two is replaced by half of that moment, and products of inertia by zero.
 
     Parameters
     ----------
@@ -37,12 +37,12 @@ def in_plane(carried: Carried, inertia: SpatialInertia) -> SpatialInertia:
 
 
 def _normal(turning: Iterable[Vector]) -> int | None:
-    """Return the one axis of a base about which it turns; None where it has not one."""
+    """Return the one axis of a base about which its motions turn, or None."""
     turned = {i for omega in turning for i, part in enumerate(omega) if part != 0}
     return turned.pop() if len(turned) == 1 else None
 
 
 def _along(axes: Iterable[Vector], normal: int) -> int | None:
-    """Return which axis of a body is along an axis of the base, at all times."""
+    """Return the axis of a body that is always along an axis of the base; None if there is none."""
     found = [i for i, axis in enumerate(axes) if tuple(axis)[normal] != 0]
     return found[0] if len(found) == 1 else None

@@ -12,7 +12,7 @@ from ...systems.compile.compiler import Compiler, find_compiler
 from .options import OF_WIDTH, SCHEDULED
 
 _HERE = Path(__file__).parent
-# what reads emitted equations as ones about vectors, and the headers beside it
+# the file that compiles emitted equations for vectors, and its headers
 READER, HEADERS = "model.c", ("follow.h", "vectors.h")
 
 
@@ -81,6 +81,6 @@ def _included(folder: Path) -> Iterator[Path]:
 
 
 def _digest() -> str:
-    """Return a hash of what reads equations as ones about vectors."""
+    """Return a hash of the files that compile equations for vectors."""
     texts = b"\0".join((_HERE / name).read_bytes() for name in (READER, *HEADERS))
     return hashlib.sha256(texts).hexdigest()

@@ -8,7 +8,7 @@
 /* The last bound is that of the power 2^8 of the matrix: some per cent above the largest eigenvalue at most. */
 #define SQUARINGS 8
 
-/* Sweeps of balancing, and by which part of what it was a row and its column have to become smaller. */
+/* Sweeps of balancing; a row and its column are scaled if that makes their sum smaller than this part of it. */
 #define SWEEPS 8
 #define WORTHWHILE 0.95
 
@@ -69,7 +69,7 @@ double kt_bound_eigenvalues(double *matrix, double *spare, int n, double enough)
 
 /* -- balancing -------------------------------------------------------------------------------- */
 
-/* Multiply a row by a weight, and divide its column by it; by zero, let both be zero. */
+/* Multiply a row by a weight, and divide its column by it; a weight of zero makes both zero. */
 static void weigh(double *matrix, int n, int element, double weight)
 {
     double inverse = weight > 0.0 ? 1.0 / weight : 0.0;
@@ -81,7 +81,7 @@ static void weigh(double *matrix, int n, int element, double weight)
     }
 }
 
-/* Make a row and its column equally large; return whether they have become smaller by that. */
+/* Make a row and its column equally large; return whether that made their sum smaller. */
 static int balance_element(double *matrix, int n, int element, double *weight)
 {
     double own = fabs(matrix[element * n + element]), row = 0.0, column = 0.0;
@@ -96,7 +96,7 @@ static int balance_element(double *matrix, int n, int element, double *weight)
         *weight = 0.0;
         return was;
     }
-    /* what has no way back is as large as its own rate at most */
+    /* sums below the diagonal element are taken to be as large as it */
     double by = sqrt(fmax(column, own) / fmax(row, own));
     if (!(row * by + column / by < WORTHWHILE * (row + column))) {
         return 0;

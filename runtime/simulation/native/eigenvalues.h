@@ -1,11 +1,11 @@
-/* How large the eigenvalues of a matrix are at most, and in what measure of vectors its norm is not much larger. */
+/* Bounds of the eigenvalues of a matrix, and weights that bring its norm near them. */
 #ifndef KINTRAFO_EIGENVALUES_H
 #define KINTRAFO_EIGENVALUES_H
 
 /*
  * Balance a matrix, n x n, row-major, and find the weights of the elements of a vector that do so: row i is
  * multiplied by its weight and column i is divided by it. A weight is zero where the element has no part in any
- * eigenvalue but zero; its row and column are then zero. Returns the Frobenius norm of what comes of it.
+ * eigenvalue but zero; its row and column are then zero. Returns the Frobenius norm of the balanced matrix.
  */
 double kt_balance(double *matrix, int n, double *weights);
 

@@ -3,14 +3,15 @@
 #include "polynomial.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Part of a step that is not taken for one: rounding of times. */
 #define SLIVER 1.0e-9
 
 /*
- * So many steps in which rates jump, with never so many in a row between them in which they do not, are more
- * than one passing of a jump.
+ * A motion passes a jump more than once if rates jump in the former number of steps, with fewer than the latter in a
+ * row between them in which they do not.
  */
 #define OFTEN_JUMPS 15
 #define OFTEN_CALM 6
@@ -41,11 +42,11 @@ static double end_of_step(const kt_fixed_times *t, double most)
 /* Note that the step to this time is taken. */
 static void reach(kt_fixed_times *t, double end, double most)
 {
-    int anew = lands(t, most) || !is_whole(t, most);
+    int restarted = lands(t, most) || !is_whole(t, most);
     t->reached = end;
     t->next = fmin(2.0 * t->next, most);
-    t->since = anew ? 0 : t->since + 1;
-    t->origin = anew ? end : t->origin;
+    t->since = restarted ? 0 : t->since + 1;
+    t->origin = restarted ? end : t->origin;
 }
 
 /* -- begin ------------------------------------------------------------------------------------ */
@@ -68,13 +69,37 @@ int kt_fixed_begin(worker *w, double time, double length)
     return 0;
 }
 
-void kt_fixed_open(worker *w, const kt_fixed_method *method, double start)
+double *kt_fixed_open(worker *w, const kt_fixed_method *method, double start)
 {
-    kt_fixed *m = w->own;
+    size_t n = (size_t)w->problem->state_count, stages = (size_t)method->stages;
+    kt_fixed *m = w->own = calloc(1, method->size);
+    if (!m) {
+        return NULL;
+    }
+    size_t vectors = 3 + stages + KT_TERMS + (size_t)method->vectors;
+    m->memory = calloc((vectors + (size_t)method->matrices * n) * n, sizeof *m->memory);
+    if (!m->memory) {
+        return NULL;
+    }
+    m->state = m->memory;
+    m->end_state = m->state + n;
+    m->end_rates = m->end_state + n;
+    m->rates = m->end_rates + n;
+    m->terms = m->rates + stages * n;
     m->method = method;
     m->times.sign = w->end > w->start ? 1.0 : -1.0;
     m->times.stop = w->end;
     kt_fixed_begin(w, start, longest(w));
+    return m->terms + KT_TERMS * n;
+}
+
+void kt_fixed_close(worker *w)
+{
+    kt_fixed *m = w->own;
+    if (m) {
+        free(m->memory);
+        free(m);
+    }
 }
 
 /* -- a step ----------------------------------------------------------------------------------- */
@@ -86,7 +111,7 @@ int kt_fixed_rates(worker *w, double time, const double *state, double *out)
     return kt_rates(w, time, state, out);
 }
 
-/* Let the end of the last step be the begin of the next one, and see that its rates are known. */
+/* Begin where the last step ended, and evaluate the rates there if they are not known. */
 static int go_on(worker *w)
 {
     kt_fixed *m = w->own;
@@ -104,7 +129,7 @@ static int go_on(worker *w)
     return 0;
 }
 
-/* Count the steps in which rates jump; refuse them where they do so again and again. */
+/* Count the steps in which rates jump, and refuse a step after too many of them. */
 static int see_jumps(worker *w, double step)
 {
     kt_fixed *m = w->own;

@@ -4,15 +4,20 @@
 
 #include "worker.h"
 
+#include <stddef.h>
+
 /* A code that is never returned: there are no tolerances. */
 #define KT_NO_TOLERANCES 1
 
 /* Terms of the polynomial within a step. */
 #define KT_TERMS 4
 
-/* The steps of one method; codes are those of a solver, zero where nothing is wrong. */
+/* One method: its memory, and its steps, whose codes are those of a solver, zero for no error. */
 typedef struct {
-    int (*prepare)(worker *w, double step);             /* what is needed before the stages, or refuse the step */
+    size_t size;                                        /* of its struct, which begins with a kt_fixed [bytes] */
+    int stages;                                         /* whose rates it keeps, from that at the begin on */
+    int vectors, matrices;                              /* of states, of states x states: its further arrays */
+    int (*prepare)(worker *w, double step);             /* before the stages; may refuse the step */
     int (*attempt)(worker *w, double end, double step); /* find the end, or a code */
     int (*jumped)(worker *w, double step);              /* whether rates jump to and fro in the step, or a code */
     int (*refuse_jumps)(worker *w, double step);        /* the code of steps that do so again and again */
@@ -28,26 +33,28 @@ typedef struct {
     double stop;          /* no step passes over this time */
 } kt_fixed_times;
 
-/* The first member of what belongs to a method. */
+/* The first member of the struct of a method. */
 typedef struct {
     const kt_fixed_method *method;
+    double *memory;            /* of all arrays */
     kt_fixed_times times;
     double *state, *end_state; /* of the last step */
-    double *rates, *end_rates; /* at the begin; at the end, which are those of the next begin */
+    double *rates, *end_rates; /* stages x states, at the begin first; at the end, which is the next begin */
     double *terms;             /* KT_TERMS x states: the polynomial within the last step */
-    int jumps, calm;           /* steps in which rates have jumped, and those in a row in which not */
-    int elsewhere;             /* the state is not that to which the step before led */
+    int jumps, calm;           /* steps in which rates have jumped; steps in a row without a jump */
+    int elsewhere;             /* the state is not the end of the last step */
     int fresh, fitted;         /* the rates at `time` are not known; the terms are those of the last step */
     kt_statistics counted;
 } kt_fixed;
 
-/* Begin at a time; the arrays are there. */
-void kt_fixed_open(worker *w, const kt_fixed_method *method, double start);
+/* Allocate the memory of a method, and begin at a time. Returns its further arrays, or NULL if there is no memory. */
+double *kt_fixed_open(worker *w, const kt_fixed_method *method, double start);
 
 /* Evaluate the rates, and count that. */
 int kt_fixed_rates(worker *w, double time, const double *state, double *out);
 
-/* What a `kt_solver` of these methods has. */
+/* Members of the `kt_solver` of each of these methods. */
+void kt_fixed_close(worker *w);
 int kt_fixed_begin(worker *w, double time, double length);
 int kt_fixed_step(worker *w, double goal, double *time);
 int kt_fixed_set_stop(worker *w, double time);

@@ -3,7 +3,7 @@
  * evaluations a step for any motion. What lies within a step is interpolated by the cubic through both of
  * its ends (Hermite), at no evaluations.
  *
- * A step that is too long makes what is fast grow, and no error estimate shows it. So the largest eigenvalue of
+ * In a step that is too long fast motions grow, and no error estimate shows it. So the largest eigenvalue of
  * the exact Jacobian is bounded, and a step that is not stable is refused. The Jacobian costs more than the
  * step, and is evaluated at the first step, at one in many, and at each step whose own rates differ by more than
  * the last Jacobian explains. A motion that grows shows in these differences long before it shows in the state.
@@ -17,51 +17,49 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /*
- * Whatever eigenvalue of a motion that does not grow, times the step, is below this, is stable: the radius of the
+ * A step is stable if its length times each eigenvalue, of motions that do not grow, is below this: the radius of the
  * largest half disc in the region of stability, which is 2.785 long on the real axis and 2.828 on the other.
  */
 #define STABLE 2.61
 
-/* Rates that differ by no more than this part of what they may are not looked at further. */
+/* Rates differ by little if the step times their difference is below this part of the difference of states. */
 #define LITTLE 0.25
 
-/* What differs by this much is near the end of stability, where each step has its own Jacobian. */
+/* The same part near the limit of stability, from where each step has its own Jacobian. */
 #define NEAR (0.5 * STABLE)
 
-/* So many steps at most have one Jacobian. */
+/* Most steps that share one Jacobian. */
 #define STEPS_OF_ONE 128
 
 /*
- * Rates jump where a step times what their change between two stages has beyond the Jacobian is more than this
- * part of what has changed, and more than so many roundings.
+ * Rates jump where the step, times the change of rates between two stages that the Jacobian does not explain, is more
+ * than this part of the change of the state, and more than so many roundings.
  */
 #define JUMP 0.5
 #define ROUNDINGS 1.0e6
 
-/* Halvings of the way between two stages, to find where rates are steepest. */
+/* Halvings of the way between two stages, to find the steepest rates. */
 #define HALVINGS 30
 
 typedef struct {
     kt_fixed fixed;
-    double *memory;
-    double *stage;                      /* a state; the rates at the begin are those of all stages, 4 x states */
+    double *stage;                      /* the state of a stage */
     double *jacobian, *matrix, *square; /* states x states */
     double *weights; /* of the states, in which the Jacobian is balanced */
-    double *most;    /* differences of each state since the last Jacobian: of stages at one time; over a step */
+    double *most;    /* largest differences of each state since the last Jacobian: between stages at one time; at two */
     double norm;     /* of the balanced Jacobian */
-    double length;   /* of the longest step that the Jacobian lets be stable, as was seen */
+    double length;   /* of the step that was stable by the Jacobian */
     int due;         /* the next step has a Jacobian of its own */
-    int here;        /* the Jacobian is that of the begin of this step */
-    int steps;       /* that go by the Jacobian */
+    int here;        /* the Jacobian is of the begin of this step */
+    int steps;       /* since the Jacobian */
 } method;
 
 /* -- stability -------------------------------------------------------------------------------- */
 
-/* See that a step is stable by the Jacobian of a state; note the longest one otherwise. */
+/* Refuse a step that is not stable by the Jacobian of a state, and note the longest one that is. */
 static int check(worker *w, double time, const double *state, double step)
 {
     method *m = w->own;
@@ -84,7 +82,7 @@ static int check(worker *w, double time, const double *state, double step)
     return 0;
 }
 
-/* The same by the Jacobian at the begin of a step, unless that is known. */
+/* The same by the Jacobian at the begin of the step, unless it was evaluated there before. */
 static int check_here(worker *w, double step)
 {
     method *m = w->own;
@@ -105,7 +103,7 @@ static double weighed(const method *m, int n, const double *vector)
     return sqrt(sum);
 }
 
-/* Return whether a rate differs from what the last Jacobian has by no more than rounding makes it. */
+/* Return whether the difference of a rate from the last Jacobian is within rounding. */
 static int rounded(const method *m, int n, int row, double beyond)
 {
     double size = fabs(m->fixed.rates[row]);
@@ -116,9 +114,9 @@ static int rounded(const method *m, int n, int row, double beyond)
 }
 
 /*
- * Return whether each rate differs by little more than the last Jacobian has it, beside what its state differs by
- * and what the Jacobian adds up. That holds in any units, and of states that had no part in any eigenvalue but zero:
- * a body that falls onto something stiff.
+ * Return whether the last Jacobian explains the difference of each rate but for a little, relative to the difference
+ * of its state and to the terms of the Jacobian. This test is independent of units, and it also holds for states that
+ * had a part only in eigenvalues of zero, such as those of a body that falls onto something stiff.
  */
 static int rows_explained(const method *m, int n, double *most, const double *states, const double *rates)
 {
@@ -139,8 +137,8 @@ static int rows_explained(const method *m, int n, double *most, const double *st
 }
 
 /*
- * Return whether the rates at two states of one time differ by no more than those of a stable step may: little,
- * or as the last Jacobian has it. Both differences are overwritten. The next step may be longer than this one.
+ * Return whether the rates at two states of one time differ as in a stable step: by little, or as the last Jacobian
+ * explains it. Both differences are overwritten. The next step may be longer than this one.
  */
 static int explained(const method *m, int n, double *states, double *rates)
 {
@@ -190,7 +188,7 @@ static int end_explained(const worker *w, double step)
     return explained(m, n, m->matrix, m->square);
 }
 
-/* The same of the third stage and one of another time, by each row alone: the first one or the fourth. */
+/* The same of the third stage and one of another time, the first or the fourth, by the test of each rate only. */
 static int other_explained(const worker *w, double step, int stage)
 {
     const method *m = w->own;
@@ -228,7 +226,7 @@ static int find_end(worker *w, double end, double step)
     return kt_fixed_rates(w, end, m->fixed.end_state, m->fixed.end_rates);
 }
 
-/* Where the model refuses a state of a step, the step may be what leads there. */
+/* Find the end. If the model refuses a state on the way, the cause may be a step that is not stable. */
 static int attempt(worker *w, double end, double step)
 {
     if (!find_end(w, end, step)) {
@@ -251,7 +249,7 @@ static int prepare(worker *w, double step)
 
 /*
  * Return whether rates jump between the second and the third stage, which are at one time. Rates of positions do
- * not; what the others change by is measured against all.
+ * not; the change of the others is compared with that of all.
  */
 static int jump(const worker *w, double step)
 {
@@ -277,7 +275,7 @@ static int jump(const worker *w, double step)
     return fabs(step) * beyond > JUMP * moved && beyond > ROUNDINGS * DBL_EPSILON * rounding;
 }
 
-/* The same where the last Jacobian does not explain the rates; a code where the one here is not stable. */
+/* The same, only if the last Jacobian does not explain the rates; a code if the step is not stable by that here. */
 static int jumped(worker *w, double step)
 {
     method *m = w->own;
@@ -296,7 +294,7 @@ static double change(const double *from, const double *to, int count)
     return sum;
 }
 
-/* Find where rates are steepest between both stages, and note the longest step that is stable there. */
+/* Find the state with the steepest rates between both stages, and note the longest step that is stable there. */
 static int refuse_jumps(worker *w, double step)
 {
     method *m = w->own;
@@ -321,7 +319,7 @@ static int refuse_jumps(worker *w, double step)
         memcpy(first ? rates_high : rates_low, m->fixed.rates, (size_t)n * sizeof *low);
     }
     int code = check(w, time, m->stage, fabs(step));
-    m->due = 1; /* for this is not where a step begins */
+    m->due = 1; /* since no step begins here */
     return code;
 }
 
@@ -345,44 +343,29 @@ static void fit(worker *w)
 
 /* -- begin and end ---------------------------------------------------------------------------- */
 
-static const kt_fixed_method METHOD = {prepare, attempt, jumped, refuse_jumps, fit};
+static const kt_fixed_method METHOD = {
+    .size = sizeof(method), .stages = 4, .vectors = 4, .matrices = 3,
+    .prepare = prepare, .attempt = attempt, .jumped = jumped, .refuse_jumps = refuse_jumps, .fit = fit,
+};
 
 static int open_method(worker *w, double start)
 {
     size_t n = (size_t)w->problem->state_count;
-    method *m = w->own = calloc(1, sizeof *m);
-    if (!m) {
+    double *arrays = kt_fixed_open(w, &METHOD, start);
+    method *m = w->own;
+    if (!arrays) {
         return KT_MEMORY;
     }
-    m->memory = calloc((11 + KT_TERMS + 3 * n) * n, sizeof *m->memory);
-    if (!m->memory) {
-        return KT_MEMORY;
-    }
-    m->fixed.state = m->memory;
-    m->fixed.end_state = m->fixed.state + n;
-    m->stage = m->fixed.end_state + n;
-    m->fixed.rates = m->stage + n;
-    m->fixed.end_rates = m->fixed.rates + 4 * n;
-    m->fixed.terms = m->fixed.end_rates + n;
-    m->jacobian = m->fixed.terms + KT_TERMS * n;
+    m->stage = arrays;
+    m->weights = m->stage + n;
+    m->most = m->weights + n;
+    m->jacobian = m->most + 2 * n;
     m->matrix = m->jacobian + n * n;
     m->square = m->matrix + n * n;
-    m->weights = m->square + n * n;
-    m->most = m->weights + n;
-    kt_fixed_open(w, &METHOD, start);
     return KT_DONE;
 }
 
-static void close_method(worker *w)
-{
-    method *m = w->own;
-    if (m) {
-        free(m->memory);
-        free(m);
-    }
-}
-
 const kt_solver kt_rk4 = {
-    open_method, close_method, kt_fixed_step, kt_fixed_set_stop, kt_fixed_interpolate, kt_fixed_begin,
+    open_method, kt_fixed_close, kt_fixed_step, kt_fixed_set_stop, kt_fixed_interpolate, kt_fixed_begin,
     kt_fixed_next, kt_fixed_count, KT_NO_TOLERANCES, 0,
 };

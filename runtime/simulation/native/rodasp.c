@@ -24,16 +24,15 @@
 #define LAPSE (1.0 / 1024.0)
 
 /*
- * Rates jump where what their change between the last two stages has beyond the Jacobian would move the step's
- * end by more than this part of what both differ by, and that is more than so many roundings. Smooth motions
- * have less than a tenth, and friction that is passed over more than a half.
+ * Rates jump where the change of rates between the last two stages that the Jacobian does not explain would move the
+ * end of the step by more than this part of the difference of both stages, which itself is more than so many
+ * roundings. The part is below a tenth for smooth motions, and above a half where friction is passed over.
  */
 #define JUMP 0.2
 #define ROUNDINGS 1.0e6
 
 typedef struct {
     kt_fixed fixed;
-    double *memory;
     double *by_time;
     double *stages;            /* STAGES x states: the k of the method */
     double *point, *found, *before; /* where a stage is evaluated; rates of the last two stages */
@@ -189,7 +188,7 @@ static int refuse_jumps(worker *w, double step)
     return KT_JUMPING_RATES;
 }
 
-/* Find what the stages have in common: the factorised matrix, and what inputs do by time. */
+/* Find the common terms of all stages: the factorised matrix, and the derivative of rates by time. */
 static int prepare(worker *w, double step)
 {
     method *m = w->own;
@@ -229,33 +228,26 @@ static void fit(worker *w)
 
 /* -- begin and end ---------------------------------------------------------------------------- */
 
-static const kt_fixed_method METHOD = {prepare, attempt, jumped, refuse_jumps, fit};
+static const kt_fixed_method METHOD = {
+    .size = sizeof(method), .stages = 1, .vectors = 4 + STAGES, .matrices = 2,
+    .prepare = prepare, .attempt = attempt, .jumped = jumped, .refuse_jumps = refuse_jumps, .fit = fit,
+};
 
 static int open_method(worker *w, double start)
 {
     size_t n = (size_t)w->problem->state_count;
-    method *m = w->own = calloc(1, sizeof *m);
-    if (!m) {
+    double *arrays = kt_fixed_open(w, &METHOD, start);
+    method *m = w->own;
+    if (!arrays || !(m->order = calloc(n, sizeof *m->order))) {
         return KT_MEMORY;
     }
-    m->memory = calloc((8 + STAGES + KT_TERMS + 2 * n) * n, sizeof *m->memory);
-    m->order = calloc(n, sizeof *m->order);
-    if (!m->memory || !m->order) {
-        return KT_MEMORY;
-    }
-    double **const rows[] = {
-        &m->fixed.state, &m->fixed.end_state, &m->fixed.rates, &m->fixed.end_rates,
-        &m->by_time, &m->point, &m->found, &m->before,
-    };
-    double *next = m->memory;
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i, next += n) {
-        *rows[i] = next;
-    }
-    m->stages = next;
-    m->fixed.terms = m->stages + STAGES * n;
-    m->jacobian = m->fixed.terms + KT_TERMS * n;
+    m->by_time = arrays;
+    m->point = m->by_time + n;
+    m->found = m->point + n;
+    m->before = m->found + n;
+    m->stages = m->before + n;
+    m->jacobian = m->stages + STAGES * n;
     m->matrix = m->jacobian + n * n;
-    kt_fixed_open(w, &METHOD, start);
     return KT_DONE;
 }
 
@@ -263,10 +255,9 @@ static void close_method(worker *w)
 {
     method *m = w->own;
     if (m) {
-        free(m->memory);
         free(m->order);
-        free(m);
     }
+    kt_fixed_close(w);
 }
 
 const kt_solver kt_rodasp = {

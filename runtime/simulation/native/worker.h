@@ -28,7 +28,7 @@ typedef struct {
     int (*set_stop)(worker *w, double time);
     /* A derivative of the state within the last step; fails where its polynomial has none so high. */
     int (*interpolate)(worker *w, double time, int derivative, double *out);
-    /* Begin with the state w->y and a step of this length; w->rates_known: rates at the end of the last step are its. */
+    /* Begin with the state w->y and a step of this length; if w->rates_known with the last rates. */
     int (*begin_anew)(worker *w, double time, double step);
     double (*next_step)(worker *w); /* length of what it tries next, or has tried last without success */
     void (*count)(worker *w, kt_statistics *total); /* add what was counted since it began, or began anew */
@@ -53,8 +53,8 @@ struct worker {
     int *piece;          /* of each spline: where it was evaluated last */
     int *crossings;      /* of each event */
     int caller_failed;
-    int steady;          /* no input moved while the motion came here */
-    int rates_known;     /* of the state to begin anew with, from the end of the last step */
+    int steady;          /* no input moved in the last step */
+    int rates_known;     /* begin_anew has the state, and so the rates, of the end of the last step */
     kt_margins margins;
     kt_search search;
     double reached;      /* by the last step; what has been looked at may end before */

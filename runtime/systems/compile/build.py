@@ -124,13 +124,13 @@ def compile_mechanism(
         with translated_errors(model):
             return generate(model, parameter_derivatives=parameter_derivatives, progress=notify)
 
-    derived, said = None, identity(model)
-    if said is None:
+    derived, digest = None, identity(model)
+    if digest is None:
         with shown() as notify:
             derived = derive(notify)
-        said = identity_of_derived(derived)
+        digest = identity_of_derived(derived)
     more = " with parameter_derivatives" if parameter_derivatives else ""
-    key = fingerprint(said + more, built_by=built_by)
+    key = fingerprint(digest + more, built_by=built_by)
     target = kept / f"{model.name}-{key}"
     problem = damage(target)
     if problem and target.exists():

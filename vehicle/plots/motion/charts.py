@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ....core.quantities import display_of, displayed, heading_of
 from ....pictures.curves import draw, named_values, varying
-from ....pictures.figures import STYLE, image_address, small
+from ....pictures.figures import STYLE, data_uri, small
 from ..by_axle import by_axle
 from ..handling import for_print
 
@@ -100,7 +100,7 @@ def _chart(dataset: xr.Dataset, name: str, rows: NDArray[np.intp]) -> Chart:
     greatest = max(float(np.nanmax(np.abs(values))) for _, values in lines)
     decimals = int(np.clip(_DIGITS - 1 - np.floor(np.log10(greatest)), 0, 6))
     return Chart(
-        source=image_address(drawn),
+        source=data_uri(drawn),
         words=heading_of(data),
         box=[place.x0, place.x1, 1.0 - place.y1, 1.0 - place.y0],
         times=list(axes.get_xlim()),

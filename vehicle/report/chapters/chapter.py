@@ -8,7 +8,7 @@ from markupsafe import Markup
 from matplotlib.figure import Figure
 
 from ....core.tabulated import Tabulated
-from ....pictures.figures import image_address
+from ....pictures.figures import data_uri
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class ChapterPicture:
         cls, figure: Figure, words: str, ending: Literal["svg", "png"] = "svg"
     ) -> "ChapterPicture":
         """Return a figure as a picture: svg, or png where it has many letters."""
-        return cls(image_address(figure, ending), words)
+        return cls(data_uri(figure, ending), words)
 
 
 @dataclass(frozen=True)

@@ -46,7 +46,7 @@ static void move_inputs(double lapse, double *inputs)
     }
 }
 
-/* Evaluate the state of a motion, from some rates on, and its margins after a lapse. */
+/* Evaluate the state that a motion with some rates has after a lapse, and the margins there. */
 static void put_ahead(unit *u, double lapse, const double *state, const double *rates, double *margins)
 {
     const km_model *m = &km_this;
@@ -90,9 +90,9 @@ static ku_height height_of(const double *margins, int guard, double lapse)
 }
 
 /*
- * A motion that begins at rest near zero, and is accelerated towards it: its speed says nothing at the begin of the
- * step, its acceleration says that zero lies within. Behind zero the true height is negative, so that speed and
- * acceleration at the end have the other sign; tell whether they explain the change of the speed better so.
+ * Return whether a motion that begins at rest near zero has passed it: its speed is zero at the begin of the step, but
+ * by its acceleration the height is zero within the step. Behind zero the true height is negative, so that speed and
+ * acceleration at the end have the other sign. It has passed zero if these explain the change of the speed better.
  */
 static int fell(ku_height before, ku_height now, double step)
 {
@@ -130,7 +130,7 @@ void ku_mark(unit *u)
     u->way.known = u->way.begins = 1;
 }
 
-/* Tell whether a step has passed the dead point of a guard, or the motion begins in it, and report that. */
+/* Return whether a step has passed the dead point of a guard, or the motion begins in it, and report that. */
 static int ended(const unit *u, int guard, const double *before, const double *now, double lapse, double step)
 {
     const char *meaning = km_this.guard[guard].meaning;

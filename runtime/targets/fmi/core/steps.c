@@ -254,8 +254,8 @@ static int explain(unit *u, int outcome)
     }
     if (outcome == KT_JUMPS || outcome == KT_SINGULAR_STEP) {
         return ku_say(u, KU_DISCARD,
-                      "solver.implicit = 1 does not suit the motion at %.9g s: %s. Set solver.implicit to 0 and shorten "
-                      "solver.step, or set both to 0.", time,
+                      "solver.implicit = 1 does not suit the motion at %.9g s: %s. Set solver.implicit to 0 and "
+                      "shorten solver.step, or set both to 0.", time,
                       outcome == KT_JUMPS ? "rates jump to and fro within its steps"
                                           : "the linear equations of a step have no unique solution");
     }

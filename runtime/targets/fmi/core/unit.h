@@ -31,7 +31,7 @@ typedef struct {
 
 /* Model Exchange: the point that the last step came to, and room to look at how the margins go on. */
 typedef struct {
-    int known, begins; /* the point is there; it is where the motion begins */
+    int known, begins; /* whether there is a point; whether the motion begins at it */
     double time;
     double *state, *inputs, *rates, *rates_ahead, *ahead, *inputs_ahead, *margins, *usual;
 } ku_way;
@@ -143,10 +143,10 @@ int ku_derivative(unit *u, const unsigned *unknowns, size_t rows, const unsigned
 
 /* -- events ----------------------------------------------------------------------------------- */
 
-/* Report which events have happened; `over` tells whether the model ends here. */
+/* Report which events have happened; `over` becomes 1 if the model ends here, else 0. */
 int ku_update(unit *u, int *over);
 
-/* A step of the importer has come to its end; `over` says whether it has passed a dead point. */
+/* A step of the importer has come to its end; `over` becomes 1 if it has passed a dead point, else 0. */
 int ku_completed(unit *u, int *over);
 void ku_mark(unit *u);
 
