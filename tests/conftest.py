@@ -85,8 +85,8 @@ _LONGEST = (
 
 _MEMORY = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
 MUCH = min(2**31, _MEMORY // 8) // (1024 if sys.platform == "linux" else 1)
-"""An eighth of the memory or two gibibytes, in what the system counts in: to look through so much
-takes up to ten seconds, and to wait with it takes memory only."""
+"""Growth of memory after which cycles of objects are freed: an eighth of the memory, at most 2 GiB,
+in the unit of ``ru_maxrss``. The search through so much takes up to ten seconds."""
 _most = 0
 
 
@@ -133,10 +133,10 @@ def pytest_collection_finish() -> None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_unconfigure(config: pytest.Config) -> None:
-    """Let processes that ran tests for another one end at once: what they found is sent.
+    """End a worker process at once, after its results are sent.
 
-    Python would look through all that was derived, and free it piece by piece. That takes longer
-    than the ten seconds after which they are killed.
+    Otherwise Python frees all derived expressions one by one, which takes longer than the ten
+    seconds after which workers are killed.
     """
     if hasattr(config, "workerinput"):
         atexit._run_exitfuncs()

@@ -21,6 +21,8 @@ TYRE = {
     "relaxation_x_mm": 300.0,
     "relaxation_y_mm": 400.0,
 }
+LINES = ("front_left_strut", "front_right_strut", "rear_left_spring", "rear_right_spring")
+"""Lines of the springs and dampers of the packaged car that drives."""
 FILE: dict[str, Any] = {
     "car": "full",
     "front": {"axle": "front", "side": "reference_car", "drive": {"share": 1.0}},
@@ -41,7 +43,7 @@ FILE: dict[str, Any] = {
 
 
 def light_car(**changes: Any) -> Car:
-    """Return it with changes of places in its file."""
+    """Return the car that drives, with changes of values in its file."""
     return Car.from_dict(FILE).with_changes({"body.mass_kg": 1300.0, **changes})
 
 

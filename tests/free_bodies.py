@@ -176,9 +176,9 @@ def state_near(
 def compared(
     built: Built, count: int, reach: float = 0.05
 ) -> Iterator[tuple[np.ndarray, np.ndarray, Motion, Reduced, int]]:
-    """Yield states and inputs at random, the motion there, and what the oracle says of it.
+    """Yield random states and inputs, the motion there, and its accelerations by the oracle.
 
-    The last element is the number of positions: rates come behind them.
+    The last element is the number of positions, which come before the speeds in a state.
     """
     random, layout = np.random.default_rng(0), built.module.LAYOUT
     names = list(built.module.INPUTS)

@@ -94,7 +94,7 @@ def _of_corner(suspension: Suspension, bushes: Any) -> Analyses:
 
 
 def _of_axle(axle: Axle, bushes: Any) -> Analyses:
-    # the values are from when an axle without a drive had the case "drive", too
+    # the stored values have the case "drive" also for axles without a drive
     driven = axle if axle.drive else axle.with_changes({"drive": {"share": 1.0}})
     found: Analyses = {
         "check": lambda: _looked(checkup.checkup(axle)),

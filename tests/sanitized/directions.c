@@ -1,5 +1,5 @@
-/* y' = c y, by c in the first two directions, twice as much in the second, and by y in the third; in
- * the fourth nothing is finite. */
+/* y' = c y: derivatives with respect to c in the first direction, twice of them in the second, those with
+ * respect to the start in the third; the fourth is infinite. */
 #include "directions.h"
 #include <math.h>
 #include <stdlib.h>
@@ -36,7 +36,7 @@ int main(void)
         for (int s = 0; s < STAGES; ++s)
             states[STAGES * i + s] = exp(c[0] * (i + nodes[s]) / STEPS);
     }
-    /* at the begin, and at the ends of the fourth and the last step */
+    /* at the start, and at the ends of the fourth and the last step */
     long step_of[TIMES] = {0, 3, STEPS - 1};
     const double step[STAGES] = {35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0,
                                  -2187.0 / 6784.0, 11.0 / 84.0, 0.0};
@@ -65,5 +65,5 @@ int main(void)
         }
     }
     free(lengths), free(states), free(weights), free(there), free(none), free(motion.found);
-    return wrong > 1e-9; /* of an eighth to the fifth power, over some thousands */
+    return wrong > 1e-9; /* steps of 1/8 to the fifth power, over some thousands */
 }

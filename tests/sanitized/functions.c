@@ -1,6 +1,6 @@
 /* Every function of the model with all laws of force, over states that it reaches and others.
  *
- * What begins with GIVEN is defined on the command line: for each function CALL(name, results). */
+ * Macros that begin with GIVEN are defined on the command line: for each function CALL(name, results). */
 #include "macpherson_general.h"
 #include <stdlib.h>
 #include <string.h>

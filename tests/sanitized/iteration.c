@@ -1,6 +1,6 @@
 /* A block that iterates, in two lanes: one closes, and one cannot.
  *
- * What begins with GIVEN is defined on the command line. */
+ * Macros that begin with GIVEN are defined on the command line. */
 #define KINTRAFO_LANES /* its functions are declared below, as of vectors */
 #include "five_bar.h"
 #include <stdlib.h>
@@ -25,7 +25,7 @@ int main(void)
     for (int i = 0; i < FIVE_BAR_PARAMETER_COUNT; ++i) parameters[i] = values[i] + (pair){0.0};
     words failed = in_lanes_prepare(parameters, constants);
     in_lanes_design_state(parameters, state);
-    state[0] += (pair){0.05, 7.0}; /* near, and beyond what there is, round once */
+    state[0] += (pair){0.05, 7.0}; /* the first lane is within reach, the second is not, after a whole turn */
     words status = in_lanes_rhs(constants, state, inputs, out);
     free(parameters), free(out), free(constants), free(state), free(inputs);
     return failed[0] || failed[1] || status[0] || !status[1];

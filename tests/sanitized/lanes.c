@@ -1,6 +1,6 @@
 /* An ensemble in two lanes, with lanes that end early: by parameters, and at a dead point.
  *
- * What begins with GIVEN is defined on the command line. */
+ * Macros that begin with GIVEN are defined on the command line. */
 #include "ensemble.h"
 #define KINTRAFO_LANES /* its functions are declared below, as of vectors */
 #include "macpherson.h"

@@ -1,9 +1,8 @@
 /* Every method of the native solver over a motion of the strut, and a loop that does not close.
  *
- * What begins with GIVEN is defined on the command line. */
+ * Macros that begin with GIVEN are defined on the command line. */
 #include "integrate.h"
 #include "macpherson.h"
-#include <stdio.h>
 #include <stdlib.h>
 
 static int root(double time, const double *state, double *out, void *data)
@@ -15,7 +14,8 @@ static int root(double time, const double *state, double *out, void *data)
 
 int main(void)
 {
-    double parameters[MACPHERSON_PARAMETER_COUNT] = {GIVEN_PARAMETERS}, constants[MACPHERSON_CONSTANT_COUNT];
+    double parameters[MACPHERSON_PARAMETER_COUNT] = {GIVEN_PARAMETERS};
+    double constants[MACPHERSON_CONSTANT_COUNT];
     if (macpherson_prepare(parameters, constants)) return 1;
     double inputs[MACPHERSON_INPUT_COUNT] = {0}, atol[4] = {1e-9, 1e-9, 1e-9, 1e-9};
     double breaks[3] = {0.0, 0.5, 1.0};

@@ -267,12 +267,12 @@ def test_a_brake_does_not_drive_and_a_locked_wheel_slips_by_one(assembly: CarAss
         assert float(model.signal(moment, start, acting)) == pytest.approx(expected, abs=0.02)
     acting[row] = 0.0
     slopes = model.evaluate("signals_input_jacobian", start, acting)
-    # that to the side on which it acts, also of an open brake
+    # a brake without torque has the slope towards a positive torque
     assert slopes[model.signal_names.index(moment), row] == pytest.approx(-1.0, abs=1e-4)
     inputs = dict.fromkeys(assembly.controls.drive(0.0), 0.0) | assembly.controls.brakes(1.0)
     found = kintrafo.simulate(model, (0.0, 1.0), start, inputs=inputs)
     slips = np.array([found.signals[f"{wheel}_slip"] for wheel in assembly.wheels])
-    # of the relaxation lengths of these tyres, which do not depend on the load; to the tolerance
+    # not below -1, to the tolerance: relaxation lengths of these tyres do not depend on the load
     assert -1.0 - 1e-3 < slips.min() < -0.98
 
 
@@ -310,7 +310,7 @@ def test_a_small_angle_steers_it_like_the_bicycle_model(assembly: CarAssembly) -
 
 
 def test_camber_is_to_the_vertical_and_inclination_follows_from_it(assembly: CarAssembly) -> None:
-    """By the axis of a steered wheel in the world, of a car that yaws, pitches and rolls."""
+    """The axis of a steered wheel in the world, of a car with yaw, pitch and roll, has them."""
     model = assembly.model
     state, inputs = model.design_state.copy(), np.zeros(len(model.input_names))
     first = model.state_names.index("body_e0")

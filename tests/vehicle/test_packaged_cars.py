@@ -58,7 +58,7 @@ def test_its_tyres_leave_the_road_and_its_axles_pass_their_check(name: str) -> N
 
 @pytest.mark.parametrize("name", CARS)
 def test_its_modes_keep_their_names_while_its_damping_grows(name: str) -> None:
-    """Of a body on four masses on springs, with masses and rates of the car."""
+    """The modes are those of a body on four sprung masses, with masses and rates of the car."""
     car = kintrafo.load(name)
     body, axles = car.described.body, suspension_masses(car)
     places = np.array([car.wheel_centers[wheel] - car.com for wheel in car.wheels])
@@ -69,7 +69,7 @@ def test_its_modes_keep_their_names_while_its_damping_grows(name: str) -> None:
     springs = [over(Model(car.axles[e].right), "travel", [0.0])["wheel_rate"] for e in car.axles]
     rates = np.repeat([float(rate.values.ravel()[0]) for rate in springs], 2)
     tyres = np.repeat([car.axles[e].right.tyre.rate_N_per_m for e in car.axles], 2)
-    stretched = np.hstack([on_body, -np.eye(4)])  # of springs, by body and wheels
+    stretched = np.hstack([on_body, -np.eye(4)])  # springs by coordinates
     stiffness = stretched.T @ np.diag(rates) @ stretched + np.diag([0.0, 0.0, 0.0, *tyres])
     halves = np.kron(np.eye(2), [[0.5, 0.5], [0.5, -0.5]])
     motions = np.zeros((7, 14))

@@ -34,7 +34,7 @@ def values_of(model, parameters):
 
 
 def given(**values):
-    """Return options of a compiler that define lists of numbers, or a number."""
+    """Return options of a compiler that define macros, GIVEN_NAME with the values of NAME."""
     lists = {name: np.atleast_1d(numbers).tolist() for name, numbers in values.items()}
     return [f"-DGIVEN_{name}={','.join(map(repr, numbers))}" for name, numbers in lists.items()]
 
@@ -78,7 +78,7 @@ def test_generated_functions(tmp_path):
 
 
 def of_the_reference_car(model):
-    """Return options that define what its simulations begin with."""
+    """Return options of a compiler that define its parameters, start and guards."""
     guards = meanings(model.equations)
     return given(
         PARAMETERS=values_of(MODELS["macpherson"], car_parameters(0)),

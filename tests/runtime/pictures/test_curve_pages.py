@@ -130,7 +130,7 @@ def test_names_of_many_lines_cover_no_curve(count, free):
 
 
 def test_lines_of_a_page_are_equally_wide():
-    """Thin beside a curve of many turns; those of rounding are none."""
+    """Thin beside a curve with many turns; turns that are rounding do not count."""
     x = np.linspace(0.0, 1.0, 1001)
     smooth, dense = np.sin(2 * np.pi * x), np.sin(200 * np.pi * x)
     rounded = np.where(x < 0.5, 1e-12 * dense, x - 0.5)

@@ -69,12 +69,12 @@ def loops_of_the_page(language):
 
 def test_the_loops_of_the_page_do_the_same(tmp_path) -> None:
     found = run(1e-3, span=(0.0, 0.1))
-    inputs, said = np.zeros(len(MODEL.input_names)), {}
+    inputs, names = np.zeros(len(MODEL.input_names)), {}
     for code in loops_of_the_page("python"):
-        exec(code, said)
-    assert (said["found"].steps, said["found"].nfev) == (1000, 4001)
-    assert said["stepper"].time == 1.0
-    assert np.isfinite(said["stepper"].state).all()
+        exec(code, names)
+    assert (names["found"].steps, names["found"].nfev) == (1000, 4001)
+    assert names["stepper"].time == 1.0
+    assert np.isfinite(names["stepper"].state).all()
     if shutil.which("gcc") is None:
         pytest.skip("no gcc")
     folder, source = lanes.ROOT / "generated/c", tmp_path / "loop.c"
@@ -128,18 +128,32 @@ def damped(rate):
     return System(MODEL.equations, MODEL.parameters | {"damper_rate": rate})
 
 
+def with_friction(force, velocity):
+    """Return a strut with dry friction (N, m/s), and a state in which it slides."""
+    changes = {"strut.friction_N": force, "strut.friction_velocity_m_per_s": velocity}
+    model = Model(MODEL.suspension.with_changes(changes))
+    start = np.array(state_at_height(model, 0.305))
+    start[2] = 0.3
+    return model, start
+
+
+def allowed_step(error):
+    """Return the longest stable step that an error names, s."""
+    return float(error.reason.split("steps of ")[2].split(" s")[0])
+
+
 @pytest.mark.parametrize("rate", [0.0, 1500.0, 1e5])
-def test_the_longest_stable_step_is_told(rate) -> None:
-    """Eigenvalues across, slanting and along the axis: what is told is stable, much more is not."""
+def test_the_longest_stable_step_is_named(rate) -> None:
+    """Eigenvalues across, slanting and along the axis: that step is stable, much more is not."""
     model, start = damped(rate), np.array(START)
     longest = 2.61 / fastest(model, start)
     with pytest.raises(SimulationError, match="not stable") as caught:
         run(1.02 * 2.83 / 2.61 * longest, model=model, start=start)
-    told = float(caught.value.reason.split("steps of ")[2].split(" s")[0])
+    allowed = allowed_step(caught.value)
     # the bound of the power 256 is some per cent above the eigenvalue, and 1 % is left
-    assert 0.9 * longest < told < longest
+    assert 0.9 * longest < allowed < longest
     assert caught.value.time == 0.0
-    found = run(told, model=model, start=start, span=(0.0, 2e-3))
+    found = run(allowed, model=model, start=start, span=(0.0, 2e-3))
     assert found.success
 
 
@@ -167,22 +181,16 @@ def test_what_is_beyond_the_limit_would_be_nonsense() -> None:
 
 def test_a_motion_that_becomes_stiff_ends_there() -> None:
     """A strut that comes to stick: slow while it slides, and fast when it does no more."""
-    model = Model(
-        MODEL.suspension.with_changes(
-            {"strut.friction_N": 600.0, "strut.friction_velocity_m_per_s": 1e-5}
-        )
-    )
-    start = np.array(state_at_height(model, 0.305))
-    start[2] = 0.3  # sliding
+    model, start = with_friction(600.0, 1e-5)
     with pytest.raises(SimulationError, match=r"needs steps of .* s or less") as caught:
         run(1e-4, model=model, start=start)
     assert caught.value.time > 1e-3
     assert caught.value.partial.t.size > 10
-    told = float(caught.value.reason.split("steps of ")[2].split(" s")[0])
+    allowed = allowed_step(caught.value)
     held = np.array(equilibrium(model))
     # where the strut sticks the Jacobian is that of the friction at rest, wherever that is
-    assert told == pytest.approx(0.99 * 2.61 / fastest(model, held, 1e-9), rel=0.1)
-    assert run(told, model=model, start=start, span=(0.0, 0.02)).success
+    assert allowed == pytest.approx(0.99 * 2.61 / fastest(model, held, 1e-9), rel=0.1)
+    assert run(allowed, model=model, start=start, span=(0.0, 0.02)).success
 
 
 def stiffest_of(model, found):
@@ -195,18 +203,14 @@ def stiffest_of(model, found):
 @pytest.mark.parametrize("step", [3e-4, 1e-3, 3e-3, 1e-2])
 @pytest.mark.parametrize("friction", [(50.0, 1e-3), (200.0, 1e-2), (600.0, 1e-2), (600.0, 1e-5)])
 def test_no_step_of_a_result_is_unstable(friction, step) -> None:
-    """Steps that slide through friction or stick in it: the Jacobian at each of them, by LAPACK."""
-    force, velocity = friction
-    changes = {"strut.friction_N": force, "strut.friction_velocity_m_per_s": velocity}
-    model = Model(MODEL.suspension.with_changes(changes))
-    start = np.array(state_at_height(model, 0.305))
-    start[2] = 0.3  # sliding
+    """Eigenvalues by LAPACK at each step, of a strut that slides or sticks."""
+    model, start = with_friction(*friction)
     try:
         found = run(step, model=model, start=start, span=(0.0, 0.4), t_eval=None)
     except SimulationError as error:
         found = error.partial
     stiffest = step * stiffest_of(model, found)
-    # the last state is that of no step, or of the one that is refused
+    # no step begins at the last state, or the one that is refused
     assert stiffest[:-1].max() < 2.61
     if found.success:
         truth = simulate(model, (0.0, 0.4), start, method="BDF", rtol=1e-9, atol=1e-12)
@@ -243,7 +247,7 @@ def thrown():
 @pytest.mark.parametrize("fast", [3.0, 8.0, 20.0])
 @pytest.mark.parametrize("push", [0.0, -20.0])
 def test_no_step_begins_on_something_stiff(thrown, push: float, fast: float) -> None:
-    """In free motion no state has a part in any eigenvalue but zero; contact begins in a stage."""
+    """In free motion all eigenvalues are zero; contact begins at a stage of a step."""
     step, refusals = 1e-3, 0
     model = System(thrown, {"stop_rate": 2.0 * (fast / step) ** 2})
     for part in np.linspace(0.0, 0.95, 12):
@@ -252,8 +256,7 @@ def test_no_step_begins_on_something_stiff(thrown, push: float, fast: float) -> 
             found = run(step, span=(0.0, 0.05), model=model, **options)
         except SimulationError as error:
             found = error.partial
-            told = float(error.reason.split("steps of ")[2].split(" s")[0])
-            assert told == pytest.approx(2.61 / fast * step, rel=0.1)
+            assert allowed_step(error) == pytest.approx(2.61 / fast * step, rel=0.1)
             refusals += 1
         # it may be thrown back within one step, but no step begins where it meets the stop
         assert (found.y[0, :-1] >= 0.0).all()
@@ -261,19 +264,16 @@ def test_no_step_begins_on_something_stiff(thrown, push: float, fast: float) -> 
     assert refusals >= 5
 
 
-def test_the_jacobian_is_evaluated_now_and_then() -> None:
-    """At one step of 128, where motions are slow; where they are near the limit, at more."""
+def test_the_jacobian_is_evaluated_where_it_is_needed() -> None:
+    """At one step in 128 of a slow motion, at nearly all steps near the limit."""
     assert run(1e-3).njev <= 10
     step = 0.9 * 2.61 / fastest(damped(1e5), np.array(START))
     assert run(step, model=damped(1e5), span=(0.0, 100 * step)).njev > 90
 
 
 def test_a_stepper_that_is_elsewhere_is_checked_there() -> None:
-    """A state that the steps before did not lead to has a Jacobian of its own."""
-    changes = {"strut.friction_N": 600.0, "strut.friction_velocity_m_per_s": 1e-3}
-    model = Model(MODEL.suspension.with_changes(changes))
-    start = np.array(state_at_height(model, 0.305))
-    start[2] = 0.3
+    """A state that a caller changes between steps has a Jacobian of its own."""
+    model, start = with_friction(600.0, 1e-3)
     stepper = Stepper(model, 1e-3, start)
     stepper.step()
     stepper.state[2] = 0.0  # where it sticks

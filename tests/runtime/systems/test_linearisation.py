@@ -409,7 +409,7 @@ def test_motions_share_out_what_oscillates_and_what_creeps():
 
 
 def test_what_rounding_leaves_of_a_zero_neither_grows_nor_decays():
-    """A body that a damper brakes and nothing returns, in coordinates that have no zeros."""
+    """A body with a damper and without a spring, in coordinates whose matrix has no zeros."""
     matrix = np.array([[0.0, 1.0], [0.0, -0.7]])
     for angle in np.linspace(0.1, 3.0, 25):
         turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])

@@ -111,7 +111,7 @@ def test_fmpy_simulates_as_simulate_does(tmp_path, version, kind):
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("version", VERSIONS)
 def test_a_car_over_a_step_of_the_road_moves_as_by_simulate(unit, version, kind):
-    """FMPy reads its description without a remark; CVode or our steps integrate it."""
+    """FMPy accepts its description, and integrates it by CVode or calls its own steps."""
     fmpy = pytest.importorskip("fmpy")
     validation = pytest.importorskip("fmpy.validation")
     folder = str(unit("quarter_car", version).folder)
@@ -132,7 +132,7 @@ def test_a_car_over_a_step_of_the_road_moves_as_by_simulate(unit, version, kind)
 
 @pytest.mark.parametrize("version", VERSIONS)
 def test_nothing_breaks_the_rules_that_the_schema_has_not(unit, version):
-    """Of causality, variability, starts and references, as another tool reads the standard."""
+    """Rules of causality, variability, starts and references, by another tool."""
     operations = pytest.importorskip("fmu_manipulation_toolbox.operations")
     checker = pytest.importorskip("fmu_manipulation_toolbox.checker")
     for name in (*NAMES, "quarter_car"):
@@ -817,7 +817,7 @@ def test_a_library_for_windows(tmp_path):
 
 
 def a_few_libraries(prefix):
-    """Return variables for Wine with what a console program needs: all takes 15 s and 700 MB."""
+    """Return variables for Wine with the libraries of a console program: all take 15 s, 700 MB."""
     variables = {"WINEPREFIX": str(prefix), "WINEDEBUG": "-all"}
     installed = Path(shutil.which("wine")).resolve().parents[1]
     places = (f"{where}/wine/x86_64-windows" for where in ("lib*", "lib*/*"))
@@ -828,7 +828,7 @@ def a_few_libraries(prefix):
     system.mkdir(parents=True)
     for name in ("kernel32", "kernelbase", "msvcrt", "ntdll", "ucrtbase"):
         (system / f"{name}.dll").symlink_to(folder / f"{name}.dll")
-    # what would install all the rest
+    # rundll32 would install all others
     return variables | {"WINEDLLOVERRIDES": "rundll32.exe=d"}
 
 

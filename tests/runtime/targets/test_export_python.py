@@ -301,12 +301,14 @@ def test_jax_calls_the_compiled_c(jax, tmp_path):
         module.rhs(states, inputs)
 
 
-@pytest.mark.skipif(not OF_WIDTH or find_compiler() is None, reason="no lanes")
+@pytest.mark.skipif(
+    not OF_WIDTH or find_compiler() is None, reason="no C compiler, or built without lanes"
+)
 @pytest.mark.parametrize("lanes", [[], ["-DFOUR_BAR_LANES"], ["-DFOUR_BAR_LANES", "-march=native"]])
 def test_jax_takes_many_states_and_parameters_at_a_time(jax, tmp_path, lanes):
-    """Lanes, of any width, and the rows that are left have the bits of the C, under vmap, too."""
+    """Lanes of any width and the remaining rows have the bits of the C, also under vmap."""
     system = system_named(CLOSED)
-    # a target of jax.ffi is registered once for all: each of them has a name of its own
+    # a name is registered once for all in jax.ffi: each library has names of its own
     folder = kintrafo.export_model(system, tmp_path / "c", "c")
     library = library_for_jax(jax, folder, tmp_path / "four_bar.so", *lanes)
     script = folder / "four_bar_ffi.py"
@@ -382,7 +384,7 @@ def test_what_cannot_be_exported_is_refused(tmp_path):
 
 
 def test_jax_warns_of_many_operations(tmp_path, monkeypatch):
-    """They are named before the equations are derived; CasADi takes them."""
+    """The warning comes before the derivation, and not with CasADi."""
     monkeypatch.setattr(python_module, "MOST_OF_JAX", 100)
     monkeypatch.setattr(python_module, "_write", lambda library, *_, **__: library)
     count = system_named(CLOSED).equations.equations.manifest["functions"]["rhs"]["operations"]

@@ -3,7 +3,7 @@
 import kintrafo
 import numpy as np
 import pytest
-from driving_cars import FILE
+from driving_cars import FILE, LINES
 from kintrafo.vehicle.analysis.handling import circle, drive, dynamic_loads
 from kintrafo.vehicle.analysis.handling.subject import driving_car
 from kintrafo.vehicle.analysis.loads import along, peaks, static
@@ -13,6 +13,7 @@ from kintrafo.vehicle.models.car import Car
 from kintrafo.vehicle.models.car.equations import declared
 
 G, UP = 9.81, np.array([0.0, 0.0, 1.0])
+OF_TYRE = ("fx", "fy", "fz", "mx", "my", "mz", "deflection", "wheel_center_z")
 
 
 @pytest.fixture(scope="module")
@@ -22,7 +23,7 @@ def car():
 
 @pytest.fixture(scope="module")
 def result(car):
-    """A car that is turned into a bend: bodies roll and yaw, wheels spin, the rack moves."""
+    """A car that turns into a bend: the body rolls and yaws, wheels spin, the rack moves."""
     changes = {"lateral_acceleration_m_per_s2": 4.0, "duration_s": 1.3, "start_s": 0.2}
     return drive(car, "step_steer", changes)
 
@@ -44,7 +45,7 @@ def of_state(motion, letters):
 
 
 def air(motion):
-    """Force and moment of the air on the body about its centre of mass, axes of the body."""
+    """Return force and moment of the air about the body's centre of mass, N, N m, its axes."""
     parameters, com = motion.model.parameters, motion.assembly.car.com
     arm = np.array([parameters[f"air_center_{axis}"] for axis in "xyz"]) - com
     velocity = of_state(motion, "uvw") + np.cross(of_state(motion, "pqr"), arm)
@@ -58,7 +59,7 @@ def air(motion):
 
 def test_what_the_joints_carry_is_what_the_equations_need(loads) -> None:
     """Equations in minimal coordinates and the balance of all parts agree."""
-    # rounding of velocities that are differenced, times masses
+    # rounding of differences of velocities, times masses
     assert np.abs(loads["holding_force"]).max() < 1e-5
     assert loads["residual"].max() < 1e-5
     assert loads["residual_moment"].max() < 1e-5
@@ -66,14 +67,14 @@ def test_what_the_joints_carry_is_what_the_equations_need(loads) -> None:
 
 
 def test_forces_on_the_body_move_it(motion, loads) -> None:
-    """Newton and Euler for the body, which is none of the parts that are balanced."""
+    """Newton and Euler for the body, which is not among the parts that the analysis balances."""
     parameters, com = motion.model.parameters, motion.assembly.car.com
     own = loads.sel(load=loads["part"] == "chassis")
     forces, moments, at = (own[name].values for name in ("force", "moment", "at"))
     of_air, about = air(motion)
     force = forces.sum(axis=1) + of_air - parameters["body_mass"] * G * motion.up
     about = about + (moments + np.cross(at - com, forces)).sum(axis=1)
-    # what turns the driven wheels turns the body back
+    # the reaction of the drive torque is on the body
     for suffix, group in motion.axle("front").poses.items():
         wheel, torque = group.wheels["wheel"], motion.signals[f"front{suffix}_drive_moment"]
         about -= torque[:, None] * wheel.vehicle.side * wheel.axis
@@ -82,7 +83,7 @@ def test_forces_on_the_body_move_it(motion, loads) -> None:
     u, p = of_state(motion, "uvw"), of_state(motion, "pqr")
     du, dp = of_state(changed, "uvw"), of_state(changed, "pqr")
     np.testing.assert_allclose(force, parameters["body_mass"] * (du + np.cross(p, u)), atol=1e-4)
-    tensor = np.diag([parameters[f"body_inertia_{axis}{axis}"] for axis in "xyz"])
+    tensor = tensor_of(motion, "body")
     np.testing.assert_allclose(about, dp @ tensor + np.cross(p, p @ tensor), atol=1e-4)
 
 
@@ -97,12 +98,12 @@ def test_at_rest_they_are_those_of_the_axle_under_its_load(car) -> None:
             np.linalg.norm(each.sel(load=each["point"] == name)["force"].values, axis=-1).max()
             for each, name in ((found, f"{point}_front_left"), (alone, f"{point}_left"))
         )
-        # the body leans by some 1e-3 rad in pitch at rest, and that of an axle is level
+        # the body has a pitch angle of some 1e-3 rad at rest, and that of an axle is level
         assert here == pytest.approx(there, abs=3e-3 * load)
 
 
 def power_of_wheels(motion):
-    """Power of the road on the wheels, and of the torques of the drive, (n,)."""
+    """Return the power of the road on the wheels and of the drive torques, (n,), W."""
     bodies, total = motion.model.equations.BODIES, 0.0
     twists = motion.twists.twists
     turning = twists[:, bodies.index("body"), :3]
@@ -131,11 +132,8 @@ def power_of_wheels(motion):
     return total
 
 
-OF_TYRE = ("fx", "fy", "fz", "mx", "my", "mz", "deflection", "wheel_center_z")
-
-
 def test_the_steering_does_the_work_that_is_missing(motion) -> None:
-    """The power of all forces is the rate of the kinetic energy: what is left is the rack's."""
+    """The rack adds the difference between the rate of the kinetic energy and all other power."""
     model, signals = motion.model, motion.signals
     twists, rates = motion.twists.twists, motion.twists.rates
     needed = 0.0
@@ -145,18 +143,17 @@ def test_the_steering_does_the_work_that_is_missing(motion) -> None:
         if not mass:
             continue
         turned = motion.body.mT @ spinning[:, i]
-        # of a wheel about its axis at design, of others the tensor of the file
+        # a wheel has its tensor about the axis at design, another part that of the file
         tensor = turned @ tensor_of(motion, name) @ turned.mT
         w, v, dw, dv = (each[:, i, part] for each in (twists, rates) for part in
                         (slice(0, 3), slice(3, 6)))  # fmt: skip
         needed += mass * (v * (dv + G * motion.up)).sum(1) + np.einsum(
             "ni,nij,nj->n", w, tensor, dw
         )
-    lines = ("front_left_strut", "front_right_strut", "rear_left_spring", "rear_right_spring")
     given = power_of_wheels(motion) + sum(
         (signals[f"{line}_spring_force"] + signals[f"{line}_damper_force"])
         * signals[f"{line}_velocity"]
-        for line in lines
+        for line in LINES
     )
     given += signals["front_bar_spring_moment"] * signals["front_bar_angular_velocity"]
     force, about = air(motion)
@@ -164,15 +161,15 @@ def test_the_steering_does_the_work_that_is_missing(motion) -> None:
     velocity = motion.inputs[:, model.input_names.index("rack_velocity")]
     steering = rack_force(motion.assembly, motion.states, motion.inputs) * velocity
     assert np.abs(steering).max() > 10.0
-    # rounding of powers of 1e5 W whose sum it is
+    # rounding of a sum of powers of up to 1e5 W
     np.testing.assert_allclose(steering, needed - given, atol=1e-4)
 
 
 def tensor_of(motion, name):
+    """Return the tensor of inertia of a body about its centre of mass, kg m^2."""
     end, _, part = name.partition("_")
     if name == "body":
-        values = [motion.model.parameters[f"body_inertia_{axis}{axis}"] for axis in "xyz"]
-        return np.diag(values)
+        return np.diag([motion.model.parameters[f"body_inertia_{axis}{axis}"] for axis in "xyz"])
     side, _, part = part.partition("_")
     group = motion.axle(end).poses[f"_{side}"]
     return group.masses()[part].tensor
@@ -187,7 +184,7 @@ def test_the_torque_turns_to_the_side_to_which_the_driver_pushes(result) -> None
 
 @pytest.mark.parametrize("name", ["twist_beam", "rigid_axle"])
 def test_an_axle_without_sides_has_its_parts_in_a_car(name) -> None:
-    """Places of its parts by names of states, and names of its bodies in the car."""
+    """Positions of its parts from states by name, and names of its bodies in the car."""
     held = assembly_of(kintrafo.load(name))
     states = held.model.design_state[None] + 0.01
     inputs = np.zeros((1, len(held.model.input_names)))
@@ -244,5 +241,5 @@ def test_the_command_writes_them_and_prints_the_greatest(kintrafo, tmp_path) -> 
     assert "greatest force" in out
     assert "ball_joint_front_left" in (tmp_path / "loads.csv").read_text(encoding="utf-8")
     words = ("--manoeuvre", "circle", "--loads", "loads.csv")
-    code, _, said = kintrafo("drive", "driving_car", *words)
-    assert (code, "no simulation" in said) == (2, True)
+    code, _, message = kintrafo("drive", "driving_car", *words)
+    assert (code, "no simulation" in message) == (2, True)

@@ -3,6 +3,7 @@
 import kintrafo
 import numpy as np
 import pytest
+from driving_cars import LINES
 from kintrafo.vehicle.analysis.handling import drive, load_manoeuvre
 from kintrafo.vehicle.analysis.loads.on_a_car import CarInMotion
 from kintrafo.vehicle.assembly.of import assembly_of
@@ -23,7 +24,7 @@ def found(car):
 
 
 def test_the_lifting_torque_is_the_slope_of_the_energy(car, found) -> None:
-    """Weights, springs, bar and tyres: their energy at rest over the angle."""
+    """The energy is that of weights, springs, bar and tyres at rest."""
     model = kintrafo.CarModel(car)
     assembly = assembly_of(model)
     angles = np.deg2rad(np.linspace(-240.0, 240.0, 25))
@@ -39,7 +40,7 @@ def test_the_lifting_torque_is_the_slope_of_the_energy(car, found) -> None:
         return CubicSpline(angles, values)(angles, 1)
 
     energy = 9.81 * slope(heights @ masses)
-    for line in ("front_left_strut", "front_right_strut", "rear_left_spring", "rear_right_spring"):
+    for line in LINES:
         energy -= signals[f"{line}_spring_force"] * slope(signals[f"{line}_length"])
     energy -= signals["front_bar_spring_moment"] * slope(signals["front_bar_angle"])
     for wheel in car.wheels:
@@ -50,7 +51,7 @@ def test_the_lifting_torque_is_the_slope_of_the_energy(car, found) -> None:
         upward = (wheel_of_axle.vehicle.side * wheel_of_axle.axis * motion.up).sum(axis=1)
         energy -= signals[f"{wheel}_mx"] * slope(np.arcsin(upward))
     torque = found["lifting_torque"].values[12:37][::-1]  # from the left to the right
-    inside = slice(3, -3)  # where the slopes of splines are good
+    inside = slice(3, -3)  # where the slopes of splines are accurate
     assert np.ptp(torque) > 2.0
     np.testing.assert_allclose(torque[inside], energy[inside], atol=2e-4)
 
@@ -67,7 +68,7 @@ def test_the_moment_of_a_wheel_is_that_of_a_round_contact() -> None:
 
 
 def test_the_work_of_a_turn_is_that_of_the_friction(found) -> None:
-    """From the left to the right and back: what lifts the car comes back."""
+    """From the left to the right and back, lifting does no work in total."""
     loop = found.isel(steering_wheel_angle=slice(12, None))
     angle = loop["steering_wheel_angle"].values
     torque, lifting = loop["steering_torque"].values, loop["lifting_torque"].values

@@ -135,7 +135,7 @@ def test_a_quarter_car_is_that_of_two_masses_in_the_limit(car: kintrafo.Car) -> 
     )
     expected = np.sort(np.abs(roots))[::2] / (2.0 * np.pi)
     np.testing.assert_allclose(np.sort(modes), expected, rtol=1e-2)
-    # the numbers of its ride, from the densities of the same formulas
+    # the metrics of its ride, from spectral densities by the same formulas
     n, speed = np.linspace(0.2, 50.0, 20001), 25.0
     s = 2j * np.pi * n
     coupling = rate + damping * s

@@ -210,7 +210,7 @@ def test_characteristics_at_design(kintrafo):
 
 
 def test_a_picture_compares_the_curves_whose_differences_can_be_seen():
-    """Neither those that cover each other, nor a curve twice, as toe and steer."""
+    """Neither curves that cover each other, nor one curve twice, as toe and steer."""
     cars = (Suspension.load("reference_car"),) * 2
     cars = (cars[0], cars[1].with_changes({"strut.spring_rate_N_per_m": 30e3}))
     table = xr.concat([characteristics.over(car) for car in cars], "data_set")

@@ -116,11 +116,11 @@ def test_the_sideslip_angle_of_a_car_that_turns_round_does_not_leap():
 
 def test_values_that_are_not_used_are_counted(capsys):
     note_unused(kintrafo.load("driving_car"), "my_car.toml")
-    said = "not used: 5 entries of the files of this car, listed by kintrafo check my_car.toml"
-    assert " ".join(capsys.readouterr().err.split()) == said
+    shown = "not used: 5 entries of the files of this car, listed by kintrafo check my_car.toml"
+    assert " ".join(capsys.readouterr().err.split()) == shown
 
 
-@pytest.mark.parametrize(("words", "said"), [
+@pytest.mark.parametrize(("words", "message"), [
     (["quarter_car"], 'car = "heave" does not travel'),
     (["reference_vehicle"], 'car = "roll" does not travel'),
     (["reference_axle"], "whose body is held"),
@@ -135,10 +135,10 @@ def test_values_that_are_not_used_are_counted(capsys):
      "parking has no simulation"),
     (["driving_car", "--animate", "a.mp4"], ".gif"),
 ])  # fmt: skip
-def test_mistakes_are_named_before_equations_are_derived(kintrafo, words, said):
+def test_mistakes_are_named_before_equations_are_derived(kintrafo, words, message):
     code, out, err = kintrafo("drive", *words)
     assert (code, out) == (2, "")
-    assert said in " ".join(err.split())
+    assert message in " ".join(err.split())
     assert not list(Path().glob("*.png"))
 
 

@@ -127,9 +127,9 @@ def test_no_command_writes_over_what_it_did_not_write(kintrafo, tmp_path, comman
 
 @pytest.mark.parametrize("name", ["reference_axle", "twist_beam", "driving_car"])
 def test_points_are_those_of_a_suspension(kintrafo, tmp_path, name):
-    code, out, said = kintrafo("export", name, "--to", "points")
+    code, out, message = kintrafo("export", name, "--to", "points")
     assert (code, out) == (2, "")
-    assert "a table of hardpoints is that of a suspension" in " ".join(said.split())
+    assert "a table of hardpoints is that of a suspension" in " ".join(message.split())
     assert not list(tmp_path.iterdir())
 
 

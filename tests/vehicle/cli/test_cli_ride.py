@@ -40,12 +40,12 @@ def test_at_rest_no_value_of_the_body_is_below_a_wheel():
 
 
 def test_a_bump_that_no_wheel_meets_is_refused(kintrafo):
-    code, _, said = kintrafo("ride", "quarter_car", "--bump", "20", "--under", "left")
+    code, _, message = kintrafo("ride", "quarter_car", "--bump", "20", "--under", "left")
     assert code == 2
-    assert "wheel on the other side" in said
+    assert "wheel on the other side" in message
 
 
-@pytest.mark.parametrize(("words", "said"), [
+@pytest.mark.parametrize(("words", "message"), [
     (["driving_car"], 'car = "full" travels'),
     (["quarter_car", "--road", "C", "--bump", "20"], "--road and --bump are given: choose one"),
     (["quarter_car", "--bump-length", "1"], "--bump-length is only for --bump"),
@@ -55,7 +55,7 @@ def test_a_bump_that_no_wheel_meets_is_refused(kintrafo):
     (["quarter_car", "--contact-length", "-5"], "--contact-length = -5 mm"),
     (["reference_vehicle", "--road", "short.csv"], "the road is 2 m long, and the wheelbase 2.6 m"),
 ])  # fmt: skip
-def test_mistakes_are_named_before_equations_are_derived(kintrafo, monkeypatch, words, said):
+def test_mistakes_are_named_before_equations_are_derived(kintrafo, monkeypatch, words, message):
     Path("short.csv").write_text(
         "distance_m,left_height_mm,right_height_mm\n0,0,0\n0.5,0,0\n1,0,0\n1.5,0,0\n2,0,0\n",
         encoding="utf-8",
@@ -67,7 +67,7 @@ def test_mistakes_are_named_before_equations_are_derived(kintrafo, monkeypatch, 
     monkeypatch.setattr(ride, "derived", derived)
     code, out, err = kintrafo("ride", *words)
     assert (code, out) == (2, "")
-    assert said in " ".join(err.split())
+    assert message in " ".join(err.split())
 
 
 def test_a_sweep_of_a_car_is_a_table_of_its_numbers(kintrafo):
@@ -85,9 +85,9 @@ def test_a_sweep_of_a_car_is_a_table_of_its_numbers(kintrafo):
         (["sweep", "reference_car", "wheel.mass_kg=30,40", "--at", "3"], "only for cars"),
         (["sweep", "quarter_car", "body.mas_kg=340,390"], "body.mass_kg"),
     ):
-        code, _, said = kintrafo(*others)
+        code, _, message = kintrafo(*others)
         assert code == 2
-        assert words in said
+        assert words in message
 
 
 def test_curves_of_four_wheels_are_drawn():

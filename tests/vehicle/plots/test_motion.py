@@ -148,7 +148,7 @@ def test_what_does_not_move_is_not_shown(tmp_path) -> None:
 
 
 def test_curves_are_in_the_order_in_which_they_are_looked_at() -> None:
-    """Accelerations come before the pitch, and what is rounding alone is not drawn."""
+    """Accelerations come before the pitch, and a curve of rounding alone is not drawn."""
     time = np.linspace(0.0, 1.0, 9)
     names = ("pitch", "driver_acceleration", "body_acceleration")
     coords = {"time": ("time", time, {"units": "s", "long_name": "time"})}

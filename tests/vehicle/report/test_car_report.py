@@ -1,4 +1,4 @@
-"""The report of a car: its chapters, and what of them moves in a browser."""
+"""The report of a car: its chapters, and its animations in a browser."""
 
 import json
 import re
@@ -78,16 +78,16 @@ def test_curves_of_a_car_are_small_pictures(monkeypatch) -> None:
 
 @pytest.mark.parametrize("option", ["--goals", "--cases", "--bushes"])
 def test_what_is_about_an_axle_needs_its_file(kintrafo, option) -> None:
-    code, _, said = kintrafo("report", "quarter_car", option, "some.toml")
+    code, _, message = kintrafo("report", "quarter_car", option, "some.toml")
     assert code == 2
-    assert "an axle or a suspension" in said
+    assert "an axle or a suspension" in message
 
 
 @pytest.mark.parametrize("command", ["loads", "sheet", "compliance"])
 def test_commands_name_the_files_of_a_cars_axles(kintrafo, command) -> None:
-    code, _, said = kintrafo(command, "driving_car")
+    code, _, message = kintrafo(command, "driving_car")
     assert code == 2
-    words = " ".join(said.split())
+    words = " ".join(message.split())
     assert f"kintrafo {command} reference_axle or kintrafo {command} rear_axle" in words
 
 
@@ -123,7 +123,7 @@ def test_the_car_is_played_on_every_width(report, width) -> None:
 
 
 def test_curves_over_the_frequency_are_within_their_axes():
-    """In the units that are drawn: a response of the tyre in N/mm, its greatest value inside."""
+    """In display units: a response of the tyre is in N/mm, and its greatest value inside."""
     figures = response_figures(kintrafo.ride.response(kintrafo.load("quarter_car"), 20.0))
     assert any("N/mm" in words for words in figures)
     for words, figure in figures.items():

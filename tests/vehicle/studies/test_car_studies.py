@@ -110,10 +110,10 @@ def test_something_is_constant_in_steady_turns(option: str, constant: str, value
     names = ["travel_speed", "curvature", "steering_wheel_angle", "roll_angle"]
     own = variation.cars(DRIVES, {MASS: [1300.0]}, over=over, positions=[-3.0, *at], names=names)
     np.testing.assert_allclose(own[constant][0, 1:], value, rtol=1e-9)
-    # kinematics of the turn at a speed: v r = a, but for the cosine of the sideslip angle
+    # v r = a in a steady turn, but for the cosine of the sideslip angle
     product = own["curvature"] * own["travel_speed"] ** 2
     np.testing.assert_allclose(product[0], [-3.0, *at], rtol=2e-2)
-    # the turn at the same speed is the same one, as are its neighbours with other masses
+    # the turn at a constant speed is the same one, if the speeds are equal
     speed = float(own["travel_speed"][0, 2])
     same = turn(DRIVES, 3.0, speed)
     for name in names:
@@ -128,7 +128,7 @@ def test_something_is_constant_in_steady_turns(option: str, constant: str, value
 
 
 def test_an_error_is_found_by_measured_turns(tmp_path: Path) -> None:
-    """Of a car with another tie rod and a softer rear spring: steering and roll on a radius."""
+    """The car has another tie rod and a softer rear spring: steering and roll on a radius."""
     height, rate = (places_of(DRIVES)[place].value for place in (ROD, RATE))
     built = DRIVES.with_changes({ROD: height + 2.0, RATE: 0.95 * rate})
     at = np.linspace(1.0, 5.0, 5)
@@ -143,7 +143,7 @@ def test_an_error_is_found_by_measured_turns(tmp_path: Path) -> None:
         accuracy={"steering_wheel_angle": 0.01, "roll_angle": 0.001},
     )  # fmt: skip
     assert found.success, found.message
-    # what is measured so well outweighs that values are probably right as they are
+    # accurate measurements outweigh the assumption that values are near those of the file
     assert found.moved[ROD] == pytest.approx(2.0, abs=0.05)
     assert found.moved[RATE] == pytest.approx(-0.05 * rate, rel=0.02)
     with pytest.raises(InputError, match="lateral_acceleration"):
@@ -171,7 +171,7 @@ def test_derivatives_of_a_ride() -> None:
 
 
 def test_a_ride_comes_to_its_targets() -> None:
-    """Two rates for a frequency and a damping ratio; and what comfort then is, is a limit."""
+    """Two rates, for a frequency and a damping ratio; comfort is a limit."""
     targets = {
         "heave_frequency": {"over": "speed", "value": 1.1, "within": 1e-3},
         "heave_damping_ratio": {"over": "speed", "value": 0.3, "within": 1e-3},
