@@ -199,7 +199,7 @@ def kintrafo(
 
 
 @pytest.fixture
-def told(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Callable[..., None]]:
+def as_stored(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Callable[..., None]]:
     """Compare errors or texts with the messages that are stored for this test."""
     so_far = messages.StoredMessages(
         request.node, update=request.config.getoption("--update-messages")
@@ -214,8 +214,8 @@ def told(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Callable[..
 
 
 @pytest.fixture
-def refused(told: Callable[..., None]) -> Callable[..., Any]:
-    """Let calls fail with one kind of error, and compare what they say with what is stored."""
+def refused(as_stored: Callable[..., None]) -> Callable[..., Any]:
+    """Let calls fail with one kind of error, and compare its messages with those stored."""
 
     def compare(error: type[Exception], *calls: Callable[[], object]) -> Any:
         caught = []
@@ -223,7 +223,7 @@ def refused(told: Callable[..., None]) -> Callable[..., Any]:
             with pytest.raises(error) as found:
                 call()
             caught.append(found.value)
-        told(*caught)
+        as_stored(*caught)
         return caught[0]
 
     return compare

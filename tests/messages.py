@@ -1,7 +1,7 @@
 """Messages as they were stored: one file has all, and no test repeats their sentences.
 
-A test says by its name what it gives; what it is told is in `golden/messages.json` under that name.
-``pytest --update-messages`` stores what is said now: the difference is what a person reads.
+A test's name describes the mistake; its messages are in `golden/messages.json` under that name.
+``pytest --update-messages`` stores the present messages: a person reads the difference.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ def key_of(item: pytest.Item) -> str:
 
 
 class StoredMessages:
-    """What one test is told, compared with what is stored, one message after the other.
+    """Messages of one test, compared one by one with those that are stored.
 
     Parameters
     ----------
@@ -44,18 +44,18 @@ class StoredMessages:
         self.key, self.update = key_of(item), update
         known = stored().get(self.key, [])
         self.known = [known] if isinstance(known, str) else known
-        self.told: list[str] = []
+        self.shown: list[str] = []
 
     def hear(self, text: str) -> None:
         """Compare one more message."""
-        self.told.append(text)
+        self.shown.append(text)
         if not self.update:
-            so_far = self.known[: len(self.told)]
-            assert self.told == so_far, "if on purpose: pytest --update-messages"
+            so_far = self.known[: len(self.shown)]
+            assert self.shown == so_far, "if on purpose: pytest --update-messages"
 
     def end(self) -> None:
         """Store what was heard, if it is to be stored."""
-        if self.update and self.told:
-            stored()[self.key] = self.told[0] if len(self.told) == 1 else self.told
+        if self.update and self.shown:
+            stored()[self.key] = self.shown[0] if len(self.shown) == 1 else self.shown
             text = json.dumps(stored(), indent=1, sort_keys=True, ensure_ascii=False)
             FILE.write_text(f"{text}\n", encoding="utf-8")

@@ -104,12 +104,12 @@ class Instance:
         self.handle = None if made is None else ct.c_void_p(made)
 
     def _note(self, text: bytes) -> None:
-        said = text.decode()
-        self.messages.append(said.replace("%%", "%") if self._two else said)
+        message = text.decode()
+        self.messages.append(message.replace("%%", "%") if self._two else message)
 
     @property
-    def said(self) -> str:
-        """Return what was said last."""
+    def message(self) -> str:
+        """Return the last message."""
         return self.messages[-1] if self.messages else ""
 
     def call(self, two: str, three: str | None = None, *arguments: Any) -> int:

@@ -57,8 +57,8 @@ def shipped(model: Formulation) -> ModuleType:
     return importlib.import_module(f"kintrafo.generated.{model.name}")
 
 
-def said(model: Formulation) -> str:
-    """Return what a model is known by."""
+def identity_of(model: Formulation) -> str:
+    """Return the identity of a model, by which caches know it."""
     return identity(model) or identity_of_derived(generate(model))
 
 
@@ -73,7 +73,7 @@ def derive(model: Formulation, *, derivatives: bool = True) -> Derivation:
         With those by state and inputs; what ships has them in any case, for the tests that need
         them.
     """
-    declared, derivatives = said(model), derivatives or model in MODELS
+    declared, derivatives = identity_of(model), derivatives or model in MODELS
     found = _derived.get((declared, True)) or _derived.get((declared, derivatives))
     if found is None:
         found = _kept_or_derived(model, derivatives=derivatives)
@@ -99,7 +99,8 @@ def _kept_or_derived(model: Formulation, *, derivatives: bool) -> Derivation:
 def _file_of(model: Formulation, *, derivatives: bool) -> Path:
     """Return where a derived model is kept."""
     built_by = f"{sys.version} derived" + ("" if derivatives else " without derivatives")
-    return KEPT / f"{model.name}-{fingerprint(said(model), built_by=built_by)}" / "derived.pickle"
+    key = fingerprint(identity_of(model), built_by=built_by)
+    return KEPT / f"{model.name}-{key}" / "derived.pickle"
 
 
 def own(model: Formulation, *, arrays: bool = not has_gcc, derivatives: bool = True) -> ModuleType:
@@ -137,7 +138,7 @@ def _folder_of(model: Formulation, *, arrays: bool, derivatives: bool) -> Path:
     """Return where a compiled model is kept."""
     built_by = "numpy" if arrays else " ".join((*COMPILER.command, _version()))
     built_by += "" if derivatives else " without derivatives"
-    return KEPT / f"{model.name}-{fingerprint(said(model), built_by=built_by)}"
+    return KEPT / f"{model.name}-{fingerprint(identity_of(model), built_by=built_by)}"
 
 
 @cache

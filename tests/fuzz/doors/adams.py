@@ -199,9 +199,9 @@ def _slipped(random: Generator, text: str) -> str:
 
 
 def _judge(error: InputError) -> None:
-    said = str(error)
-    if len(said) > 1500 * (len(error.problems) + 1):
-        raise RawError(f"{len(said)} characters: {said[:300]}") from error
+    message = str(error)
+    if len(message) > 1500 * (len(error.problems) + 1):
+        raise RawError(f"{len(message)} characters: {message[:300]}") from error
 
 
 def _check(text: str, found: Any, car: Any, how: dict[str, Any]) -> None:

@@ -65,13 +65,13 @@ def attempt(random: Generator) -> None:
         for _ in range(random.integers(1, 4)):
             DAMAGE[random.integers(len(DAMAGE))](random, folder)
         damaged, there = bool(damage(folder)), folder.exists()
-        with warnings.catch_warnings(record=True) as told:
+        with warnings.catch_warnings(record=True) as shown:
             warnings.simplefilter("always")
             found = computed(root)
         if found != values:
             raise WrongError("other numbers than those of a sound one")
-        if (damaged and there) != any("made again" in str(one.message) for one in told):
-            raise WrongError(f"damaged: {damaged}, told: {[str(one.message) for one in told]}")
+        if (damaged and there) != any("made again" in str(one.message) for one in shown):
+            raise WrongError(f"damaged: {damaged}, warned: {[str(one.message) for one in shown]}")
         if damage(folder) or computed(root) != values:
             raise WrongError("not healed")
 

@@ -201,9 +201,9 @@ def _commented(random: Generator, data: Any) -> str:
 
 
 def _judge(error: InputError) -> None:
-    said = str(error)
-    if len(said) > 500 * (len(error.problems) + 1):
-        raise RawError(f"{len(said)} characters: {said[:300]}") from error
+    message = str(error)
+    if len(message) > 500 * (len(error.problems) + 1):
+        raise RawError(f"{len(message)} characters: {message[:300]}") from error
 
 
 def check(suspension: Any, given: dict[str, Any], *, points_only: bool = False) -> None:

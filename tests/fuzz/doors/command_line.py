@@ -173,21 +173,21 @@ def attempt(random: Generator) -> None:
         before = _contents(folder)
         code, out, err = run(arguments)
         after = _contents(folder)
-    told = f"{arguments!r}: code {code}, {err[-600:]!r}"
+    shown = f"{arguments!r}: code {code}, {err[-600:]!r}"
     if code not in (0, 1, 2, 3):
-        raise RawError(told)
+        raise RawError(shown)
     if "Traceback" in out + err or (code and not (out + err).strip()):
-        raise RawError(told)
+        raise RawError(shown)
     if "--force" not in arguments:
         lost = [path for path in before if after.get(path) != before[path]]
         if lost:
-            raise WrongError(f"{told}: changed {lost}")
+            raise WrongError(f"{shown}: changed {lost}")
     elif any(after.get(path) != before[path] for path in before if path.endswith(".py")):
-        raise WrongError(f"{told}: a source was changed by force")
+        raise WrongError(f"{shown}: a source was changed by force")
     if any(".kintrafo-" in path for path in after):
-        raise WrongError(f"{told}: left {sorted(after.keys() - before.keys())}")
+        raise WrongError(f"{shown}: left {sorted(after.keys() - before.keys())}")
     if code:
-        raise RefusedError(told)
+        raise RefusedError(shown)
 
 
 @contextlib.contextmanager

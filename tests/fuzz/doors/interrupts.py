@@ -87,29 +87,30 @@ def attempt(random: Generator) -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = _filled(Path(name))
         before = contents(folder / "work")
-        code, said, took = interrupted(folder, command, after, whole_group=whole_group)
-        told = (
-            f"{' '.join(command)} after {after:.3f} s, {took:.2f} s more: {code}, {said[-900:]!r}"
+        code, message, took = interrupted(folder, command, after, whole_group=whole_group)
+        shown = (
+            f"{' '.join(command)} after {after:.3f} s, {took:.2f} s more: "
+            f"{code}, {message[-900:]!r}"
         )
         left = contents(folder / "work")
         strange = [path.name for path in folder.rglob(".*")]
     if code is None:
-        raise WrongError(f"{told}: runs on")
+        raise WrongError(f"{shown}: runs on")
     if took > _SOON:
-        raise WrongError(f"{told}: too late")
+        raise WrongError(f"{shown}: too late")
     if code not in (0, _INTERRUPTED):
-        raise WrongError(told)
-    if said.replace(_STOPPED, "").strip():
-        raise RawError(told)
+        raise WrongError(shown)
+    if message.replace(_STOPPED, "").strip():
+        raise RawError(shown)
     if strange:
-        raise WrongError(f"{told}: left {strange}")
+        raise WrongError(f"{shown}: left {strange}")
     changed = {path for path in left if left[path] != before.get(path)}
     if changed and any(left[path] != whole(command).get(path) for path in changed):
-        raise WrongError(f"{told}: half written: {changed}")
+        raise WrongError(f"{shown}: half written: {changed}")
     if code == 0:  # what comes after the end of a command does not interrupt it
         if left != whole(command):
-            raise WrongError(f"{told}: not done")
-        raise UnjudgedError(f"{told}: done before")
+            raise WrongError(f"{shown}: not done")
+        raise UnjudgedError(f"{shown}: done before")
 
 
 _INTERRUPTED = 130
@@ -128,13 +129,13 @@ def _filled(folder: Path) -> Path:
 def started(folder: Path, command: tuple[str, ...]) -> subprocess.Popen[str]:
     """Start a command in a session of its own; it has begun when this returns."""
     environment = {**os.environ, "KINTRAFO_CACHE": str(folder / "cache")}
-    with (folder / "said").open("w") as said:
+    with (folder / "said").open("w") as message:
         process = subprocess.Popen(
             [sys.executable, "-c", _BEGIN, *command],
             cwd=folder / "work",
             env=environment,
             stdout=subprocess.PIPE,
-            stderr=said,
+            stderr=message,
             text=True,
             start_new_session=True,
         )

@@ -295,17 +295,17 @@ def _wrong(motion: Motion, text: str) -> NoReturn:
 
 
 def _judge(motion: Motion, expected: Reference, ended: Any) -> None:
-    told = f"the reference {'ends' if expected.dead else 'goes on'} at {expected.time:.9g} s"
+    ends = f"the reference {'ends' if expected.dead else 'goes on'} at {expected.time:.9g} s"
     if isinstance(ended, SimulationError):
         text = f"refused at {ended.time:.9g} s ({str(ended)[:300]})"
     else:
         text = "goes on"
         _check_signals(motion, ended)
     if isinstance(ended, SimulationError) != expected.dead:
-        _wrong(motion, f"{text}, and {told}")
+        _wrong(motion, f"{text}, and {ends}")
     off = _off(motion, expected, ended)
     if off > 1.0 and not _mended(motion, expected, off):
-        _wrong(motion, f"{text}, {off:.3g} times what the tolerance lets expect; {told}")
+        _wrong(motion, f"{text}, {off:.3g} times what the tolerance lets expect; {ends}")
 
 
 def _check_signals(motion: Motion, result: Any) -> None:

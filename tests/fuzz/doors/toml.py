@@ -48,11 +48,11 @@ def read(path: Path) -> Suspension:
     try:
         return Suspension.load(path)
     except InputError as error:
-        said = str(error)
-        if str(path) not in said or any(word in said for word in STRANGE_WORDS):
-            raise RawError(said) from error
-        if len(said) > 500 * (len(error.problems) + 1):
-            raise RawError(f"{len(said)} characters: {said[:300]}") from error
+        message = str(error)
+        if str(path) not in message or any(word in message for word in STRANGE_WORDS):
+            raise RawError(message) from error
+        if len(message) > 500 * (len(error.problems) + 1):
+            raise RawError(f"{len(message)} characters: {message[:300]}") from error
         raise
 
 

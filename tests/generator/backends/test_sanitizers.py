@@ -16,8 +16,8 @@ from kintrafo.simulation.solvers import native_available, native_version
 from own_loops import FIVE_BAR
 from own_models import own
 
-# without optimisation, which takes most of the time and hides what it removes; of what a debugger
-# is told, lines are enough
+# without optimisation, which takes most of the time and hides code that it removes; of the
+# debug information lines are enough
 FLAGS = ["-std=gnu11", "-O0", "-g1", "-fno-math-errno", "-fsanitize=address,undefined"]
 FLAGS += ["-fno-sanitize-recover=all", "-Wall", "-Wextra", "-Werror"]
 SUNDIALS = ["cvode", "arkode", "nvecserial", "sunmatrixdense", "sunlinsoldense"]

@@ -387,7 +387,7 @@ def test_it_is_refused_by_name():
     height = g.Input("height", "N", "not a height")
     damper = g.DamperRate("rate", 1.0, "damping")
     lean = next(j for j in rig(law, "rig").mechanism.joints if j.name == "lean")
-    for changes, said in (
+    for changes, message in (
         ({"road": height}, "'height' is in N; m is needed"),
         ({"damper": damper}, "give damper and road_velocity, or neither"),
         ({"bearing": lean}, "hinge 'lean' leads from 'fork'"),
@@ -397,5 +397,5 @@ def test_it_is_refused_by_name():
         ),
         ({"bearing": lean}, "does not turn about the wheel's spin axis 'spin_axis'"),
     ):
-        with pytest.raises(g.DeclarationError, match=said):
+        with pytest.raises(g.DeclarationError, match=message):
             g.RollingTyre(**(parts | changes))

@@ -85,12 +85,12 @@ def accepted(modules: list[Any], values: Mapping[str, float]) -> None:
 
 def refusal(modules: list[Any], values: Mapping[str, float]) -> str:
     """Return what `prepare` says about parameters that it refuses, the same in all builds."""
-    said = set()
+    messages = set()
     for module in modules:
         with pytest.raises(ParameterError) as caught:
             module.prepare(values)
-        said.add(str(caught.value))
-    (text,) = said
+        messages.add(str(caught.value))
+    (text,) = messages
     return text
 
 

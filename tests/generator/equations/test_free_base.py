@@ -523,7 +523,7 @@ def test_a_strut_from_the_world_is_refused():
         generate(replace(model, mechanism=mechanism, massive=(joint.second,)), derivatives=False)
 
 
-def test_a_force_cannot_act_along_all_its_speeds_at_once(told):
+def test_a_force_cannot_act_along_all_its_speeds_at_once(as_stored):
     @dataclass(frozen=True)
     class Push(Force):
         @property
@@ -538,7 +538,7 @@ def test_a_force_cannot_act_along_all_its_speeds_at_once(told):
     with pytest.raises(DeclarationError) as found:
         generate(pushed)
     line = Push.act.__code__.co_firstlineno + 1
-    told(str(found.value).replace(f"line {line}:", "line LINE:"))
+    as_stored(str(found.value).replace(f"line {line}:", "line LINE:"))
 
 
 def test_names_of_its_states_are_taken():

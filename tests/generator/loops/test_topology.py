@@ -392,8 +392,8 @@ def test_a_hinge_that_is_nearly_parallel_is_named(degrees):
     line = Direction("off", (np.sin(np.radians(degrees)), 0.0, np.cos(np.radians(degrees))))
     (c,) = (joint for joint in bar.joints if joint.name == "C")
     other = changed(bar, (c, replace(c, axis=replace(c.axis, towards=line))))
-    told = tilted(other)
-    assert told.startswith(f"Joint 'C' is tilted by {degrees:.3g} degrees from A, B, D")
+    text = tilted(other)
+    assert text.startswith(f"Joint 'C' is tilted by {degrees:.3g} degrees from A, B, D")
     with pytest.raises(NoClosedFormError, match="Joint 'C' is tilted"):
         CataloguePlan.of(replace(BY_NAME["four_bar"], mechanism=other))
     assert tilted(bar) == ""

@@ -51,14 +51,16 @@ def test_the_envelope_has_the_cases(tmp_path):
     path = export.write(loads.table(found), tmp_path / "a.xlsx", sheets=loads.workbook(found))
     heading, *rows = cells(path, "envelope")
     (row,) = [row for row in rows if row[0] == "knuckle at ball_joint by control_arm"]
-    told = dict(zip(heading, row, strict=True))
+    columns = dict(zip(heading, row, strict=True))
     values = found["force"].sel(load=row[0])
     for axis in "xyz":
         along = values.sel(axis=axis)
         for end, which in (("min", along.values.argmin()), ("max", along.values.argmax())):
             # rounding is a zero in a file for people
-            assert told[f"force_{axis}_{end} [N]"] == pytest.approx(float(along[which]), abs=1e-8)
-            assert told[f"force_{axis}_{end}_case"] == str(found["case"][which].values)
+            assert columns[f"force_{axis}_{end} [N]"] == pytest.approx(
+                float(along[which]), abs=1e-8
+            )
+            assert columns[f"force_{axis}_{end}_case"] == str(found["case"][which].values)
 
 
 def test_every_cell_is_what_it_is(tmp_path):

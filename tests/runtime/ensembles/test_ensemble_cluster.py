@@ -167,12 +167,12 @@ def test_what_a_lost_worker_did_is_done_again(
 
 def test_what_loses_one_worker_after_another() -> None:
     """What the scheduler tells then, and where it is gone itself."""
-    told = {
+    shown = {
         distributed.scheduler.KilledWorker("piece", None, 3): "systems 7 to 14: several workers",
         CancelledError(): "the scheduler was lost, or",
         OSError("nobody there"): "the scheduler was lost: nobody there",
     }
-    for error, words in told.items():
+    for error, words in shown.items():
 
         def result(error: Exception = error) -> None:
             raise error
@@ -230,17 +230,17 @@ def test_few_pieces_are_held_at_a_time(
 
 
 def test_progress_is_told(client: Any, car: Model, start: Any, monkeypatch: Any) -> None:
-    told: list[int] = []
+    shown: list[int] = []
     real = ensembles.run_in_pieces
 
     def noted(*given: Any) -> None:
         *others, report = given
-        real(*others, lambda count: (told.append(count), report(count)))
+        real(*others, lambda count: (shown.append(count), report(count)))
 
     monkeypatch.setattr(ensembles, "run_in_pieces", noted)
     ensemble(car, some_cars(50), SPAN, start, progress=True, cluster=client)
-    assert told == sorted(told)
-    assert told[-1] == 50
+    assert shown == sorted(shown)
+    assert shown[-1] == 50
 
 
 # -- what is kept ---------------------------------------------------------------------------------
@@ -438,7 +438,7 @@ SCRIPTS = {
 def test_local_workers_that_cannot_begin(
     car: Model, monkeypatch: Any, tmp_path: Path, script: str | None
 ) -> None:
-    """What is wrong is told by whether the script could be read by them, and what Dask says."""
+    """The error follows from whether workers could read the script, and from Dask's error."""
     main = SimpleNamespace()
     if script:
         main.__file__ = str(tmp_path / "script.py")
@@ -449,10 +449,10 @@ def test_local_workers_that_cannot_begin(
         raise RuntimeError from ImportError("no such module")
 
     monkeypatch.setattr(distributed, "LocalCluster", refused)
-    with pytest.raises(InputError) as told:
+    with pytest.raises(InputError) as shown:
         ensemble(car, None, SPAN, cluster=1)
-    assert SCRIPTS[script] in str(told.value)
-    assert ("if __name__" in str(told.value)) == (script == "x")
+    assert SCRIPTS[script] in str(shown.value)
+    assert ("if __name__" in str(shown.value)) == (script == "x")
 
 
 def test_a_worker_that_reads_the_script(monkeypatch: Any) -> None:
@@ -491,8 +491,8 @@ def test_a_worker_that_came_later_with_other_versions(car: Model, monkeypatch: A
 
 
 def test_a_worker_that_cannot_load_it() -> None:
-    told = workers._other(ModuleNotFoundError("No module named 'kintrafo'"))
-    assert told.startswith("cannot load this version of kintrafo (ModuleNotFoundError: No module")
+    shown = workers._other(ModuleNotFoundError("No module named 'kintrafo'"))
+    assert shown.startswith("cannot load this version of kintrafo (ModuleNotFoundError: No module")
     assert not workers._other(ConnectionResetError("it was lost"))  # what it did is done again
 
 

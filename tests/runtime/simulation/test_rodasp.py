@@ -130,8 +130,8 @@ def test_the_order_conditions_hold(part: Fraction, order: int) -> None:
 
 
 def test_nodes_and_terms_by_time_are_sums_of_rows() -> None:
-    for told, sums in ((numbers("NODES")[0], NODE), (numbers("BY_TIME")[0], by(GAMMAS, ONES))):
-        assert max(abs(a - b) for a, b in zip(told, sums, strict=True)) < ROUNDED
+    for written, sums in ((numbers("NODES")[0], NODE), (numbers("BY_TIME")[0], by(GAMMAS, ONES))):
+        assert max(abs(a - b) for a, b in zip(written, sums, strict=True)) < ROUNDED
     assert all(GAMMAS[i][i] == GAMMA for i in range(STAGES))
 
 

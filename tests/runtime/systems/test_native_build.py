@@ -94,7 +94,7 @@ def test_a_wheel_is_complete():
 
 @pytest.mark.skipif(not (native_available() and library.widths()), reason="built without them")
 @pytest.mark.parametrize(
-    ("missing", "told"),
+    ("missing", "message"),
     [
         ("from kintrafo.simulation import solvers; solvers.sundials = None", "no method in C"),
         ("from kintrafo.simulation.lanes import library; library.widths = tuple", "no lanes"),
@@ -104,10 +104,10 @@ def test_a_wheel_is_complete():
         ),
     ],
 )
-def test_a_wheel_without_something_is_not(missing, told):
+def test_a_wheel_without_something_is_not(missing, message):
     done = complete(missing)
     assert done.returncode == 1
-    assert f"incomplete: {told}" in done.stderr
+    assert f"incomplete: {message}" in done.stderr
     assert "Traceback" not in done.stderr
 
 

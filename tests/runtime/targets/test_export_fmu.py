@@ -196,10 +196,12 @@ def test_the_description_tells_units_starts_and_meanings(unit, version):
     known = unit("reference_car", version)
     system = system_named("reference_car")
     for name, entry in system.equations.PARAMETERS.items():
-        told = f"parameters.{name}"
-        assert float(known.attribute(told, "start")) == system.parameters[name]
-        assert known.attribute(told, "description") == entry["meaning"]
-        assert known.attribute(told, "unit") == (None if entry["unit"] == "1" else entry["unit"])
+        variable = f"parameters.{name}"
+        assert float(known.attribute(variable, "start")) == system.parameters[name]
+        assert known.attribute(variable, "description") == entry["meaning"]
+        assert known.attribute(variable, "unit") == (
+            None if entry["unit"] == "1" else entry["unit"]
+        )
     assert known.attribute("tyre_force", "causality") == "output"
     assert known.attribute("road_height", "displayUnit") == "mm"
     reference = known.references["rack_position"] + (version == 2)
@@ -266,13 +268,13 @@ def test_derivatives_of_other_variables_are_refused(unit, version):
     instance.initialise()
     instance.derivative(["parameters.crank_mass"], ["crank_angle"], [1.0])
     assert instance.status == ERROR
-    assert "neither a derivative of a state" in instance.said
+    assert "neither a derivative of a state" in instance.message
     instance.derivative(["spring_force"], ["parameters.crank_mass"], [1.0])
     assert instance.status == ERROR
-    assert "those by crank_mass are not there" in instance.said
+    assert "those by crank_mass are not there" in instance.message
     instance.derivative(["spring_force"], ["solver.step"], [1.0])
     assert instance.status == ERROR
-    assert "neither a state, nor an input, nor a parameter" in instance.said
+    assert "neither a state, nor an input, nor a parameter" in instance.message
 
 
 @pytest.mark.parametrize("version", VERSIONS)
@@ -339,7 +341,9 @@ def test_parameters_that_cannot_move_alone_are_refused(tmp_path):
         named = [f"parameters.{name}" for name in knowns]
         instance.derivative(rates, named, [1.0, 1e-6][-len(named) :])
         assert instance.status == ERROR
-        assert "cannot move alone. They leave what the equations take to be zero" in instance.said
+        assert (
+            "cannot move alone. They leave what the equations take to be zero" in instance.message
+        )
     instance.free()
 
 
@@ -356,7 +360,7 @@ def test_steps_follow_the_motion(unit, version, step, implicit):
     times = np.linspace(0.0, 0.3, 31)
     found = [instance.get("beta1", "tyre_force")]
     for time, length in zip(times, np.diff(times), strict=False):
-        assert instance.step(time, length) == OK, instance.said
+        assert instance.step(time, length) == OK, instance.message
         found.append(instance.get("beta1", "tyre_force"))
     at = start("reference_car")
     at[system_named("reference_car").state_names.index("beta1_rate")] = 0.3
@@ -404,9 +408,9 @@ def test_slopes_of_inputs(unit):
     # a cubic through samples of a parabola, whose ends are free
     assert instance.get("beta1")[0] == pytest.approx(wanted, abs=1e-7)
     assert instance.slopes({"road_height": 4}, [1.0]) == ERROR
-    assert "order 4 of road_height: 1 to 3" in instance.said
+    assert "order 4 of road_height: 1 to 3" in instance.message
     assert instance.slopes({"tyre_force": 1}, [1.0]) == ERROR
-    assert "is no input" in instance.said
+    assert "is no input" in instance.message
 
 
 @pytest.mark.parametrize("version", VERSIONS)
@@ -425,9 +429,9 @@ def test_a_motion_that_ends_is_told(unit, version):
     assert time <= ends <= time + length
     # of the usual tolerance
     assert instance.reached.value == pytest.approx(ends, abs=1e-4)
-    assert "cannot close" in instance.said
+    assert "cannot close" in instance.message
     assert instance.step(instance.reached.value, length) == DISCARD
-    assert "has ended" in instance.said
+    assert "has ended" in instance.message
     assert instance.call("Reset") == OK
     assert instance.initialise() == OK
     assert instance.step(0.0, length) == OK
@@ -456,7 +460,7 @@ def integrated(instance, end, length):
         d = rates(length, state + length * c)
         state, time = state + length / 6.0 * (a + 2.0 * b + 2.0 * c + d), time + length
         instance.place(time, state)
-        if instance.completed() or "cannot close" in instance.said:  # or a stage is discarded
+        if instance.completed() or "cannot close" in instance.message:  # or a stage is discarded
             break
     return time
 
@@ -478,7 +482,7 @@ def test_steps_of_an_importer_do_not_pass_a_dead_point(unit, version, torque, ra
         instance = unit("four_bar", version).instance("ModelExchange")
         assert instance.initialise(**given, **parameters(SHORT)) == OK
         assert integrated(instance, 0.5, length) == pytest.approx(ends, abs=1.5 * length)
-        assert ends == 0.5 or "cannot close" in instance.said
+        assert ends == 0.5 or "cannot close" in instance.message
         instance.free()
 
 
@@ -502,7 +506,7 @@ def test_a_motion_from_rest_near_a_dead_point(unit):
     instance = unit("four_bar", 2).instance("ModelExchange")
     assert instance.initialise(crank_angle=at + 1e-13, **parameters(SHORT)) == OK
     assert integrated(instance, 0.1, 1e-3) == 1e-3
-    assert "begins in a dead point: the loop ground" in instance.said
+    assert "begins in a dead point: the loop ground" in instance.message
     instance.free()
 
 
@@ -527,7 +531,7 @@ def test_events_have_indicators(unit, version):
     assert instance.call("EnterContinuousTimeMode") == OK
     assert instance.call("EnterEventMode") == OK
     assert not instance.update()
-    assert "events.wheel_leaves_ground at 0 s: the tyre force falls to nothing" in instance.said
+    assert "events.wheel_leaves_ground at 0 s: the tyre force falls to nothing" in instance.message
     instance.free()
 
 
@@ -543,11 +547,11 @@ def test_a_state_that_is_refused_is_discarded(unit, version):
         system.evaluate("rhs", [-1.5, 0.0])
     instance.array("GetDerivatives", "GetContinuousStateDerivatives", 2)
     assert instance.status == DISCARD
-    assert "cannot close" in instance.said
-    assert "rocker_closure = -" in instance.said
+    assert "cannot close" in instance.message
+    assert "rocker_closure = -" in instance.message
     instance.call("EnterEventMode")
     assert instance.update()
-    assert "the motion ends at 0.1 s" in instance.said
+    assert "the motion ends at 0.1 s" in instance.message
     instance.free()
 
 
@@ -574,7 +578,7 @@ def test_what_is_saved_goes_on_with_the_same_bits(unit, version):
     assert other.from_bytes(content[:-1]) is None
     assert other.from_bytes(b"x" * len(content)) is None
     assert other.from_bytes(content[:80] + b"\xff" * (len(content) - 80)) is None
-    assert "damaged" in other.said
+    assert "damaged" in other.message
     for one in (instance, other):
         one.free()
 
@@ -640,9 +644,9 @@ def test_parameters_are_those_that_are_set(unit, version):
 def test_parameters_out_of_range(unit, version, values, words):
     instance = unit("four_bar", version).instance()
     assert instance.initialise(**values) == ERROR
-    assert words in instance.said
+    assert words in instance.message
     assert instance.step(0.0, 0.1) == ERROR
-    assert "cannot be called now" in instance.said
+    assert "cannot be called now" in instance.message
     instance.free()
 
 
@@ -665,7 +669,7 @@ def test_inertia_of_no_body(unit, values, fine):
     assert accepted == fine
     instance = unit("reference_car", 2).instance("ModelExchange")
     status = instance.initialise(**{f"parameters.{n}": v for n, v in named.items()})
-    assert (status == OK) == fine, instance.said
+    assert (status == OK) == fine, instance.message
 
 
 @pytest.mark.parametrize("version", VERSIONS)
@@ -674,7 +678,7 @@ def test_calls_that_make_no_sense(unit, version):
     assert known.instance(token="{of another}").handle is None
     instance = known.instance()
     assert instance.step(0.0, 0.1) == ERROR
-    assert "the instance is instantiated" in instance.said
+    assert "the instance is instantiated" in instance.message
     assert instance.initialise() == OK
     for time, length, words in (
         (0.0, 0.0, "a step of 0 s"),
@@ -682,19 +686,19 @@ def test_calls_that_make_no_sense(unit, version):
         (0.5, 0.1, "begins at 0.5 s, and the instance is at 0 s"),
     ):
         assert instance.step(time, length) == ERROR
-        assert words in instance.said
+        assert words in instance.message
     assert instance.set({"spring_force": 1.0}) == ERROR
-    assert "is computed" in instance.said
+    assert "is computed" in instance.message
     assert instance.set({"crank_torque": 1.0, "parameters.crank_mass": 1.0}) == ERROR
-    assert "crank_mass is fixed" in instance.said
+    assert "crank_mass is fixed" in instance.message
     assert instance.get("crank_torque") == [0.0]  # all or nothing
     assert instance.set({"crank_torque": float("inf")}) == ERROR
     instance.get(10_000)
     assert instance.status == ERROR
-    assert "no variable with the value reference 10000" in instance.said
+    assert "no variable with the value reference 10000" in instance.message
     instance.array("GetDerivatives", "GetContinuousStateDerivatives", 2)
     assert instance.status == ERROR
-    assert "one for Co-Simulation" in instance.said
+    assert "one for Co-Simulation" in instance.message
     assert instance.step(0.0, 0.1) == OK
     assert instance.call("Terminate") == OK
     assert instance.step(0.1, 0.1) == ERROR
@@ -787,7 +791,7 @@ def test_casadi_has_the_equations_with_their_derivatives(unit, version):
 
 
 def test_a_platform_without_a_compiler(tmp_path, monkeypatch):
-    """What to install is said, and nothing is written; sources alone need none."""
+    """The error names what to install, and nothing is written; sources alone need none."""
     system, path = system_named("four_bar"), tmp_path / "a.fmu"
     monkeypatch.setattr(binaries.shutil, "which", lambda _: None)
     monkeypatch.setattr(binaries, "find_spec", lambda _: None)

@@ -178,9 +178,9 @@ def test_a_mount_carries_the_total_of_what_is_bolted_there(car: Suspension) -> N
 def test_the_top_of_a_strut_has_the_spring_in_its_total(kintrafo: Any, tmp_path: Path) -> None:
     """At rest the body carries the wheel less what hangs on it: nearly all at the mount."""
     out = tmp_path / "loads.csv"
-    status, told, _ = kintrafo(*f"loads reference_car --out {out}".split())
+    status, shown, _ = kintrafo(*f"loads reference_car --out {out}".split())
     assert status == 0
-    assert "strut_top, total" in told
+    assert "strut_top, total" in shown
     text = next(t for t in out.read_text().splitlines() if '"upper_strut, spring"' in t)
     assert text.startswith('"total at strut_top by upper_strut, spring",static')
     assert ",total," in text
@@ -377,17 +377,17 @@ def test_what_is_carried_without_bound_is_not_carried(monkeypatch: pytest.Monkey
     """Cases whose equations are worse than others, as if they were at a dead point."""
     cases = {"brake": {"contact_g": [-1.0, 0.0, 1.0]}, "bump": {"contact_g": [0.0, 0.0, 3.0]}}
     model = Model(CAR)
-    whole, told = loads.static(model, cases), []
+    whole, shown = loads.static(model, cases), []
     for worst in np.geomspace(1e1, 1e6, 60):
         monkeypatch.setattr("kintrafo.vehicle.analysis.loads.balance._WORST_CONDITION", worst)
         with suppress(PositionError):  # none is carried
             found = loads.static(model, cases)
             carried = np.isfinite(found["force"]).all(dim=("load", "axis")).values
-            told.append(int(carried.sum()))
+            shown.append(int(carried.sum()))
             assert ["dead point" in str(text) for text in found["reason"].values] == [*~carried]
             both = (found["force"].values[carried], whole["force"].values[carried])
             np.testing.assert_array_equal(*both)
-    assert sorted(set(told)) == [1, 2]
+    assert sorted(set(shown)) == [1, 2]
 
 
 def test_a_spring_without_leverage_is_no_dead_point() -> None:
@@ -476,7 +476,7 @@ def test_two_bearings_share_what_is_along_their_axis() -> None:
 @pytest.mark.parametrize(
     ("words", "code"),
     [
-        ("", 0),  # a usual case that nobody asked for is not carried: it is told
+        ("", 0),  # a usual case that nobody asked for is not carried: it is printed
         ("--case brake", 0),
         ("--case brake --case kerb", 1),
         ("--cases own.toml", 1),

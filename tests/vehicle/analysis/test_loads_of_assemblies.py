@@ -300,7 +300,7 @@ def test_a_motion_of_another_is_refused(name: str, other: Any) -> None:
 
 
 @pytest.mark.parametrize(
-    ("file", "part", "told", "load"),
+    ("file", "part", "shown", "load"),
     [
         ("reference_axle", "rack,knuckle_left", "steering",
          "anti_roll_bar at bar_bush_left by chassis"),
@@ -308,7 +308,7 @@ def test_a_motion_of_another_is_refused(name: str, other: Any) -> None:
     ],
 )  # fmt: skip
 def test_the_command_tells_both_sides(
-    request: pytest.FixtureRequest, tmp_path: Any, file: str, part: str, told: str, load: str
+    request: pytest.FixtureRequest, tmp_path: Any, file: str, part: str, shown: str, load: str
 ) -> None:
     forces = {"left": "[0, 0.5, 0.7]", "right": "[0, 1, 1.3]"}
     text = "".join(f"[cases.turn.{side}]\ncontact_g = {g}\n" for side, g in forces.items())
@@ -318,6 +318,6 @@ def test_the_command_tells_both_sides(
     command = request.getfixturevalue("kintrafo")
     code, out, err = command(*f"{line} -o loads.csv --plot bodies.png".split())
     assert code == 0, err
-    assert all(word in out for word in (told, *part.split(",")[1:]))
+    assert all(word in out for word in (shown, *part.split(",")[1:]))
     assert f"{load},turn" in (tmp_path / "loads.csv").read_text(encoding="utf-8")
     assert (tmp_path / "bodies_turn.png").stat().st_size > 1000

@@ -267,10 +267,10 @@ def test_roll_is_the_inclination_of_the_line_through_the_wheel_centres(
     pair = AxleKinematics.at(axle, left, right, rack)
     expected = {s: wheel.camber(corner) for s, corner in pair.corners.items()}
     for side, camber in expected.items():
-        told = flat(characteristics.over(axle, "roll", angles, rack_position=rack))[
+        shown = flat(characteristics.over(axle, "roll", angles, rack_position=rack))[
             f"camber_{side}"
         ]
-        np.testing.assert_array_equal(told, camber)
+        np.testing.assert_array_equal(shown, camber)
         if not rack:
             also = values_of(AxleAssembly(axle), "roll", angles)[f"camber_{side}"]
             np.testing.assert_array_equal(also, camber)
@@ -297,8 +297,8 @@ def test_the_usual_roll_ends_where_a_wheel_does() -> None:
     assert 35.0 < min(-low, high) < 50.0
     with pytest.raises(PositionError, match="is out of reach: the left wheel") as refused:
         characteristics.over(axle, "roll", [0.0, 1.1 * most])
-    told = re.search(r"which is (\S+) deg to (\S+) deg", str(refused.value))
-    assert float(told[2]) == pytest.approx(np.degrees(most) / 0.98, rel=1e-2)
+    shown = re.search(r"which is (\S+) deg to (\S+) deg", str(refused.value))
+    assert float(shown[2]) == pytest.approx(np.degrees(most) / 0.98, rel=1e-2)
 
 
 @pytest.mark.parametrize(

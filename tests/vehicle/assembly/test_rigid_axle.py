@@ -2,7 +2,7 @@
 
 `test_mechanisms` compares its equations with maximal coordinates, like those of every model. Here a
 root finder puts the beam where six equations say, and differences of what it finds are the oracle
-of everything that is told of first and second derivatives.
+of all first and second derivatives.
 """
 
 import math
@@ -76,8 +76,8 @@ def test_the_axle_is_where_a_root_finder_puts_it(axle: RigidAxle) -> None:
             np.testing.assert_allclose(signals, place, rtol=0.0, atol=2e-13)
             np.testing.assert_allclose(beam.wheel_center(side)[0], place, rtol=0.0, atol=2e-13)
         yaw, roll_, pitch = turn.as_euler("ZXY")
-        told = [beam.coordinate(name)[0] for name in ("yaw", "roll", "pitch")]
-        np.testing.assert_allclose(told, [yaw, roll_, pitch], rtol=0.0, atol=2e-12)
+        shown = [beam.coordinate(name)[0] for name in ("yaw", "roll", "pitch")]
+        np.testing.assert_allclose(shown, [yaw, roll_, pitch], rtol=0.0, atol=2e-12)
 
 
 @each_axle
@@ -88,9 +88,9 @@ def test_first_motions_are_those_of_the_root_finder(axle: RigidAxle) -> None:
         by = slopes(lambda h, r: found.place(point, h, r), at)
         beam = beam_at(axle, *at)
         here = found.place(point, *at)
-        told = np.stack([beam.velocity("left", here, name)[0] for name in ("heave", "roll")], -1)
+        shown = np.stack([beam.velocity("left", here, name)[0] for name in ("heave", "roll")], -1)
         # 1e-12 of the fourth order, and 1e-13 of the positions over the step
-        np.testing.assert_allclose(told, by, rtol=0.0, atol=3e-10)
+        np.testing.assert_allclose(shown, by, rtol=0.0, atol=3e-10)
 
 
 # -- what its springs do --------------------------------------------------------------------------
@@ -128,8 +128,8 @@ def test_rates_at_the_wheels_are_those_of_the_energy() -> None:
         return found.energy(0.5 * (left + right), math.asin(0.5 * (left - right) / half))
 
     at = (0.05, -0.02)
-    told = flat(characteristics.over(LOPSIDED, "left", [0.05]))
-    assert set(told.sizes) == {"wheel_travel"}
+    shown = flat(characteristics.over(LOPSIDED, "left", [0.05]))
+    assert set(shown.sizes) == {"wheel_travel"}
     model = RigidAxleModel(LOPSIDED)
     beam = RigidAxleKinematics(RigidAxleParts.of(model, model.states_at(*at)[None]))
     forces = [beam.wheel_force(side)[0] for side in ("left", "right")]
@@ -151,16 +151,16 @@ def test_springs_across_make_the_roll_stiffness_of_the_book() -> None:
             "spring.force_at_design_N": 0.0,
         }
     )
-    told = flat(characteristics.over(plain, "bump", [0.0]))
+    shown = flat(characteristics.over(plain, "bump", [0.0]))
     # rounding of forces over rates
     book = 48000.0 * 1.0**2 / 2.0 + math.degrees(180.0)
-    assert float(told["roll_stiffness"][0]) == pytest.approx(book, rel=1e-12)
-    assert float(told["roll_stiffness_bar"][0]) == pytest.approx(math.degrees(180.0), rel=1e-12)
-    assert float(told["wheel_rate_left"][0]) == pytest.approx(48000.0, rel=1e-12)
-    assert float(told["roll_motion_ratio_left"][0]) == pytest.approx(500.0 / 780.0, rel=1e-12)
+    assert float(shown["roll_stiffness"][0]) == pytest.approx(book, rel=1e-12)
+    assert float(shown["roll_stiffness_bar"][0]) == pytest.approx(math.degrees(180.0), rel=1e-12)
+    assert float(shown["wheel_rate_left"][0]) == pytest.approx(48000.0, rel=1e-12)
+    assert float(shown["roll_motion_ratio_left"][0]) == pytest.approx(500.0 / 780.0, rel=1e-12)
     # one wheel: half of the heave of both, and its part of the roll
     alone = 0.5 * 48000.0 + book / 1.56**2
-    assert float(told["wheel_rate_alone_right"][0]) == pytest.approx(alone, rel=1e-12)
+    assert float(shown["wheel_rate_alone_right"][0]) == pytest.approx(alone, rel=1e-12)
 
 
 # -- hand formulas of the guidance ----------------------------------------------------------------
@@ -192,26 +192,26 @@ def planar(slope: float, height: float) -> RigidAxle:
 def test_the_roll_centre_is_where_a_panhard_rod_crosses_the_middle(
     slope: float, height: float
 ) -> None:
-    told = characteristics.over(planar(slope, height), "bump", [0.0])
+    shown = characteristics.over(planar(slope, height), "bump", [0.0])
     # exact at design, to rounding
-    assert float(told["roll_center_height"][0]) == pytest.approx(1e-3 * height, rel=1e-11)
+    assert float(shown["roll_center_height"][0]) == pytest.approx(1e-3 * height, rel=1e-11)
     # links along x that rise to the front turn the axle out of the curve
-    assert float(told["roll_steer"][0]) == pytest.approx(-slope, abs=1e-12)
+    assert float(shown["roll_steer"][0]) == pytest.approx(-slope, abs=1e-12)
     # the rod falls by 60 mm over 920 mm to its end on the axle, at the left: a force to the left
     # draws at it, and so its other end with the body down
-    assert float(told["jacking"][0]) == pytest.approx(-60.0 / 920.0, rel=1e-11)
+    assert float(shown["jacking"][0]) == pytest.approx(-60.0 / 920.0, rel=1e-11)
 
 
 def test_the_roll_centre_of_triangulated_links_is_on_the_line_through_their_meeting_point() -> None:
-    told = characteristics.over(TRIANGULATED, "bump", [0.0])
+    shown = characteristics.over(TRIANGULATED, "bump", [0.0])
     # the upper links meet in the centre plane behind the axle; the line is along the lower links
     part = 120.0 / (450.0 - 120.0)
     meet = np.array([-20.0, 530.0]) + part * np.array([-20.0 - 420.0, 530.0 - 500.0])
     slope = (340.0 - 310.0) / 600.0
     height = meet[1] - slope * meet[0]
-    assert float(told["roll_center_height"][0]) == pytest.approx(1e-3 * height, rel=1e-11)
-    assert float(told["roll_steer"][0]) == pytest.approx(-slope, abs=1e-12)
-    assert float(told["jacking"][0]) == pytest.approx(0.0, abs=1e-12)
+    assert float(shown["roll_center_height"][0]) == pytest.approx(1e-3 * height, rel=1e-11)
+    assert float(shown["roll_steer"][0]) == pytest.approx(-slope, abs=1e-12)
+    assert float(shown["jacking"][0]) == pytest.approx(0.0, abs=1e-12)
 
 
 @pytest.mark.parametrize("torque_on", ["carrier", "body"])
@@ -220,15 +220,15 @@ def test_anti_squat_is_that_of_the_side_view(torque_on: str) -> None:
     axle = planar(0.04, 400.0).with_changes(
         {"drive.torque_on": torque_on, "brakes.torque_on": torque_on}
     )
-    told = characteristics.over(axle, "bump", [0.0])
+    shown = characteristics.over(axle, "bump", [0.0])
     lower, upper = 0.04, (490.0 - 530.0) / 500.0
     # z = 310 + lower (x - 20) and z = 530 + upper (x + 20)
     x = (530.0 + 20.0 * upper - 310.0 + 20.0 * lower) / (lower - upper)
     z = 310.0 + lower * (x - 20.0)
     rise = (z - (0.0 if torque_on == "carrier" else 360.0)) / x
     whole = rise * 3000.0 / 720.0
-    assert float(told["anti_squat"][0]) == pytest.approx(whole, rel=1e-10)
-    assert float(told["anti_lift_braked"][0]) == pytest.approx((1.0 - 0.65) * whole, rel=1e-10)
+    assert float(shown["anti_squat"][0]) == pytest.approx(whole, rel=1e-10)
+    assert float(shown["anti_lift_braked"][0]) == pytest.approx((1.0 - 0.65) * whole, rel=1e-10)
     # in front, the same path dives and lifts the other way
     front = flat(characteristics.over(axle.with_changes({"rigid_axle": "front"}), "bump", [0.0]))
     assert float(front["anti_lift_driven"][0]) == pytest.approx(-whole, rel=1e-10)
@@ -584,11 +584,11 @@ def test_commands_that_have_nothing_for_it_say_so(kintrafo: Any, line: str) -> N
         {"bodies.wheel.inertia_spin_kg_m2": 2e6, "bodies.wheel.inertia_diametral_kg_m2": 1e6},
     ],
 )
-def test_mistakes_that_can_move_are_told(changes: dict[str, Any], told: Any) -> None:
+def test_mistakes_that_can_move_are_told(changes: dict[str, Any], as_stored: Any) -> None:
     assert checkup(AXLE).problems == ()
     problems = checkup(AXLE.with_changes(changes)).problems
     assert problems
-    told(*problems)
+    as_stored(*problems)
 
 
 def test_an_unusual_camber_is_noted() -> None:

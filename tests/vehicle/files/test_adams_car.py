@@ -113,7 +113,7 @@ def test_a_file_of_the_user_gives_the_rest(tmp_path: Path) -> None:
     rows = [row for row in rows_of(WISHBONES) if row[0] != "top_mount"]
     found = taken(tmp_path, subsystem(WISHBONES, rows=rows), base=mine)
     assert (found.side, found.kept) == ("right", ("spring_top",))
-    assert any(told == "spring_top: as in the file mine.toml" for told in found.assumed)
+    assert any(shown == "spring_top: as in the file mine.toml" for shown in found.assumed)
     lines = found.text.splitlines()
     assert lines[0] == "#:schema ./s.json"
     assert lines[1].startswith("# Hardpoints from front.sub, a subsystem of Adams/Car")
@@ -273,7 +273,9 @@ def test_comments_are_neither_rows_nor_columns(block: str, tmp_path: Path) -> No
 def test_a_ground_that_is_elsewhere_is_told(tmp_path: Path) -> None:
     low = [(n, s, x, y, z - 300.0) for n, s, x, y, z in rows_of(WISHBONES)]
     found = taken(tmp_path, subsystem(WISHBONES, rows=low))
-    assert any(told.startswith("ground: not known, as the wheel centre") for told in found.assumed)
+    assert any(
+        shown.startswith("ground: not known, as the wheel centre") for shown in found.assumed
+    )
 
 
 SPRING = """\
@@ -325,8 +327,8 @@ def test_a_spring_by_a_curve_is_read(kind: str, preload: float | None, tmp_path:
     rows = "".join(f"{x} {force}\n" for x, force in curve.items())
     text = SPRING.partition("{")[0] + "{disp force}\n" + rows
     (tmp_path / "own.spr").write_text(text, encoding="utf-8")
-    said = "" if preload is None else PRELOAD.replace("5100", "1500")
-    found = taken(tmp_path, subsystem(CARS[kind], more=MORE + said), kind=kind)
+    entries = "" if preload is None else PRELOAD.replace("5100", "1500")
+    found = taken(tmp_path, subsystem(CARS[kind], more=MORE + entries), kind=kind)
     car: Any = loaded(found, tmp_path)
     seats = car.hardpoints.distance("spring_seat", "spring_top")
     assert car.spring.compression_mm == tuple(curve)
@@ -368,8 +370,8 @@ def test_springs_that_are_not_taken(tmp_path: Path) -> None:
     more = taken(tmp_path, subsystem(WISHBONES, more=second))
     assert "spring helper is not the only one: SYMMETRY = left/right" in more.left_out
     scaled = taken(tmp_path, subsystem(WISHBONES, more=MORE + " FORCE_SCALE = 1.1\n"))
-    (told,) = (line for line in scaled.left_out if "FORCE_SCALE is not 1. " in line)
-    assert told.endswith("FORCE_SCALE = 1.1")
+    (shown,) = (line for line in scaled.left_out if "FORCE_SCALE is not 1. " in line)
+    assert shown.endswith("FORCE_SCALE = 1.1")
     unused = " VALUE_TYPE = 'installed_length'\n USER_VALUE = 250.0\n"
     length = taken(tmp_path, subsystem(WISHBONES, more=MORE + unused))
     assert "spring ride_spring: VALUE_TYPE = installed_length, USER_VALUE = 250.0" in (
@@ -380,8 +382,8 @@ def test_springs_that_are_not_taken(tmp_path: Path) -> None:
     assert right.spring is None
     assert any(t.startswith("spring ride_spring is not of the left side: ") for t in right.left_out)
     based = taken(tmp_path, subsystem(WISHBONES, more=MORE), base="double_wishbone_car")
-    told = "spring 45 N/mm (own.spr): the file double_wishbone_car has its own"
-    assert told in based.left_out
+    shown = "spring 45 N/mm (own.spr): the file double_wishbone_car has its own"
+    assert shown in based.left_out
 
 
 def changed(old: str, new: str, count: int = -1) -> str:
@@ -443,12 +445,12 @@ SAID = {
 }
 
 
-@pytest.mark.parametrize("said", SAID.values(), ids=SAID)
-def test_names_that_are_none(said: list[str], refused: Any, tmp_path: Path) -> None:
+@pytest.mark.parametrize("entries", SAID.values(), ids=SAID)
+def test_names_that_are_none(entries: list[str], refused: Any, tmp_path: Path) -> None:
     refused(
         InputError,
         lambda: taken(
-            tmp_path, subsystem(WISHBONES), names=read_names(said), kind="double_wishbone"
+            tmp_path, subsystem(WISHBONES), names=read_names(entries), kind="double_wishbone"
         ),
     )
 

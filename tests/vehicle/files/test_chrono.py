@@ -114,14 +114,14 @@ class TestReading:
         assert found.damper.force_N == (-2000.0, 0.0, 900.0)
 
     def test_without_a_tire_the_wheel_is_a_usual_one(self):
-        found, told, _ = chrono.read(STRUT)
+        found, assumed, _ = chrono.read(STRUT)
         assert found.bodies.wheel.mass_kg == pytest.approx(21.103, rel=1e-15)
         assert found.tyre.radius_mm is None
-        assert "wheel: 20 kg, 1 kg m^2 about its axis" in told[2]
+        assert "wheel: 20 kg, 1 kg m^2 about its axis" in assumed[2]
 
     def test_assumptions_are_told(self, tmp_path):
-        _, told, left_out = chrono.read(STRUT)
-        heads = [text.partition(":")[0] for text in told]
+        _, assumed, left_out = chrono.read(STRUT)
+        heads = [text.partition(":")[0] for text in assumed]
         assert heads == ["rack", "tyre", "wheel", "strut", "ground"]
         assert "Strut: Mass = 5.0, Inertia = [0.001, 0.001, 0.001], Radius = 0.02" in left_out
         data = content()
@@ -129,10 +129,10 @@ class TestReading:
         top, seat = (np.array(data["Spring"][f"Location {end}"]) for end in ("Chassis", "Upright"))
         data["Shock"]["Location Chassis"] = list(0.8 * top + 0.2 * seat)
         data["Spindle"]["Inertia"] = [0.5, 0.1, 0.0]
-        _, told, _ = chrono.read(written(tmp_path, data), tire=TIRE)
-        heads = [text.partition(":")[0] for text in told]
+        _, assumed, _ = chrono.read(written(tmp_path, data), tire=TIRE)
+        heads = [text.partition(":")[0] for text in assumed]
         assert heads == ["rack", "tyre", "tire", "wheel", "strut", "damper"]
-        assert told[3] == "wheel: 17.25 kg m^2 across its axis, the mean of 17.5 and 17"
+        assert assumed[3] == "wheel: 17.25 kg m^2 across its axis, the mean of 17.5 and 17"
 
     def test_the_shaft_of_the_axle_turns_with_the_wheel(self, tmp_path):
         """A tire of a flat disc's moments, (3, 6, 3), beside the spindle's and the shaft's."""
@@ -158,8 +158,8 @@ class TestDoubleWishbone:
         points["tie_rod_outer"] = data["Tierod"]["Location Upright"]
         points = {name: np.array(point, dtype=float) for name, point in points.items()}
         carrier = Carrier(points, np.array([0.0, 1.0, 0.0]))
-        found, told, _ = chrono.read(WISHBONES, tire=TIRE)
-        assert [text.partition(":")[0] for text in told] == ["rack", "tyre", "tire"]
+        found, assumed, _ = chrono.read(WISHBONES, tire=TIRE)
+        assert [text.partition(":")[0] for text in assumed] == ["rack", "tyre", "tire"]
         places = np.array([-0.06, -0.02, 0.0, 0.03, 0.06])
         ours = sweep.positions(Model(found), places)
         for i, place in enumerate(places):
@@ -202,8 +202,8 @@ class TestDoubleWishbone:
             del shock["Damping Coefficient"]
             forces = {-2.0: -4000.0, 3.0: 9000.0}
             shock["Damping Curve Data"] = [[0.0, 0.0], *([v, f] for v, f in forces.items())]
-        found, told, _ = chrono.read(written(tmp_path, data), tire=TIRE)
-        words = next(text for text in told if text.startswith("damper: between"))
+        found, assumed, _ = chrono.read(written(tmp_path, data), tire=TIRE)
+        words = next(text for text in assumed if text.startswith("damper: between"))
         assert '"Location Arm" = [0.01, 0.55, -0.27] m' in words
         model = Model(found)
         front, back = (np.array(arm[f"Location Chassis {end}"]) for end in ("Front", "Back"))
@@ -380,8 +380,8 @@ class TestCurves:
         ends = [spring[k] for k in spring if k.startswith("Location")]
         at_design = math.dist(*ends)
         spring |= {key: SPRING_CURVE, "Preload": 150.0, "Free Length": at_design + 0.04}
-        found, told, _ = chrono.read(written(tmp_path, data), tire=TIRE)
-        assert "spring: beyond its curve the force goes on straight, where" in "; ".join(told)
+        found, assumed, _ = chrono.read(written(tmp_path, data), tire=TIRE)
+        assert "spring: beyond its curve the force goes on straight, where" in "; ".join(assumed)
         model = Model(found)
         places = np.linspace(-0.04, 0.04, 9)
         curves = sweep.positions(model, places)
@@ -397,10 +397,10 @@ class TestCurves:
         del data["Spring"]["Spring Coefficient"]
         curve = [[x / 50, 1e5 * x + 5e3 * x**3] for x in range(-10, 11)]
         data["Spring"]["Spring Curve Data"] = curve
-        found, told, _ = chrono.read(written(tmp_path, data), tire=TIRE)
+        found, assumed, _ = chrono.read(written(tmp_path, data), tire=TIRE)
         assert found.spring.compression_mm == pytest.approx([20.0 * x for x in range(11)])
         assert found.spring.force_N == pytest.approx([1e5 * x + 5e3 * x**3 for x in range(11)])
-        (words,) = (text for text in told if "left out are those" in text)
+        (words,) = (text for text in assumed if "left out are those" in text)
         assert words.startswith("spring: by 11 points, as many as a curve may have")
         assert "-200 mm: -6e+06 N" in words
         data["Spring"]["Spring Curve Data"] = [[x - 0.3, y - 1e7] for x, y in curve]
@@ -452,8 +452,8 @@ class TestStops:
         at_design = math.dist(*(spring[k] for k in spring if k.startswith("Location")))
         shortest, longest = (at_design + away for away in inside)
         spring |= {"Minimum Length": shortest, "Maximum Length": longest, "Preload": 150.0}
-        found, told, left_out = chrono.read(written(tmp_path, data), tire=TIRE)
-        assert any(text.startswith("spring: touches its stops at lengths of ") for text in told)
+        found, assumed, left_out = chrono.read(written(tmp_path, data), tire=TIRE)
+        assert any(text.startswith("spring: touches its stops at lengths of ") for text in assumed)
         assert not any("Length" in line for line in left_out)
         model = Model(found)
         touched = [x - at_design for x in (shortest, longest)]
@@ -507,8 +507,8 @@ class TestStops:
         stops = {"Minimum Length": 0.2, "Maximum Length": 0.4}
         data["Spring"] |= stops | {"Spring Curve Data": SPRING_CURVE}
         del data["Spring"]["Spring Coefficient"]
-        found, told, _ = chrono.read(written(tmp_path, data), tire=TIRE)
-        assert any("within 5 % up to 50 mm" in text for text in told)
+        found, assumed, _ = chrono.read(written(tmp_path, data), tire=TIRE)
+        assert any("within 5 % up to 50 mm" in text for text in assumed)
         for stop in (found.bump_stop, found.rebound_stop):
             for x, force in STOP_CURVE[5:-1]:
                 own = stop.rate_N_per_m * x + stop.progression_N_per_mm3 * 1e9 * x**3
@@ -565,7 +565,7 @@ class TestPointsOnly:
         for part in ("Spring", "Shock", "Upright"):
             data[part] = {k: v for k, v in data[part].items() if k.startswith("Location")}
         del data["Axle"]
-        found, told, left_out = chrono.read(written(tmp_path, data), points_only=True)
+        found, assumed, left_out = chrono.read(written(tmp_path, data), points_only=True)
         for name in whole.hardpoints.given():
             np.testing.assert_allclose(
                 found.hardpoints.metres(name), whole.hardpoints.metres(name), rtol=0, atol=1e-15
@@ -575,7 +575,9 @@ class TestPointsOnly:
         ours, theirs = (over(Model(car), "travel", at) for car in (found, whole))
         for name in ("camber", "toe", "caster"):
             np.testing.assert_allclose(ours[name], theirs[name], atol=1e-13)
-        assert told[0].startswith("spring, damper, masses, tyre and vehicle: as in the packaged ")
+        assert assumed[0].startswith(
+            "spring, damper, masses, tyre and vehicle: as in the packaged "
+        )
         assert any(line.startswith("Spindle: Mass = 1.103, ") for line in left_out)
 
     def test_the_command(self, tmp_path, monkeypatch):
@@ -624,14 +626,14 @@ class TestTires:
 
     @pytest.mark.parametrize("template", TIRES)
     def test_radius_mass_and_inertia(self, tmp_path, template):
-        found, told, left_out = self.read(tmp_path, tire_of(template, **TIRES[template]))
+        found, assumed, left_out = self.read(tmp_path, tire_of(template, **TIRES[template]))
         elements = template in ("ANCFTire", "ReissnerTire", "FEATire")
         mass, spin = (20.0, 1.0) if elements else (11.5, 0.7)
         assert found.tyre.radius_mm == 330.0
         assert found.bodies.wheel.mass_kg == pytest.approx(mass + 1.103, rel=1e-15)
         assert found.bodies.wheel.inertia_spin_kg_m2 == pytest.approx(spin + 0.400479, rel=1e-15)
-        assert any(f"of the template {template}" in text for text in told)
-        assert any("inertia of a usual one" in text for text in told) == elements
+        assert any(f"of the template {template}" in text for text in assumed)
+        assert any("inertia of a usual one" in text for text in assumed) == elements
         assert any(line.startswith('tire > Name = "mine"') for line in left_out)
 
     @pytest.mark.parametrize("template", TIRES)

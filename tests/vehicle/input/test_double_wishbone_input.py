@@ -162,8 +162,8 @@ def test_metres():
         {"hardpoints.tie_rod_inner": [-257.97, -691.72, 260.0]},
     ],
 )
-def test_refused(changes, told):
-    told(*problems(changes))
+def test_refused(changes, as_stored):
+    as_stored(*problems(changes))
 
 
 def test_upper_arm_at_its_dead_centre():

@@ -414,9 +414,9 @@ class TestKeys:
             "bodies.wheel",
         ],
     )
-    def test_what_is_missing_is_named_with_its_meaning_and_unit(self, place, told):
+    def test_what_is_missing_is_named_with_its_meaning_and_unit(self, place, as_stored):
         (problem,) = refusal(Suspension.from_dict, without(place)).problems
-        told(problem)
+        as_stored(problem)
 
     def test_misspelt_key_is_one_problem_not_two(self):
         data = without("strut.spring_rate_N_per_m")
@@ -513,8 +513,8 @@ PROBLEMS = {
 
 
 @pytest.mark.parametrize("changes", PROBLEMS.values(), ids=PROBLEMS)
-def test_one_mistake_is_one_problem(changes, told):
-    told(only_problem(changes))
+def test_one_mistake_is_one_problem(changes, as_stored):
+    as_stored(only_problem(changes))
 
 
 class TestGeometry:
@@ -535,9 +535,9 @@ class TestGeometry:
     @pytest.mark.parametrize(
         ("car", "other"), [(CAR, "left"), (CAR.mirrored(), "right")], ids=["right", "left"]
     )
-    def test_wheel_on_the_wrong_side(self, car, other, told):
+    def test_wheel_on_the_wrong_side(self, car, other, as_stored):
         (problem,) = refusal(car.with_changes, {"vehicle.side": other}).problems
-        told(problem)
+        as_stored(problem)
 
     def test_a_strut_as_long_as_at_design_is_allowed(self):
         """What the message of a shorter one promises."""

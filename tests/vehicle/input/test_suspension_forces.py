@@ -106,10 +106,10 @@ def test_straight_lines_between_the_points_of_a_damper(name):
     for velocity, force, slope in ((1.5, 1100.0, 500.0 / 0.7), (-1.5, -2500.0, 1200.0 / 0.7)):
         beyond = force + slope * (abs(velocity) - 1.0) * np.sign(velocity)
         assert force_of("linear", velocity) == pytest.approx(beyond, rel=1e-12)
-    told = [f"{force_of(way, -0.7):.0f} N" for way in ("cubic", "linear")]
-    assert told == ["-2177 N", "-1986 N"]
+    printed = [f"{force_of(way, -0.7):.0f} N" for way in ("cubic", "linear")]
+    assert printed == ["-2177 N", "-1986 N"]
     page = re.sub(r"\s+", " ", page_text({}))
-    assert "has {} at -0.7 m/s, straight lines have {} there".format(*told) in page
+    assert "has {} at -0.7 m/s, straight lines have {} there".format(*printed) in page
 
 
 def test_damping_at_rest_is_the_slope_of_the_curve():

@@ -92,8 +92,8 @@ def test_nothing_is_left_out_in_silence() -> None:
     (folded,) = re.findall(r'<details class="more">.*', page, re.DOTALL)
     assert 'data-curve="scrub_radius_over_rack"' not in folded
     for key, legend in (("toe", ["target"]), ("camber", ["limit"]), ("caster", [])):
-        told = re.findall(r"</svg> (\w+)</span>", figure_of(page, key))
-        assert told == legend
+        names = re.findall(r"</svg> (\w+)</span>", figure_of(page, key))
+        assert names == legend
     assert "toe angle in deg over wheel travel, with targets" in page
 
 

@@ -264,17 +264,17 @@ def test_values_at_design_are_computed_and_rounded_by_themselves():
     )
     page = render(Model(car))
     exact = {curve.key: curve for curve in curves(Model(car), np.zeros(1), np.zeros(1))}
-    told = rows_at_design(page)
+    cells = rows_at_design(page)
     drawn = {curve["key"]: curve for curve in payload(page)["curves"]}
-    assert any(drawn[key]["approximate"] for key in told)
-    for key, text in told.items():
+    assert any(drawn[key]["approximate"] for key in cells)
+    for key, text in cells.items():
         value = float(exact[key].values[0, 0]) * exact[key].factor
         if text != "\u2013":
             assert float(text) == round(value, drawn[key]["decimals"]), key
-    assert told["toe"] == "-0.25"
+    assert cells["toe"] == "-0.25"
     slope = np.degrees(float(exact["bump_steer"].values[0, 0])) * 1e-3
-    assert told["bump_steer"] == f"{slope:.5f}"[: len(told["bump_steer"])]
-    assert len(told["bump_steer"].lstrip("-0.")) >= 3
+    assert cells["bump_steer"] == f"{slope:.5f}"[: len(cells["bump_steer"])]
+    assert len(cells["bump_steer"].lstrip("-0.")) >= 3
 
 
 # -- the page ------------------------------------------------------------------------------------
@@ -313,11 +313,11 @@ def test_same_input_gives_the_same_bytes():
 
 @pytest.mark.usefixtures("coarse")
 def test_write_makes_folders_and_tells_what_it_does(tmp_path):
-    told = []
+    steps = []
     path = tmp_path / "new/report.html"
-    assert kintrafo.report.write(MODEL, path, progress=told.append) == path
+    assert kintrafo.report.write(MODEL, path, progress=steps.append) == path
     assert path.read_text(encoding="utf-8") == render(MODEL)
-    assert "one second of motion" in told
+    assert "one second of motion" in steps
     assert [file.name for file in path.parent.iterdir()] == ["report.html"]
 
 

@@ -1,4 +1,4 @@
-"""Targets and limits of compliance: what studies make of them, where they are told and drawn."""
+"""Targets and limits of compliance: what studies make of them, where they are printed and drawn."""
 
 import json
 from pathlib import Path
@@ -311,9 +311,9 @@ def test_compliance_tells_and_draws_them(
     assert shown.exit_code == 0, shown.output
     assert given == ["toe_by_lateral"]
     assert 'camber_by_braking with held = "spring"' in " ".join(shown.stderr.split())
-    (told,) = json.loads(shown.stdout)["goals"]
+    (judged,) = json.loads(shown.stdout)["goals"]
     toe = under(CAR, "toe_by_lateral", [-0.02, 0.02])
-    assert np.rad2deg(told["beyond"]) * 1e3 == pytest.approx(toe.max() - 0.1)
+    assert np.rad2deg(judged["beyond"]) * 1e3 == pytest.approx(toe.max() - 0.1)
     assert "limit: toe angle by a lateral force" in called(*asked).stdout
     shown = called(*asked, "--rack", "10")
     assert shown.exit_code == 2
