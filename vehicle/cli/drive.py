@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from xarray import DataArray, Dataset
 
     from ..analysis.handling import HandlingResult
-    from ..analysis.handling.manoeuvres import AnyManoeuvre
+    from ..analysis.handling.manoeuvres import Manoeuvre
 
 EXAMPLES = (
     "kintrafo drive driving_car",
@@ -118,13 +118,13 @@ def command(
     end_if_not_valid(found.not_valid)
 
 
-def _drawn(chosen: "AnyManoeuvre") -> tuple[str, ...]:
+def _drawn(chosen: "Manoeuvre") -> tuple[str, ...]:
     """Return the endings of the names of figures: cones are in the figure of the path."""
     return tuple(suffix for suffix in chosen.CURVES if suffix != "_cones")
 
 
 def _write(
-    outputs: Outputs, found: "HandlingResult", chosen: "AnyManoeuvre", title: str
+    outputs: Outputs, found: "HandlingResult", chosen: "Manoeuvre", title: str
 ) -> "list[Path]":
     """Write data files and figures, and return them."""
     written = []

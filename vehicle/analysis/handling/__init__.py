@@ -3,7 +3,7 @@
 `drive`           a manoeuvre, by name or by its file
 `circle`          steady turns of one speed or one radius
 `dynamic_loads`   the loads on every part in a manoeuvre
-`load_manoeuvre`  what the file of a manoeuvre says
+`load_manoeuvre`  the manoeuvre of a file
 """
 
 from .driving import circle, drive

@@ -47,7 +47,7 @@ class DrivingCar:
     steering_input : str
         The input that the steering wheel moves; its rates are inputs, too.
     assembly : CarAssembly, optional
-        The car with its linkages; without it forces in them are not known.
+        The car with its linkages, for the forces in them.
     watched : callable, optional
         Called with each `Run` of it.
     """
@@ -114,8 +114,8 @@ class DrivingCar:
     def steering_torque(self, angles: Array, states: Array, inputs: Array) -> Array | None:
         """Return the torque of the steering wheel, positive to the left, (n,) [N m].
 
-        It does the work that the prescribed motion of the rack needs, without friction; None where
-        the forces in the linkages are not known.
+        Its work is that of the prescribed motion of the rack, without friction. The result is None
+        for a car without linkages.
 
         Parameters
         ----------

@@ -39,8 +39,8 @@ _SLOW, _FASTER = 2.0, 1.5
 # The greatest lateral acceleration of most cars is about this one [m/s^2].
 _USUAL = 10.0
 _IMAGINARY = 1e-30
-# Lateral acceleration over which the change of a torque is taken: the next term is of its third
-# power, and rounding of forces 1e-12 over it [m/s^2].
+# Step of the lateral acceleration for the change of a torque, by a central difference: its error is
+# of the second power of the step, and rounding is 1e-12 of the forces over the step [m/s^2].
 _STEP = 1e-3
 # Turn of the steering wheel over which a ratio is taken [rad].
 _SMALL = 1e-4
@@ -128,8 +128,8 @@ class Turns:
         Parameters
         ----------
         acceleration : float
-            Where it is at a given radius or steering wheel angle: more than zero, since a car that
-            does not move has no steady turn [m/s^2].
+            Lateral acceleration of the first turn at a given radius or steering wheel angle: more
+            than zero, since a car that does not move has no steady turn [m/s^2].
         """
         straight = self.first.kind == "speed"
         begun = 0.0 if straight else self.sense * acceleration
@@ -147,7 +147,7 @@ class Turns:
         return found
 
     def _entered(self, speed: float) -> tuple[Array, Steady]:
-        """Return the turn at a speed: a small circle is far from straight running."""
+        """Return the turn at a speed, in steps: a small circle is far from straight running."""
         near = self.equations.near_straight(speed)
         at = SteadyCondition("speed", speed)
         for share in (0.0, 0.5, 1.0):
@@ -277,7 +277,7 @@ def steady_turns(
 
 
 def turns_at(car: DrivingCar, first: SteadyCondition, accelerations: Array) -> xr.Dataset:
-    """Return steady turns at some lateral accelerations of either sign, and at a speed also zero.
+    """Return steady turns at lateral accelerations of either sign; at a speed also at zero.
 
     Parameters
     ----------
@@ -454,7 +454,7 @@ def _of_turn(car: DrivingCar, steady: Steady) -> tuple[dict[str, float], dict[st
 def _torques(car: DrivingCar, steady: Sequence[Steady]) -> dict[str, Array]:
     """Return the torque of the steering wheel, and its change by lateral acceleration.
 
-    Nothing where the forces in the linkages are not known.
+    The result is empty for a car without linkages.
     """
     steps = _STEP * np.array([0.0, 1.0, -1.0])[:, None]
     angles, states, inputs = (

@@ -36,7 +36,7 @@ OF_WHEELS = {
 """Of each wheel: meaning and unit."""
 
 STEERING_TORQUE = ("torque of the steering wheel, positive to the left", "N m")
-"""What it means, and its unit."""
+"""Meaning and unit."""
 
 _OF_DRIVER = {
     "steering_wheel_angle": ("steering wheel angle, positive to the left", "rad"),

@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from ....core.validator import Validator
+from .car import DrivingCar
 from .circle import steady_turns
-from .manoeuvres import AnyManoeuvre, load_manoeuvre
+from .manoeuvres import Manoeuvre, load_manoeuvre
 from .result import HandlingResult
 from .steady import SteadyCondition
-from .subject import car_in, driving_car
+from .subject import car_that_drives, driving_car
 
 if TYPE_CHECKING:
     from ..run import Run
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 
 def drive(
     subject: Any,
-    manoeuvre: str | Path | Mapping[str, Any] | AnyManoeuvre,
+    manoeuvre: str | Path | Mapping[str, Any] | Manoeuvre,
     changes: Mapping[str, Any] | None = None,
     *,
     progress: Callable[[float], None] | None = None,
@@ -31,7 +32,7 @@ def drive(
     ----------
     subject : Car or CarModel
         A car that drives, ``car = "full"`` in its file.
-    manoeuvre : str, pathlib.Path, mapping, or what `load_manoeuvre` returns
+    manoeuvre : str, pathlib.Path, mapping or Manoeuvre
         The name of one that comes with kintrafo, such as ``"step_steer"``, or a file.
     changes : mapping of str to Any, optional
         Other values than those of the file, by key: ``{"speed_km_per_h": 100.0}``.
@@ -52,22 +53,22 @@ def drive(
     SimulationError
         If the motion cannot be finished.
     """
-    if isinstance(manoeuvre, AnyManoeuvre):
+    if isinstance(manoeuvre, Manoeuvre):
         with Validator("drive") as given:
             if changes:
                 given.fail("changes: these are of a file. Give its name, or leave them out.")
         found = manoeuvre
     else:
         found = load_manoeuvre(manoeuvre, changes)
-    known = car_in(subject)
-    if known is not None and known.drives:
-        found.check(known)
+    if not isinstance(subject, DrivingCar):
+        subject = car_that_drives("drive", subject)
+        found.check(subject.car)
     runs: list[Run] = []
     car = replace(driving_car("drive", subject), watched=runs.append)
     return found.run(car, progress or _nothing)._replace(runs=tuple(runs))
 
 
-# What is constant in steady turns: the condition, and its unit.
+# Constant quantities of steady turns by argument: the condition, and the unit of the argument.
 _CONSTANT = {
     "speed": ("speed", "m/s"),
     "radius": ("curvature", "m"),

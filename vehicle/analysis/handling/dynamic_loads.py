@@ -9,7 +9,6 @@ from ....core.errors import InputError
 from ....core.validator import Validator
 from ..loads.along import over_time
 from ..loads.on_a_car import of_car
-from .car import DrivingCar
 from .result import HandlingResult
 
 
@@ -19,19 +18,19 @@ def dynamic_loads(result: HandlingResult) -> xr.Dataset:
     Parameters
     ----------
     result : HandlingResult
-        What `drive` returned. Of several simulations the last one is taken.
+        Result of `drive`; of several simulations the last one is used.
 
     Returns
     -------
     xarray.Dataset
-        As of `kintrafo.loads.along`.
+        As in `kintrafo.loads.along`.
 
     Raises
     ------
     InputError
         If nothing was simulated, as in steady turns and parking, or the car has no linkages.
     PositionError
-        If the motion comes to a dead point, where what is carried has no bound.
+        If the motion comes to a dead point, where loads have no bound.
     """
     with Validator("dynamic_loads") as given:
         given.instance("result", result, HandlingResult, "what kintrafo.handling.drive returns")
@@ -39,8 +38,7 @@ def dynamic_loads(result: HandlingResult) -> xr.Dataset:
         problem = "steady turns and parking have no simulation, and so no loads over time."
         raise InputError([problem], "dynamic_loads")
     run = result.runs[-1]
-    assembly = run.car.assembly if isinstance(run.car, DrivingCar) else None
-    if assembly is None:
+    if run.car.assembly is None:
         raise InputError(["the car has no linkages: there are no joints."], "dynamic_loads")
     times = np.asarray(run.motion["time"].values)
-    return over_time(partial(of_car, assembly), times, run.states, run.inputs)
+    return over_time(partial(of_car, run.car.assembly), times, run.states, run.inputs)

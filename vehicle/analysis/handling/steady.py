@@ -55,7 +55,7 @@ class SteadyCondition:
     value: float
 
     def turned(self, sense: int) -> "SteadyCondition":
-        """Return the same of turns to the left, sense 1, or to the right, -1."""
+        """Return the condition in turns to the left, sense 1, or to the right, -1."""
         return self if self.kind == "speed" else SteadyCondition(self.kind, sense * self.value)
 
     def off(self, unknown: Mapping[str, float]) -> tuple[float, dict[str, float]]:

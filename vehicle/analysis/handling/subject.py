@@ -1,15 +1,29 @@
-"""The car that a function of this folder is given."""
+"""The car of an analysis of handling."""
 
 from typing import Any
 
 import numpy as np
 
+from ...assembly.car import CarAssembly
 from ...assembly.controls import Controls
 from ...assembly.equilibrium import equilibrium
 from ...assembly.of import car_assembly_of
 from ...models.car.car import Car, center_of_gravity, masses
 from .body_motion import ReferencePoint
 from .car import DrivingCar
+
+
+def car_that_drives(source: str, subject: Any) -> CarAssembly:
+    """Return a car that drives, or its equations, as an assembly.
+
+    Raises
+    ------
+    InputError
+        If it is none: if its body is held, or does not travel.
+    """
+    found = car_assembly_of(source, subject, _NEEDED)
+    found.require_driving()
+    return found
 
 
 def driving_car(source: str, subject: Any) -> DrivingCar:
@@ -24,8 +38,7 @@ def driving_car(source: str, subject: Any) -> DrivingCar:
     """
     if isinstance(subject, DrivingCar):
         return subject
-    found = car_assembly_of(source, subject, _NEEDED)
-    found.require_driving()
+    found = car_that_drives(source, subject)
     rest = equilibrium(found.model)
     assert rest.inputs is not None
     car, names = found.car, found.model.state_names
@@ -49,7 +62,7 @@ def driving_car(source: str, subject: Any) -> DrivingCar:
     )
 
 
-def see_controls(car: Car, *, brakes: bool = False) -> None:
+def require_controls(car: Car, *, brakes: bool = False) -> None:
     """Refuse a car whose driver has no steering, drive or brakes.
 
     Parameters
@@ -62,21 +75,13 @@ def see_controls(car: Car, *, brakes: bool = False) -> None:
     Raises
     ------
     InputError
-        That names what is missing in its files.
+        If something is missing in its files; the message names it.
     """
     controls = Controls(car)
     controls.rack(0.0)
     controls.drive(0.0)
     if brakes:
         controls.brakes(0.0)
-
-
-def car_in(subject: Any) -> Car | None:
-    """Return the car in what a function of this folder is given; None where there is none."""
-    if isinstance(subject, Car):
-        return subject
-    found = getattr(subject, "car", None)
-    return found if isinstance(found, Car) else None
 
 
 _NEEDED = (

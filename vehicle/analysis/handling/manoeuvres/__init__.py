@@ -9,7 +9,8 @@ from .braking_in_turn import BrakingInTurn
 from .circle import Circle
 from .coast_down import CoastDown
 from .double_lane_change import DoubleLaneChange
-from .loading import MANOEUVRES, AnyManoeuvre, load_manoeuvre
+from .loading import MANOEUVRES, load_manoeuvre
+from .manoeuvre import Manoeuvre
 from .parking import Parking
 from .path_following import PathFollowing
 from .sine_sweep import SineSweep
@@ -20,11 +21,11 @@ from .step_steer import StepSteer
 __all__ = [
     "MANOEUVRES",
     "Acceleration",
-    "AnyManoeuvre",
     "BrakingInTurn",
     "Circle",
     "CoastDown",
     "DoubleLaneChange",
+    "Manoeuvre",
     "Parking",
     "PathFollowing",
     "SineSweep",

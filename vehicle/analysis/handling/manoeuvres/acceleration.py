@@ -11,7 +11,8 @@ from ..car import DrivingCar
 from ..drivers import Fixed, HeldTorque
 from ..responses import first_crossing
 from ..result import HandlingResult
-from .manoeuvre import Number, Progress, greatest
+from .manoeuvre import Number, Progress
+from .simulated import greatest
 from .until_speed import UntilSpeed
 
 

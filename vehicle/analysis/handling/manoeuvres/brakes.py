@@ -7,11 +7,11 @@ from .....core.errors import InputError
 from ....input.section import NonNegative, Positive
 from ....models.car.car import Car
 from ..car import DrivingCar
-from ..subject import see_controls
-from .manoeuvre import Manoeuvre
+from ..subject import require_controls
+from .simulated import SimulatedManoeuvre
 
 
-class BrakingManoeuvre(Manoeuvre):
+class BrakingManoeuvre(SimulatedManoeuvre):
     """A manoeuvre in which the brake is pushed."""
 
     pedal: Positive | None = Field(
@@ -25,7 +25,7 @@ class BrakingManoeuvre(Manoeuvre):
     duration_s: Positive = Field(default=20.0, description="longest duration of the simulation")
 
     def problems(self) -> list[str]:
-        """Say what cannot be."""
+        """Return the problems of the values together."""
         found = super().problems()
         if (self.pedal is None) == (self.deceleration_m_per_s2 is None):
             found.append("pedal, deceleration_m_per_s2: give one of the two.")
@@ -35,7 +35,7 @@ class BrakingManoeuvre(Manoeuvre):
 
     def check(self, car: Car) -> None:
         """Refuse a car that cannot drive it, or has no brakes."""
-        see_controls(car, brakes=True)
+        require_controls(car, brakes=True)
         super().check(car)
 
     def pedal_of(self, car: DrivingCar) -> float:

@@ -11,7 +11,8 @@ from ..drivers import Braking, Fixed
 from ..responses import first_crossing
 from ..result import HandlingResult
 from .brakes import BrakingManoeuvre
-from .manoeuvre import Number, Progress, greatest
+from .manoeuvre import Number, Progress
+from .simulated import greatest
 from .until_speed import UntilSpeed
 
 

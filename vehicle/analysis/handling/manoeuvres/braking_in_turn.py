@@ -14,7 +14,8 @@ from ..drivers import Braking, Fixed, Observation
 from ..result import HandlingResult
 from ..steady import NoSteadyMotionError, Steady, SteadyCondition
 from .brakes import BrakingManoeuvre
-from .manoeuvre import Number, Progress, TurningManoeuvre, at_time, greatest
+from .manoeuvre import Number, Progress
+from .simulated import TurningManoeuvre, at_time, greatest
 
 # After the brake is pushed: where the motion is compared [s].
 _AFTER = 1.0

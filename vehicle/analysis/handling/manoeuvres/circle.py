@@ -5,24 +5,21 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from ....input.section import NonNegative, Positive, Section
-from ....models.car.car import Car
+from ....input.section import NonNegative, Positive
 from ..car import DrivingCar
 from ..circle import steady_turns
 from ..result import HandlingResult
 from ..steady import SteadyCondition
-from ..subject import see_controls
-from .manoeuvre import Progress
+from .manoeuvre import Manoeuvre, Progress
 
 # The finest step makes some ten thousand turns, the coarsest one or two [m/s^2].
 _STEPS = 1e-3, 5.0
 
 
-class Circle(Section):
+class Circle(Manoeuvre):
     """Steady turns of one speed, radius or steering wheel angle, up to the limit of the tyres."""
 
     TITLE: ClassVar[str] = "steady-state circle"
-    CURVES: ClassVar[tuple[str, ...]] = ("",)
     TRAVELS: ClassVar[bool] = False
 
     manoeuvre: Literal["circle"] = Field(description="which manoeuvre this is")
@@ -37,7 +34,7 @@ class Circle(Section):
     step_m_per_s2: Positive = Field(default=0.25, description="step of the lateral acceleration")
 
     def problems(self) -> list[str]:
-        """Say what cannot be."""
+        """Return the problems of the values together."""
         constant = (self.speed_km_per_h, self.radius_m, self.steering_wheel_deg)
         if sum(value is not None for value in constant) != 1:
             return ["speed_km_per_h, radius_m, steering_wheel_deg: give one of the three."]
@@ -52,10 +49,6 @@ class Circle(Section):
             step = f"step_m_per_s2 = {self.step_m_per_s2:g} m/s^2"
             return [f"{step}: {least:g} to {most:g} m/s^2 are allowed."]
         return []
-
-    def check(self, car: Car) -> None:
-        """Refuse a car that cannot drive it, before its equations are derived."""
-        see_controls(car)
 
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
         """Return gradients, and curves by lateral acceleration."""

@@ -21,7 +21,8 @@ from ..paths import Lane, Path, through
 from ..result import HandlingResult, quantity
 from ..steady import Steady
 from .manoeuvre import Number as Judged
-from .manoeuvre import Progress, TurningManoeuvre, greatest
+from .manoeuvre import Progress
+from .simulated import TurningManoeuvre, greatest
 
 Array = NDArray[np.float64]
 
@@ -111,7 +112,7 @@ class DoubleLaneChange(TurningManoeuvre):
     )
 
     def problems(self) -> list[str]:
-        """Say what cannot be."""
+        """Return the problems of the values together."""
         found = super().problems()
         if len(self.lanes) < 2:
             found.append(
@@ -130,7 +131,7 @@ class DoubleLaneChange(TurningManoeuvre):
         return found
 
     def check(self, car: Car) -> None:
-        """Refuse a car that cannot drive it, or is larger than the file says."""
+        """Refuse a car that cannot drive it, or is larger than the dimensions in the file."""
         super().check(car)
         centers = np.array([car.wheel_centers[wheel] for wheel in car.wheels])
         track = float(2.0 * np.abs(centers[:, 1]).max())

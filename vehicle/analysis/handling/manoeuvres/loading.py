@@ -29,15 +29,13 @@ from .sine_with_dwell import SineWithDwell
 from .slowly_increasing_steer import SlowlyIncreasingSteer
 from .step_steer import StepSteer
 
-AnyManoeuvre = Manoeuvre | Circle | Parking
-
 _KEY = "manoeuvre"
-_CLASSES: tuple[type[AnyManoeuvre], ...] = (
+_CLASSES: tuple[type[Manoeuvre], ...] = (
     StepSteer, SineSweep, SlowlyIncreasingSteer, SineWithDwell, DoubleLaneChange, PathFollowing,
     StraightBraking, BrakingInTurn, Acceleration, CoastDown, Circle, Parking,
 )  # fmt: skip
 
-MANOEUVRES: Mapping[str, type[AnyManoeuvre]] = {
+MANOEUVRES: Mapping[str, type[Manoeuvre]] = {
     get_args(one.model_fields[_KEY].annotation)[0]: one for one in _CLASSES
 }
 """The kinds of manoeuvres, by the word for each in a file."""
@@ -45,7 +43,7 @@ MANOEUVRES: Mapping[str, type[AnyManoeuvre]] = {
 
 def load_manoeuvre(
     path_or_name: str | Path | Mapping[str, Any], changes: Mapping[str, Any] | None = None
-) -> AnyManoeuvre:
+) -> Manoeuvre:
     """Return the manoeuvre of a file.
 
     Parameters

@@ -1,35 +1,22 @@
-"""The base of all manoeuvres: the common keys of their files, and their beginning."""
+"""The base of all manoeuvres."""
 
 from abc import abstractmethod
 from collections.abc import Callable
-from typing import Any, ClassVar, Literal
+from typing import ClassVar
 
-import numpy as np
-import xarray as xr
-from pydantic import Field
-
-from .....core.errors import InputError
-from ....input.section import Positive, Section
+from ....input.section import Section
 from ....models.car.car import Car
 from ..car import DrivingCar
-from ..circle import Turns
-from ..driven import Sampling, driven
-from ..drivers import HeldTorque, Observation, Pushes, SpeedHeld, Steers
-from ..result import HandlingResult, quantity
-from ..steady import NoSteadyMotionError, Steady, SteadyCondition
-from ..subject import see_controls
+from ..result import HandlingResult
+from ..subject import require_controls
 
 Progress = Callable[[float], None]
 Number = tuple[float, str, str]
-"""A number that a manoeuvre is judged by: value, meaning and SI unit."""
-
-# A driver that holds a speed makes up for a half of what is missing in about this time [s].
-_PATIENCE = 1.0
-_KM_PER_H = 3.6
+"""A metric of a manoeuvre: value, meaning and SI unit."""
 
 
 class Manoeuvre(Section):
-    """A manoeuvre, as its file says it."""
+    """A manoeuvre with the keys of its file."""
 
     TITLE: ClassVar[str]
     """The manoeuvre in a few words."""
@@ -37,21 +24,6 @@ class Manoeuvre(Section):
     """The ending of a file's name for each of its datasets with curves."""
     TRAVELS: ClassVar[bool] = True
     """Whether the car drives along a path that can be drawn."""
-
-    speed_km_per_h: Positive = Field(description="speed at the beginning")
-    step_ms: Positive = Field(default=1.0, description="time between two decisions of the driver")
-    output_step_ms: Positive = Field(default=5.0, description="time between two outputs")
-
-    def problems(self) -> list[str]:
-        """Say what cannot be."""
-        ratio = self.output_step_ms / self.step_ms
-        if abs(ratio - round(ratio)) > 1e-9 * ratio or ratio < 1.0:
-            problem = (
-                f"output_step_ms = {self.output_step_ms:g} ms: a multiple of step_ms = "
-                f"{self.step_ms:g} ms is needed."
-            )
-            return [problem]
-        return []
 
     def check(self, car: Car) -> None:
         """Refuse a car that cannot drive it, before its equations are derived.
@@ -65,11 +37,11 @@ class Manoeuvre(Section):
         ------
         InputError
         """
-        see_controls(car)
+        require_controls(car)
 
     @abstractmethod
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
-        """Return the motion of a car in it, and its metrics.
+        """Return the metrics of a car in it, and curves.
 
         Parameters
         ----------
@@ -77,129 +49,3 @@ class Manoeuvre(Section):
         progress : callable
             Called with the part that is done, up to 1.
         """
-
-    # -- what manoeuvres begin with ---------------------------------------------------------------
-
-    @property
-    def speed(self) -> float:
-        """Speed at the beginning [m/s]."""
-        return self.speed_km_per_h / _KM_PER_H
-
-    @property
-    def sense(self) -> int:
-        """1 where the car turns to the left, -1 to the right."""
-        return 1
-
-    @property
-    def samples(self) -> Sampling:
-        """How the simulation is sampled."""
-        return Sampling(self.step_ms / 1e3, round(self.output_step_ms / self.step_ms))
-
-    @property
-    def title(self) -> str:
-        """The manoeuvre in a few words, with its speed."""
-        return f"{self.TITLE}, {self.speed_km_per_h:g} km/h"
-
-    def straight(self, car: DrivingCar) -> tuple[Turns, Steady]:
-        """Return straight running, and the turns that are reached from there."""
-        turns = Turns(car, SteadyCondition("speed", self.speed), self.sense)
-        try:
-            return turns, turns.begin(0.0)
-        except NoSteadyMotionError:
-            problem = (
-                f"speed_km_per_h = {self.speed_km_per_h:g} km/h: this car does not run straight "
-                "ahead at this speed. Choose a lower one."
-            )
-            raise InputError([problem], self.TITLE) from None
-
-    def turned(self, turns: Turns, key: str, acceleration: float) -> Steady:
-        """Return the steady turn with a lateral acceleration that a key of the file names."""
-        try:
-            return turns.to(self.sense * acceleration)
-        except NoSteadyMotionError:
-            problem = (
-                f"{key} = {acceleration:g} m/s^2: the tyres of this car carry no steady turn above "
-                f"{abs(turns.reached):.2f} m/s^2 at {self.speed_km_per_h:g} km/h. Choose less."
-            )
-            raise InputError([problem], self.TITLE) from None
-
-    def holding(self, car: DrivingCar, torque: float) -> SpeedHeld:
-        """Return a driver that holds the speed.
-
-        Parameters
-        ----------
-        car : DrivingCar
-        torque : float
-            Of straight running [N m].
-        """
-        radius = float(np.mean(car.radii))
-        return SpeedHeld(self.speed, torque, car.mass * radius / _PATIENCE, 2.0 * _PATIENCE)
-
-    def pedals(self, car: DrivingCar, torque: float, *, held: bool) -> Pushes:
-        """Return a driver that holds the speed, or the torque of the drive."""
-        return self.holding(car, torque) if held else HeldTorque(torque, torque)
-
-    def simulated(
-        self,
-        car: DrivingCar,
-        start: Steady,
-        steers: Steers,
-        pushes: Pushes,
-        duration: float,
-        *,
-        until: Callable[[Observation], bool] | None = None,
-        progress: Progress | None = None,
-    ) -> xr.Dataset:
-        """Return the motion from a steady one, with the title of the manoeuvre."""
-        found = driven(
-            car, start.state, steers, pushes, duration, samples=self.samples, until=until,
-            progress=progress,
-        )  # fmt: skip
-        found.attrs["title"] = self.title
-        return found
-
-    def judged(self, numbers: dict[str, Number]) -> xr.Dataset:
-        """Return its metrics, with the title of the manoeuvre."""
-        found = {
-            name: quantity((), np.float64(value), meaning, unit)
-            for name, (value, meaning, unit) in numbers.items()
-        }
-        return xr.Dataset(found, attrs={"title": self.title})
-
-
-class TurningManoeuvre(Manoeuvre):
-    """A manoeuvre in which the car turns to a side."""
-
-    turn: Literal["left", "right"] = Field(
-        default="left", description='"left" or "right": to which side the car turns first'
-    )
-
-    @property
-    def sense(self) -> int:
-        """1 where the car turns to the left, -1 to the right."""
-        return 1 if self.turn == "left" else -1
-
-
-def greatest(motion: xr.Dataset) -> dict[str, Number]:
-    """Return the extremes of a motion that every manoeuvre is judged by."""
-
-    def size(name: str) -> float:
-        return float(np.abs(motion[name]).max())
-
-    return {
-        "greatest_lateral_acceleration": (
-            size("lateral_acceleration"), "greatest lateral acceleration, in size", "m/s^2",
-        ),
-        "greatest_yaw_rate": (size("yaw_rate"), "greatest yaw velocity, in size", "rad/s"),
-        "greatest_roll_angle": (size("roll_angle"), "greatest roll angle, in size", "rad"),
-        "greatest_sideslip_angle": (
-            size("sideslip_angle"), "greatest sideslip angle, in size", "rad",
-        ),
-        "smallest_load": (float(motion["fz"].min()), "smallest load of a wheel", "N"),
-    }  # fmt: skip
-
-
-def at_time(motion: xr.Dataset, name: str, time: float) -> float:
-    """Return the value of a curve at a time, linear between outputs; NaN behind the last one."""
-    found: Any = np.interp(time, motion["time"].values, motion[name].values, right=np.nan)
-    return float(found)

@@ -1,13 +1,13 @@
 """Parking: the torque of the steering wheel of a stationary car.
 
-Two parts add up. The car is lifted and leans as it is steered, which the linkages have exactly: the
-states of rest over the angle. The tyres turn on the road; the Magic Formula tyres here have no turn
-slip, and a law of friction takes its place: a round contact under the inflation pressure p (R. S.
-Sharp and R. Granger, Proc. IMechE D 217, 2003), which slides with the moment
+The torque has two parts. Steering lifts the car and leans it: this part follows exactly from the
+linkages, by the states of rest over the angle. The tyres also turn on the road. The Magic Formula
+tyres here have no turn slip; a law of friction takes its place. A round contact under the inflation
+pressure p (R. S. Sharp and R. Granger, Proc. IMechE D 217, 2003) slides with the moment
 
     M = 2/3 mu F_z sqrt(F_z / (pi p))
 
-and is reached along an exponential as the wheel turns on the road (P. R. Dahl, 1968).
+which the moment approaches exponentially as the wheel turns on the road (P. R. Dahl, 1968).
 """
 
 from typing import Annotated, ClassVar, Literal
@@ -21,22 +21,20 @@ from scipy.interpolate import CubicSpline
 from .....core.errors import InputError, KintrafoError
 from ....assembly.by_wheel import WHEEL, wheel_coordinate
 from ....assembly.equilibrium import equilibrium
-from ....input.section import AllowedRange, Number, Positive, Section
-from ....models.car.car import Car
+from ....input.section import AllowedRange, Number, Positive
 from ..car import DrivingCar
 from ..driven import STEERING_TORQUE
 from ..result import HandlingResult, quantity
-from ..subject import see_controls
-from .manoeuvre import Progress
+from .manoeuvre import Manoeuvre, Progress
 
 Array = NDArray[np.float64]
 
 ALONG = "steering_wheel_angle"
 
-# So many states of rest to a side take seconds.
+# Most steps to a side: that many states of rest take seconds.
 _MOST_STEPS = 1000
 
-# From tyres of karts to those of trucks: a value in bar is not within it.
+# From tyres of karts to those of trucks; a value in bar is outside.
 _Pressure = Annotated[
     Number,
     Field(ge=20.0, le=2000.0),
@@ -58,13 +56,17 @@ _OF_WHEELS = {
     "fz": ("vertical force of the road on the tyre", "N"),
     "mz": ("moment of the wheel on the road as it turns, positive to the left", "N m"),
 }
+_GREATEST = {
+    "steering_torque": "torque of the steering wheel, in size",
+    "lifting_torque": "torque that lifts the car, in size",
+    "friction_torque": "torque that turns the tyres on the road, in size",
+}
 
 
-class Parking(Section):
+class Parking(Manoeuvre):
     """The steering wheel of a stationary car is turned from side to side, slowly."""
 
     TITLE: ClassVar[str] = "parking"
-    CURVES: ClassVar[tuple[str, ...]] = ("",)
     TRAVELS: ClassVar[bool] = False
 
     manoeuvre: Literal["parking"] = Field(description="which manoeuvre this is")
@@ -83,15 +85,11 @@ class Parking(Section):
     )
 
     def problems(self) -> list[str]:
-        """Say what cannot be."""
+        """Return the problems of the values together."""
         least, most = self.largest_deg / _MOST_STEPS, 0.25 * self.largest_deg
         if not least <= self.step_deg <= most:
             return [f"step_deg = {self.step_deg:g} deg: {least:g} to {most:g} deg are allowed."]
         return []
-
-    def check(self, car: Car) -> None:
-        """Refuse a car that cannot be steered, before its equations are derived."""
-        see_controls(car)
 
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
         """Return the torque over the angle, and the greatest one."""
@@ -132,11 +130,12 @@ class Parking(Section):
         Parameters
         ----------
         steer : ndarray, shape (wheels, n)
-            Steer angles, one after the other; before the first one nothing has turned [rad].
+            Steer angles in sequence; at the first one the contacts are relaxed [rad].
         loads : ndarray, shape (wheels, n)
-            [N]
+            Vertical forces of the road [N].
         """
-        sliding = 2.0 / 3.0 * self.friction * loads * np.sqrt(loads / (np.pi * self._pressure))
+        radii = np.sqrt(loads / (np.pi * 1e3 * self.pressure_kPa))
+        sliding = 2.0 / 3.0 * self.friction * loads * radii
         share = np.zeros_like(steer)
         turned = np.diff(steer, axis=-1)
         kept = np.exp(-np.abs(turned) / np.deg2rad(self.twist_deg))
@@ -146,23 +145,19 @@ class Parking(Section):
         found: Array = share * sliding
         return found
 
-    @property
-    def _pressure(self) -> float:
-        return 1e3 * self.pressure_kPa
-
     def _at_rest(
         self, car: DrivingCar, angles: Array, progress: Progress
     ) -> tuple[Array, Array, Array]:
         """Return steer angles and loads of the steered wheels, (wheels, n), and the torque, (n,).
 
-        The tyres carry no forces along the road: the car has come to rest.
+        The car has come to rest: the tyres have no forces along the road.
         """
+        assert car.assembly is not None  # a car from a file has linkages
         racks = car.controls.rack(angles)[car.steering_input]
         states, inputs = [], []
         for i, (angle, rack) in enumerate(zip(angles.tolist(), racks.tolist(), strict=True)):
             try:
-                # a car with a steering rack is one with linkages
-                rest = equilibrium(car.model, rack_position=rack)  # type: ignore[arg-type]
+                rest = equilibrium(car.assembly.model, rack_position=rack)
             except KintrafoError as error:
                 problem = (
                     f"largest_deg = {self.largest_deg:g} deg: at a steering wheel angle of "
@@ -174,14 +169,7 @@ class Parking(Section):
             inputs.append(np.asarray(rest.inputs))
             progress((i + 1) / angles.size)
         torque = car.steering_torque(angles, np.array(states), np.array(inputs))
-        assert torque is not None  # of a car from a file
+        assert torque is not None
         signals = car.model.evaluate("signals", np.array(states), np.array(inputs))
         steer, loads = (signals[:, car.signal_rows(n, car.steered)].T for n in ("steer", "fz"))
         return steer, loads, torque
-
-
-_GREATEST = {
-    "steering_torque": "torque of the steering wheel, in size",
-    "lifting_torque": "torque that lifts the car, in size",
-    "friction_torque": "torque that turns the tyres on the road, in size",
-}

@@ -11,11 +11,12 @@ from ..drivers import Observation
 from ..paths import Path
 from ..result import HandlingResult
 from .double_lane_change import Driver
-from .manoeuvre import Manoeuvre, Progress, greatest
 from .manoeuvre import Number as Judged
+from .manoeuvre import Progress
+from .simulated import SimulatedManoeuvre, greatest
 
 
-class PathFollowing(Manoeuvre):
+class PathFollowing(SimulatedManoeuvre):
     """A driver follows a path, at constant speed."""
 
     TITLE: ClassVar[str] = "path following"
@@ -31,7 +32,7 @@ class PathFollowing(Manoeuvre):
     duration_s: Positive = Field(default=120.0, description="longest duration of the simulation")
 
     def problems(self) -> list[str]:
-        """Say what cannot be."""
+        """Return the problems of the values together."""
         found = super().problems()
         if len(self.x_m) != len(self.y_m):
             found.append(

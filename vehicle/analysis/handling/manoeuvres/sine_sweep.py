@@ -16,7 +16,8 @@ from ..responses import frequency_response
 from ..result import HandlingResult, quantity
 from ..steady import Steady
 from ..steering import sine_sweep
-from .manoeuvre import Number, Progress, greatest
+from .manoeuvre import Number, Progress
+from .simulated import greatest
 from .steered import SteeredManoeuvre
 
 Array = NDArray[np.float64]
@@ -49,7 +50,7 @@ class SineSweep(SteeredManoeuvre):
     )
 
     def problems(self) -> list[str]:
-        """Say what cannot be."""
+        """Return the problems of the values together."""
         found = super().problems()
         if self.highest_Hz <= self.lowest_Hz:
             found.append(

@@ -14,7 +14,8 @@ from ..responses import first_crossing
 from ..result import HandlingResult, quantity
 from ..steady import Steady
 from ..steering import SteeringCourse, sine_with_dwell
-from .manoeuvre import Progress, TurningManoeuvre, at_time
+from .manoeuvre import Progress
+from .simulated import TurningManoeuvre, at_time
 from .slowly_increasing_steer import SlowlyIncreasingSteer
 
 Array = NDArray[np.float64]
@@ -181,7 +182,7 @@ def judge(motion: xr.Dataset, course: SteeringCourse, sense: int) -> dict[str, f
     reversed_at = float(time[np.argmax(steered < 0.0)]) if (steered < 0.0).any() else course.end
     peak = _first_peak(back[time >= reversed_at])
     found = {
-        "yaw_rate_peak": peak,  # not a number where the car does not turn back
+        "yaw_rate_peak": peak,  # NaN if the car does not turn back
         "lateral_displacement": sense
         * (at_time(motion, "y", beginning + _DISPLACED) - float(motion["y"][0])),
         "greatest_sideslip_angle": float(np.abs(motion["sideslip_angle"]).max()),
@@ -194,9 +195,9 @@ def judge(motion: xr.Dataset, course: SteeringCourse, sense: int) -> dict[str, f
 
 
 def _first_peak(values: Array) -> float:
-    """Return the first local maximum that is positive; the greatest value where there is none.
+    """Return the first positive local maximum, or the greatest value if there is none.
 
-    It is not a number where no value is positive: the car does not turn back.
+    The result is NaN if no value is positive: the car does not turn back.
     """
     inner = (values[1:-1] > 0.0) & (values[1:-1] >= values[:-2]) & (values[1:-1] > values[2:])
     places = np.flatnonzero(inner)

@@ -13,7 +13,8 @@ from ..car import DrivingCar
 from ..drivers import Observation, OpenLoop
 from ..result import HandlingResult
 from ..steering import ramp
-from .manoeuvre import Progress, TurningManoeuvre, greatest
+from .manoeuvre import Progress
+from .simulated import TurningManoeuvre, greatest
 
 Array = NDArray[np.float64]
 

@@ -6,7 +6,7 @@ from pydantic import Field
 from ....input.section import Positive
 from ..circle import Turns
 from ..steady import Steady
-from .manoeuvre import TurningManoeuvre
+from .simulated import TurningManoeuvre
 
 
 class SteeredManoeuvre(TurningManoeuvre):
@@ -21,7 +21,7 @@ class SteeredManoeuvre(TurningManoeuvre):
     )
 
     def problems(self) -> list[str]:
-        """Say what cannot be."""
+        """Return the problems of the values together."""
         found = super().problems()
         if (self.lateral_acceleration_m_per_s2 is None) == (self.steering_wheel_deg is None):
             found.append("lateral_acceleration_m_per_s2, steering_wheel_deg: give one of the two.")

@@ -12,7 +12,8 @@ from ..drivers import OpenLoop
 from ..responses import step_response
 from ..result import HandlingResult
 from ..steering import SteeringCourse, ramp
-from .manoeuvre import Number, Progress, greatest
+from .manoeuvre import Number, Progress
+from .simulated import greatest
 from .steered import SteeredManoeuvre
 
 
@@ -38,7 +39,7 @@ class StepSteer(SteeredManoeuvre):
     )
 
     def problems(self) -> list[str]:
-        """Say what cannot be."""
+        """Return the problems of the values together."""
         found = super().problems()
         if self.start_s + self.settled_s >= self.duration_s:
             found.append(

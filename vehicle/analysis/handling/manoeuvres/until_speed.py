@@ -6,19 +6,19 @@ from pydantic import Field
 
 from ....input.section import Positive
 from ..drivers import Observation
-from .manoeuvre import Manoeuvre
+from .simulated import SimulatedManoeuvre
 
 
-class UntilSpeed(Manoeuvre):
+class UntilSpeed(SimulatedManoeuvre):
     """A manoeuvre that ends at a speed."""
 
     SLOWS: ClassVar[bool] = True
-    """Whether that is less than the speed at the beginning."""
+    """Whether the end speed is less than the speed at the beginning."""
 
     until_km_per_h: Positive = Field(description="speed at which it ends")
 
     def problems(self) -> list[str]:
-        """Say what cannot be."""
+        """Return the problems of the values together."""
         found = super().problems()
         first, last = self.speed_km_per_h, self.until_km_per_h
         if first <= last if self.SLOWS else first >= last:
@@ -35,5 +35,5 @@ class UntilSpeed(Manoeuvre):
         return self.until_km_per_h / 3.6
 
     def ended(self, seen: Observation) -> bool:
-        """Return whether the car has that speed."""
+        """Return whether the car has reached the end speed."""
         return seen.speed <= self.end_speed if self.SLOWS else seen.speed >= self.end_speed

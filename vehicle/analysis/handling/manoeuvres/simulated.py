@@ -1,0 +1,167 @@
+"""The base of simulated manoeuvres: the common keys of their files, and their beginning."""
+
+from collections.abc import Callable
+from typing import Any, Literal
+
+import numpy as np
+import xarray as xr
+from pydantic import Field
+
+from .....core.errors import InputError
+from ....input.section import Positive
+from ..car import DrivingCar
+from ..circle import Turns
+from ..driven import Sampling, driven
+from ..drivers import HeldTorque, Observation, Pushes, SpeedHeld, Steers
+from ..result import quantity
+from ..steady import NoSteadyMotionError, Steady, SteadyCondition
+from .manoeuvre import Manoeuvre, Number, Progress
+
+# A driver that holds a speed makes up for a half of what is missing in about this time [s].
+_PATIENCE = 1.0
+_KM_PER_H = 3.6
+
+
+class SimulatedManoeuvre(Manoeuvre):
+    """A manoeuvre that begins straight ahead or in a steady turn, and is simulated."""
+
+    speed_km_per_h: Positive = Field(description="speed at the beginning")
+    step_ms: Positive = Field(default=1.0, description="time between two decisions of the driver")
+    output_step_ms: Positive = Field(default=5.0, description="time between two outputs")
+
+    def problems(self) -> list[str]:
+        """Return the problems of the values together."""
+        ratio = self.output_step_ms / self.step_ms
+        if abs(ratio - round(ratio)) > 1e-9 * ratio or ratio < 1.0:
+            problem = (
+                f"output_step_ms = {self.output_step_ms:g} ms: a multiple of step_ms = "
+                f"{self.step_ms:g} ms is needed."
+            )
+            return [problem]
+        return []
+
+    # -- the beginning ----------------------------------------------------------------------------
+
+    @property
+    def speed(self) -> float:
+        """Speed at the beginning [m/s]."""
+        return self.speed_km_per_h / _KM_PER_H
+
+    @property
+    def sense(self) -> int:
+        """1 where the car turns to the left, -1 to the right."""
+        return 1
+
+    @property
+    def samples(self) -> Sampling:
+        """How the simulation is sampled."""
+        return Sampling(self.step_ms / 1e3, round(self.output_step_ms / self.step_ms))
+
+    @property
+    def title(self) -> str:
+        """The manoeuvre in a few words, with its speed."""
+        return f"{self.TITLE}, {self.speed_km_per_h:g} km/h"
+
+    def straight(self, car: DrivingCar) -> tuple[Turns, Steady]:
+        """Return straight running, and the turns that are reached from there."""
+        turns = Turns(car, SteadyCondition("speed", self.speed), self.sense)
+        try:
+            return turns, turns.begin(0.0)
+        except NoSteadyMotionError:
+            problem = (
+                f"speed_km_per_h = {self.speed_km_per_h:g} km/h: this car does not run straight "
+                "ahead at this speed. Choose a lower one."
+            )
+            raise InputError([problem], self.TITLE) from None
+
+    def turned(self, turns: Turns, key: str, acceleration: float) -> Steady:
+        """Return the steady turn with a lateral acceleration that a key of the file names."""
+        try:
+            return turns.to(self.sense * acceleration)
+        except NoSteadyMotionError:
+            problem = (
+                f"{key} = {acceleration:g} m/s^2: the tyres of this car carry no steady turn above "
+                f"{abs(turns.reached):.2f} m/s^2 at {self.speed_km_per_h:g} km/h. Choose less."
+            )
+            raise InputError([problem], self.TITLE) from None
+
+    def holding(self, car: DrivingCar, torque: float) -> SpeedHeld:
+        """Return a driver that holds the speed.
+
+        Parameters
+        ----------
+        car : DrivingCar
+        torque : float
+            Of straight running [N m].
+        """
+        radius = float(np.mean(car.radii))
+        return SpeedHeld(self.speed, torque, car.mass * radius / _PATIENCE, 2.0 * _PATIENCE)
+
+    def pedals(self, car: DrivingCar, torque: float, *, held: bool) -> Pushes:
+        """Return a driver that holds the speed, or the torque of the drive."""
+        return self.holding(car, torque) if held else HeldTorque(torque, torque)
+
+    def simulated(
+        self,
+        car: DrivingCar,
+        start: Steady,
+        steers: Steers,
+        pushes: Pushes,
+        duration: float,
+        *,
+        until: Callable[[Observation], bool] | None = None,
+        progress: Progress | None = None,
+    ) -> xr.Dataset:
+        """Return the motion from a steady one, with the title of the manoeuvre."""
+        found = driven(
+            car, start.state, steers, pushes, duration, samples=self.samples, until=until,
+            progress=progress,
+        )  # fmt: skip
+        found.attrs["title"] = self.title
+        return found
+
+    def judged(self, numbers: dict[str, Number]) -> xr.Dataset:
+        """Return its metrics, with the title of the manoeuvre."""
+        found = {
+            name: quantity((), np.float64(value), meaning, unit)
+            for name, (value, meaning, unit) in numbers.items()
+        }
+        return xr.Dataset(found, attrs={"title": self.title})
+
+
+class TurningManoeuvre(SimulatedManoeuvre):
+    """A manoeuvre in which the car turns to a side."""
+
+    turn: Literal["left", "right"] = Field(
+        default="left", description='"left" or "right": to which side the car turns first'
+    )
+
+    @property
+    def sense(self) -> int:
+        """1 where the car turns to the left, -1 to the right."""
+        return 1 if self.turn == "left" else -1
+
+
+def greatest(motion: xr.Dataset) -> dict[str, Number]:
+    """Return the extremes of a motion, which are metrics of every manoeuvre."""
+
+    def size(name: str) -> float:
+        return float(np.abs(motion[name]).max())
+
+    return {
+        "greatest_lateral_acceleration": (
+            size("lateral_acceleration"), "greatest lateral acceleration, in size", "m/s^2",
+        ),
+        "greatest_yaw_rate": (size("yaw_rate"), "greatest yaw velocity, in size", "rad/s"),
+        "greatest_roll_angle": (size("roll_angle"), "greatest roll angle, in size", "rad"),
+        "greatest_sideslip_angle": (
+            size("sideslip_angle"), "greatest sideslip angle, in size", "rad",
+        ),
+        "smallest_load": (float(motion["fz"].min()), "smallest load of a wheel", "N"),
+    }  # fmt: skip
+
+
+def at_time(motion: xr.Dataset, name: str, time: float) -> float:
+    """Return the value of a curve at a time, linear between outputs; NaN after the last one."""
+    found: Any = np.interp(time, motion["time"].values, motion[name].values, right=np.nan)
+    return float(found)
