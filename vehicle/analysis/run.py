@@ -1,4 +1,4 @@
-"""A simulation of a car: what pictures of its motion are made of."""
+"""A simulation of a car, with the data of pictures of its motion."""
 
 from collections.abc import Sequence
 from typing import NamedTuple, Protocol
@@ -8,13 +8,18 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ...systems.system import System
+from ..assembly.car import CarAssembly
 from ..roads.road import Road
 
 Array = NDArray[np.float64]
 
 
 class MovingCar(Protocol):
-    """A car as a picture needs it."""
+    """A car as a picture needs it, and the loads on its parts."""
+
+    @property
+    def assembly(self) -> CarAssembly | None:
+        """The car with its linkages, if it has some."""
 
     @property
     def model(self) -> System:
@@ -22,7 +27,7 @@ class MovingCar(Protocol):
 
     @property
     def body(self) -> str:
-        """The name of its body there."""
+        """The name of its body in these equations."""
 
     @property
     def wheels(self) -> Sequence[str]:
@@ -48,11 +53,11 @@ class Run(NamedTuple):
     states, inputs : ndarray, shape (n, states) and (n, inputs)
         Of its equations, at the same times.
     places : ndarray, shape (n, 2)
-        Where on the road the point of the car is whose path is shown, in the axes of the equations.
+        Position on the road of the point of the car whose path is shown, axes of the equations [m].
     way : ndarray, shape (n,), optional
-        How far a car has travelled whose equations hold its body at one place [m].
+        Distance travelled by a car whose equations hold its body at one place [m].
     road : Road, optional
-        Under its wheels; by default it is level.
+        The road under its wheels; level by default.
     """
 
     car: MovingCar

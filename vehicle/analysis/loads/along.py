@@ -9,32 +9,30 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ....core.memory import refuse_beyond
-from ....core.quantities import attributes, variable
+from ....core.quantities import variable
 from ....core.threads import shared_out
 from ....core.validator import Validator
 from ....datasets.recording import TIME
 from ....simulation.result import Simulation
 from ....systems.system import System
 from ...assembly.assembly import HeldAssembly
-from ...assembly.by_wheel import stacked
 from ...assembly.load import Load
 from ...assembly.of import given_assembly
 from ...assembly.part_poses import CENTER, CONTACT, PartPoses, touching, wheel_axes
 from ...corner.corner import RoadWheel
 from .applied_loads import WHEEL, of_wheel
-from .dataset import loads_of
+from .balanced import BalancedLoads
 from .inertia import PartTwists
 from .on_a_car import of_car
-from .reactions import BalanceEquations
 
 if TYPE_CHECKING:
     from ...assembly.car import CarAssembly
 
 Array = NDArray[np.float64]
 
-# Signals of the same car in the same states agree to that, whatever computed them.
+# Signals of the same car in the same states agree to this on every machine.
 _SAME = 1e-6
-# So many moments are looked at together, for the memory of it.
+# The most time steps that are evaluated together, to limit the memory.
 _TOGETHER = 5000
 _DOES_NOT_DRIVE = (
     'loads along a motion are those of an axle, or of a car with car = "full". Give the axle, or '
@@ -94,7 +92,7 @@ def along(model: System, result: Simulation) -> xr.Dataset:
         given.instance("result", result, Simulation, "a result of kintrafo.simulate is needed")
         if not given.failed and not is_motion_of(model, result):
             given.fail(f"result: it is not a motion of this model, {model!r}.")
-    # what drives is a car, and all others are held
+    # only a car drives; all other assemblies are held
     find = (
         partial(of_car, cast("CarAssembly", assembly))
         if assembly.drives
@@ -106,14 +104,15 @@ def along(model: System, result: Simulation) -> xr.Dataset:
 def over_time(
     find: Callable[[Array, Array], xr.Dataset], times: Array, states: Array, inputs: Array
 ) -> xr.Dataset:
-    """Return the loads of a motion, from what finds those in some states with their inputs.
+    """Return the loads of a motion, from a function of states and inputs.
 
-    Parts of the motion are looked at in as many threads as there are cores: most of it is
-    arithmetic over arrays, which does not keep other threads waiting.
+    Parts of the motion are evaluated in one thread per core: most of the work is arithmetic over
+    arrays, during which other threads run.
 
     Parameters
     ----------
     find : callable
+        Returns the loads of some states and inputs.
     times : ndarray, shape (n,)
         [s]
     states, inputs : ndarray, shape (n, states) and (n, inputs)
@@ -170,16 +169,12 @@ def is_motion_of(model: System, result: Simulation) -> bool:
 def in_motion(assembly: HeldAssembly, states: Array, inputs: Array) -> xr.Dataset:
     """Return the loads in some states, of shape (n, states), as over time."""
     poses, rates = assembly.in_motion(states, inputs)
-    acting, loads, holding = assembly.acting(poses), {}, []
-    for suffix, group in poses.items():
-        equations = BalanceEquations(group)
-        own = [*acting[suffix], *_on_wheels(group), *_inertia(group, rates[suffix])]
-        unknowns = equations.solve(equations.applied(own))
-        loads[suffix] = [*equations.carried(unknowns), *own]
-        holding += [*unknowns[:, -len(group.wheels) :].T]
-    meaning = "vertical force at the wheel that the motion would need besides"
-    held = stacked(TIME, holding, attributes(meaning, "N"))
-    return loads_of(TIME, assembly, poses, loads).assign(holding_force=held)
+    acting = assembly.acting(poses)
+    known = {
+        suffix: [*acting[suffix], *_on_wheels(group), *_inertia(group, rates[suffix])]
+        for suffix, group in poses.items()
+    }
+    return BalancedLoads.of(assembly, poses, known).dataset()
 
 
 def _on_wheels(group: PartPoses) -> list[Load]:
@@ -210,7 +205,7 @@ def _of_inputs(given: Mapping[str, Array], wheel: RoadWheel) -> list[Load]:
 
 
 def _inertia(group: PartPoses, by_time: Array) -> list[Load]:
-    """Return what the acceleration of each part takes, as loads."""
+    """Return the inertia of each part, as loads."""
     rates = group.rates_of_inputs()
     twists = PartTwists.of(group.model, group.states, group.inputs, by_time, rates)
     return [

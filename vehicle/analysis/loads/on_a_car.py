@@ -1,25 +1,19 @@
-"""The loads on every part of a car that drives: Newton and Euler in states of its equations.
+"""The loads on every part of a car that drives, by the equations of Newton and Euler.
 
-An axle is looked at in the axes of the body, in which it moves as on a body that is held. What the
-motion of the body does to it are the accelerations of its parts, weights that are not along the
-third axis, and the forces of tyres that roll.
+Each axle is balanced in the axes of the body, in which its linkages move as on a held body. The
+motion of the body enters by the accelerations of the parts, by weights that are not along the third
+axis, and by the forces of rolling tyres.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ....core.quantities import attributes
 from ....core.vectors import cross
-from ....datasets.recording import TIME
-from ....systems.inputs import derived_inputs
-from ...assembly.assembly import HeldAssembly
-from ...assembly.by_wheel import stacked
 from ...assembly.car import CarAssembly
 from ...assembly.coupling import STEERING
 from ...assembly.load import RACK, Load
@@ -28,45 +22,17 @@ from ...corner.corner import RoadWheel
 from ...corner.structure import GROUND
 from ...models.sides import SIDES
 from .applied_loads import WHEEL, of_wheel
-from .dataset import AXIS, LOAD, PART, loads_of
+from .balanced import BalancedLoads
+from .dataset import AXIS, LOAD, PART
 from .inertia import PartTwists
 from .mounts import ALL, MOUNT
-from .reactions import BalanceEquations
 
 Array = NDArray[np.float64]
 
-# Names that are the same at both ends of a car.
+# Names of parts and loads that both axles share.
 _SHARED = (*GROUND, "gravity", "inertia", "mass", STEERING, ALL)
 _ALONG = (LOAD, "moving_part", MOUNT, "wheel")
 _AT = ("at", "at_in_part", "total_at")
-
-
-class AxleLoads(NamedTuple):
-    """The loads on an axle in n states of a car, in the axes of the axle's file.
-
-    Attributes
-    ----------
-    assembly : HeldAssembly
-        The axle.
-    poses : dict of str to PartPoses
-        Its parts, by suffix.
-    loads : dict of str to list of Load
-        All on each group, what the joints carry included.
-    holding : list of ndarray
-        By wheel, a vertical force that the motion would need besides, (n,) [N].
-    """
-
-    assembly: HeldAssembly
-    poses: dict[str, PartPoses]
-    loads: dict[str, list[Load]]
-    holding: list[Array]
-
-    def dataset(self) -> xr.Dataset:
-        """Return them over time, as `kintrafo.loads.along` of an axle."""
-        found = loads_of(TIME, self.assembly, self.poses, self.loads)
-        meaning = "vertical force at the wheel that the motion would need besides"
-        held = stacked(TIME, self.holding, attributes(meaning, "N"))
-        return found.assign(holding_force=held)
 
 
 class CarInMotion:
@@ -103,14 +69,12 @@ class CarInMotion:
 
     @cached_property
     def twists(self) -> PartTwists:
-        """How its parts move in the world, in components along the axes of the body."""
+        """Velocities and accelerations of its parts in the world, in the axes of the body."""
         by_time = self.model.evaluate("rhs", self.states, self.inputs)
-        names, derived = self.model.input_names, derived_inputs(self.model.equations.INPUTS)
-        rates = np.zeros_like(self.inputs)
-        sources = {e["derivative_of"]: n for n, e in self.model.equations.INPUTS.items()}
-        for name in {*derived.values(), *derived}:
-            if name in sources:
-                rates[:, names.index(name)] = self.inputs[:, names.index(sources[name])]
+        names, rates = self.model.input_names, np.zeros_like(self.inputs)
+        for name, entry in self.model.equations.INPUTS.items():
+            if entry["derivative_of"] is not None:
+                rates[:, names.index(entry["derivative_of"])] = self.inputs[:, names.index(name)]
         found = PartTwists.of(self.model, self.states, self.inputs, by_time, rates)
         return replace(found, twists=self._seen(found.twists), rates=self._seen(found.rates))
 
@@ -120,8 +84,8 @@ class CarInMotion:
         found: Array = np.einsum("nji,npkj->npki", self.body, pairs)
         return found.reshape(twists.shape)
 
-    def axle(self, end: str) -> AxleLoads:
-        """Return the loads on the axle at an end.
+    def axle(self, end: str) -> BalancedLoads:
+        """Return the loads on the axle at an end, in the axes of the axle's file.
 
         Raises
         ------
@@ -137,25 +101,24 @@ class CarInMotion:
         }
         poses = axle.parts_with(values, len(self.states))
         acting = axle.acting(poses)
-        loads: dict[str, list[Load]] = {}
-        holding: list[Array] = []
-        for suffix, group in poses.items():
-            known = [self._leaning(load) for load in acting[suffix]]
-            known += [*self._on_wheels(end, suffix, group), *self._inertia(end, suffix, group)]
-            equations = BalanceEquations(group)
-            unknowns = equations.solve(equations.applied(known))
-            loads[suffix] = [*equations.carried(unknowns), *known]
-            holding += [*unknowns[:, -len(group.wheels) :].T]
-        return AxleLoads(axle, poses, loads, holding)
+        known = {
+            suffix: [
+                *map(self._leaning, acting[suffix]),
+                *self._on_wheels(end, suffix, group),
+                *self._inertia(end, suffix, group),
+            ]
+            for suffix, group in poses.items()
+        }
+        return BalancedLoads.of(axle, poses, known)
 
     def _leaning(self, load: Load) -> Load:
-        """Return a load that acts by itself: a weight is along the upward axis of the world."""
+        """Return an applied load; weights act along the vertical of the world."""
         if load.by != "gravity":
             return load
         return replace(load, force=load.force[..., 2:] * self.up)
 
     def _inertia(self, end: str, suffix: str, group: PartPoses) -> Iterator[Load]:
-        """Yield what the acceleration of each part takes."""
+        """Yield the inertia of each part, as loads."""
         begin = f"{end}{suffix}_"
         names = tuple(name.removeprefix(begin) for name in self.twists.bodies)
         twists = replace(self.twists, bodies=names)
@@ -195,9 +158,9 @@ class CarInMotion:
             yield Load(WHEEL, CENTER, "shaft", nothing, torque[:, None] * left, wheel.center)
 
     def _by_shaft(self, end: str, name: str) -> Array | None:
-        """Return the torque on a wheel whose reaction is on the body; None where there is none.
+        """Return the torque on a wheel whose reaction is on the body; None without one.
 
-        That of a brake or a motor on the carrier is a part of what the bearing carries.
+        The torque of a brake or a motor on the carrier is a part of the load of the bearing.
         """
         axle = self.assembly.held[end]
         kinds = {"brake": axle.torque_on("brakes"), "drive": axle.torque_on("drive")}
@@ -291,7 +254,7 @@ def _together(found: Mapping[str, xr.Dataset]) -> xr.Dataset:
 
 
 def _joined(variables: Sequence[xr.Variable]) -> xr.Variable:
-    """Return variables of axles behind each other, along what each axle has of its own."""
+    """Return the variables of both axles, joined along the dimension of each axle."""
     along = [name for name in _ALONG if name in variables[0].dims]
     first = variables[0]
     if not along:

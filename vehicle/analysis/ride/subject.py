@@ -1,4 +1,4 @@
-"""The car that a function of this folder is given."""
+"""The car of an analysis of its ride."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -14,12 +14,12 @@ Array = NDArray[np.float64]
 
 
 def car_assembly(source: str, subject: Any, *, riding: bool = True) -> CarAssembly:
-    """Return a car, or its equations, as an assembly; refuse what has a body that is held.
+    """Return a car, or its equations, as an assembly; refuse assemblies whose body is held.
 
     Parameters
     ----------
     source : str
-        What asks.
+        The function, for messages.
     subject : Any
     riding : bool, optional
         Whether a car that drives is refused, too: its body travels.
@@ -40,20 +40,31 @@ class RidingCar:
 
     Attributes
     ----------
-    model : System
-    wheels, spins : tuple of str
-        The names of the wheels, and their angles among the states.
+    assembly : CarAssembly
     radii : tuple of float
         Heights of the wheel centres above the road at rest [m].
     body : str
         The name of its body in the equations.
     """
 
-    model: System
-    wheels: tuple[str, ...]
-    spins: tuple[str, ...]
+    assembly: CarAssembly
     radii: tuple[float, ...]
     body: str = "body"
+
+    @property
+    def model(self) -> System:
+        """Its equations."""
+        return self.assembly.model
+
+    @property
+    def wheels(self) -> tuple[str, ...]:
+        """The names of its wheels."""
+        return self.assembly.wheels
+
+    @property
+    def spins(self) -> tuple[str, ...]:
+        """The angles of the wheels among the states."""
+        return tuple(self.assembly.names_of(wheel).spin for wheel in self.wheels)
 
 
 def riding_car(assembly: CarAssembly, state: Array, inputs: Array) -> RidingCar:
@@ -63,20 +74,16 @@ def riding_car(assembly: CarAssembly, state: Array, inputs: Array) -> RidingCar:
     ----------
     assembly : CarAssembly
     state, inputs : ndarray
-        In which it rests.
+        Of rest.
     """
     names = [assembly.names_of(wheel) for wheel in assembly.wheels]
     heights = assembly.model.signals(state, inputs)
     roads = [float(inputs[assembly.model.input_names.index(own.road)]) for own in names]
-    return RidingCar(
-        model=assembly.model,
-        wheels=assembly.wheels,
-        spins=tuple(own.spin for own in names),
-        radii=tuple(
-            float(heights[f"{own.signals}wheel_center_z"]) - road
-            for own, road in zip(names, roads, strict=True)
-        ),
+    radii = tuple(
+        float(heights[f"{own.signals}wheel_center_z"]) - road
+        for own, road in zip(names, roads, strict=True)
     )
+    return RidingCar(assembly, radii)
 
 
 _NEEDED = (
