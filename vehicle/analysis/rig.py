@@ -44,7 +44,7 @@ _KNOWN: dict[str, dict[str, Quantity]] = {name: dict(known) for name, known in O
 for _over, _known in KNOWN.items():
     _KNOWN[ALONG[_over].name] |= _known
 _KNOWN[TRAVEL.name] |= _SOFT
-# what a car has of a wheel or an axle: other names are those of suspensions and axles
+# quantities of a car with a wheel or an axle in their names: others are of suspensions and axles
 _OF_ENDS = {name: q for name, q in OF_CARS.items() if {"front", "rear"} & {*name.split("_")}}
 _KNOWN[ROLL.name] |= _OF_ENDS
 _KNOWN |= {HEAVE.name: dict(_OF_ENDS), PITCH.name: dict(_OF_ENDS)}
@@ -82,8 +82,8 @@ def measured_curves(path: str | Path) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        Over what varies, such as ``wheel_travel`` [m]; SI units. The attribute
-        ``left_out`` names the columns that were not read.
+        Over the positions, such as ``wheel_travel`` [m]; SI units. The attribute ``left_out`` names
+        the columns that were not read.
 
     Raises
     ------
@@ -130,11 +130,11 @@ def measured_curves(path: str | Path) -> xr.Dataset:
 
 
 def _moved(names: Mapping[str, Any]) -> dict[str, Quantity]:
-    """Return the positions among some columns that are curves there."""
-    if LATERAL_ACCELERATION.name in names:  # of steady turns, that of the steering wheel too
+    """Return the quantities of positions that are curves in a table with these columns."""
+    if LATERAL_ACCELERATION.name in names:  # in steady turns the steering wheel angle is a curve
         turns = _KNOWN[LATERAL_ACCELERATION.name]
         return {name: turns[name] for name in names if name in turns}
-    # where the steering wheel turns, the rack is what it moves
+    # over the angle of the steering wheel the displacement of the rack is a curve
     return {RACK.name: RACK} if {STEERING_WHEEL.name, RACK.name} <= names.keys() else {}
 
 

@@ -36,7 +36,7 @@ NOT_A_CAR = (
     'car.axles["front"], car.axles["rear"] or car.corner; at the command line, the file of an axle '
     "or a corner."
 )
-"""Said where something else is needed than a car."""
+"""The message if a car is given where a suspension or an axle is needed."""
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class Bushings:
     Attributes
     ----------
     by_suffix : mapping of str to list of Bush
-        By what ends the names of the parts that they are between, as of `HeldAssembly.poses`.
+        By the suffix of the names of the parts that they connect, as in `HeldAssembly.poses`.
     rack : float
         Displacement of the rack along its axis by a unit force [m/N]; zero where it is held.
     """
@@ -63,8 +63,7 @@ class Bushings:
 class Assembly(ABC):
     """A corner, an axle, a rigid axle or a car.
 
-    A car has neither parts nor bushes but those of its axles: what all others have besides is that
-    of `HeldAssembly`.
+    All but a car are a `HeldAssembly`; the parts and bushes of a car are those of its axles.
 
     Its parts may be in several groups that only an anti-roll bar and a rack join, as the two sides
     of an axle are: the members of a group are by the suffix of the names of its parts, ``""``,
@@ -100,14 +99,14 @@ class Assembly(ABC):
 
     @property
     def design_sections(self) -> dict[str, dict[str, Any]]:
-        """The sections of its files, whose numbers studies vary, by what begins their places."""
+        """The sections of its files, whose numbers studies vary, by the prefix of their places."""
         return {"": self.subject.to_dict()}
 
     @property
     def input_sections(self) -> Mapping[str, Any]:
-        """What its files say, by what begins the names of sections.
+        """The content of its files, by the prefix of the names of sections.
 
-        That of a corner; of an axle its own and those of its sides, of two mirror images one.
+        An axle has its own file and those of its sides, of two mirror images one.
         """
         alone = len(self.wheels) == 1
         sides = {"" if alone else n: model.suspension for n, model in self.corners.items()}
@@ -383,15 +382,15 @@ class Assembly(ABC):
         """Return its subject on other bushes than those of its file, see `bushes`."""
         return self.subject.with_changes({"bushings": dict(bushings)})
 
-    # -- what its summary has ---------------------------------------------------------------------
+    # -- its summary ------------------------------------------------------------------------------
 
     MODES: ClassVar[Mapping[str, str]] = {}
-    """Coordinates of both wheels together, and what their modes on the tyres are called."""
+    """Coordinates of both wheels together, and the names of their modes on the tyres."""
 
     @property
     @abstractmethod
     def heading(self) -> str:
-        """What it is called."""
+        """Its name, as the beginning of a heading."""
 
     @property
     def corners(self) -> Mapping[str, Model]:
@@ -399,15 +398,15 @@ class Assembly(ABC):
         return {}
 
     def plausibility(self) -> Plausibility:
-        """Return what is unlikely of it, besides what is of its corners."""
+        """Return its unlikely values, except those of its corners."""
         return Plausibility((), ())
 
     def described(self) -> dict[str, str]:
-        """Return what it is at design in words, besides its corners, by their headings."""
+        """Return its data at design in words, by their headings, except those of its corners."""
         return {}
 
     def reach(self) -> dict[str, tuple[float, bool]]:
-        """Return how far both wheels go, 'down' and 'up' [m], and whether something ends that."""
+        """Return the travel of both wheels, 'down' and 'up' [m], and whether it is limited."""
         return {}
 
     @abstractmethod
@@ -428,7 +427,7 @@ class HeldAssembly(Assembly):
 
     @abstractmethod
     def coordinates_of(self, suffix: str) -> dict[str, str]:
-        """Return what the coordinates of a group are called, by its states in `poses`."""
+        """Return the names of the coordinates of a group, by its states in `poses`."""
 
     @abstractmethod
     def joints(self, suffix: str) -> tuple[str, ...]:
@@ -457,9 +456,9 @@ class HeldAssembly(Assembly):
         -------
         model : Model or WholeAxleModel
         signals : str
-            What begins the names of the wheel's signals there.
+            Prefix of the names of the wheel's signals there.
         names : mapping of str to str
-            The coordinates that move it there, and what they are called in `coordinates`.
+            The coordinates that move it there, and their names in `coordinates`.
         """
 
     @abstractmethod
@@ -561,7 +560,7 @@ class HeldAssembly(Assembly):
     # -- loads -------------------------------------------------------------------------------------
 
     def torque_on(self, what: Literal["brakes", "drive"]) -> TorqueReaction | None:
-        """Return what holds the torque of brakes or drive; None where nothing drives it."""
+        """Return the part that reacts the torque of brakes or drive; None without a drive."""
         return "carrier" if what == "brakes" else "body"
 
     @property
@@ -645,7 +644,7 @@ class HeldAssembly(Assembly):
             By hardpoint; of an axle those of one side, and the other has their image.
         """
 
-    # -- what couples the wheels -------------------------------------------------------------------
+    # -- the coupling of the wheels ----------------------------------------------------------------
 
     BAR_SIGN: ClassVar[str] = ""
     """When the torque of the anti-roll bar is positive."""

@@ -330,7 +330,7 @@ class AxleAssembly(HeldAssembly):
         return getattr(self.axle.sides[wheel], which) is not None
 
     def torque_on(self, what: Literal["brakes", "drive"]) -> TorqueReaction | None:
-        """Return what holds the torque of brakes or drive; None of an axle without a drive."""
+        """Return the part that reacts the torque of brakes or drive; None without a drive."""
         part = getattr(self.axle, what)
         return None if part is None else part.torque_on
 
@@ -486,7 +486,7 @@ class AxleAssembly(HeldAssembly):
         return {f"_{side}": [pull_of_bar(self.axle, side, poses[f"_{side}"])] for side in SIDES}
 
     def bar_twist(self, poses: Mapping[str, Any]) -> dict[str, Array]:
-        """Return what each side adds to the twist of the bar, (n,) [rad]."""
+        """Return the contribution of each side to the twist of the bar, (n,) [rad]."""
         return {
             f"_{side}": SENSE[side] * turn_of_half(self.axle, side, poses[f"_{side}"])[1]
             for side in self.axle.halves

@@ -129,7 +129,7 @@ class CarAssembly(Assembly):
 
     @property
     def input_sections(self) -> dict[str, Any]:
-        """What its files say, by what begins the names of sections."""
+        """The content of its files, by the prefix of the names of sections."""
         found: dict[str, Any] = {"": self.car.described}
         for name, part in self.held_parts.items():
             for begin, section in part.input_sections.items():
@@ -591,8 +591,6 @@ class CarAssembly(Assembly):
             by_body = {"heave": 1.0, "pitch": -x, "roll": y}
             found[wheel] = {n: by_body[n] for n in self.car.coordinates} | slopes
         return found
-
-    # -- what is of an axle alone -----------------------------------------------------------------
 
     def coordinates_at(self, position: RigPosition) -> Array:
         """Refuse: a car begins at rest, or at a state of its equations."""

@@ -84,7 +84,7 @@ def gaps(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -> 
 
 
 def vehicle(described: WheeledSection, side: float, end: str | None) -> Vehicle:
-    """Return what a file says about the vehicle, in SI units, of one of its wheels.
+    """Return the data of the vehicle for one of the wheels of a file, in SI units.
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ def vehicle(described: WheeledSection, side: float, end: str | None) -> Vehicle:
     side : float
         +1 left, -1 right.
     end : str or None
-        'front' or 'rear', where the file says it.
+        'front' or 'rear'; None if the file does not have it.
     """
     given, tyre, steered = described.vehicle, described.tyre, described.steered()
     rear = end == "rear"
@@ -114,7 +114,7 @@ def vehicle(described: WheeledSection, side: float, end: str | None) -> Vehicle:
 
 
 def vehicle_of(suspension: Suspension) -> Vehicle:
-    """Return what the file of a suspension says about the vehicle."""
+    """Return the data of the vehicle in the file of a suspension, in SI units."""
     return vehicle(suspension, suspension.vehicle.sign, suspension.vehicle.end)
 
 

@@ -183,10 +183,10 @@ def car_assembly_of(source: str, subject: Any, needed: str) -> CarAssembly:
     Parameters
     ----------
     source : str
-        The function that is given it.
+        The function, for messages.
     subject : Car, CarModel or CarAssembly
     needed : str
-        The end of the message about all else.
+        The end of the message about any other subject.
 
     Raises
     ------
@@ -209,7 +209,7 @@ def given_assembly(
 def given_assembly(
     given: Validator, subject: Any, name: str = "subject", *, cars: bool = False
 ) -> Any:
-    """Return the assembly of an argument, or refuse it; nothing is to be asked of what is refused.
+    """Return the assembly of an argument, or refuse it: the result must not be used then.
 
     Parameters
     ----------
@@ -225,4 +225,4 @@ def given_assembly(
         given.fail(f"{name}: {NOT_A_CAR}")
     if found is None:
         given.instance(name, subject, Assembly, Assembly.NEEDED)
-    return found  # what is refused is never seen, see `Validator`
+    return found  # the result of a refused argument is not used, see `Validator`

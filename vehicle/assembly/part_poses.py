@@ -265,7 +265,7 @@ class CornerParts:
 def columns_of(
     values: Mapping[str, Array], names: Sequence[str], count: int, prefix: str = ""
 ) -> Array:
-    """Return values by name as an array, (count, names); those that are not given are zero.
+    """Return values by name as an array, (count, names); missing ones are zero.
 
     Parameters
     ----------
@@ -274,7 +274,7 @@ def columns_of(
     names : sequence of str
     count : int
     prefix : str, optional
-        Begins the names in the mapping of what is not shared.
+        Prefix of the names in the mapping; a shared value has none.
     """
     found = np.zeros((count, len(names)))
     for column, name in zip(found.T, names, strict=True):

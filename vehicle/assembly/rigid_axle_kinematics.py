@@ -1,4 +1,4 @@
-"""A rigid axle at many positions: how its coordinates follow those of the equations.
+"""A rigid axle at many positions: the derivatives of its relative coordinates.
 
 The two motions are those of the coordinates: heave, the middle of the axle rising by a metre with
 its inclination held; and roll, the wheels moving oppositely, by a radian with the left wheel up.

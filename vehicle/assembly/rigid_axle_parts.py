@@ -72,14 +72,14 @@ class RigidAxleParts(WholeAxleParts):
 
     @classmethod
     def bodies(cls, axle: RigidAxle) -> Mapping[str, str]:
-        """Return what the parts that the equations have are called there."""
+        """Return the names in the equations of their parts, by part."""
         return {**{name: f"rod_{i}" for i, name in enumerate(axle.guides, 1)}, **cls.MASSIVE}
 
     @classmethod
     def placed(
         cls, axle: RigidAxle, centers: Mapping[str, Array], turned: Mapping[str, Array]
     ) -> dict[str, Array]:
-        """Return all points where the centre of mass of the beam is at a place, and turned so."""
+        """Return all points for positions and rotations of the beam, (n, 3) [m]."""
         still, moved = {}, {MIDDLE: axle.center}
         for name, (inner, outer) in axle.ends().items():
             still[f"{name}_{CHASSIS}"], moved[f"{name}_axle"] = inner, outer
@@ -138,11 +138,11 @@ class RigidAxleParts(WholeAxleParts):
         return self.model.parameters[self.RATE]
 
     def by_torque(self) -> list[Load]:
-        """Return what a unit torque of the anti-roll bar does: against the roll of the axle.
+        """Return the loads of a unit torque of the anti-roll bar, against the roll of the axle.
 
-        On the axle it is about the axle's axis forward.
+        The moment on the axle is about its forward axis.
         """
-        # the line through the wheels points left, and what is forward of it is level
+        # the line through the wheels points left, and the forward axis is level
         forward = road_axes(self.turned[BEAM][:, :, 1])[:, 0]
         on_beam = Load(BEAM, MIDDLE, BAR, np.zeros(3), -forward, self.points[MIDDLE])
         return [on_beam, replace(on_beam, part=CHASSIS, moment=forward)]

@@ -57,7 +57,7 @@ class TwistBeamParts(WholeAxleParts):
     def placed(
         cls, axle: TwistBeamAxle, centers: Mapping[str, Array], turned: Mapping[str, Array]
     ) -> dict[str, Array]:
-        """Return all points where the arms' centres of mass are at some places, and turned so."""
+        """Return all points for positions and rotations of the arms, (n, 3) [m]."""
         found, begin = {}, cls.design_centers(axle)
         for side in SIDES:
             arm = f"arm_{side}"
@@ -105,7 +105,7 @@ class TwistBeamParts(WholeAxleParts):
         return float(np.degrees(self.axle.beam.rate_Nm_per_deg))
 
     def by_torque(self) -> list[Load]:
-        """Return what a unit torque of the beam does on both arms: against its twist."""
+        """Return the loads of a unit torque of the beam on both arms, against its twist."""
         at = self.points[SHEAR_CENTER]
         return [
             Load(f"arm_{side}", SHEAR_CENTER, BAR, np.zeros(3), -SENSE[side] * ACROSS, at)

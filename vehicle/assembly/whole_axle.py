@@ -57,9 +57,9 @@ class WholeAxleAssembly(HeldAssembly):
     Attributes
     ----------
     AXLE, MODEL : type
-        What it is made of: the data of a file, and their equations.
+        Classes of the data of a file, and of their equations.
     PARTS, KINEMATICS : type
-        Its parts, and how they move first.
+        Classes of its parts, and of the first derivatives of their motion.
     MEASURES : tuple of Measure
         Its characteristics, the same over all motions.
     """
@@ -215,7 +215,7 @@ class WholeAxleAssembly(HeldAssembly):
         return self.MEASURES
 
     def kinematics(self, position: RigPosition) -> WholeAxleKinematics:
-        """Return how the axle is and how it moves first."""
+        """Return the position of the axle and the first derivatives of its motion."""
         self.require_rigid_motion()
         return self.KINEMATICS(self._at(position))
 
@@ -288,7 +288,7 @@ class WholeAxleAssembly(HeldAssembly):
         return found
 
     def acting(self, poses: Mapping[str, Any]) -> dict[str, list[Load]]:
-        """Return what acts on its parts, and the couple of the anti-roll bar."""
+        """Return the applied loads on its parts, with those of the bar or beam."""
         return {"": poses[""].acting()}
 
     def bar_loads(self, poses: Mapping[str, Any]) -> dict[str, list[Load]]:
@@ -296,7 +296,7 @@ class WholeAxleAssembly(HeldAssembly):
         return {"": poses[""].by_torque()} if poses[""].rate_of_twist else {}
 
     def bar_twist(self, poses: Mapping[str, Any]) -> dict[str, Array]:
-        """Return how far the bar, or the beam, is twisted, (n,) [rad]."""
+        """Return the twist of the bar, or of the beam, (n,) [rad]."""
         return {"": poses[""].twist}
 
     def in_motion(

@@ -1,4 +1,4 @@
-"""An axle that one file describes, at many positions: how its wheels move first, and its springs.
+"""An axle without sides at many positions: first derivatives of its motion, and its springs.
 
 Motions are those of the two coordinates that move the wheels up and down, or of both wheels:
 ``heave``, both rise by a metre; ``roll``, the left one rises by a metre and the right one falls;
@@ -30,7 +30,7 @@ _WHEELS = {"heave": (1.0, 1.0), "roll": (1.0, -1.0), "left": (1.0, 0.0), "right"
 
 @dataclass(frozen=True)
 class TravellingWheel(RoadWheel):
-    """A wheel, and how its carrier moves where both wheels rise by a metre.
+    """A wheel, and the motion of its carrier per metre of travel of both wheels.
 
     Attributes
     ----------
@@ -42,7 +42,7 @@ class TravellingWheel(RoadWheel):
 
 @dataclass(frozen=True)
 class WholeAxleKinematics:
-    """Such an axle at rest in many positions, of shape (n,).
+    """An axle without sides at rest in n positions.
 
     Attributes
     ----------
@@ -69,7 +69,7 @@ class WholeAxleKinematics:
 
     @property
     def vehicles(self) -> tuple[Vehicle, ...]:
-        """What the vehicle adds, the left wheel first."""
+        """The data of the vehicle for each wheel, the left one first."""
         return tuple(wheel.vehicle for wheel in self.parts.wheels.values())
 
     @cached_property
@@ -103,12 +103,12 @@ class WholeAxleKinematics:
         return self.parts.twists()
 
     def turning(self, side: str, by: str) -> Array:
-        """Return the angular velocity of what carries a wheel per unit of a coordinate, (n, 3)."""
+        """Return the angular velocity of a wheel's carrier per unit of a coordinate, (n, 3)."""
         twist = self._twists[self.parts.carrier(side)]
         return twist[:, self.model.COORDINATES.index(by), :3]
 
     def velocity(self, side: str, place: Array, by: str) -> Array:
-        """Return the velocity of a place fixed to what carries a wheel per unit of a coordinate.
+        """Return the velocity of a point of a wheel's carrier per unit of a coordinate, (n, 3).
 
         Parameters
         ----------
@@ -123,7 +123,7 @@ class WholeAxleKinematics:
         return twist[:, 3:] + cross(twist[:, :3], place - self.parts.centers[part])
 
     def contact_rate(self, side: str, by: str) -> Array:
-        """Return how fast the lowest point of a wheel goes per unit of a coordinate, (n, 3)."""
+        """Return the velocity of the lowest point of a wheel per unit of a coordinate, (n, 3)."""
         (radius,) = {vehicle.tyre_radius for vehicle in self.vehicles}
         assert radius is not None
         velocity = self.velocity(side, self.wheel_center(side), by)
@@ -148,7 +148,7 @@ class WholeAxleKinematics:
         }
 
     def _in_motion(self, how: str, by_coordinate: list[Array]) -> Array:
-        """Return what is in a motion, (n, 3), of what is per unit of each coordinate."""
+        """Return a rate per metre of a motion, (n, 3), from its rates per unit of coordinates."""
         first, second = (
             rate[:, None] * part
             for rate, part in zip(self._of_motions[how].T, by_coordinate, strict=True)
@@ -157,7 +157,7 @@ class WholeAxleKinematics:
         return found
 
     def motion(self, side: str, how: str) -> CarrierMotion:
-        """Return how what carries a wheel moves per metre of a motion of both."""
+        """Return the motion of the carrier of a wheel per metre of a motion of both wheels."""
         names, center = self.model.COORDINATES, self.wheel_center(side)
         return CarrierMotion(
             self._in_motion(how, [self.velocity(side, center, by) for by in names]),
@@ -165,12 +165,12 @@ class WholeAxleKinematics:
         )
 
     def contact_in(self, side: str, how: str) -> Array:
-        """Return how fast the lowest point of a wheel goes per metre of a motion, (n, 3) [1]."""
+        """Return the velocity of the lowest point of a wheel per metre of a motion, (n, 3) [1]."""
         rates = [self.contact_rate(side, by) for by in self.model.COORDINATES]
         return self._in_motion(how, rates)
 
     def carried_in(self, side: str, place: Array, how: str) -> Array:
-        """Return the velocity of a place fixed to what carries a wheel per metre of a motion.
+        """Return the velocity of a point of a wheel's carrier per metre of a motion, (n, 3) [1].
 
         Parameters
         ----------
@@ -185,7 +185,7 @@ class WholeAxleKinematics:
 
     @cached_property
     def inclination_rate(self) -> Array:
-        """How fast the line through the wheel centres turns in roll, left end up [rad/m]."""
+        """The turn of the line through the wheel centres in roll, left end up [rad/m]."""
         left, right = (self.wheel_center(side) for side in SIDES)
         up, down = (self.motion(side, "roll").velocity for side in SIDES)
         return inclination_rate(left - right, up - down)
@@ -201,16 +201,16 @@ class WholeAxleKinematics:
         return np.array(_WHEELS["roll"]) / by_travel, moved / by_travel
 
     def path_slope(self, torque_on: str, side: str = "") -> Array:
-        """Return how far forward goes per rise where a longitudinal force acts, v_x / v_z [1].
+        """Return the slope v_x / v_z of the path of the point of a longitudinal force [1].
 
-        That is the contact, fixed to what carries the wheel; the wheel centre if the body holds the
-        torque. Both wheels rise.
+        Both wheels rise. The point is the contact, fixed to the carrier of the wheel; it is the
+        wheel centre if the body reacts the torque.
 
         Parameters
         ----------
         torque_on : {'body', 'carrier'}
         side : str, optional
-            By default it is the middle between both.
+            By default the middle of both sides.
         """
         place = self.wheel_center if torque_on == "body" else self.contact
         sides = (side,) if side else SIDES
@@ -241,7 +241,7 @@ class WholeAxleKinematics:
         return self._signals[name]
 
     def compression_in(self, part: str, how: str) -> Array:
-        """Return how a spring or a damper is compressed per metre of a motion [1]."""
+        """Return the compression of a spring or a damper per metre of a motion [1]."""
         compressed: Array = -(self.growth(part) * self._of_motions[how]).sum(-1)
         return compressed
 
@@ -254,7 +254,7 @@ class WholeAxleKinematics:
 
     @cached_property
     def of_bar(self) -> tuple[Array, Array]:
-        """The same of the anti-roll bar, or of a beam, which resists the second coordinate."""
+        """The same for the anti-roll bar, or the beam, which resists the second coordinate."""
         rate = self.model.parameters[self.parts.RATE]
         turned = self.parts.states[:, self.model.state_names.index(self.model.COORDINATES[1])]
         slopes = np.broadcast_to(np.diag([0.0, -rate]), (turned.size, 2, 2))
@@ -265,7 +265,7 @@ class WholeAxleKinematics:
         return self._at_wheels(self.of_springs[0] + self.of_bar[0])[:, SIDES.index(side)]
 
     def _at_wheels(self, work: Array) -> Array:
-        """Return vertical forces at the wheel centres that hold some generalised ones, (n, 2)."""
+        """Return vertical forces at the wheels that balance generalised forces, (n, 2) [N]."""
         forces = np.linalg.solve(self.heights.mT, work[..., None])
         return np.asarray(-forces[..., 0], dtype=float)
 

@@ -46,11 +46,11 @@ class WholeAxleParts(ABC):
     points : dict of str to ndarray
         By name, (n, 3) [m].
     PARAMETERS : mapping of str to str
-        What begins the names of the parameters of parts with mass, by part.
+        Prefix of the names of parameters, by part with mass.
     MASSIVE : mapping of str to str
-        What they are called in the equations.
+        Names of these parts in the equations.
     RATE : str
-        The parameter that is the rate of what couples both wheels, by the second coordinate.
+        The parameter with the rate of the bar or beam, by the second coordinate.
     """
 
     model: WholeAxleModel
@@ -79,7 +79,7 @@ class WholeAxleParts(ABC):
 
     @classmethod
     def bodies(cls, axle: Any) -> Mapping[str, str]:
-        """Return what the parts that the equations have are called there."""
+        """Return the names in the equations of their parts, by part."""
         del axle
         return cls.MASSIVE
 
@@ -88,7 +88,14 @@ class WholeAxleParts(ABC):
     def placed(
         cls, axle: Any, centers: Mapping[str, Array], turned: Mapping[str, Array]
     ) -> dict[str, Array]:
-        """Return all points where the parts are at some places, and turned so, (n, 3) [m]."""
+        """Return all points for positions and rotations of the parts, (n, 3) [m].
+
+        Parameters
+        ----------
+        axle : WholeAxle
+        centers, turned : mapping of str to ndarray
+            By part: its centre of mass, (n, 3) [m], and its rotation from design, (n, 3, 3).
+        """
 
     @staticmethod
     def contacts(
@@ -100,7 +107,7 @@ class WholeAxleParts(ABC):
         ----------
         axle : WholeAxle
         centers, turned : mapping of str to ndarray
-            Of each wheel by its side: its centre [m], and the rotation of what carries it.
+            By side: the wheel centre [m], and the rotation of the carrier from design.
         """
         radius = axle.tyre_radius()
         if radius is None:
@@ -131,7 +138,7 @@ class WholeAxleParts(ABC):
     @classmethod
     @abstractmethod
     def design_centers(cls, axle: Any) -> dict[str, Array]:
-        """Return the centres of mass of what carries the wheels at design, (3,) [m]."""
+        """Return the centres of mass of the carriers of the wheels at design, (3,) [m]."""
 
     @abstractmethod
     def carrier(self, side: str) -> str:
@@ -245,21 +252,21 @@ class WholeAxleParts(ABC):
     @property
     @abstractmethod
     def twist(self) -> Array:
-        """The twist of what couples both wheels, positive with the left one up, (n,) [rad]."""
+        """The twist of the bar or beam, positive with the left wheel up, (n,) [rad]."""
 
     @property
     @abstractmethod
     def rate_of_twist(self) -> float:
-        """Its torque by the twist [N m/rad]; zero without one."""
+        """The torque of the bar or beam by its twist [N m/rad]; zero without one."""
 
     @property
     def torque(self) -> Array:
-        """Its torque, positive as the twist, (n,) [N m]."""
+        """The torque of the bar or beam, positive as the twist, (n,) [N m]."""
         return self.rate_of_twist * self.twist
 
     @abstractmethod
     def by_torque(self) -> list[Load]:
-        """Return what a unit torque of it does to the parts: against its twist."""
+        """Return the loads of a unit torque of the bar or beam, against its twist."""
 
     def acting(self) -> list[Load]:
         """Return the forces that need no input: weights, springs, dampers, stops, the bar."""

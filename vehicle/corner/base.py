@@ -177,16 +177,16 @@ class Suspension(WheeledSection):
         Parameters
         ----------
         given : Suspension, mapping, str or Path
-            Itself, what is in its file, or the name of that.
+            The suspension, the content of its file, or the name of the file.
         folder : Path
-            From where paths are counted.
+            The folder to which paths are relative.
         key : str
             The key that gives it, for messages.
 
         Raises
         ------
         InputError
-            If it is none of these, or no suspension can be like this.
+            If it is none of these, or its data are impossible.
         """
         if isinstance(given, Suspension):
             return given

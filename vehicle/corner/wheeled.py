@@ -1,4 +1,4 @@
-"""What one file describes that has wheels: what suspensions and axles without sides share."""
+"""The base of suspensions and of axles without sides: the data of one file with wheels."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -21,10 +21,10 @@ _SMALLEST_WHEEL_RADIUS = 0.1
 
 
 class WheeledSection(DescribedSection):
-    """What a file describes that has wheels, with a section for each of its attributes."""
+    """The data of a file with wheels, with a section for each attribute."""
 
     if TYPE_CHECKING:
-        # sections that every class has, in places of its own
+        # sections that every class declares, each in its own order
         vehicle: Any
         rack: Any
         hardpoints: Hardpoints
@@ -75,7 +75,7 @@ class WheeledSection(DescribedSection):
         Parameters
         ----------
         length : float
-            Of what the stops limit, at the design position [m].
+            The length that the stops limit, at the design position [m].
         curve : Damper or None
             That of the damper, where it has one.
         """

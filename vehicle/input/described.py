@@ -59,14 +59,14 @@ def check_keys(source: str, name: str, given: Any, words: str) -> None:
 def parts_of(
     described: Any, makers: Mapping[str, Callable[[Any, Path, str], Any]], folder: Path, source: str
 ) -> dict[str, Any]:
-    """Return what some keys of a file give, by key; those that are missing are left out.
+    """Return the parts that some keys of a file name, by key; missing ones are left out.
 
     Parameters
     ----------
     described : Section
         The file.
     makers : mapping of str to callable
-        By key: takes its value, the folder of the file and the key, returns what that is.
+        By key: the function that returns the part, from value, folder of the file and key.
     folder : Path
     source : str
         The file, for messages.
@@ -131,7 +131,7 @@ class Described:
         """
         with Validator(cls.__name__) as given:
             given.path("path_or_name", path_or_name)
-        # the content of another sort of file says what it is; names to suggest are of this sort
+        # another kind of file is recognised by its content; names to suggest are of this kind
         others = all_packaged()
         file = find(path_or_name, others if path_or_name in others else cls.packaged())
         folder = file.parent if isinstance(file, Path) else Path()

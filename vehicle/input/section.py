@@ -95,7 +95,7 @@ class Section(BaseModel):
         return unit_of(key)
 
     def problems(self) -> list[str]:
-        """Say what cannot be, although each value alone is in its range.
+        """Return the problems of the values together; each value alone is in its range.
 
         Returns
         -------

@@ -101,14 +101,14 @@ def carried(
 def carried_velocity(
     model: Model, body: str, place: Array, states: Array, inputs: Array | None = None
 ) -> Array:
-    """Return the velocity of what of a body is at a place, (..., 3) [m/s].
+    """Return the velocity of the point of a body that is at a place, (..., 3) [m/s].
 
     Parameters
     ----------
     model : Model
     body : str
     place : ndarray, shape (..., 3)
-        Where it is [m].
+        Position of the point [m].
     states, inputs : ndarray
         As in the compiled module; velocities are linear in their rates, so that those at a unit
         rate are derivatives.

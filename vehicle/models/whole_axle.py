@@ -166,14 +166,14 @@ class WholeAxle(WheeledSection):
         """Whether it moves only as its bushes deflect."""
         return False
 
-    # -- what a car takes of it, as of every axle -------------------------------------------------
+    # -- what a car needs of every axle -----------------------------------------------------------
 
     whole: ClassVar[bool] = True
     """Whether it has no sides."""
     steering: ClassVar[None] = None
-    """No steering wheel moves a rack of it."""
-    pulled: ClassVar[str] = ""
-    """No drop links pull at it."""
+    """It has no rack."""
+    link_part: ClassVar[str] = ""
+    """No part has drop links."""
 
     @property
     def wheel_centers(self) -> dict[str, Array]:
@@ -186,7 +186,7 @@ class WholeAxle(WheeledSection):
         return self.KEY
 
     def parameters_of_masses(self) -> list[Mapping[str, float]]:
-        """Return the parameters of masses and their centres of each side, by equal names."""
+        """Return the parameters of each side, with the same names for both, as of the right one."""
         values = self.parameters()
         right = {name: value for name, value in values.items() if not name.startswith("left_")}
         return [right, of_side(values, LEFT)]
@@ -198,7 +198,7 @@ class WholeAxle(WheeledSection):
 
         values, mechanism = self.parameters(), model_named(self.KEY).mechanism
         known: dict[str, float] = {p.name: p.default for p in mechanism.parameters} | values
-        # what is the image of something of one side has a name and a value of its own in a car
+        # in a car the mirror images of values of one side have names and values of their own
         images = {
             name: float(value.xreplace({one: known[one.name] for one in value.free_symbols}))
             for name, value in mechanism.derived.items()
@@ -288,14 +288,14 @@ class WholeAxle(WheeledSection):
         return _length(self.points(side), part)
 
     def _of_bodies(self, carrier: str) -> dict[str, float]:
-        """Return the parameters of what carries the wheels, and of all that there is of each side.
+        """Return the parameters of the carrier of the wheels, and of the parts of each side.
 
-        That are wheels, springs, dampers, stops and tyres.
+        These parts are wheels, springs, dampers, stops and tyres.
 
         Parameters
         ----------
         carrier : str
-            The body that carries the wheels, or the right one.
+            The body that carries both wheels, or the right wheel.
         """
         values, wheel = {}, dict[str, float]()
         for name, value in self.bodies.parameters(self.hardpoints).items():
@@ -350,18 +350,18 @@ class WholeAxle(WheeledSection):
         reach: float,
         mass: float,
     ) -> Iterator[str]:
-        """Yield what is almost surely a mistake on any such axle.
+        """Yield the almost certain mistakes that any axle without sides can have.
 
         Parameters
         ----------
         points : mapping of str to ndarray
-            By what is in the file, besides the hardpoints [m].
+            Points besides the hardpoints [m], by their names in messages.
         bodies : mapping
-            Besides the wheel.
+            Bodies besides the wheel.
         reach : float
-            By how much farther the bodies reach than the points are from the middle [m].
+            Extent of the bodies beyond the points, as seen from the middle [m].
         mass : float
-            Of what a wheel carries besides itself [kg].
+            Unsprung mass at a wheel, without the wheel [kg].
         """
         own = self.hardpoints
         given = {own.text(n): own.metres(n) for n in own.given() if n != "wheel_center"}
@@ -430,12 +430,12 @@ def of_side(values: Mapping[str, float], side: str) -> Mapping[str, float]:
 
 
 def lines_of_sides(carriers: Mapping[str, str]) -> list[LineForce]:
-    """Return the springs and the dampers, between the chassis and what carries each wheel.
+    """Return the springs and the dampers, between the chassis and the carrier of each wheel.
 
     Parameters
     ----------
     carriers : mapping of str to str
-        By side.
+        The body that carries the wheel, by side.
     """
     return [
         LineForce(

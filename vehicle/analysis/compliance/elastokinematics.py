@@ -104,7 +104,7 @@ def elastokinematics(
         half-track and wheelbase change [m], ``steer`` where the rack moves [rad]; ``wheel_load``,
         the vertical force of the road [N], and ``contact_rate``, its derivative with respect to the
         height of the contact with the other wheel held [N/m]. The ``wheel_rate`` of the
-        characteristics is another one: of spring and stops, by the wheel centre. Of two wheels
+        characteristics is that of spring and stops, by the height of the centre. Of two wheels
         ``roll_stiffness_at_contacts`` [N m/rad], y' K y with the levers y of the contacts and the
         rates K at them, and ``bar_torque`` [N m]. Of a rigid axle ``axle_steer`` [rad],
         ``axle_lateral`` and ``axle_longitudinal`` [m] of the line through the wheel centres; on

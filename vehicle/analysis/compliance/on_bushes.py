@@ -45,7 +45,7 @@ CURVES: Mapping[Quantity, Callable[[RoadWheel], Array]] = {
         "wheelbase_change": wheel.wheelbase_change,
     }.items()
 }
-"""Where a wheel is that bushes hold."""
+"""The position of a wheel on bushes, by quantity."""
 
 RIGID = CompliantJoints({}, 0.0, {})
 

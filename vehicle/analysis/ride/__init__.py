@@ -3,8 +3,8 @@
 `at_rest`    ride heights, corner weights and alignment where a car rests
 `modes`      heave, pitch, roll, and hop and tramp of its axles, by the exact linearisation
 `response`   frequency responses to the road under each wheel, and spectra on a rough road
-`by_speed`   the numbers by which a ride is judged, over the speed
-`over`       a simulation over a road, and what it is judged by
+`by_speed`   the metrics of a ride, over the speed
+`over`       a simulation over a road, and its metrics
 `run`        the same with the states of the equations, for pictures of the motion
 """
 

@@ -1,4 +1,4 @@
-"""The ride of a car over its speed, as numbers: by the linear equations, without a simulation."""
+"""The metrics of the ride of a car over its speed, by the linear equations."""
 
 from typing import Any
 
@@ -92,13 +92,13 @@ def _of_mode(name: str) -> tuple[Quantity, Quantity]:
 
 
 OF_CAR = {q.name: q for q in (*_OF_BODY, *(q for name in _MODES for q in _of_mode(name)))}
-"""The numbers of a car, by name; those of each wheel are `OF_WHEELS`."""
+"""The metrics of a car, by name; those of each wheel are `OF_WHEELS`."""
 
 
 def by_speed(
     subject: Any, speeds: ArrayLike, roughness: str | float = "B", *, seat: str | None = None
 ) -> xr.Dataset:
-    """Return the numbers by which the ride of a car is judged, over its speed.
+    """Return the metrics of the ride of a car, over its speed.
 
     Parameters
     ----------
@@ -108,7 +108,7 @@ def by_speed(
     roughness : str or float, optional
         As of `response`.
     seat : str, optional
-        Where accelerations are: that of a `[seats.NAME]`; by default the body's centre of mass.
+        The `[seats.NAME]` of the accelerations; by default the body's centre of mass.
 
     Returns
     -------
@@ -165,7 +165,7 @@ def _chosen(found: dict[str, Responses], seat: str | None) -> dict[str, Response
 
 
 def _of_spectra(spectra: dict[str, Array], at_rest: Array) -> dict[str, Array]:
-    """Return numbers by name, (speeds,) each, of wheels (wheels, speeds)."""
+    """Return metrics by name, (speeds,) each, of wheels (wheels, speeds)."""
     loads, travels = (root_mean_square(spectra[n], FREQUENCIES).T for n in ("load", "travel"))
     return {
         "acceleration_rms": root_mean_square(spectra["acceleration"], FREQUENCIES),

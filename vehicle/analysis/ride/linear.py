@@ -32,7 +32,7 @@ from .weighting import weighting
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Responses = dict[str, Complex]
-"""Of an output, by the wheel under which the road is: (f,), or (wheels, f)."""
+"""Responses of an output to the road under each wheel, by that wheel: (f,), or (wheels, f)."""
 
 FREQUENCIES = np.arange(0.2, 50.0 + 1e-9, 0.02)
 """The usual frequencies of spectra [Hz]."""
@@ -93,7 +93,7 @@ _OF_MODES = {
 
 
 def named_modes(assembly: CarAssembly, linear: Linearisation) -> dict[str, tuple[Mode, float]]:
-    """Return the modes of linear equations at rest by name, with the energy of that motion."""
+    """Return the modes at rest by the name of a motion, with the part of the energy in it."""
     motions = assembly.mode_motions(linear.state)
     names = linear.state_names
     rows = np.array([[row.get(name, 0.0) for name in names] for _, row in motions.values()])
@@ -248,12 +248,12 @@ def density(
 
 
 def root_mean_square(density: Array, frequencies: Array) -> Array:
-    """Return that of a density, over the last dimension."""
+    """Return the root mean square of a spectral density over the last dimension."""
     return np.asarray(np.sqrt(np.trapezoid(density, frequencies, axis=-1)))
 
 
 def weighted_root_mean_square(density: Array, frequencies: Array) -> Array:
-    """Return that of a vertical acceleration as it is felt (W_k of ISO 2631-1)."""
+    """Return the root mean square of a vertical acceleration, weighted by W_k of ISO 2631-1."""
     return root_mean_square(density * np.abs(weighting(frequencies)) ** 2, frequencies)
 
 

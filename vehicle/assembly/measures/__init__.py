@@ -1,14 +1,14 @@
 """What assemblies are measured by: their characteristics, each with its formula.
 
-    `measure`      what a measure is, and the values of some
+    `measure`      the class of a measure, and its evaluation
     `quantities`   name, unit, definition and sign of each quantity
     `corner`, `axle`, `rigid_axle`, `twist_beam`  the measures of each assembly
-    `whole_axle`   what springs do on any axle without sides
+    `whole_axle`   springs and dampers of any axle without sides
     `rolling`      track, roll moment and roll stiffness of two wheels: the formulas
     `axle_rolling` roll centre, jacking and the anti-roll bar of two corners
     `rigid_axle_rolling` roll centre and jacking of a rigid axle
     `pitching`     anti-dive, anti-lift and anti-squat
-    `ackermann`    what compares two wheels that are steered
+    `ackermann`    comparisons of two steered wheels
 
 The formulas of a wheel are in `kintrafo.vehicle.assembly.wheel`.
 """

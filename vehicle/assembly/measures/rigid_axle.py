@@ -41,7 +41,7 @@ GUIDANCE = (
     of_wheel("toe", signal("axle_toe")),
     of_wheel("steer", signal("axle_steer")),
 )  # fmt: skip
-"""Where the axle goes."""
+"""Steer angle, displacement and inclination of the axle."""
 
 ON_THE_ROAD = (
     of_axle(
@@ -68,7 +68,7 @@ ON_THE_ROAD = (
         f"-d (L / h) v_x / v_z under drive: drive share d; {_IN_AXLE}",
     ),
 )  # fmt: skip
-"""What forces of the road do by the axle's paths."""
+"""Effects of forces of the road, by the paths of the axle."""
 
 OF_BAR = (
     of_axle(
@@ -79,7 +79,7 @@ OF_BAR = (
         "roll_stiffness_with_tyres", rolling.with_tyres, (*GROUND, "tyre_rate"), rolling.has_tyres
     ),
 )  # fmt: skip
-"""What the anti-roll bar does, and the tyres."""
+"""Roll stiffness of the anti-roll bar, and of the axle with its tyres."""
 
 MEASURES = (*GUIDANCE, *ON_THE_ROAD, *SPRINGS, *OF_BAR)
 """All of them."""

@@ -57,7 +57,15 @@ def jacking(of: WholeAxleKinematics, side: str) -> Array:
 
 
 def in_roll(of: WholeAxleKinematics, side: str, rate: Callable[..., Array]) -> Array:
-    """Return what changes by the carrier's motion, by the roll of the body to the wheels' line."""
+    """Return the derivative of a quantity by the roll of the body to the line through the wheels.
+
+    Parameters
+    ----------
+    of : WholeAxleKinematics
+    side : str
+    rate : callable
+        Rate of the quantity by the motion of the carrier of the wheel.
+    """
     # the left wheel up is the right side of the body down, reversed
     found: Array = -rate(of.corners[side], of.motion(side, "roll")) / of.inclination_rate
     return found

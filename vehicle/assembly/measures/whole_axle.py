@@ -1,4 +1,4 @@
-"""What springs, dampers, stops and the anti-roll bar do on any axle without sides."""
+"""The measures of springs, dampers and stops of any axle without sides."""
 
 from collections.abc import Callable
 from functools import partial
@@ -12,7 +12,7 @@ from .measure import of_axle, of_wheel
 
 
 def is_at(end: str, *, driven: bool = False) -> Callable[[WholeAxleKinematics], bool]:
-    """Return whether an axle is at an end of the vehicle, and driven where that is asked for."""
+    """Return the condition of an axle at an end of the vehicle, and of a driven one if `driven`."""
     return lambda of: of.end == end and (of.axle.drive is not None or not driven)
 
 
@@ -23,12 +23,12 @@ def dot(one: Array, other: Array) -> Array:
 
 
 def signal(name: str) -> Callable[[WholeAxleKinematics, str], Array]:
-    """Return what a signal of the equations is of a wheel."""
+    """Return the function for a signal of a wheel in the equations."""
     return lambda of, side: of.signal(f"{side}_{name}")
 
 
 def _ratio(part: str, how: str, of: WholeAxleKinematics, side: str) -> Array:
-    """Return how a spring or a damper is compressed per travel of its wheel in a motion."""
+    """Return the compression of a spring or a damper per travel of its wheel in a motion [1]."""
     sense = SENSE[side] if how == "roll" else 1.0
     return sense * of.compression_in(f"{side}_{part}", how)
 
@@ -74,4 +74,4 @@ SPRINGS = (
     of_axle("roll_moment_gradient", rolling.moment_gradient, GROUND),
     of_axle("roll_stiffness", rolling.stiffness, GROUND),
 )  # fmt: skip
-"""By wheel and by axle, but for what couples both wheels."""
+"""All of them, by wheel and by axle."""

@@ -252,7 +252,7 @@ class Axle(Described):
         """Return whether its wheels can be steered: whether there is a rack."""
         return self.right.steered()
 
-    # -- what a car takes of it, as of every axle -------------------------------------------------
+    # -- what a car needs of every axle -----------------------------------------------------------
 
     whole: ClassVar[bool] = False
     """Whether it has no sides."""
@@ -261,12 +261,12 @@ class Axle(Described):
 
     @property
     def vehicle(self) -> VehicleSection:
-        """What its files say of the whole vehicle, the same of both sides."""
+        """The data of the whole vehicle, the same in the files of both sides."""
         return self.right.vehicle
 
     @property
     def gravity(self) -> GravitySection:
-        """Gravity, the same of both sides."""
+        """Gravity, the same in the files of both sides."""
         return self.right.gravity
 
     @property
@@ -276,12 +276,12 @@ class Axle(Described):
 
     @property
     def equations_name(self) -> str:
-        """The name of the equations of one side that have everything that both have.
+        """The name of the equations of a side, which are the same for both sides.
 
         Raises
         ------
         InputError
-            If there are none.
+            If the sides have different equations.
         """
         names = {str(model.equations.NAME): side for side, model in self.models.items()}
         if len(names) != 1:
@@ -293,8 +293,8 @@ class Axle(Described):
         return next(iter(names))
 
     @property
-    def pulled(self) -> str:
-        """The part that drop links of an anti-roll bar pull at; empty without a bar."""
+    def link_part(self) -> str:
+        """The part to which the drop links of the anti-roll bar are joined; empty without a bar."""
         return self.bar.link_on if self.bar else ""
 
     def allowed_lengths(self) -> tuple[LengthLimit, ...]:
@@ -306,7 +306,7 @@ class Axle(Described):
         )
 
     def parameters_of_masses(self) -> list[Mapping[str, float]]:
-        """Return the parameters of masses and their centres of each side, by equal names."""
+        """Return the parameters of each side, with the same names for both, as of the right one."""
         return [side.parameters() for side in self.sides.values()]
 
     def parameters_by_side(self) -> dict[str, dict[str, float]]:

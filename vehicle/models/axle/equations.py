@@ -82,7 +82,7 @@ def declared(axle: Axle, *, wheel_loads: bool = False) -> "Formulation":
     corner = model_named(axle.equations_name)
     if wheel_loads:
         corner = with_wheel_loads(corner)
-    pulls = axle.pulled
+    pulls = axle.link_part
     parts = (corner.name, axle.end, "axle", pulls, "" if axle.symmetric else "two_sides")
     mechanism = page.mechanism(
         "_".join(part for part in parts if part),

@@ -279,7 +279,7 @@ class Car(Described):
 
     @property
     def parts_named(self) -> list[str]:
-        """The names that its file gives to its corner or its axles, as far as they are names."""
+        """The file names of its corner or axles, without those that are given as tables."""
         given = [getattr(self.described, key) for key in _PARTS]
         return [name for name in given if isinstance(name, str)]
 

@@ -87,7 +87,7 @@ def name_of(car: Car) -> str:
     if car.corner is not None:
         return f"quarter_{Model(car.corner).equations.NAME}"
     tyres = dict.fromkeys(tyre.law for tyre in car.tyres.values())
-    axles = [part for a in car.axles.values() for part in (a.equations_name, a.pulled) if part]
+    axles = [part for a in car.axles.values() for part in (a.equations_name, a.link_part) if part]
     return "_".join([car.described.car, "car", *axles, *tyres])
 
 
@@ -173,7 +173,7 @@ class _End:
                 "drive_on": drive.torque_on if (drive := axle.drive) else None,
             }
         steered = end == "front" and not axle.whole
-        return cls(axle.equations_name, axle.whole, axle.pulled, steered, **rolling)
+        return cls(axle.equations_name, axle.whole, axle.link_part, steered, **rolling)
 
     def declared(self) -> "Formulation":
         """Return the declaration of the axle."""
