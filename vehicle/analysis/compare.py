@@ -205,7 +205,8 @@ class Difference:
         Characteristic, as in a flat table, and the name of the suspension that is compared with the
         first one.
     first, other : float
-        Both values at the design position, or another; NaN where they are not defined.
+        Both values at the position of the comparison, by default that of design; NaN where they are
+        not defined.
     largest : float
         The difference, other minus first, where it is largest; NaN where there is none.
     where : float

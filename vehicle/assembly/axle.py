@@ -33,7 +33,7 @@ from .load import RACK as THE_RACK
 from .load import Load
 from .measures.axle import OVER_RACK, OVER_STEERING, OVER_TRAVEL
 from .measures.measure import Measure
-from .part_poses import CornerParts, PartPoses, columns_of
+from .part_poses import CornerParts, PartPoses, states_with
 from .quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
 from .rest import settled
 from .rig import RigMotion, RigPosition, SweepRange, WheelReach
@@ -397,14 +397,10 @@ class AxleAssembly(HeldAssembly):
 
     def parts_with(self, values: Mapping[str, Array], count: int) -> dict[str, PartPoses]:
         """Return the parts of both sides, by the names of states and inputs of the axle."""
-        found: dict[str, PartPoses] = {}
-        for side, corner in self.axle.models.items():
-            states, inputs = (
-                columns_of(values, names, count, f"{side}_")
-                for names in (corner.state_names, corner.input_names)
-            )
-            found[f"_{side}"] = CornerParts.of(corner, states, inputs)
-        return found
+        return {
+            f"_{side}": CornerParts.of(corner, *states_with(corner, values, count, f"{side}_"))
+            for side, corner in self.axle.models.items()
+        }
 
     def described_bushings(
         self, given: Validator, bushings: Mapping[str, Any] | None

@@ -39,7 +39,7 @@ class Controls:
 
     @cached_property
     def _sense(self) -> float:
-        """The sense of the rack: it needs the positions of the axle, and is asked for often."""
+        """The sense of the rack, cached since it needs the kinematics of the axle."""
         return sense_of_rack(self._front)
 
     @property

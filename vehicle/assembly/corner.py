@@ -23,7 +23,7 @@ from .load import Load
 from .measures.corner import OF_STEERING, OVER_RACK, OVER_TRAVEL
 from .measures.measure import Measure
 from .mirrored_corner import MirroredCorner
-from .part_poses import CornerParts, PartPoses, columns_of
+from .part_poses import CornerParts, PartPoses, states_with
 from .quantity import RACK, TRAVEL, Quantity
 from .rest import forces_of, nearest
 from .rig import RigMotion, RigPosition, SweepRange, WheelReach
@@ -258,9 +258,7 @@ class CornerAssembly(HeldAssembly):
 
     def parts_with(self, values: Mapping[str, Array], count: int) -> dict[str, PartPoses]:
         """Return its parts, by the names of its states and inputs."""
-        names = self.model.state_names, self.model.input_names
-        states, inputs = (columns_of(values, each, count) for each in names)
-        return {"": CornerParts.of(self.model, states, inputs)}
+        return {"": CornerParts.of(self.model, *states_with(self.model, values, count))}
 
     def bushes(self, given: Validator, bushings: Mapping[str, Any] | None) -> Bushings:
         """Return bushes as a caller describes them, or those of the file."""

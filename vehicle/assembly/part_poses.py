@@ -262,24 +262,25 @@ class CornerParts:
         return {"wheel": dict(zip(self.model.input_names, self.inputs.T, strict=True))}
 
 
-def columns_of(
-    values: Mapping[str, Array], names: Sequence[str], count: int, prefix: str = ""
-) -> Array:
-    """Return values by name as an array, (count, names); missing ones are zero.
+def states_with(
+    model: System, values: Mapping[str, Array], count: int, prefix: str = ""
+) -> tuple[Array, Array]:
+    """Return states and inputs of equations, (count, names) each; missing ones are zero.
 
     Parameters
     ----------
+    model : System
     values : mapping of str to ndarray
-        Each (count,).
-    names : sequence of str
+        By name, (count,) each.
     count : int
     prefix : str, optional
         Prefix of the names in the mapping; a shared value has none.
     """
-    found = np.zeros((count, len(names)))
-    for column, name in zip(found.T, names, strict=True):
-        column[:] = values.get(f"{prefix}{name}", values.get(name, 0.0))
-    return found
+    states, inputs = (np.zeros((count, len(own))) for own in (model.state_names, model.input_names))
+    for array, names in ((states, model.state_names), (inputs, model.input_names)):
+        for column, name in zip(array.T, names, strict=True):
+            column[:] = values.get(f"{prefix}{name}", values.get(name, 0.0))
+    return states, inputs
 
 
 def forces_along(

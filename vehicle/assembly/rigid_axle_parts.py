@@ -125,7 +125,7 @@ class RigidAxleParts(WholeAxleParts):
         along: Array = way / np.linalg.norm(way, axis=-1, keepdims=True)
         return along
 
-    # -- what acts ------------------------------------------------------------------------------
+    # -- its loads ------------------------------------------------------------------------------
 
     @property
     def twist(self) -> Array:

@@ -102,7 +102,7 @@ class TwistBeamParts(WholeAxleParts):
     @property
     def rate_of_twist(self) -> float:
         """The torque of the beam by its twist [N m/rad]."""
-        return float(np.degrees(self.axle.beam.rate_Nm_per_deg))
+        return self.axle.beam.rate
 
     def by_torque(self) -> list[Load]:
         """Return the loads of a unit torque of the beam on both arms, against its twist."""
@@ -170,7 +170,7 @@ class TwistBeamAssembly(WholeAxleAssembly):
     @property
     def bar(self) -> TwistBar | None:
         """The beam, where it has a rate."""
-        rate = float(np.degrees(self.axle.beam.rate_Nm_per_deg))
+        rate = self.axle.beam.rate
         if not rate:
             return None
         return TwistBar(f"arm_{RIGHT}", f"arm_{LEFT}", ACROSS, rate, attrgetter("twist"))

@@ -24,7 +24,7 @@ from .held import RestConditions
 from .load import Load
 from .measures.measure import Measure
 from .motions import MOST_ROLL, MOTIONS, USUAL_ROLL, USUAL_ROLL_STEP
-from .part_poses import PartPoses, columns_of
+from .part_poses import PartPoses, states_with
 from .rest import settled
 from .rig import RigPosition, SweepRange
 from .soft_lines import SoftLines, lines_of_beam
@@ -308,9 +308,7 @@ class WholeAxleAssembly(HeldAssembly):
 
     def parts_with(self, values: Mapping[str, Array], count: int) -> dict[str, PartPoses]:
         """Return its parts, by the names of its states and inputs."""
-        names = self.model.state_names, self.model.input_names
-        states, inputs = (columns_of(values, each, count) for each in names)
-        return {"": self.PARTS.of(self.model, states, inputs)}
+        return {"": self.PARTS.of(self.model, *states_with(self.model, values, count))}
 
     def bushes(self, given: Validator, bushings: Mapping[str, Any] | None) -> Bushings:
         """Return bushes as a caller describes them, or those of the file."""

@@ -247,7 +247,7 @@ class WholeAxleParts(ABC):
                 fine &= way @ (design[f"{name}_top"] - design[f"{name}_seat"]) > 0.0
         return fine
 
-    # -- what acts ------------------------------------------------------------------------------
+    # -- its loads ------------------------------------------------------------------------------
 
     @property
     @abstractmethod

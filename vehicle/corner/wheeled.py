@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from ..input.vehicle import GravitySection, TyreSection, WheelSection
     from .bushes import Bushings
 
-# A wheel centre lower than this above z = 0 says that z = 0 is not the ground [m].
+# If the wheel centre is lower than this above z = 0, then z = 0 is not the ground [m].
 _SMALLEST_WHEEL_RADIUS = 0.1
 
 

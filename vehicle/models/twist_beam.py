@@ -78,6 +78,11 @@ class BeamSection(Section):
         description="torque of the beam by its twist, warping and a bar inside of it included"
     )
 
+    @property
+    def rate(self) -> float:
+        """The torque of the beam by its twist [N m/rad]."""
+        return float(np.degrees(self.rate_Nm_per_deg))
+
 
 class TwistBeamArmBody(RigidBody):
     """The right arm with hub, brake and half of the beam; the left one is its mirror image."""
@@ -233,7 +238,7 @@ and `[bushings.POINT]`, whose points are `pivot`, `shear_center` and `wheel_cent
         The torque T of the beam by its twist does T times the rate of the twist, which is that of
         an arm's turn times `twist_ratio`; so the rate by the turn has the square of that.
         """
-        rate = float(np.degrees(self.beam.rate_Nm_per_deg)) * self.twist_ratio**2
+        rate = self.beam.rate * self.twist_ratio**2
         values = {
             **components(SHEAR_CENTER, self.shear_center),
             **components(PIVOT, self.pivot),

@@ -11,6 +11,8 @@ from ..loads.along import over_time
 from ..loads.on_a_car import of_car
 from .result import HandlingResult
 
+_NEEDED = "a result of kintrafo.handling.drive is needed"
+
 
 def dynamic_loads(result: HandlingResult) -> xr.Dataset:
     """Return the loads on every part of a car at each output of a manoeuvre.
@@ -33,7 +35,7 @@ def dynamic_loads(result: HandlingResult) -> xr.Dataset:
         If the motion comes to a dead point, where loads have no bound.
     """
     with Validator("dynamic_loads") as given:
-        given.instance("result", result, HandlingResult, "what kintrafo.handling.drive returns")
+        given.instance("result", result, HandlingResult, _NEEDED)
     if not result.runs:
         problem = "steady turns and parking have no simulation, and so no loads over time."
         raise InputError([problem], "dynamic_loads")

@@ -286,8 +286,8 @@ class Axle(Described):
         names = {str(model.equations.NAME): side for side, model in self.models.items()}
         if len(names) != 1:
             problem = (
-                f"the sides have different equations, {' and '.join(names)}: what one has and the "
-                "other has not, such as a stop or a curve, must be in both files. Add it there."
+                f"the sides have different equations, {' and '.join(names)}. Stops, curves and "
+                "other optional sections must be in both files. Add those that one file lacks."
             )
             raise InputError([problem], "AxleModel")
         return next(iter(names))
