@@ -334,7 +334,7 @@ class Assembly(ABC):
         return states, inputs
 
     def require_rigid_motion(self) -> None:  # noqa: B027 (most have nothing to refuse)
-        """Refuse an assembly that rigid joints do not let move.
+        """Refuse an assembly that cannot move with rigid joints.
 
         Raises
         ------
@@ -394,7 +394,7 @@ class Assembly(ABC):
 
     @property
     def corners(self) -> Mapping[str, Model]:
-        """The wheels that move by themselves; of two that are mirror images one."""
+        """The models of independent wheels; one for two mirror images."""
         return {}
 
     def plausibility(self) -> Plausibility:
@@ -434,13 +434,7 @@ class HeldAssembly(Assembly):
         """Return the moving hardpoints of a group of parts, by their names in `poses`."""
 
     def coordinates_at(self, position: RigPosition) -> Array:
-        """Return the coordinates with rigid joints at positions of a rig, (n, coordinates).
-
-        Raises
-        ------
-        PositionError
-            If a position is out of reach; the message states the range.
-        """
+        """Return the coordinates with rigid joints at positions of a rig, (n, coordinates)."""
         found = [
             poses.states[..., poses.model.state_names.index(state)]
             for suffix, poses in self.poses(position).items()

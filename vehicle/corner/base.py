@@ -172,7 +172,7 @@ class Suspension(WheeledSection):
 
     @classmethod
     def given(cls, given: Any, folder: Path, key: str) -> "Suspension":
-        """Return the suspension that a file of an axle or of a car gives, or its caller.
+        """Return the suspension that the file of an axle or of a car names, or that a caller gives.
 
         Parameters
         ----------

@@ -66,7 +66,7 @@ class WheeledSection(DescribedSection):
         return {"tyre_radius": needed_radius(self.tyre_radius())}
 
     def rate_key(self, part: str) -> str:
-        """Return where the rate of a part, "spring" or "damper", is, or the spring's curve."""
+        """Return the key of the rate of a part, "spring" or "damper", or of the spring's curve."""
         return rate_key(part, getattr(self, "spring", None))
 
     def parameters_of_extras(self, length: float, curve: Damper | None) -> dict[str, float]:

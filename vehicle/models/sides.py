@@ -5,4 +5,4 @@ SIDES = (LEFT, RIGHT)
 """In the order of every dimension ``wheel``."""
 
 SENSE = {LEFT: 1.0, RIGHT: -1.0}
-"""Where a wheel is across the vehicle, in half tracks to the left."""
+"""Lateral position of a wheel, in half tracks to the left; its sign in roll and twist."""

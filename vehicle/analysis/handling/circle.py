@@ -156,7 +156,7 @@ class Turns:
         return near, found
 
     def _faster(self, near: Array, found: Steady, acceleration: float) -> Array:
-        """Return the turn of the same steering wheel angle with about a lateral acceleration."""
+        """Return the turn of the same steering wheel angle at about a lateral acceleration."""
         own = abs(found.unknowns["forward"] * found.unknowns["yaw_rate"])
         if own == 0.0:
             raise NoSteadyMotionError("the car goes straight on")

@@ -17,7 +17,7 @@ from ..result import quantity
 from ..steady import NoSteadyMotionError, Steady, SteadyCondition
 from .manoeuvre import Manoeuvre, Number, Progress
 
-# A driver that holds a speed makes up for a half of what is missing in about this time [s].
+# Time in which a driver that holds a speed halves a deviation, about [s].
 _PATIENCE = 1.0
 _KM_PER_H = 3.6
 

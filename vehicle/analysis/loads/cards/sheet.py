@@ -15,7 +15,7 @@ from .part import LoadedPart
 Array = NDArray[np.float64]
 
 LENGTHS = {"mm": 1e3, "m": 1.0}
-"""Units of length: how many of them a metre has."""
+"""Units of length: the number of them in a metre."""
 
 # Higher than those of usual meshes, and below the most that Nastran has.
 FIRST_NODE = 99_000_001
