@@ -6,9 +6,10 @@ import argparse
 import platform
 import resource
 import time
+from functools import partial
+from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, NamedTuple
 
 import kintrafo
 import numpy as np
@@ -20,10 +21,8 @@ from kintrafo.vehicle.assembly.controls import Controls
 from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.models.car.equations import CarModel, declared
 
+from .motions import REPEATED, Motion, by_methods, in_lanes, processor_seconds
 from .report import fill_page
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
 
 PAGE = Path(__file__).parent.parent / "docs/suspension/handling.md"
 CAR = "driving_car"
@@ -38,25 +37,17 @@ METHODS = (
     ("BDF, 1e-6", {"method": "BDF"}),
 )
 LANE_CHANGE = "double_lane_change"
-TOGETHER = 64
-"""Cars of an ensemble, whose front right dampers differ."""
-REPEATED = 3
+LATERAL = "body_acceleration_y"
 CALLS = 5000
-
-
-class Course(NamedTuple):
-    """What a car begins with, and how its rack moves."""
-
-    start: np.ndarray
-    times: np.ndarray
-    inputs: dict[str, object]
 
 
 def main() -> None:
     """Measure everything, and fill the page."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--page", action="store_true", help="fill the page")
-    parser.add_argument("--driven", action="store_true", help="do not derive the equations anew")
+    parser.add_argument(
+        "--driven", action="store_true", help="skip the derivation of the equations"
+    )
     chosen = parser.parse_args()
     blocks = {} if chosen.driven else {"made": "\n".join(_made())}
     blocks["drive"] = "\n".join([*_driven(), "", _where()])
@@ -91,7 +82,7 @@ def _of_children() -> float:
     return used.ru_utime + used.ru_stime
 
 
-def _swung(model: CarModel) -> Course:
+def _swung(model: CarModel) -> Motion:
     """Return a sine with the steering wheel."""
     times = np.linspace(0.0, DURATION, round(DURATION / 1e-3) + 1)
     phase = 2.0 * np.pi / PERIOD * np.clip(times - 0.5, 0.0, PERIOD)
@@ -99,11 +90,11 @@ def _swung(model: CarModel) -> Course:
     angles = ANGLE * np.sin(phase) * np.sin(0.5 * phase) ** 2
     rack = Controls(model.car).rack(angles)["rack_position"]
     inputs = {"rack_position": kintrafo.Samples(times, rack, "spline")}
-    return Course(assembly_of(model).running(SPEED), times[::5], inputs)
+    return Motion(assembly_of(model).running(SPEED), times[::5], inputs)
 
 
-def _lane_changed(model: CarModel) -> Course:
-    """Return what a driver did with the rack through the lanes, at the speed that is held."""
+def _lane_changed(model: CarModel) -> Motion:
+    """Return a double lane change with the rack as a driver moved it, at constant speed."""
     run = kintrafo.handling.drive(model, LANE_CHANGE).runs[0]
     times = run.motion["time"].to_numpy()
     moved = [n for n in model.input_names if n == "rack_position" or n.endswith("_drive_torque")]
@@ -111,7 +102,7 @@ def _lane_changed(model: CarModel) -> Course:
         name: kintrafo.Samples(times, run.inputs[:, model.input_names.index(name)], "spline")
         for name in moved
     }
-    return Course(run.states[0], times, inputs)
+    return Motion(run.states[0], times, inputs)
 
 
 def _driven() -> list[str]:
@@ -122,12 +113,13 @@ def _driven() -> list[str]:
     held = np.repeat(swing.start.inputs[None], CALLS, axis=0)
     error = "error of the lateral acceleration, of its largest value"
     rows = [f"| motion | method | times real time | {error} |", "|---|---|---:|---:|"]
-    for name, course, methods in (
+    for name, motion, methods in (
         ("sine", swing, METHODS),
         ("double lane change", _lane_changed(model), METHODS[-3:-1]),
     ):
-        for row in _timed(model, course, methods):
-            rows.append(f"| {name} | {row}")
+        measured = by_methods(model, motion, methods, _lateral, lambda exact: np.abs(exact).max())
+        for cells in chain(measured, [in_lanes(model, motion, {LATERAL: "max"})]):
+            rows.append(f"| {name} | {cells} |")
             print(rows[-1], flush=True)
     calls = (
         f"A call takes {_per_call(model, 'rhs', states, held):.2g} us, one of the Jacobian "
@@ -136,50 +128,14 @@ def _driven() -> list[str]:
     return [*rows, "", calls]
 
 
-def _timed(
-    model: CarModel, course: Course, methods: Sequence[tuple[str, dict[str, object]]]
-) -> Iterator[str]:
-    """Yield a row of each method, and one of many cars in lanes."""
-    span, duration = (0.0, float(course.times[-1])), course.times[-1]
-
-    def run(**options: object) -> tuple[float, np.ndarray]:
-        begun = time.process_time()
-        found = kintrafo.simulate(
-            model, span, course.start, inputs=course.inputs, t_eval=course.times, **options
-        )
-        seconds = time.process_time() - begun
-        return seconds, found.signals["body_acceleration_y"]
-
-    _, exact = run(method="Verner", rtol=1e-11, atol=1e-13)
-    for words, options in methods:
-        runs = [run(**options) for _ in range(REPEATED)]
-        seconds, found = min(runs, key=lambda each: each[0])
-        error = np.abs(found - exact).max() / np.abs(exact).max()
-        yield f"{words} | {duration / seconds:,.0f} | {error:.1e} |"
-    damper = next(p for p in model.parameters if p.endswith("damper_rate"))
-    cars = {damper: model.parameters[damper] * np.linspace(0.7, 1.4, TOGETHER)}
-
-    def together() -> float:
-        begun = time.process_time()
-        kintrafo.ensemble(
-            model, cars, span, course.start, inputs=course.inputs, threads=1,
-            reductions={"body_acceleration_y": "max"}, rtol=1e-4, atol=1e-6,
-        )  # fmt: skip
-        return time.process_time() - begun
-
-    seconds = min(together() for _ in range(REPEATED))
-    lanes = f"Dormand-Prince, 1e-4, {TOGETHER} cars in lanes, all together"
-    yield f"{lanes} | {TOGETHER * duration / seconds:,.0f} | |"
+def _lateral(motion: kintrafo.Simulation) -> np.ndarray:
+    return motion.signals[LATERAL]
 
 
 def _per_call(model: CarModel, function: str, states: np.ndarray, inputs: np.ndarray) -> float:
     """Return the processor time of a call in an array of many [us]."""
-    times = []
-    for _ in range(REPEATED):
-        begun = time.process_time()
-        model.evaluate(function, states, inputs)
-        times.append(time.process_time() - begun)
-    return 1e6 * min(times) / len(states)
+    calls = partial(model.evaluate, function, states, inputs)
+    return 1e6 * min(processor_seconds(calls) for _ in range(REPEATED)) / len(states)
 
 
 def _where() -> str:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import argparse
 import platform
-import time
+from functools import partial
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,10 +17,11 @@ from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.models.car.equations import CarModel, declared
 from kintrafo.vehicle.roads import iso8608
 
+from .motions import REPEATED, Motion, by_methods, in_lanes, processor_seconds
 from .report import fill_page
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Iterator
 
     from kintrafo.vehicle.models.car import Car
 
@@ -37,9 +39,6 @@ METHODS = (
     ("Dormand-Prince, 1e-6", {"method": "DormandPrince"}),
     ("Dormand-Prince, 1e-4", {"method": "DormandPrince", "rtol": 1e-4, "atol": 1e-6}),
 )
-REPEATED = 3
-TOGETHER = 64
-"""Cars of an ensemble, whose front right dampers differ."""
 
 
 def main() -> None:
@@ -84,11 +83,12 @@ def _counted(name: str, car: Car, model: CarModel) -> str:
     numbers = [operations_of(emitted[f"{f}_rack_held"]).total() for f in ("rhs", "rhs_jacobian")]
     states = np.repeat(model.design_state[None], 20_000, axis=0)
     inputs = np.zeros((len(states), len(model.input_names)))
-    seconds = min(_seconds(lambda: model.evaluate("rhs_rack_held", states, inputs)) for _ in "123")
+    calls = partial(model.evaluate, "rhs_rack_held", states, inputs)
+    seconds = min(processor_seconds(calls) for _ in range(REPEATED))
     return f"| {name} | {numbers[0]:,} | {numbers[1]:,} | {1e6 * seconds / len(states):.2f} |"
 
 
-def _timed(name: str, model: CarModel) -> list[str]:
+def _timed(name: str, model: CarModel) -> Iterator[str]:
     assembly = assembly_of(model)
     road = iso8608("B", length=SPEED * DURATION, seed=SEED, track=assembly.track)
     behind = assembly.behind()
@@ -101,48 +101,16 @@ def _timed(name: str, model: CarModel) -> list[str]:
     start = kintrafo.equilibrium(model)
     times = np.linspace(0.0, DURATION, round(DURATION / 5e-3) + 1)
 
-    def run(**options: object) -> tuple[float, np.ndarray]:
-        begun = time.process_time()
-        found = kintrafo.simulate(
-            model, (0.0, DURATION), start, inputs=inputs, t_eval=times, **options
-        )
-        seconds = time.process_time() - begun
-        rates = model.evaluate("rhs", found.y.T, found.inputs)
-        return seconds, rates[:, model.state_names.index("heave_rate")]
+    motion = Motion(start, times, inputs)
+    heave = model.state_names.index("heave_rate")
 
-    _, exact = run(method="Verner", rtol=1e-11, atol=1e-13)
-    rows = []
-    for words, options in METHODS:
-        runs = [run(**options) for _ in range(REPEATED)]
-        seconds, acceleration = min(runs, key=lambda each: each[0])
-        error = np.abs(acceleration - exact).max() / exact.std()
-        rows.append(f"| {name} | {words} | {DURATION / seconds:,.0f} | {error:.1e} |")
-    damper = next(p for p in model.parameters if p.endswith("damper_rate"))
-    cars = {damper: model.parameters[damper] * np.linspace(0.7, 1.4, TOGETHER)}
+    def acceleration(found: kintrafo.Simulation) -> np.ndarray:
+        return model.evaluate("rhs", found.y.T, found.inputs)[:, heave]
+
     force = f"{assembly.names_of(assembly.wheels[0]).signals}tyre_force"
-
-    def together() -> None:
-        kintrafo.ensemble(
-            model,
-            cars,
-            (0.0, DURATION),
-            start,
-            inputs=inputs,
-            reductions={force: "min"},
-            threads=1,
-            rtol=1e-4,
-            atol=1e-6,
-        )
-
-    seconds = min(_seconds(together) for _ in range(2))
-    words = f"the same, {TOGETHER} cars in lanes, all together"
-    return [*rows, f"| {name} | {words} | {TOGETHER * DURATION / seconds:,.0f} | |"]
-
-
-def _seconds(call: Callable[[], object]) -> float:
-    begun = time.process_time()
-    call()
-    return time.process_time() - begun
+    measured = by_methods(model, motion, METHODS, acceleration, np.std)
+    for cells in chain(measured, [in_lanes(model, motion, {force: "min"})]):
+        yield f"| {name} | {cells} |"
 
 
 if __name__ == "__main__":
