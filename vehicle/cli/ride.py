@@ -89,15 +89,16 @@ def command(
             written.append(write_motion(run, animate, title=title, **outputs.rule))
     if output.json:
         judged = {str(n): _judged(d) for n, d in motion.items()}
-        print_json({n: export.as_dict(d) for n, d in found.items() if n != "linear"} | judged)
-        return
-    note_unused(assembly.car, file)
-    for made in [*_rest(found["at_rest"], file), _modes(found["modes"], file)]:
-        console.print(made)
-    title = f"{file}: {profile.words}, {speed:g} km/h, {duration:g} s"
-    for made in _ride(motion, found.get("linear"), title):
-        console.print(made)
-    name_files(written)
+        shown = {n: export.as_dict(d) for n, d in found.items() if n != "linear"}
+        print_json(shown | judged | {"not_valid": motion.attrs["not_valid"]})
+    else:
+        note_unused(assembly.car, file)
+        for made in [*_rest(found["at_rest"], file), _modes(found["modes"], file)]:
+            console.print(made)
+        title = f"{file}: {profile.words}, {speed:g} km/h, {duration:g} s"
+        for made in _ride(motion, found.get("linear"), title):
+            console.print(made)
+        name_files(written)
     end_if_not_valid(motion.attrs["not_valid"])
 
 

@@ -426,6 +426,7 @@ def test_a_packaged_manoeuvre_has_all_keys_with_a_comment(name) -> None:
     ("braking", {"pedal": 0.3}, "give one of the two"),
     ("braking", {"deceleration_m_per_s2": None, "pedal": 1.5}, "1 at most"),
     ("braking", {"until_km_per_h": 120.0}, "less than speed_km_per_h"),
+    ("braking_in_turn", {"until_km_per_h": 80.0}, "less than speed_km_per_h"),
     ("acceleration", {"until_km_per_h": 5.0}, "more than speed_km_per_h"),
     ("sine_sweep", {"highest_Hz": 0.1}, "more than lowest_Hz"),
     ("sine_sweep", {"output_step_ms": 50.0}, "20 outputs in a period"),

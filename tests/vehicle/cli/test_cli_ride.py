@@ -70,6 +70,15 @@ def test_mistakes_are_named_before_equations_are_derived(kintrafo, monkeypatch, 
     assert message in " ".join(err.split())
 
 
+def test_a_motion_that_is_not_valid_has_an_exit_code(kintrafo):
+    words = ["--bump", "80", "--bump-length", "1", "--speed", "60", "--duration", "1", "--json"]
+    code, printed, err = kintrafo("ride", "quarter_car", *words)
+    assert code == 1
+    (reason,) = json.loads(printed)["not_valid"]
+    assert "pulls at the road" in reason
+    assert reason in " ".join(err.split())
+
+
 def test_a_sweep_of_a_car_is_a_table_of_its_numbers(kintrafo):
     grid = ["sweep", "quarter_car", "body.mass_kg=340,390"]
     code, printed, _ = kintrafo(

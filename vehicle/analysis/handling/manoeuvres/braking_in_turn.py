@@ -10,18 +10,19 @@ from .....core.errors import InputError
 from ....input.section import NonNegative, Positive
 from ..car import DrivingCar
 from ..circle import Turns
-from ..drivers import Braking, Fixed, Observation
+from ..drivers import Braking, Fixed
 from ..result import HandlingResult
 from ..steady import NoSteadyMotionError, Steady, SteadyCondition
 from .brakes import BrakingManoeuvre
 from .manoeuvre import Number, Progress
 from .simulated import TurningManoeuvre, at_time, greatest
+from .until_speed import UntilSpeed
 
 # After the brake is pushed: where the motion is compared [s].
 _AFTER = 1.0
 
 
-class BrakingInTurn(BrakingManoeuvre, TurningManoeuvre):
+class BrakingInTurn(UntilSpeed, BrakingManoeuvre, TurningManoeuvre):
     """The brake is pushed in a steady turn, the steering wheel held."""
 
     TITLE: ClassVar[str] = "braking in a turn"
@@ -34,17 +35,12 @@ class BrakingInTurn(BrakingManoeuvre, TurningManoeuvre):
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
         """Return yaw rate, lateral acceleration and sideslip beside the turn, and the motion."""
         turn = self._steady(car)
-        end = self.until_km_per_h / 3.6
-
-        def ended(seen: Observation) -> bool:
-            return seen.speed <= end
-
         pushes = Braking(turn.unknowns["drive"], self.pedal_of(car), self.start_s, self.rise_s)
         motion = self.simulated(
             car, turn, Fixed(turn.unknowns["steering_wheel"]), pushes, self.duration_s,
-            until=ended, progress=progress,
+            until=self.ended, progress=progress,
         )  # fmt: skip
-        self.see_that_it_ends(motion, "until_km_per_h", end)
+        self.see_that_it_ends(motion, "until_km_per_h", self.end_speed)
         return HandlingResult(self.judged(self._numbers(motion) | greatest(motion)), {"": motion})
 
     def _steady(self, car: DrivingCar) -> Steady:

@@ -1,4 +1,4 @@
-"""The base of manoeuvres straight ahead that end at a speed."""
+"""The base of manoeuvres that end at a speed."""
 
 from typing import ClassVar
 
