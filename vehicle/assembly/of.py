@@ -1,4 +1,4 @@
-"""The assembly of what a file describes."""
+"""The assembly of the suspension, axle or car in a file."""
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, overload

@@ -1,4 +1,4 @@
-"""What a file describes, and its equations."""
+"""The suspension, axle or car in a file, and its equations."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -20,7 +20,7 @@ _Kind = TypeVar("_Kind")
 
 
 def assembly_of_file(file: str, held: str | None = None) -> "Assembly":
-    """Return what a file or a packaged data set describes, as an assembly.
+    """Return the assembly of a file or of a packaged data set.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def _refuse_car(car: "Car", file: str, command: str) -> NoReturn:
 
 
 def model_of(file: str, *, wheel_loads: bool = False) -> "AnyModel":
-    """Return the equations of motion of what a file describes.
+    """Return the equations of motion of the suspension, axle or car in a file.
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ def note_unused(car: "Car", file: str) -> None:
 
 
 def variable_subject(file: str, held: str | None = None) -> "Subject":
-    """Return what a file describes, whose values studies vary; `held` as of `assembly_of_file`."""
+    """Return the subject of a study from its file; `held` as of `assembly_of_file`."""
     from ..files.loading import load
     from ..models.car import Car
 
@@ -91,7 +91,7 @@ def variable_subject(file: str, held: str | None = None) -> "Subject":
 
 
 def subject_of(file: str, kind: type[_Kind], needed: str) -> _Kind:
-    """Return what a file describes, which is of one kind; others are refused.
+    """Return the suspension, axle or car in a file, of one class; others are refused.
 
     Parameters
     ----------
@@ -121,7 +121,7 @@ def car_of(file: str) -> "CarAssembly":
     Raises
     ------
     InputError
-        That names what the file describes.
+        If it is the file of a suspension or an axle; the message names which.
     """
     from ..assembly.car import CarAssembly
     from ..data import data_sets, find

@@ -140,7 +140,7 @@ def fit(
     held : {'height', 'tyre', 'spring', 'locked'}, optional
         What held the wheel when compliance was measured, see `kintrafo.compliance.linear`.
     over : str, optional
-        What the curves of a car are over, with its options:
+        Axis of the curves of a car, with its options:
         ``lateral_acceleration:radius_m=60``. Steady turns are at 100 km/h by default.
     progress : callable, optional
         Called after every step of the solver with the remaining cost, as a fraction of that at the

@@ -19,7 +19,7 @@ typedef struct {
     int vectors, matrices;                              /* of states, of states x states: its further arrays */
     int (*prepare)(worker *w, double step);             /* before the stages; may refuse the step */
     int (*attempt)(worker *w, double end, double step); /* find the end, or a code */
-    int (*jumped)(worker *w, double step);              /* whether rates jump to and fro in the step, or a code */
+    int (*jumped)(worker *w, double step);              /* whether rates jump back and forth in the step, or a code */
     int (*refuse_jumps)(worker *w, double step);        /* the code of steps that do so again and again */
     void (*fit)(worker *w);                             /* find the polynomial within the last step */
 } kt_fixed_method;

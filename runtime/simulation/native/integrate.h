@@ -95,7 +95,7 @@ enum kt_outcome {
     KT_TOO_ACCURATE,    /* the tolerances are below what the arithmetic can do */
     KT_CALLER,          /* a root function gave up, or the caller wants an end */
     KT_UNSTABLE,        /* steps of one length are too long: see longest_step */
-    KT_JUMPS,           /* rates jump to and fro within steps of one length */
+    KT_JUMPS,           /* rates jump back and forth within steps of one length */
     KT_SINGULAR_STEP,   /* the linear equations of a step have no one solution */
     KT_BAD_TABLE,       /* the installed SUNDIALS has no such Runge-Kutta table */
     KT_MEMORY,

@@ -8,7 +8,7 @@
  * step, and is evaluated at the first step, at one in many, and at each step whose own rates differ by more than
  * the last Jacobian explains. A motion that grows shows in these differences long before it shows in the state.
  *
- * Rates may also jump to and fro between the stages, as those of friction that sticks, where no Jacobian shows
+ * Rates may also jump back and forth between the stages, as those of friction that sticks, where no Jacobian shows
  * it: the rates of the stages do.
  */
 #include "eigenvalues.h"

@@ -5,7 +5,7 @@
  *
  * How rates change with time, by inputs that move, is a central difference along their polynomials.
  *
- * A Jacobian does not show a jump of the rates that is ahead. Where they jump to and fro from step to step, as
+ * A Jacobian does not show a jump of the rates that is ahead. Where they jump back and forth from step to step, as
  * those of friction that sticks, the last two stages show it, and such steps are refused.
  */
 #include "rodasp.h"
