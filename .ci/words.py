@@ -1,12 +1,15 @@
-"""Find words in the project's prose that readers of the field do not use: ``python .ci/words.py``.
+"""Find words in the project's prose that readers of the field do not use.
 
 Prose is the text of Markdown files and of templates, and every string of the sources that has a
-space in it: docstrings, messages, help. `.ci/words.toml` lists patterns, each with what to write.
+space in it: docstrings, messages, help. In the folders that `.ci/words.toml` lists, docstrings and
+comments have patterns of their own: ``python .ci/words.py runtime/core`` tries these on a folder
+that is not listed yet. Each pattern has the words to write instead.
 """
 
 import ast
 import re
 import sys
+import tokenize
 import tomllib
 from collections.abc import Iterator
 from pathlib import Path
@@ -19,6 +22,7 @@ TEMPLATES = ("*.jinja", "*.in")
 def main() -> int:
     """Print every finding; return the exit code."""
     listed = tomllib.loads((ROOT / ".ci/words.toml").read_text(encoding="utf-8"))
+    folders = [ROOT / name for name in (*listed.pop("docstrings_of"), *sys.argv[1:])]
     rules = {
         scope: [(re.compile(p, re.IGNORECASE | re.MULTILINE), words) for p, words in found.items()]
         for scope, found in listed.items()
@@ -26,13 +30,23 @@ def main() -> int:
     count = 0
     for path, line, text in prose():
         applied = rules["everywhere"] + (rules["pages"] if path.suffix == ".md" else [])
-        for pattern, instead in applied:
-            for found in pattern.finditer(text):
-                at = line + text.count("\n", 0, found.start())
-                words = " ".join(found[0].split())
-                print(f"{path.relative_to(ROOT)}:{at}: '{words}': write {instead}")
-                count += 1
+        count += report(path, line, text, applied)
+    for path in sources(folders):
+        for line, text in (*docstrings(path), *comments(path)):
+            count += report(path, line, text, rules["docstrings"])
     return min(count, 1)
+
+
+def report(path: Path, line: int, text: str, rules: list[tuple[re.Pattern[str], str]]) -> int:
+    """Print and count the matches of rules in a text that begins at `line` of a file."""
+    count = 0
+    for pattern, instead in rules:
+        for found in pattern.finditer(text):
+            at = line + text.count("\n", 0, found.start())
+            words = " ".join(found[0].split())
+            print(f"{path.relative_to(ROOT)}:{at}: '{words}': write {instead}")
+            count += 1
+    return count
 
 
 def prose() -> Iterator[tuple[Path, int, str]]:
@@ -66,6 +80,35 @@ def strings(path: Path) -> Iterator[tuple[Path, int, str]]:
     for node in ast.walk(tree):
         if isinstance(node, ast.Constant) and isinstance(node.value, str) and " " in node.value:
             yield path, node.lineno, re.sub(r"`+[^`\n]+`+", "`code`", node.value)
+
+
+def sources(folders: list[Path]) -> Iterator[Path]:
+    """Yield the Python files of folders; a folder may be a file."""
+    for folder in folders:
+        yield from sorted(folder.rglob("*.py")) if folder.is_dir() else [folder]
+
+
+def docstrings(path: Path) -> Iterator[tuple[int, str]]:
+    """Yield line and text of the docstrings of modules, classes, functions and attributes."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        value = node.value if isinstance(node, ast.Expr) else None
+        if isinstance(value, ast.Constant) and isinstance(value.value, str):
+            yield value.lineno, without_code(value.value)
+
+
+def comments(path: Path) -> Iterator[tuple[int, str]]:
+    """Yield line and text of each comment; comments on consecutive lines are one."""
+    text, end = [], 0
+    with path.open("rb") as file:
+        for token in tokenize.tokenize(file.readline):
+            if token.type != tokenize.COMMENT:
+                continue
+            if text and token.start[0] != end + 1:
+                yield end - len(text) + 1, without_code("\n".join(text))
+                text = []
+            text, end = [*text, token.string.removeprefix("#").strip()], token.start[0]
+    if text:
+        yield end - len(text) + 1, without_code("\n".join(text))
 
 
 if __name__ == "__main__":
