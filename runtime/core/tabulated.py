@@ -33,9 +33,9 @@ def number(value: float) -> str:
     return _special(value) or (f"{value:.3f}" if abs(value) >= 5e-4 else "0.000")
 
 
-def significant(value: float) -> str:
-    """Return a number of unknown size for a table: five digits; what is rounding is zero."""
-    return _special(value) or (f"{value:.5g}" if abs(value) > _ROUNDING else "0")
+def significant(value: float, digits: int = 5) -> str:
+    """Return a number of unknown size for a table; rounding errors are zero."""
+    return _special(value) or (f"{value:.{digits}g}" if abs(value) > _ROUNDING else "0")
 
 
 def whole(value: float) -> str:

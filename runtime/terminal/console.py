@@ -7,6 +7,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
+from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.markup import escape
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
@@ -126,6 +127,9 @@ def table(
     return made
 
 
-def print_table(tabulated: "Tabulated") -> None:
-    """Print a table that is made for the terminal and a page alike."""
-    console.print(table(tabulated.title, tabulated.columns, tabulated.rows, tabulated.words))
+def print_table(tabulated: "Tabulated", *, ruled: bool = True) -> None:
+    """Print a table that is made for the terminal and a page alike, narrower if it is not ruled."""
+    shown = table(tabulated.title, tabulated.columns, tabulated.rows, tabulated.words)
+    if not ruled:
+        shown.box, shown.show_edge, shown.padding = SIMPLE_HEAD, False, (0, 1, 0, 0)
+    console.print(shown)

@@ -48,6 +48,18 @@ _PARTS = {
     "steered": ("steer_gradient", "steering_ratio"),
 }  # fmt: skip
 _COMPLIANCE = "compliance"
+_OTHER_SIGN = "the other sign"
+# Headings of compliances on one page. Displacements count inward by a lateral force, and rearward
+# by the others.
+_KINDS = {
+    "toe": "toe-in",
+    "camber": "camber",
+    "displacement": "inward or\nrearward",
+    "patch_displacement": "contact\npatch",
+    "axle_steer": "axle\nsteer",
+    "axle_lateral": "axle\nto left",
+    "axle_longitudinal": "axle\nforward",
+}
 
 
 def sheet(
@@ -130,8 +142,8 @@ def tabulated(found: xr.Dataset, title: str) -> list[Tabulated]:
     return tables
 
 
-def one_page(found: xr.Dataset, title: str) -> Tabulated:
-    """Return the sheet as one table without the words of signs, for a terminal.
+def one_page(found: xr.Dataset, title: str) -> list[Tabulated]:
+    """Return the sheet without the definitions of signs, so that it fits one page.
 
     The sign of quantities marked with an asterisk is the opposite in SAE J670 with z down.
 
@@ -140,17 +152,55 @@ def one_page(found: xr.Dataset, title: str) -> Tabulated:
     found : xarray.Dataset
         From `sheet`.
     title : str
+
+    Returns
+    -------
+    list of Tabulated
+        The kinematic gradients, a row for each; then the compliances, a row for each load and at
+        most six columns in a table.
     """
     rows = []
-    for part in tabulated(found, ""):
+    for part in tabulated(found.isel({QUANTITY: found["part"].values != _COMPLIANCE}), ""):
         values = part.columns[1:-3]
         rows += [(part.title.upper(), *("" for _ in values), "")]
-        rows += [
-            (f"{name} *" if sae == "the other sign" else name, *cells, unit)
-            for name, *cells, unit, _, sae in part.rows
-        ]
+        rows += [(_marked(name, sae), *cells, unit) for name, *cells, unit, _, sae in part.rows]
     heads = ("", *values, "unit")
-    return Tabulated(title, heads, tuple(rows), frozenset({0, len(heads) - 1}))
+    kinematic = Tabulated(title, heads, tuple(rows), frozenset({0, len(heads) - 1}))
+    return [kinematic, *_by_load(found.isel({QUANTITY: found["part"].values == _COMPLIANCE}))]
+
+
+def _by_load(found: xr.Dataset) -> Iterator[Tabulated]:
+    """Yield tables of the compliances with a row for each load and a column for each quantity."""
+    cells: dict[str, dict[str, str]] = {}
+    per: dict[str, None] = {}
+    for name in map(str, found[QUANTITY].values):
+        own = {key: data.item() for key, data in found.sel({QUANTITY: name}).items()}
+        stem = without_side(name)
+        kind, _, load = stem.partition("_by_")
+        unit, _, each = own["unit"].partition("/")
+        words = own["meaning"].removesuffix(", left").removesuffix(", right").partition(" by ")[2]
+        _, comma, together = words.partition(", ")
+        row = f"{load.partition('_')[0]}, {together}" if comma else words.removeprefix("a ")
+        sae = _in_sae(own["iso_8855_sign"], own["sae_j670_sign"])
+        side = name.removeprefix(stem).removeprefix("_")
+        column = "\n".join(filter(None, (_marked(_KINDS[kind], sae), side, f"[{unit}]")))
+        cells.setdefault(column, {})[row] = significant(own["iso_8855"], 4)
+        per[each] = None
+    rows = list(dict.fromkeys(row for column in cells.values() for row in column))
+    title = f"Compliance per {' or '.join(per)}{' of each wheel' if len(cells) > 4 else ''}"
+    for first in range(0, len(cells), 6):
+        columns = list(cells)[first : first + 6]
+        body = tuple((row, *(cells[column].get(row, "") for column in columns)) for row in rows)
+        yield Tabulated(f"{title}, {found.attrs['held']}", ("", *columns), body)
+
+
+def _marked(words: str, sae: str) -> str:
+    return f"{words} *" if sae == _OTHER_SIGN else words
+
+
+def _in_sae(iso_sign: str, sae_sign: str) -> str:
+    """Return how the sign in SAE J670 compares with that in ISO 8855."""
+    return "the same" if iso_sign == sae_sign else _OTHER_SIGN
 
 
 def _rows(here: xr.Dataset, values: Sequence[str]) -> Iterator[tuple[str, ...]]:
@@ -166,7 +216,7 @@ def _rows(here: xr.Dataset, values: Sequence[str]) -> Iterator[tuple[str, ...]]:
             str(own[key].values) for key in ("meaning", "unit", "iso_8855_sign", "sae_j670_sign")
         )
         meaning = meaning.removesuffix(", left").removesuffix(", right")
-        yield (meaning, *cells.values(), unit, iso, "the same" if iso == sae else "the other sign")
+        yield (meaning, *cells.values(), unit, iso, _in_sae(iso, sae))
 
 
 # -- what stands in it ----------------------------------------------------------------------------

@@ -37,6 +37,7 @@ def command(
     if output.json:
         print_json(export.as_dict(found))
         return
-    print_table(one_page(found, f"{file}: K&C sheet at design, signs of ISO 8855"))
+    for table in one_page(found, f"{file}: K&C sheet at design, signs of ISO 8855"):
+        print_table(table, ruled=False)
     say("* opposite sign in SAE J670, z down. Data files (-o) have definitions and both signs.")
     name_files(written)
