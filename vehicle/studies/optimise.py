@@ -13,14 +13,24 @@ from ...core.validator import Validator
 from .design_variables import DesignVariable, amounts
 from .evaluation import Subject, check_subject
 from .goals import Limit, TargetValue, check_data, limits_of, targets_of
-from .search import MOST_STEPS, NOTHING_TO_GAIN, TOO_MANY_STEPS, Search, in_words, least
+from .search import (
+    ENOUGH,
+    MOST_STEPS,
+    NOTHING_TO_GAIN,
+    TOO_MANY_STEPS,
+    MetError,
+    Search,
+    in_words,
+    least,
+)
 from .sweep_axes import sweep_axes_of
 
 Array = NDArray[np.float64]
 
 # What it costs to move a value over all of its range, in deviations that matter: of what does as
 # well, that which moves least is taken.
-_RELUCTANCE = 0.01
+_RELUCTANCE = ENOUGH
+_MET = f"found: all targets are met to {ENOUGH:.0%} of within, where the search ended"
 # What SLSQP's exit codes mean here.
 _GAVE_UP = {
     4: "the limits exclude each other",
@@ -49,7 +59,7 @@ class Optimum:
         Whether the solver converged and all limits are kept. Targets may be missed.
     message : str
         Limits that are not kept, targets that are missed by more than ``within``, values at the
-        ends of their ranges or without effect.
+        ends of their ranges or without effect; or that the search ended at its targets.
     evaluations : int
         Number of evaluated suspensions.
     """
@@ -110,8 +120,9 @@ def optimise(
     Notes
     -----
     Without limits by SciPy's ``least_squares`` (trust region, reflected at the bounds), with limits
-    by SLSQP from there. Derivatives are differences of neighbours, of a hardpoint 0.5 mm to either
-    side. A change of a value over its whole range counts as a hundredth of ``within``.
+    by SLSQP from there. The search ends where all limits are kept and all deviations are at most a
+    hundredth of ``within``. Derivatives are differences of neighbours, of a hardpoint 0.5 mm to
+    either side. A change of a value over its whole range counts as a hundredth of ``within``.
 
     Examples
     --------
@@ -140,15 +151,24 @@ def optimise(
                 given.fail("free: one value or more is needed.")
             if not aims:
                 given.fail("targets: one or more are needed.")
-    search = Search(suspension, reach, aims, bounds, progress, _RELUCTANCE)
+    search = Search(suspension, reach, aims, bounds, progress, _RELUCTANCE, ENOUGH)
     idle = search.idle(np.zeros(len(reach)))
     if len(idle) == len(reach):
         raise InputError([f"free: nothing of {', '.join(idle)} moves a target."], "optimise")
-    return _optimum(search, *_solved(search))
+    try:
+        return _optimum(search, *_solved(search), idle)
+    except MetError as end:
+        return _optimum(search, end.x, "", idle, met=True)
 
 
 def _solved(search: Search) -> tuple[Array, str]:
-    """Return the values that SciPy's solvers find, and why they gave up if they did."""
+    """Return the values that SciPy's solvers find, and why they gave up if they did.
+
+    Raises
+    ------
+    MetError
+        Where all targets are met and all limits kept.
+    """
     start = np.zeros(len(search.places))
     found, gave_up = least(search)
     if not search.limits or (search.room(found) >= 0.0).all():
@@ -177,8 +197,22 @@ def _within_limits(search: Search, start: Array) -> tuple[Array, str]:
     return np.clip(found.x, -1.0, 1.0), said
 
 
-def _optimum(search: Search, x: Array, gave_up: str) -> Optimum:
-    """Return what was found in words and numbers."""
+def _optimum(
+    search: Search, x: Array, gave_up: str, idle: list[str], *, met: bool = False
+) -> Optimum:
+    """Return what was found in words and numbers.
+
+    Parameters
+    ----------
+    search : Search
+    x : ndarray
+    gave_up : str
+        Why the solver gave up, if so.
+    idle : list of str
+        Values without effect at the start.
+    met : bool, optional
+        Whether the search ended at its targets.
+    """
     values = search.values(x)
     if values is None:
         values = [np.full(goal.at.size, np.nan) for goal in search.goals]
@@ -197,7 +231,7 @@ def _optimum(search: Search, x: Array, gave_up: str) -> Optimum:
         "not within its limits": broken,
         "targets missed by more than within": missed,
         "at the end of its range": search.at_the_end(x),
-        "moves no target": search.idle(x),
+        "moves no target": search.idle(x, idle) if idle else [],
     }
     return Optimum(
         suspension=search.at(x),
@@ -207,6 +241,6 @@ def _optimum(search: Search, x: Array, gave_up: str) -> Optimum:
         targets=search.targets,
         limits=search.limits,
         success=not (gave_up or broken),
-        message=in_words(facts) or "found",
+        message=in_words(facts) or (_MET if met else "found"),
         evaluations=search.evaluations,
     )

@@ -23,8 +23,21 @@ TOO_MANY_STEPS = f"no end within {MOST_STEPS} steps"
 _IMPOSSIBLE = 1e6
 # Part of a limit by which it is kept for sure, whatever rounding does.
 _MARGIN = 1e-7
+# Deviations below this part of what matters end a search; a change of a value over its whole range
+# counts as much.
+ENOUGH = 0.01
+# Steps from there to values that are moved less; each costs one evaluation.
+_LAST_STEPS = 3
 # A value that changes targets by less than this part of what matters, over its range, is idle.
 _IDLE = 1e-6
+
+
+class MetError(Exception):
+    """Ends a solver where all targets are met and all limits kept."""
+
+    def __init__(self, x: Array) -> None:
+        super().__init__(x)
+        self.x = x
 
 
 class Search(Candidates):
@@ -42,6 +55,9 @@ class Search(Candidates):
         start.
     reluctance : float
         What it costs to move a value over its range to one side, in deviations that matter.
+    enough : float, optional
+        Part of what matters below which deviations end a solver, by `MetError`. By default none is
+        small enough.
     """
 
     def __init__(
@@ -52,10 +68,12 @@ class Search(Candidates):
         limits: Sequence[Limit],
         progress: Callable[[float], None] | None,
         reluctance: float,
+        enough: float = -1.0,
     ) -> None:
         super().__init__(suspension, reach, [*targets, *limits])
         self.targets, self.limits = tuple(targets), tuple(limits)
-        self._progress, self._reluctance = progress, reluctance
+        self._progress, self._reluctance, self._enough = progress, reluctance, enough
+        self._slopes: Array | None = None
         self._begin = self.cost(np.zeros(len(reach))) or 1.0
 
     def derivatives(self, x: Array) -> list[Array]:
@@ -79,12 +97,20 @@ class Search(Candidates):
         by[which] = step_of(self.places[which]) / self.reach[which]
         return x - by, x, x + by
 
-    def idle(self, x: Array) -> list[str]:
-        """Name the values without effect on a target, here and from one end to the other."""
-        self.look_at(at for which in range(x.size) for at in self._beside(x, which))
+    def idle(self, x: Array, of: Sequence[str] | None = None) -> list[str]:
+        """Name the values without effect on a target, here and from one end to the other.
+
+        Parameters
+        ----------
+        x : ndarray
+        of : sequence of str, optional
+            Names of the values that are in question; by default all of them.
+        """
+        asked = [i for i, place in enumerate(self.places) if of is None or place.name in of]
+        self.look_at(at for which in asked for at in self._beside(x, which))
         return [
-            place.name
-            for which, place in enumerate(self.places)
+            self.places[which].name
+            for which in asked
             if not (self._matter(self._difference(x, which)) or self._matter(self._range(x, which)))
         ]
 
@@ -112,12 +138,36 @@ class Search(Candidates):
         return np.concatenate([*missed, self._reluctance * x])
 
     def slopes(self, x: Array) -> Array:
-        """Return the derivatives of the deviations; every step of a solver asks for them once."""
+        """Return the derivatives of the deviations; every step of a solver asks for them once.
+
+        Raises
+        ------
+        MetError
+            If all deviations are small enough, and all limits are kept.
+        """
+        if self._is_enough(x):
+            raise MetError(self._shorter(x))
         if self._progress is not None:
             self._progress(self.cost(x) / self._begin)
         pairs = zip(self.targets, self.derivatives(x), strict=False)
         slopes = [slope / target.within for target, slope in pairs]
-        return np.concatenate([*slopes, self._reluctance * np.eye(x.size)])
+        self._slopes = np.concatenate([*slopes, self._reluctance * np.eye(x.size)])
+        return self._slopes
+
+    def _shorter(self, x: Array) -> Array:
+        """Return values of equal quality that are moved less: a few steps along known slopes."""
+        moved = x
+        for _ in range(0 if self._slopes is None else _LAST_STEPS):
+            step = np.linalg.lstsq(self._slopes, -self.deviations(moved))[0]
+            moved = np.clip(moved + step, -1.0, 1.0)
+            if self._is_enough(moved) and np.linalg.norm(moved) < np.linalg.norm(x):
+                return moved
+        return x
+
+    def _is_enough(self, x: Array) -> bool:
+        """Return whether all deviations are small enough, and all limits are kept."""
+        missed = self.deviations(x)[: -x.size]
+        return bool((np.abs(missed) <= self._enough).all() and (self.room(x) >= 0.0).all())
 
     def cost(self, x: Array) -> float:
         """Return half of the sum of the squares."""
@@ -137,7 +187,7 @@ class Search(Candidates):
             sides = (limit.at.size * len(limit.sides) for limit in self.limits)
             return np.full(sum(sides), -_IMPOSSIBLE)
         pairs = zip(self.limits, values[len(self.targets) :], strict=True)
-        return np.concatenate([limit.room(value) for limit, value in pairs]) - _MARGIN
+        return np.concatenate([[], *(limit.room(value) for limit, value in pairs)]) - _MARGIN
 
     def room_slopes(self, x: Array) -> Array:
         """Return the derivatives of the room."""

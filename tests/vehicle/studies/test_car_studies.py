@@ -227,6 +227,17 @@ def test_an_understeer_gradient_comes_to_its_target() -> None:
     assert abs(understeer(DRIVES, 3.0) / per_g - wanted) > 0.3
     # a hundredth of what matters is what moving values is worth; the rest is `near`
     assert understeer(found.suspension, 3.0) / per_g == pytest.approx(wanted, abs=0.01)
+    # five cars a step: itself, and two beside it for each value; three steps, and one at the end
+    assert found.evaluations <= 22
+    assert "all targets are met" in found.message
+
+
+def test_targets_that_are_met_need_no_search() -> None:
+    """The car is evaluated, and two beside it, to see whether the value moves the target."""
+    frequency = float(kintrafo.ride.modes(QUARTER).sel(mode="heave")["frequency"])
+    target = {"over": "speed", "value": frequency, "within": 1e-3}
+    found = variation.optimise(QUARTER, {SPRING: 12e3}, {"heave_frequency": target})
+    assert (found.evaluations, found.moved[SPRING]) == (3, 0.0)
 
 
 def test_a_car_that_varies_is_derived_and_compiled_once(monkeypatch: Any) -> None:
