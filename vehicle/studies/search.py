@@ -156,9 +156,11 @@ class Search(Candidates):
 
     def _shorter(self, x: Array) -> Array:
         """Return values of equal quality that are moved less: a few steps along known slopes."""
-        moved = x
-        for _ in range(0 if self._slopes is None else _LAST_STEPS):
-            step = np.linalg.lstsq(self._slopes, -self.deviations(moved))[0]
+        if self._slopes is None:
+            return x
+        moved, back = x, np.linalg.pinv(self._slopes)
+        for _ in range(_LAST_STEPS):
+            step = -back @ self.deviations(moved)
             moved = np.clip(moved + step, -1.0, 1.0)
             if self._is_enough(moved) and np.linalg.norm(moved) < np.linalg.norm(x):
                 return moved
