@@ -1,1 +1,1 @@
-"""What has wheels: corner, axle and rigid axle, behind one protocol."""
+"""Assemblies of wheels (corner, axle, rigid axle, car) behind one protocol."""

@@ -1,4 +1,4 @@
-"""An anti-roll bar, by what it does between two sides, to a rigid axle or between two parts."""
+"""Anti-roll bars as rotational springs between two sides, axle and body, or two parts."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -13,62 +13,64 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Bar:
-    """An anti-roll bar between two sides.
-
-    Attributes
-    ----------
-    halves : tuple of HalfBar
-        By side.
-    rate : float
-        Torque by the twist, the first half less the second one [N m/rad].
-    free_twist : float
-        The twist without a torque [rad].
-    """
-
-    halves: tuple[HalfBar, HalfBar]
-    rate: float
-    free_twist: float
-
-    def torque(self, twist: Array) -> Array:
-        """Return the torque at a twist [N m]."""
-        found: Array = self.rate * (twist - self.free_twist)
-        return found
-
-
-@dataclass(frozen=True)
-class RollBar:
-    """An anti-roll bar, by what it does to a rigid axle.
-
-    Attributes
-    ----------
-    body : str
-        The axle.
-    rate : float
-        Moment by the inclination of what points left at design [N m/rad].
-    """
-
-    body: str
+class _Elastic:
     rate: float
 
     def torque(self, twist: Array) -> Array:
-        """Return the moment at an inclination [N m]."""
+        """Return the torque, or the moment, at a twist [N m]."""
         found: Array = self.rate * twist
         return found
 
 
 @dataclass(frozen=True)
-class TwistBar:
-    """What resists that one part turns against another, as the beam of a twist-beam axle.
+class Bar(_Elastic):
+    """An anti-roll bar between two sides.
 
     Attributes
     ----------
+    rate : float
+        Torque per twist, the angle of the first half less that of the second one [N m/rad].
+    halves : tuple of HalfBar
+        By side.
+    free_twist : float
+        The twist without a torque [rad].
+    """
+
+    halves: tuple[HalfBar, HalfBar]
+    free_twist: float
+
+    def torque(self, twist: Array) -> Array:
+        """Return the torque at a twist [N m]."""
+        return super().torque(twist - self.free_twist)
+
+
+@dataclass(frozen=True)
+class RollBar(_Elastic):
+    """An anti-roll bar between a rigid axle and the body.
+
+    Attributes
+    ----------
+    rate : float
+        Moment per inclination of the axle's lateral axis [N m/rad].
+    body : str
+        The axle.
+    """
+
+    body: str
+
+
+@dataclass(frozen=True)
+class TwistBar(_Elastic):
+    """A rotational spring between two parts, such as the beam of a twist-beam axle.
+
+    Attributes
+    ----------
+    rate : float
+        Torque per twist, the rotation of the second part less that of the first one [N m/rad].
     first, second : str
         The parts.
     axis : ndarray, shape (3,)
-        About which they turn against each other, chassis axes.
-    rate : float
-        Torque by the twist, the turn of the second part less that of the first one [N m/rad].
+        Axis of their relative rotation, chassis axes.
     twist_of : callable
         Takes the parts with rigid joints, returns their twist, (n,) [rad].
     """
@@ -76,13 +78,7 @@ class TwistBar:
     first: str
     second: str
     axis: Array
-    rate: float
     twist_of: Callable[[Any], Array]
-
-    def torque(self, twist: Array) -> Array:
-        """Return the torque at a twist [N m]."""
-        found: Array = self.rate * twist
-        return found
 
 
 AnyBar = Bar | RollBar | TwistBar

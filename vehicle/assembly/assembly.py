@@ -1,4 +1,4 @@
-"""The protocol that every analysis is written for: an assembly has wheels."""
+"""The protocol of assemblies with wheels, for which every analysis is written."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Container, Iterable, Mapping, Sequence
@@ -12,6 +12,7 @@ from ...core.quantities import variable
 from ...core.validator import Validator
 from ..corner.bushes import Bush
 from ..corner.corner import Array
+from ..corner.wheeled import WheeledSection
 from ..input.vehicle import TyreSection
 from ..models.axle.file import TorqueReaction
 from ..models.model import Model
@@ -41,14 +42,14 @@ NOT_A_CAR = (
 
 @dataclass(frozen=True)
 class Bushings:
-    """The bushes of an assembly, and how far its rack deflects.
+    """The bushes of an assembly, and the flexibility of its rack.
 
     Attributes
     ----------
     by_suffix : mapping of str to list of Bush
         By the suffix of the names of the parts that they connect, as in `HeldAssembly.poses`.
     rack : float
-        Displacement of the rack along its axis by a unit force [m/N]; zero where it is held.
+        Displacement of the rack along its axis for a unit force [m/N]; zero for a rigid rack.
     """
 
     by_suffix: Mapping[str, list[Bush]]
@@ -65,8 +66,8 @@ class Assembly(ABC):
 
     All but a car are a `HeldAssembly`; the parts and bushes of a car are those of its axles.
 
-    Its parts may be in several groups that only an anti-roll bar and a rack join, as the two sides
-    of an axle are: the members of a group are by the suffix of the names of its parts, ``""``,
+    The parts are in one group, or in several that only an anti-roll bar and a rack join, such as
+    the two sides of an axle. The key of a group is the suffix of the names of its parts: ``""``,
     ``"_left"`` or ``"_right"``.
 
     Attributes
@@ -75,14 +76,16 @@ class Assembly(ABC):
         The names of the wheels, 'left' and 'right', or the side of a corner; those of the groups
         in turn.
     motions : mapping of str to RigMotion
-        What a rig can do with it, the usual motion first.
-    model : Model, AxleModel or RigidAxleModel
-        Its equations of motion; those of an axle are derived and compiled when they are first
-        needed.
+        Its motions on a rig, the usual one first.
+    subject : Suspension, Axle, WholeAxle or Car
+        The data of its files.
+    model : Model, AxleModel, WholeAxleModel or CarModel
+        Its equations of motion; those of an axle or a car are derived and compiled at first use.
     """
 
     wheels: tuple[str, ...]
     motions: Mapping[str, RigMotion]
+    subject: Any
     model: Any
 
     NEEDED: ClassVar[str] = (
@@ -90,12 +93,7 @@ class Assembly(ABC):
         "kintrafo.load reads each of them"
     )
 
-    # -- what it is -------------------------------------------------------------------------------
-
-    @property
-    @abstractmethod
-    def subject(self) -> Any:
-        """What was read from a file: a Suspension, an Axle or a RigidAxle."""
+    # -- its data ---------------------------------------------------------------------------------
 
     @property
     def design_sections(self) -> dict[str, dict[str, Any]]:
@@ -113,19 +111,29 @@ class Assembly(ABC):
         return (sides or {"": self.subject}) | dict(self.own_sections)
 
     @property
-    @abstractmethod
     def steered(self) -> bool:
         """Whether it has a rack."""
+        return bool(self.subject.steered())
 
     @property
     @abstractmethod
+    def wheeled(self) -> Sequence[WheeledSection]:
+        """The data of the file that describes each wheel, by wheel."""
+
+    @property
     def tyres(self) -> Sequence[TyreSection]:
         """The tyres, by wheel."""
+        return [file.tyre for file in self.wheeled]
 
     @property
-    @abstractmethod
     def tyre_radii(self) -> Sequence[float | None]:
-        """The radii of the wheels as thin discs [m]; None where nothing says it."""
+        """The radii of the wheels as thin discs, by wheel [m]; None if not known."""
+        return [file.tyre_radius() for file in self.wheeled]
+
+    @property
+    def has_bushes(self) -> bool:
+        """Whether a file has bushes."""
+        return any(file.bushings for file in self.wheeled)
 
     @property
     def axles(self) -> tuple[str, ...]:
@@ -134,32 +142,32 @@ class Assembly(ABC):
 
     @property
     def held_parts(self) -> "Mapping[str, Assembly]":
-        """The assemblies whose body is held that make it, by name: itself, without one."""
+        """The assemblies with a held body of which it consists, by name; by default itself."""
         return {"": self}
 
     @property
     def body_moves(self) -> bool:
-        """Whether the vehicle's body moves in its equations, or is held."""
+        """Whether the vehicle's body moves in the equations; otherwise it is held."""
         return False
 
     @property
     def drives(self) -> bool:
-        """Whether it is a car that drives on tyres that roll."""
+        """Whether it is a car on rolling tyres."""
         return False
 
     @property
     def moves_rigidly(self) -> bool:
-        """Whether it moves with rigid joints: five rods hold a rigid axle."""
+        """Whether it moves with rigid joints; a rigid axle on five rods does not."""
         return True
 
     @property
     def simplified(self) -> Sequence[str]:
-        """What linear compliance leaves out, in words."""
+        """Effects that linear compliance neglects, for a sentence."""
         return ()
 
     @property
     def on_a_beam(self) -> bool:
-        """Whether one body carries both wheels, so that it has a steer angle of its own."""
+        """Whether one body carries both wheels and has a steer angle of its own."""
         return False
 
     @property
@@ -175,48 +183,43 @@ class Assembly(ABC):
     @property
     @abstractmethod
     def words(self) -> str:
-        """What it is, in sentences."""
+        """A description in sentences."""
 
     @property
     def own_sections(self) -> Mapping[str, Any]:
-        """What its own file says besides the files of its sides, by section; of an axle."""
+        """The sections of an axle's own file, besides those of its sides."""
         return {}
 
-    # -- where a rig holds it ---------------------------------------------------------------------
+    # -- its positions on a rig -------------------------------------------------------------------
 
     @abstractmethod
     def usual(
-        self,
-        motion: str,
-        extent: SweepRange | None = None,
-        *,
-        travel: float = 0.0,
-        rack: float = 0.0,
+        self, motion: str, ends: SweepRange | None = None, *, travel: float = 0.0, rack: float = 0.0
     ) -> Array:
-        """Return the usual positions of a motion, zero included, in SI units.
+        """Return the default positions of a motion, zero included, in SI units.
 
         Parameters
         ----------
         motion : str
-        extent : SweepRange, optional
-            How far it goes, where that is not the usual.
+        ends : SweepRange, optional
+            Ends of the motion that differ from the default.
         travel, rack : float, optional
-            What is held meanwhile [m].
+            Constant wheel travel or displacement of the rack [m].
         """
 
     @abstractmethod
     def position(
         self, motion: str, along: Array, *, travel: float = 0.0, rack: float = 0.0
     ) -> RigPosition:
-        """Return where wheels and rack are along a motion.
+        """Return the positions of wheels and rack along a motion.
 
         Parameters
         ----------
         motion : str
         along : ndarray, shape (n,)
-            What varies, see `RigMotion`.
+            Values of `RigMotion.along`.
         travel : float, optional
-            Height of the wheels above design where the motion is one of the steering [m].
+            Height of the wheels above design in a motion of the steering [m].
         rack : float, optional
             Displacement of the rack in other motions [m].
 
@@ -227,38 +230,29 @@ class Assembly(ABC):
         """
 
     def at_travel(self, travels: Array, rack: Array | float = 0.0) -> RigPosition:
-        """Return where all wheels are at some heights above design [m], in parallel."""
+        """Return the positions with all wheels at the same heights above design [m]."""
         return RigPosition(dict.fromkeys(self.wheels, travels), np.asarray(rack, float))
 
     def held_in(self, motion: str, travel: float, rack: float) -> dict[Quantity, float]:
-        """Return what a motion holds, for the coordinates of its results."""
+        """Return the constant quantities of a motion, for the coordinates of its results."""
         del motion, travel
         return {RACK: rack} if self.steered else {}
 
     @abstractmethod
     def refuse_holding(self, given: Validator, motion: str, travel: float, rack: float) -> None:
-        """Refuse what cannot be held in a motion: a travel, or a rack that it moves itself."""
+        """Refuse a constant travel, or a constant rack, that the motion itself moves."""
 
     def refuse_motion(self, motion: str) -> None:
-        """Refuse a motion that it does not have, with the reason where there is one.
-
-        Raises
-        ------
-        InputError
-        """
-        del motion
+        """Raise an `InputError` for a motion of the steering if there is no rack."""
+        if motion in ("rack", "steer"):
+            self.refuse_unsteered(f"the motion {motion!r}")
 
     def refuse_of_steering(self, names: Iterable[str]) -> None:
-        """Refuse characteristics that it does not have because nothing steers it.
-
-        Raises
-        ------
-        InputError
-        """
+        """Raise an `InputError` for characteristics that only a steered wheel has."""
         del names
 
     def refuse_positions(self, given: Validator, motion: str, along: Array) -> None:
-        """Refuse positions that a motion does not have, for any reach of the wheels."""
+        """Refuse positions that a motion does not have, for any range of the wheels."""
         del given, motion, along
 
     @property
@@ -266,7 +260,7 @@ class Assembly(ABC):
         """The motion in which the steering moves, if it has one."""
         return None
 
-    # -- what it is measured by -------------------------------------------------------------------
+    # -- its characteristics ----------------------------------------------------------------------
 
     @abstractmethod
     def measures(self, motion: str) -> tuple[Measure, ...]:
@@ -274,7 +268,7 @@ class Assembly(ABC):
 
     @abstractmethod
     def kinematics(self, position: RigPosition) -> Any:
-        """Return what the formulas of its measures take: how wheels are and how they move first.
+        """Return positions and first derivatives of the wheels, for the formulas of its measures.
 
         Raises
         ------
@@ -287,15 +281,15 @@ class Assembly(ABC):
     def values(
         self, motion: str, along: Array, names: Container[str] | None = None
     ) -> dict[str, Array]:
-        """Return characteristics over a motion by the names of their columns, all or some.
+        """Return all or some characteristics over a motion, by the names of their columns.
 
         Parameters
         ----------
         motion : str
         along : ndarray, shape (n,)
-            As of `position`.
+            Values of `RigMotion.along`.
         names : container of str, optional
-            Of columns: ``camber``, of an axle ``camber_left``.
+            Names of columns: ``camber``, of an axle ``camber_left``.
 
         Returns
         -------
@@ -314,16 +308,16 @@ class Assembly(ABC):
 
     @abstractmethod
     def names_of(self, wheel: str) -> WheelNames:
-        """Return what the equations call what belongs to a wheel."""
+        """Return the names of a wheel in the equations."""
 
     def at_rest(self, coordinates: Array, rack: float) -> tuple[Array, Array]:
-        """Return states and inputs without rates, (..., states) and (..., inputs).
+        """Return states and inputs with zero rates, (..., states) and (..., inputs).
 
         Parameters
         ----------
         coordinates : ndarray, shape (..., coordinates)
         rack : float
-            Displacement of the rack, if there is one [m].
+            Displacement of the rack, if any [m].
         """
         model, lead = self.model, coordinates.shape[:-1]
         states = np.broadcast_to(model.design_state, (*lead, model.design_state.size)).copy()
@@ -334,12 +328,7 @@ class Assembly(ABC):
         return states, inputs
 
     def require_rigid_motion(self) -> None:  # noqa: B027 (most have nothing to refuse)
-        """Refuse an assembly that cannot move with rigid joints.
-
-        Raises
-        ------
-        InputError
-        """
+        """Raise an `InputError` if it cannot move with rigid joints."""
 
     @abstractmethod
     def coordinates_at(self, position: RigPosition) -> Array:
@@ -362,24 +351,13 @@ class Assembly(ABC):
         """
 
     def refuse_unsteered(self, what: str) -> None:
-        """Refuse what moves a rack where there is none.
-
-        Raises
-        ------
-        InputError
-            That says so of the kind of suspension.
-        """
+        """Raise an `InputError` for an option that needs a rack if there is none."""
         del what
 
     # -- bushes -----------------------------------------------------------------------------------
 
-    @property
-    @abstractmethod
-    def has_bushes(self) -> bool:
-        """Whether its file has bushes."""
-
     def with_bushings(self, bushings: Mapping[str, Any]) -> Any:
-        """Return its subject on other bushes than those of its file, see `bushes`."""
+        """Return its subject with other bushes than those of its file, see `bushes`."""
         return self.subject.with_changes({"bushings": dict(bushings)})
 
     # -- its summary ------------------------------------------------------------------------------
@@ -388,9 +366,9 @@ class Assembly(ABC):
     """Coordinates of both wheels together, and the names of their modes on the tyres."""
 
     @property
-    @abstractmethod
     def heading(self) -> str:
         """Its name, as the beginning of a heading."""
+        return str(self.subject.heading())
 
     @property
     def corners(self) -> Mapping[str, Model]:
@@ -402,7 +380,7 @@ class Assembly(ABC):
         return Plausibility((), ())
 
     def described(self) -> dict[str, str]:
-        """Return its data at design in words, by their headings, except those of its corners."""
+        """Return its data at design as text, by heading, except those of its corners."""
         return {}
 
     def reach(self) -> dict[str, tuple[float, bool]]:
@@ -411,7 +389,7 @@ class Assembly(ABC):
 
     @abstractmethod
     def without_friction(self) -> "Assembly":
-        """Return the same without friction.
+        """Return the assembly without friction.
 
         Raises
         ------
@@ -444,7 +422,7 @@ class HeldAssembly(Assembly):
 
     @abstractmethod
     def wheel_equations(self, wheel: str) -> tuple[Any, str, Mapping[str, str]]:
-        """Return equations in which a wheel moves on a body that is held.
+        """Return equations in which a wheel moves and the body is held.
 
         Returns
         -------
@@ -457,7 +435,7 @@ class HeldAssembly(Assembly):
 
     @abstractmethod
     def poses(self, position: RigPosition) -> dict[str, PartPoses]:
-        """Return its parts with rigid joints, by the suffixes of their names.
+        """Return the parts with rigid joints, by the suffixes of their names.
 
         Raises
         ------
@@ -469,18 +447,18 @@ class HeldAssembly(Assembly):
 
     @abstractmethod
     def soft_lines(self, poses: Mapping[str, PartPoses]) -> dict[str, SoftLines]:
-        """Return how springs and stops deflect for a unit force along each.
+        """Return the deflections of springs and stops for a unit force along each.
 
         Raises
         ------
         InputError
-            If the springs hold no wheel there.
+            If the springs have no positive rate at the wheel there.
         """
 
-    # -- where it rests ----------------------------------------------------------------------------
+    # -- its equilibrium ---------------------------------------------------------------------------
 
     ENDS: ClassVar[str] = "the linkage reaches no farther"
-    """The end of the wheels' travel, in words."""
+    """The reason for the end of the wheels' travel, for a sentence."""
 
     @property
     def independent(self) -> Sequence["HeldAssembly"]:
@@ -494,12 +472,12 @@ class HeldAssembly(Assembly):
 
     @abstractmethod
     def wheel_coordinates(self, travels: Sequence[float | None], rack: float) -> Array:
-        """Return the coordinates where some wheels are at heights above design.
+        """Return the coordinates for heights of some wheels above design.
 
         Parameters
         ----------
         travels : sequence of float or None
-            By wheel [m]; None: as at design.
+            By wheel [m]; None for the design position.
         rack : float
             Displacement of the rack [m].
 
@@ -515,10 +493,9 @@ class HeldAssembly(Assembly):
 
     @abstractmethod
     def wheel_reach(self, rack: float) -> Sequence[WheelReach] | None:
-        """Return how far each wheel goes; None where it depends on the other one.
+        """Return the range of each wheel; None if it depends on the other wheel.
 
-        Several wheels that have a reach each are groups of their own in `poses`, which nothing but
-        the bar joins.
+        Wheels with a range each belong to different groups of `poses`, which only the bar joins.
 
         Raises
         ------
@@ -528,12 +505,12 @@ class HeldAssembly(Assembly):
 
     @abstractmethod
     def at_wheel_coordinates(self, coordinates: Array, racks: Array) -> dict[str, PartPoses]:
-        """Return its parts at rest, by the suffixes of their names.
+        """Return the parts at rest, by the suffixes of their names.
 
         Parameters
         ----------
         coordinates : ndarray, shape (n, wheels)
-            One for each wheel, which increases as the wheel rises.
+            A coordinate of each wheel, which increases as the wheel rises.
         racks : ndarray, shape (n,)
             Displacements of the rack [m].
         """
@@ -543,24 +520,25 @@ class HeldAssembly(Assembly):
         """Return whether a wheel has a stop."""
 
     def reached(self, coordinates: Array, racks: Array) -> NDArray[np.bool_]:
-        """Return where parts within the reach of each wheel are together, (n,)."""
+        """Return whether the loops close, for wheels within the range of each, (n,)."""
         del racks
         return np.ones(len(coordinates), dtype=bool)
 
     def locked(self, coordinates: Array) -> NDArray[np.bool_]:
-        """Return where a linkage is so near the end of its reach that it carries anything, (n,)."""
+        """Return whether a linkage is at the end of its range, where it carries any load, (n,)."""
         return np.zeros(len(coordinates), dtype=bool)
 
     # -- loads -------------------------------------------------------------------------------------
 
     def torque_on(self, what: Literal["brakes", "drive"]) -> TorqueReaction | None:
         """Return the part that reacts the torque of brakes or drive; None without a drive."""
-        return "carrier" if what == "brakes" else "body"
+        part = getattr(self.subject, what)
+        return None if part is None else part.torque_on
 
     @property
     @abstractmethod
     def rules(self) -> tuple[str, ...]:
-        """What decides where statics alone does not."""
+        """The assumptions that resolve statical indeterminacy, as sentences."""
 
     def acting(self, poses: Mapping[str, PartPoses]) -> dict[str, list[Load]]:
         """Return weights, and forces of springs, dampers, stops and of an anti-roll bar."""
@@ -569,7 +547,7 @@ class HeldAssembly(Assembly):
     def between(
         self, poses: Mapping[str, PartPoses], loads: Sequence[Load]
     ) -> tuple[list[Load], dict[str, BodyPose]]:
-        """Return the loads on what is between the groups and the chassis: rack, anti-roll bar.
+        """Return the loads on the parts between groups and chassis: rack and anti-roll bar.
 
         Parameters
         ----------
@@ -582,7 +560,7 @@ class HeldAssembly(Assembly):
         -------
         loads : list of Load
         places : dict of str to BodyPose
-            These parts.
+            By part.
         """
         del poses, loads
         return [], {}
@@ -590,7 +568,7 @@ class HeldAssembly(Assembly):
     def further(
         self, over: str, poses: Mapping[str, PartPoses], found: "xr.Dataset"
     ) -> "dict[str, xr.Variable]":
-        """Return what follows from all loads: forces of rack and rods, torque of the bar.
+        """Return further results: forces of rack and rods, torque of the bar.
 
         Parameters
         ----------
@@ -610,38 +588,38 @@ class HeldAssembly(Assembly):
     def in_motion(
         self, states: Array, inputs: Array
     ) -> tuple[dict[str, PartPoses], dict[str, Array]]:
-        """Return its parts in states of its equations, and the rates of these, by suffix."""
+        """Return the parts in states of the equations, and the rates of these, by suffix."""
 
     @abstractmethod
     def parts_with(self, values: Mapping[str, Array], count: int) -> dict[str, PartPoses]:
-        """Return its parts in its own axes, by suffix.
+        """Return the parts in chassis axes, by suffix.
 
         Parameters
         ----------
         values : mapping of str to ndarray
-            States and inputs by their names in its equations, (count,); others are zero.
+            States and inputs by their names in the equations, (count,); others are zero.
         count : int
-            Of positions.
+            Number of positions.
         """
 
     # -- bushes ------------------------------------------------------------------------------------
 
     @abstractmethod
     def bushes(self, given: Validator, bushings: Mapping[str, Any] | None) -> Bushings:
-        """Return bushes as a caller describes them, or those of the file.
+        """Return the bushes that a caller describes, or those of the file.
 
         Parameters
         ----------
         given : Validator
-            Gets what is wrong.
+            Collects problems.
         bushings : mapping or None
-            By hardpoint; of an axle those of one side, and the other has their image.
+            Descriptions by hardpoint; of an axle those of one side, mirrored for the other one.
         """
 
     # -- the coupling of the wheels ----------------------------------------------------------------
 
     BAR_SIGN: ClassVar[str] = ""
-    """When the torque of the anti-roll bar is positive."""
+    """The sign of the torque of the anti-roll bar."""
 
     @property
     def bar(self) -> AnyBar | None:
@@ -649,12 +627,12 @@ class HeldAssembly(Assembly):
         return None
 
     def bar_loads(self, poses: Mapping[str, PartPoses]) -> dict[str, list[Load]]:
-        """Return what a unit torque of the bar does to each group; empty without a bar."""
+        """Return the loads of a unit torque of the bar on each group; empty without a bar."""
         del poses
         return {}
 
     def bar_twist(self, poses: Mapping[str, PartPoses]) -> dict[str, Array]:
-        """Return what each group adds to the twist of the bar, (n,) [rad]; empty without one."""
+        """Return the part of each group in the twist of the bar, (n,) [rad]; empty without one."""
         del poses
         return {}
 

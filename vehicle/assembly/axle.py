@@ -13,10 +13,9 @@ from ...core.validator import Validator
 from ...core.vectors import unit_vector
 from ..corner.bushes import described_bushings, mirrored_bushings, softness_of_rack
 from ..corner.corner import Array
-from ..input.vehicle import TyreSection
+from ..kinds import Suspension
 from ..models.axle import Axle
 from ..models.axle.equations import AxleModel
-from ..models.axle.file import TorqueReaction
 from ..models.model import Model
 from ..models.plausibility import Plausibility
 from ..models.reach import PositionError
@@ -48,7 +47,7 @@ _NO_REST = (
     "the axle has no stable equilibrium near that of its sides. Check the anti-roll bar's "
     "free_twist_deg and rate, or the heights of the road."
 )
-# Motions of the rack, both wheels at one height.
+# Motions of the rack, with both wheels at one height.
 _STEERING = ("steer", "rack")
 
 
@@ -59,7 +58,7 @@ class AxleAssembly(HeldAssembly):
     ----------
     axle : Axle
     model : AxleModel, optional
-        Its equations, where there are some already.
+        Its equations, if they exist already.
     """
 
     wheels = SIDES
@@ -67,7 +66,8 @@ class AxleAssembly(HeldAssembly):
     BAR_SIGN = "positive with the left half turned the farther"
 
     def __init__(self, axle: Axle, model: AxleModel | None = None) -> None:
-        self.axle, self._model = axle, model
+        self.subject = self.axle = axle
+        self._model = model
         self.motions = motions_of_two(motions.MOTIONS)
         if self.steered:
             over = STEERING_WHEEL if motions.turns_the_rack(axle) else RACK
@@ -77,13 +77,8 @@ class AxleAssembly(HeldAssembly):
             }
 
     @property
-    def subject(self) -> Axle:
-        """The axle."""
-        return self.axle
-
-    @property
     def design_sections(self) -> dict[str, dict[str, Any]]:
-        """The sections of its own file, and of both sides: of one and its image, and of each."""
+        """The sections of its own file, of both sides together if they are images, and of each."""
         whole = self.axle.to_dict()
         found = {f"{side}.": each.to_dict() for side, each in self.axle.sides.items()}
         if "side" in whole:
@@ -92,24 +87,9 @@ class AxleAssembly(HeldAssembly):
         return found | {"": own}
 
     @property
-    def steered(self) -> bool:
-        """Whether it has a rack."""
-        return self.axle.steered()
-
-    @property
-    def tyres(self) -> Sequence[TyreSection]:
-        """The tyres, the left one first."""
-        return [side.tyre for side in self.axle.sides.values()]
-
-    @property
-    def tyre_radii(self) -> Sequence[float | None]:
-        """The radii of the wheels [m]."""
-        return [side.tyre_radius() for side in self.axle.sides.values()]
-
-    @property
-    def has_bushes(self) -> bool:
-        """Whether the file of a side has bushes."""
-        return any(side.bushings for side in self.axle.sides.values())
+    def wheeled(self) -> Sequence[Suspension]:
+        """The data of both sides, the left one first."""
+        return [*self.axle.sides.values()]
 
     @property
     def symmetric(self) -> bool:
@@ -118,42 +98,29 @@ class AxleAssembly(HeldAssembly):
 
     @property
     def words(self) -> str:
-        """What it is, in sentences."""
+        """A description in sentences."""
         on_rack = ", on one rack" if self.steered else ""
         words = [
             f"Both wheels of the {self.axle.heading()}{on_rack}.",
             "One side is the mirror image of the other." if self.symmetric else "The sides differ.",
+            *(f"Anti-roll bar: {bar}." for bar in self.described().values()),
         ]
-        bar = self.axle.bar
-        if bar is not None:
-            rate, part = np.deg2rad(bar.rate()), bar.link_on.replace("_", " ")
-            soft = ", its bushes or drop links included" if bar.gives_way() else ""
-            words.append(f"Anti-roll bar: {rate:.4g} N m/deg{soft}, drop links on the {part}.")
         return " ".join(words)
 
     @property
     def own_sections(self) -> Mapping[str, Any]:
-        """Data of its own file."""
-        axle = self.axle
-        found = {
-            "anti_roll_bar": axle.bar,
-            "drive": axle.drive,
-            "brakes": axle.brakes,
-            "steering": axle.steering,
-        }
+        """The sections of its own file."""
+        names = {"anti_roll_bar": "bar", "drive": "drive", "brakes": "brakes"}
+        found = {name: getattr(self.axle, own) for name, own in names.items()}
+        found["steering"] = self.axle.steering
         return {name: section for name, section in found.items() if section is not None}
 
     def usual(
-        self,
-        motion: str,
-        extent: SweepRange | None = None,
-        *,
-        travel: float = 0.0,
-        rack: float = 0.0,
+        self, motion: str, ends: SweepRange | None = None, *, travel: float = 0.0, rack: float = 0.0
     ) -> Array:
-        """Return the usual positions of a motion, zero included [m] or [rad]."""
+        """Return the default positions of a motion, zero included [m] or [rad]."""
         del travel, rack
-        far = extent or SweepRange()
+        far = ends or SweepRange()
         if motion == "roll":
             return motions.rolls(self.axle, far)
         if motion == "steer":
@@ -166,7 +133,7 @@ class AxleAssembly(HeldAssembly):
     def position(
         self, motion: str, along: Array, *, travel: float = 0.0, rack: float = 0.0
     ) -> RigPosition:
-        """Return where wheels and rack are along a motion."""
+        """Return the positions of wheels and rack along a motion."""
         if motion in _STEERING:
             turns = self.motions[motion].along is STEERING_WHEEL
             racks, per_turn = (
@@ -182,7 +149,7 @@ class AxleAssembly(HeldAssembly):
         return RigPosition({LEFT: left, RIGHT: right}, np.asarray(rack, float))
 
     def held_in(self, motion: str, travel: float, rack: float) -> dict[Quantity, float]:
-        """Return what a motion holds."""
+        """Return the constant quantities of a motion."""
         return {TRAVEL: travel} if motion in _STEERING else super().held_in(motion, travel, rack)
 
     def refuse_holding(self, given: Validator, motion: str, travel: float, rack: float) -> None:
@@ -203,7 +170,7 @@ class AxleAssembly(HeldAssembly):
         return tuple(f"{side}_{model.names.arm}" for side, model in self.axle.models.items())
 
     def names_of(self, wheel: str) -> WheelNames:
-        """Return what its equations call what belongs to a wheel."""
+        """Return the names of a wheel in the equations."""
         names, prefix = self.axle.models[wheel].names, f"{wheel}_"
         signals = f"{prefix}{self.axle.end}_"
         return WheelNames(prefix, signals, f"{prefix}{names.spin}", f"{prefix}{names.actuator}")
@@ -215,17 +182,19 @@ class AxleAssembly(HeldAssembly):
 
     def coordinates_at_rest(self, held: RestConditions) -> Array:
         """Return the arm angles of the state of rest nearest to that of the sides without a bar."""
-        alone = held.without_inputs()
-        sides = [CornerAssembly(model) for model in self.axle.models.values()]
+        alone = replace(
+            held, inputs={}
+        )  # further inputs have other names in the equations of a side
+        sides = self._corners.values()
         near = np.concatenate([side.coordinates_at_rest(alone) for side in sides])
         return settled(self, held, near, _NO_REST)
 
     def refuse_unsteered(self, what: str) -> None:
-        """Refuse what moves a rack where there is none."""
+        """Refuse an option that needs a rack if there is none."""
         self.axle.right.refuse_without_rack(what)
 
     def refuse_positions(self, given: Validator, motion: str, along: Array) -> None:
-        """Refuse angles of a steering wheel whose motion of the rack nothing says, or beyond it."""
+        """Refuse steering-wheel angles without a known ratio to the rack, or beyond its curve."""
         if motion != "steer":
             return
         if self.motions[motion].along is not STEERING_WHEEL:
@@ -241,17 +210,12 @@ class AxleAssembly(HeldAssembly):
 
     @property
     def steered_by(self) -> str | None:
-        """The motion of the steering wheel, or of the rack where nothing says how it moves that."""
+        """The motion of the steering wheel, or of the rack if no file has the steering's ratio."""
         turns = self.steered and self.motions["steer"].along is STEERING_WHEEL
         return "steer" if turns else "rack" if self.steered else None
 
-    def refuse_motion(self, motion: str) -> None:
-        """Refuse steering without a rack."""
-        if motion in ("rack", "steer"):
-            self.axle.right.refuse_without_rack(f"the motion {motion!r}")
-
     def coordinates_of(self, suffix: str) -> dict[str, str]:
-        """Return what the arm's angle of a side is called."""
+        """Return the name of the arm's angle of a side."""
         return {self.axle.models[suffix.removeprefix("_")].names.arm: "arm_angle"}
 
     def joints(self, suffix: str) -> tuple[str, ...]:
@@ -265,7 +229,7 @@ class AxleAssembly(HeldAssembly):
         return OVER_STEERING if self.motions[motion].along is STEERING_WHEEL else OVER_RACK
 
     def kinematics(self, position: RigPosition) -> AxleKinematics:
-        """Return how both wheels are and how they move first."""
+        """Return positions and first derivatives of both wheels."""
         left, right = (position.travels[side] for side in SIDES)
         return AxleKinematics.at(self.axle, left, right, position.rack, position.per_turn)
 
@@ -281,7 +245,7 @@ class AxleAssembly(HeldAssembly):
         return found
 
     def soft_lines(self, poses: Mapping[str, PartPoses]) -> dict[str, SoftLines]:
-        """Return how springs and stops of both sides deflect."""
+        """Return the flexibilities of springs and stops of both sides."""
         return {suffix: lines_of(each) for suffix, each in poses.items()}
 
     @cached_property
@@ -295,11 +259,11 @@ class AxleAssembly(HeldAssembly):
 
     @property
     def design_wheel_coordinates(self) -> Array:
-        """Those of both sides."""
+        """The coordinates of both sides."""
         return np.concatenate([one.design_wheel_coordinates for one in self._corners.values()])
 
     def wheel_coordinates(self, travels: Sequence[float | None], rack: float) -> Array:
-        """Return the coordinates where some wheels are at heights above design."""
+        """Return the coordinates for heights of some wheels above design."""
         found = []
         for (side, one), travel in zip(self._corners.items(), travels, strict=True):
             try:
@@ -309,11 +273,11 @@ class AxleAssembly(HeldAssembly):
         return np.concatenate(found)
 
     def wheel_reach(self, rack: float) -> list[WheelReach]:
-        """Return how far each wheel goes by itself."""
+        """Return the range of each wheel."""
         return [reach for one in self._corners.values() for reach in one.wheel_reach(rack)]
 
     def at_wheel_coordinates(self, coordinates: Array, racks: Array) -> dict[str, PartPoses]:
-        """Return its parts at rest; the coordinates are those of the sides."""
+        """Return the parts at rest; the coordinates are those of the sides."""
         sides = enumerate(self._corners.items())
         return {f"_{side}": one.at_angles(coordinates[:, i], racks) for i, (side, one) in sides}
 
@@ -329,19 +293,14 @@ class AxleAssembly(HeldAssembly):
         """Return whether a wheel has a stop."""
         return getattr(self.axle.sides[wheel], which) is not None
 
-    def torque_on(self, what: Literal["brakes", "drive"]) -> TorqueReaction | None:
-        """Return the part that reacts the torque of brakes or drive; None without a drive."""
-        part = getattr(self.axle, what)
-        return None if part is None else part.torque_on
-
     @property
     def rules(self) -> tuple[str, ...]:
-        """What decides where statics alone does not."""
+        """The assumptions that resolve statical indeterminacy."""
         own = [rule for side in self.axle.sides.values() for rule in side.structure().rules]
         return tuple(dict.fromkeys([*own, *rules_of(self.axle)]))
 
     def acting(self, poses: Mapping[str, Any]) -> dict[str, list[Load]]:
-        """Return what acts on both sides, the drop links included."""
+        """Return the applied loads on both sides, those of the drop links included."""
         found = super().acting(poses)
         if self.axle.halves:
             torque = self.bar_torque(poses)
@@ -405,9 +364,9 @@ class AxleAssembly(HeldAssembly):
     def described_bushings(
         self, given: Validator, bushings: Mapping[str, Any] | None
     ) -> dict[str, dict[str, Any]]:
-        """Return what is said of the bushes of both sides: the files', or what is given, mirrored.
+        """Return the descriptions of bushes by side: those of the files, or given ones, mirrored.
 
-        A problem of the latter names the side that it is given for.
+        A problem of the given ones names the side that they describe.
         """
         if bushings is None:
             return {
@@ -422,38 +381,33 @@ class AxleAssembly(HeldAssembly):
         return {one: described, other: {} if with_one.failed else mirrored_bushings(described)}
 
     def with_bushings(self, bushings: Mapping[str, Any]) -> Axle:
-        """Return the axle on other bushes than those of its files."""
+        """Return the axle with other bushes than those of its files."""
         with Validator("compliance") as given:
             described = self.described_bushings(given, bushings)
         changes = {f"{side}.bushings": described[side] for side in SIDES}
         return self.axle.with_changes(changes)
 
     def bushes(self, given: Validator, bushings: Mapping[str, Any] | None) -> Bushings:
-        """Return bushes of both sides, and how far their rack deflects."""
+        """Return the bushes of both sides, and the flexibility of the rack."""
         described = self.described_bushings(given, bushings)
         found = {f"_{side}": self.axle.sides[side].bushes(given, described[side]) for side in SIDES}
         return Bushings(found, softness_of_rack(given, described[self.axle.bar_side]))
 
     @property
-    def heading(self) -> str:
-        """What it is called."""
-        return self.axle.heading()
-
-    @property
     def corners(self) -> Mapping[str, Model]:
-        """Both sides, or one where the other is its mirror image."""
+        """The models of both sides, or of one if the other is its mirror image."""
         if self.axle.symmetric:
             return {self.axle.bar_side: self.axle.models[self.axle.bar_side]}
         return {side: self.axle.models[side] for side in SIDES}
 
     def plausibility(self) -> Plausibility:
-        """Return what is unusual of its anti-roll bar."""
+        """Return a note on an anti-roll bar that is twisted at design."""
         bent = self.axle.bar is not None and self.axle.bar.free_twist_deg
         note = "the anti-roll bar is bent at design: the sides' equilibrium is without it"
         return Plausibility((), (note,) if bent else ())
 
     def described(self) -> dict[str, str]:
-        """Return its anti-roll bar in words."""
+        """Return the rate of the anti-roll bar as text."""
         bar = self.axle.bar
         if bar is None:
             return {}
@@ -463,7 +417,7 @@ class AxleAssembly(HeldAssembly):
         return {"anti-roll bar": f"{rate:.4g} N m/deg{soft}, drop links on the {part}"}
 
     def without_friction(self) -> "AxleAssembly":
-        """Return the same without friction."""
+        """Return the axle without friction."""
         left, right = (one.without_friction() for one in self.axle.sides.values())
         return AxleAssembly(replace(self.axle, left=left, right=right))
 
@@ -473,10 +427,10 @@ class AxleAssembly(HeldAssembly):
         if self.axle.bar is None:
             return None
         halves = self.axle.halves[LEFT], self.axle.halves[RIGHT]
-        return Bar(halves, self.axle.bar.rate(), self.axle.bar.free_twist())
+        return Bar(self.axle.bar.rate(), halves, self.axle.bar.free_twist())
 
     def bar_loads(self, poses: Mapping[str, Any]) -> dict[str, list[Load]]:
-        """Return the pull of the drop link of each side by a unit torque of the bar."""
+        """Return the pull of the drop link of each side for a unit torque of the bar."""
         if not self.axle.halves:
             return {}
         return {f"_{side}": [pull_of_bar(self.axle, side, poses[f"_{side}"])] for side in SIDES}
@@ -490,7 +444,7 @@ class AxleAssembly(HeldAssembly):
 
 
 def motions_of_two(words: Mapping[str, str]) -> dict[str, RigMotion]:
-    """Return the motions of a rig with two wheels but for steering."""
+    """Return the motions of a rig with two wheels, except steering."""
     return {
         "bump": RigMotion(TRAVEL, words["bump"], "parallel wheel travel"),
         "roll": RigMotion(ROLL, words["roll"], "roll"),

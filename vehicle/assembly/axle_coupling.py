@@ -1,4 +1,4 @@
-"""What both sides of an axle load: the anti-roll bar with its drop links, and the rack."""
+"""Loads on the anti-roll bar of an axle, with its drop links."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -22,7 +22,7 @@ _OF_RACK = "the housing of the rack holds it in the middle between the tie rods"
 
 
 def rules_of(axle: Axle) -> tuple[str, ...]:
-    """Return what decides where statics alone does not."""
+    """Return the assumptions that resolve the statical indeterminacy of bar and rack."""
     of_bar, of_rack = (_OF_BAR,) * bool(axle.halves), (_OF_RACK,) * axle.steered()
     return (*of_bar, *of_rack)
 
@@ -36,7 +36,7 @@ def turn_of_half(axle: Axle, side: str, poses: CornerParts) -> tuple[Array, Arra
 
 
 def pull_of_bar(axle: Axle, side: str, poses: CornerParts, torque: Array | float = 1.0) -> Load:
-    """Return what a torque of the bar does on a side: against more twist of it."""
+    """Return the pull of the drop link of a side for a torque of the bar, against its twist."""
     foot, turn = turn_of_half(axle, side, poses)
     half = axle.halves[side]
     direction, lever = half.lever(foot, turn)
@@ -55,7 +55,7 @@ def on_the_bar(
     poses : mapping of str to CornerParts
         Of both sides, by suffix.
     loads : sequence of Load
-        All others; those of the drop links on the sides are among them.
+        All other loads, including those of the drop links on the sides.
 
     Returns
     -------
@@ -64,9 +64,9 @@ def on_the_bar(
 
     Notes
     -----
-    A drop link carries a force along it. The bar, bent as it is, is a body on two bearings at its
-    bushes: forces across the line through them follow from the balance of forces and moments. Where
-    the halves turn about axes that are not on this line, a moment about it is left, half at each.
+    A drop link carries a force along it. The deflected bar is a body on two bearings at its bushes:
+    forces across the line through them follow from the balance of forces and moments. If the halves
+    turn about other axes than this line, each bearing carries half of the moment about it.
     """
     found, places = [], {}
     for side in SIDES:
@@ -87,11 +87,11 @@ def on_the_bar(
 
 
 def _on_bearings(bushes: list[Array], wrench: Array) -> tuple[Array, Array]:
-    """Return what two bearings exert on a bar under a force and a moment about their middle."""
+    """Return the wrenches of two bearings on a bar, from force and moment about their middle."""
     force, moment = wrench[:, :3], wrench[:, 3:]
     apart = bushes[0] - bushes[1]
     square = (apart * apart).sum(-1, keepdims=True)
-    # couple of forces across the line: apart x pair = -moment, but for what is about the line
+    # couple of forces across the line: apart x pair = -moment, except its part about the line
     pair = cross(apart, moment) / square
     about = (moment * apart).sum(-1, keepdims=True) / square * apart
     left, right = (

@@ -1,4 +1,4 @@
-"""Both wheels of an axle and its anti-roll bar, in many positions."""
+"""Kinematics of both wheels of an axle and of its anti-roll bar, over n positions."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -19,8 +19,8 @@ from . import motions, wheel
 from .corner_kinematics import corner
 from .wheel_centre_line import inclination_rate
 
-# The slope of a half's angle over travel is exact; its change is a difference of fourth order over
-# this step of the arm's angle [rad]: an error of the fourth power of that, and rounding over it.
+# The slope of a half's angle over travel is exact; its derivative is a difference of fourth order
+# with this step of the arm's angle [rad]: the error is its fourth power, and rounding over it.
 _STEP = 1e-3
 _WEIGHTS = {-2: 1 / 12, -1: -8 / 12, 1: 8 / 12, 2: -1 / 12}
 
@@ -34,9 +34,9 @@ class Half:
     turn : ndarray
         Angle from design, right-handed about the axis to the left [rad].
     slope, curvature : ndarray
-        First and second derivative by wheel travel [rad/m], [rad/m^2].
+        First and second derivative with respect to wheel travel [rad/m], [rad/m^2].
     lever : ndarray
-        Of the drop link's pull about the bar's axis [m]; signed.
+        Lever of the drop link's pull about the bar's axis [m]; signed.
     """
 
     turn: Array
@@ -47,7 +47,7 @@ class Half:
 
 @dataclass(frozen=True)
 class AxleKinematics:
-    """Both wheels of an axle; every array has one leading dimension, that of the positions.
+    """Both wheels of an axle in n positions, the leading dimension of every array.
 
     Attributes
     ----------
@@ -61,8 +61,8 @@ class AxleKinematics:
     rack : ndarray
         Displacement of the rack [m].
     per_turn : ndarray or None
-        Rack travel for one turn of the steering wheel there, with its sign [m]; None where no
-        steering wheel turns.
+        Signed rack travel for one turn of the steering wheel there [m]; None if no steering wheel
+        turns.
     """
 
     axle: Axle
@@ -81,7 +81,7 @@ class AxleKinematics:
         rack: ArrayLike,
         per_turn: Array | None = None,
     ) -> "AxleKinematics":
-        """Return an axle at wheel travels and displacements of the rack [m].
+        """Return the axle at wheel travels and displacements of the rack [m].
 
         Raises
         ------
@@ -110,12 +110,12 @@ class AxleKinematics:
 
     @property
     def end(self) -> str:
-        """At which end of the vehicle it is."""
+        """The end of the vehicle, 'front' or 'rear'."""
         return self.axle.end
 
     @property
     def vehicles(self) -> tuple[Vehicle, ...]:
-        """What the vehicle adds, the left wheel first."""
+        """The data of the vehicle, the left wheel first."""
         return tuple(corner.vehicle for corner in self.corners.values())
 
     @property
@@ -139,7 +139,7 @@ class AxleKinematics:
 
     @property
     def torque(self) -> Array:
-        """Torque of the bar, positive with the left half turned the farther [N m]."""
+        """Torque of the bar, positive with the left half turned farther [N m]."""
         bar = self.axle.bar
         if bar is None:
             return np.zeros_like(self.travel[LEFT])
@@ -152,7 +152,7 @@ class AxleKinematics:
         return wheel.contact(self.corners[side])
 
     def wheel_force(self, side: str) -> Array:
-        """Return the vertical force that spring, stops and bar take at the wheel [N]."""
+        """Return the vertical force of spring, stops and bar at the wheel [N]."""
         force = wheel.wheel_force(self.corners[side])
         if side in self.halves:
             force = force + SENSE[side] * self.torque * self.halves[side].slope
@@ -176,12 +176,12 @@ class AxleKinematics:
 
     @property
     def rolled(self) -> tuple[Array, Array]:
-        """Travels of both wheels, and lateral motion of both contacts, by a roll of the body.
+        """Travels of both wheels, and lateral motions of both contacts, per roll of the body.
 
         The wheel centres move oppositely; (n, 2) each, the left wheel first [m/rad].
         """
         line = self.left.center - self.right.center
-        # of the roll angle by travel of the right wheel up and the left one down
+        # per travel of the right wheel up and the left one down
         rate = self.left.travel.velocity + self.right.travel.velocity
         by_travel = inclination_rate(line, rate)
         opposite = np.stack([-np.ones_like(by_travel), np.ones_like(by_travel)], -1)
@@ -190,9 +190,10 @@ class AxleKinematics:
         return travels, np.stack(moved, -1) * travels
 
     def path_slope(self, torque_on: str, side: str) -> Array:
-        """Return how far forward goes per rise where a longitudinal force acts, v_x / v_z [1].
+        """Return the slope v_x / v_z of the path of the point of a longitudinal force [1].
 
-        That is the contact, fixed to the carrier; the wheel centre if the body holds the torque.
+        The point is the contact, fixed to the carrier; the wheel centre if the body reacts the
+        torque.
         """
         corner = self.corners[side]
         on_body = torque_on == "body"
@@ -207,7 +208,7 @@ class AxleKinematics:
     def wheelbase(self) -> float:
         """The wheelbase [m]."""
         found = self.left.vehicle.wheelbase
-        assert found is not None  # what needs it is left out where it is not known
+        assert found is not None  # measures that need it are left out if it is not known
         return found
 
     @property
@@ -219,7 +220,7 @@ class AxleKinematics:
     def turned(self) -> tuple[Array, Array]:
         """Steer angles without static toe, the left wheel first [rad].
 
-        No numbers where the wheels cannot be straight ahead at these heights.
+        NaN if the wheels cannot be straight ahead at these heights.
         """
         try:
             middle = AxleKinematics.at(
@@ -232,12 +233,7 @@ class AxleKinematics:
 
 
 def refuse_loose_link(side: str, turn: Array, travels: Array) -> None:
-    """Refuse positions in which the drop link of a side does not reach its lever.
-
-    Raises
-    ------
-    InputError
-    """
+    """Raise an `InputError` for positions in which the drop link of a side does not reach."""
     lost = ~np.isfinite(turn)
     if lost.any():
         there = np.broadcast_to(travels, lost.shape)[lost]
@@ -266,7 +262,7 @@ def _half(model: Model, half: HalfBar, angle: Array, rack: Array, travel: Array,
 
 
 def _turned(model: Model, half: HalfBar, angle: Array, rack: Array) -> tuple[Array, Array, Array]:
-    """Return the angle of a half, its derivative by wheel travel, and the link's lever."""
+    """Return the angle of a half, its derivative with respect to travel, and the link's lever."""
     states, inputs = at_rest(model, angle, rack)
     foot = carried(model, {"foot": (half.body, half.foot)}, states, inputs)["foot"]
     states, inputs = at_rest(model, angle, rack, arm_rate=1.0)

@@ -1,12 +1,11 @@
-"""The dimension of the wheels in results, and tables that have none.
+"""The dimension of the wheels in results, and flat tables without it.
 
-Results have what each wheel has over the dimension ``wheel``; those of a corner, which has one
-wheel, over a coordinate without a dimension. Tables of a spreadsheet have a column for each: there
-the name of the wheel ends that of the column.
+A result of each wheel has the dimension ``wheel``; for a corner, which has one wheel, this is a
+coordinate without a dimension. Tables of a spreadsheet have a column for each wheel, whose name
+ends in that of the wheel.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -38,12 +37,11 @@ def axle_coordinate(axles: Sequence[str]) -> xr.Variable:
 def of_wheels(
     quantity: Quantity, dims: str | Sequence[str], values: Sequence[Array]
 ) -> xr.Variable:
-    """Return what each wheel has as one variable.
+    """Return the values of all wheels as one variable.
 
     Parameters
     ----------
     quantity : Quantity
-        What it is.
     dims : str or sequence of str
         Further dimensions.
     values : sequence of ndarray
@@ -55,22 +53,15 @@ def of_wheels(
 def stacked(
     dims: str | Sequence[str], values: Sequence[Array], attributes: Mapping[str, Any]
 ) -> xr.Variable:
-    """Return what each wheel has as one variable with some attributes, see `of_wheels`."""
+    """Return the values of all wheels as one variable with some attributes, see `of_wheels`."""
     further = (dims,) if isinstance(dims, str) else tuple(dims)
     if len(values) == 1:
         return xr.Variable(further, values[0], attributes)
     return xr.Variable((WHEEL, *further), np.stack(values), attributes)
 
 
-def of_wheel(quantity: Quantity, wheel: str) -> Quantity:
-    """Return a quantity of each wheel as that of one, as a column of a flat table has it."""
-    return replace(
-        quantity, name=f"{quantity.name}_{wheel}", long_name=f"{quantity.long_name}, {wheel}"
-    )
-
-
 def flat(dataset: xr.Dataset) -> xr.Dataset:
-    """Return a dataset without the dimension of the wheels, as tables have it.
+    """Return a dataset without the dimension of the wheels, for a table.
 
     Parameters
     ----------
@@ -80,8 +71,8 @@ def flat(dataset: xr.Dataset) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        Where there is ``camber`` over ``wheel`` there are ``camber_left`` and ``camber_right``; all
-        else is as it is. The wheel of a corner is no longer named.
+        With ``camber_left`` and ``camber_right`` instead of ``camber`` over ``wheel``; other
+        variables are unchanged. The wheel of a corner is not named.
 
     Examples
     --------
@@ -100,7 +91,7 @@ def wheel_that_begins(name: str, wheels: Sequence[str]) -> str:
 
 
 def together(dataset: xr.Dataset, wheels: Sequence[str]) -> xr.Dataset:
-    """Return a dataset in which what each wheel has is one variable over the wheels.
+    """Return a dataset in which the variables of all wheels are one variable over the wheels.
 
     Parameters
     ----------
@@ -111,7 +102,7 @@ def together(dataset: xr.Dataset, wheels: Sequence[str]) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        With ``road_height`` over ``wheel`` where there is one of each wheel.
+        With ``road_height`` over ``wheel`` if each wheel has one.
     """
     found: dict[str, xr.DataArray | xr.Variable] = {}
     for name, data in dataset.items():
@@ -129,7 +120,7 @@ def together(dataset: xr.Dataset, wheels: Sequence[str]) -> xr.Dataset:
 
 
 def by_ending(dataset: xr.Dataset, wheels: Sequence[str]) -> xr.Dataset:
-    """Return a flat dataset with what each wheel has over the wheels, as before `flat`.
+    """Return a flat dataset with the dimension of the wheels: the inverse of `flat`.
 
     Parameters
     ----------
@@ -140,7 +131,7 @@ def by_ending(dataset: xr.Dataset, wheels: Sequence[str]) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        With ``camber`` over ``wheel`` where there is one of each wheel.
+        With ``camber`` over ``wheel`` if each wheel has one.
     """
     begun = {
         str(name): f"{wheel}_{str(name).removesuffix(f'_{wheel}')}"

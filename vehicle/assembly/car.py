@@ -14,9 +14,8 @@ from ...equations.layout import rotation
 from ...systems.rest import rest
 from ...systems.state import State
 from ..corner.corner import Array
+from ..corner.wheeled import WheeledSection
 from ..input.units import in_metres
-from ..input.vehicle import TyreSection
-from ..models.axle.axle import Axle
 from ..models.car.car import Car, center_of_gravity, masses, suspension_masses
 from ..models.car.equations import CarModel
 from ..models.model import Model
@@ -30,7 +29,7 @@ from .controls import Controls
 from .corner import CornerAssembly
 from .held import RestConditions
 from .measures.measure import Measure
-from .quantity import HEAVE, PITCH, RACK, ROLL, Quantity
+from .quantity import HEAVE, PITCH, ROLL
 from .rig import RigMotion, RigPosition, SweepRange
 from .running import straight
 from .usual import grid
@@ -44,7 +43,7 @@ _MOTIONS = {
 }
 # Usual pitch to either side, and its step [rad].
 _MOST_PITCH, _PITCH_STEP = np.deg2rad(2.0), np.deg2rad(0.1)
-# By how much tyres are pressed where a search for rest begins above the road [m].
+# Deflection of the tyres at the start of a search for rest if the car is above the road [m].
 _PRESSED = 0.01
 # A wheel that carries less than this has left the road [N].
 _LEAST_LOAD = 1.0
@@ -59,22 +58,18 @@ class CarAssembly(Assembly):
     ----------
     car : Car
     model : CarModel, optional
-        Its equations, where there are some already.
+        Its equations, if they exist already.
     """
 
     def __init__(self, car: Car, model: CarModel | None = None) -> None:
-        self.car, self._model = car, model
+        self.subject = self.car = car
+        self._model = model
         self.wheels = car.wheels
         self.held = _held_parts(car)
         known = _MOTIONS if car.axles else {"heave": _MOTIONS["heave"]}
         self.motions = dict(known)
 
-    # -- what it is -------------------------------------------------------------------------------
-
-    @property
-    def subject(self) -> Car:
-        """The car."""
-        return self.car
+    # -- its data ---------------------------------------------------------------------------------
 
     @property
     def axles(self) -> tuple[str, ...]:
@@ -83,11 +78,11 @@ class CarAssembly(Assembly):
 
     @property
     def held_parts(self) -> Mapping[str, HeldAssembly]:
-        """Its axles, or the corner of a quarter car, on a body that is held."""
+        """Its axles, or the corner of a quarter car, on a held body."""
         return {end or "corner": part for end, part in self.held.items()}
 
     def described(self) -> dict[str, str]:
-        """Return its masses in words, and what of its files it does not take."""
+        """Return masses, tyres, brakes and drive as text, and the unused data of its files."""
         total = sum(mass for mass, _ in masses(self.car))
         found = {"motions of the body": ", ".join(self.car.coordinates)}
         if self.axles:
@@ -103,7 +98,7 @@ class CarAssembly(Assembly):
         return found
 
     def _described_driving(self) -> dict[str, str]:
-        """Return its tyres, brakes and drive in words."""
+        """Return tyres, brakes and drive as text."""
         car, brakes = self.car, self.car.described.brakes
         shares = {end: f"{100 * share:g} %" for end, share in car.drive_shares.items()}
         found = {
@@ -138,28 +133,18 @@ class CarAssembly(Assembly):
 
     @property
     def body_moves(self) -> bool:
-        """It does."""
+        """The body moves."""
         return True
 
     @property
     def drives(self) -> bool:
-        """Whether it drives on tyres that roll."""
+        """Whether it drives on rolling tyres."""
         return self.car.drives
 
     @property
-    def steered(self) -> bool:
-        """Whether it has a rack that moves."""
-        return self.car.steered()
-
-    @property
-    def tyres(self) -> Sequence[TyreSection]:
-        """The tyres, by wheel."""
-        return [tyre for part in self.held.values() for tyre in part.tyres]
-
-    @property
-    def tyre_radii(self) -> Sequence[float | None]:
-        """The radii of the wheels [m]."""
-        return [radius for part in self.held.values() for radius in part.tyre_radii]
+    def wheeled(self) -> Sequence[WheeledSection]:
+        """The data of the file that describes each wheel, by wheel."""
+        return [file for part in self.held.values() for file in part.wheeled]
 
     @property
     def symmetric(self) -> bool:
@@ -168,45 +153,25 @@ class CarAssembly(Assembly):
 
     @property
     def words(self) -> str:
-        """What it is, in sentences."""
+        """A description in sentences."""
         return f"A {self.car.heading()}. The body moves: {', '.join(self.car.coordinates)}."
 
-    @property
-    def heading(self) -> str:
-        """What it is called."""
-        return self.car.heading()
-
-    @property
-    def has_bushes(self) -> bool:
-        """Whether its files have bushes."""
-        return any(part.has_bushes for part in self.held.values())
-
     def without_friction(self) -> "CarAssembly":
-        """Return the same without friction."""
+        """Return the car without friction."""
         parts = {
             end or "corner": part.without_friction().subject for end, part in self.held.items()
         }
         data = {k: v for k, v in self.car.to_dict().items() if k not in parts}
         return CarAssembly(Car.from_dict(data | parts))
 
-    def _place_of(self, wheel: str) -> tuple[str, str]:
-        """Return the end and the side of a wheel; no end of a quarter car."""
-        end, _, side = wheel.rpartition("_")
-        return end, side
-
-    # -- where a rig holds it ---------------------------------------------------------------------
+    # -- its positions on a rig -------------------------------------------------------------------
 
     def usual(
-        self,
-        motion: str,
-        extent: SweepRange | None = None,
-        *,
-        travel: float = 0.0,
-        rack: float = 0.0,
+        self, motion: str, ends: SweepRange | None = None, *, travel: float = 0.0, rack: float = 0.0
     ) -> Array:
-        """Return the usual positions of a motion, zero included [m] or [rad]."""
+        """Return the default positions of a motion, zero included [m] or [rad]."""
         del travel, rack
-        far = extent or SweepRange()
+        far = ends or SweepRange()
         if motion == "pitch":
             return grid(-_MOST_PITCH, _MOST_PITCH, _PITCH_STEP)
         own = {"heave": None, "roll": "roll"}[motion]
@@ -219,9 +184,9 @@ class CarAssembly(Assembly):
     def position(
         self, motion: str, along: Array, *, travel: float = 0.0, rack: float = 0.0
     ) -> RigPosition:
-        """Return where the wheels are on the body along a motion of it.
+        """Return the positions of the wheels on the body along a motion of the body.
 
-        Heave is that of the body over wheels that stay. In pitch the travels of an axle are its
+        In heave the body moves and the wheels do not. In pitch the travels of an axle are its
         distance from the body's centre of mass times the tangent of the angle. In roll each axle
         has the opposite travels that incline the line through its wheel centres by the angle.
         """
@@ -237,14 +202,9 @@ class CarAssembly(Assembly):
         return RigPosition(travels, np.asarray(rack, float))
 
     def _lever(self, end: str) -> float:
-        """Return how far an axle is in front of the body's centre of mass [m]."""
+        """Return the distance of an axle in front of the body's centre of mass [m]."""
         x = [self.car.wheel_centers[f"{end}_{side}"][0] for side in SIDES]
         return float(np.mean(x) - self.car.com[0])
-
-    def held_in(self, motion: str, travel: float, rack: float) -> dict[Quantity, float]:
-        """Return what a motion holds."""
-        del motion, travel
-        return {RACK: rack} if self.steered else {}
 
     def refuse_holding(self, given: Validator, motion: str, travel: float, rack: float) -> None:
         """Refuse a travel: the body moves over all wheels."""
@@ -262,7 +222,7 @@ class CarAssembly(Assembly):
         return motion if motion == "roll" else part.usual_motion
 
     def kinematics(self, position: RigPosition) -> Any:
-        """Return how the wheels are and how they move first."""
+        """Return positions and first derivatives of the wheels."""
         found = {}
         for end, part in self.held.items():
             travels = {
@@ -292,8 +252,8 @@ class CarAssembly(Assembly):
         return (*(_FREE if self.car.drives else self.car.coordinates), *own)
 
     def names_of(self, wheel: str) -> WheelNames:
-        """Return what its equations call what belongs to a wheel."""
-        end, side = self._place_of(wheel)
+        """Return the names of a wheel in the equations."""
+        end, _, side = wheel.rpartition("_")
         names = self.held[end].names_of(side)
         if not end:
             return names
@@ -340,7 +300,7 @@ class CarAssembly(Assembly):
         return found[rows]
 
     def _slopes(self, state: Array, inputs: Array) -> Array:
-        """Return the accelerations by the coordinates that the car has a rest in."""
+        """Return the derivatives of the accelerations with respect to the coordinates of rest."""
         model, layout = self.model, self.model.layout
         slopes = model.evaluate("rhs_jacobian", state, inputs)
         speeds = slice(layout.positions, layout.positions + layout.speeds)
@@ -354,7 +314,7 @@ class CarAssembly(Assembly):
         return found
 
     def _on_its_tyres(self, held: RestConditions) -> Array:
-        """Return the state at design, lowered until tyres that are above the road carry it."""
+        """Return the state at design, lowered until all tyres are deflected."""
         model = self.model
         state: Array = model.design_state.copy()
         gaps = [
@@ -368,13 +328,13 @@ class CarAssembly(Assembly):
 
     @property
     def _free_heights(self) -> list[float]:
-        """The heights of wheel centres above the road at which tyres carry nothing [m]."""
+        """The heights of wheel centres above the road with undeflected tyres [m]."""
         if self.car.drives:
             return [self.car.tyre(wheel).free_radius for wheel in self.wheels]
         return [in_metres(tyre.free_height_mm, "mm") for tyre in self.tyres]
 
     def _refuse_on_stops(self, state: Array, inputs: Array) -> None:
-        """Refuse a rest in which a stop carries something."""
+        """Refuse a rest in which a stop carries a load."""
         signals = self.model.signals(state, inputs)
         pressed = {n: abs(float(f)) for n, f in signals.items() if n.endswith("_stop_force")}
         pressed = {name: force for name, force in pressed.items() if force > _LEAST_LOAD}
@@ -403,7 +363,7 @@ class CarAssembly(Assembly):
             )
             raise PositionError(problem)
 
-    # -- how it drives ----------------------------------------------------------------------------
+    # -- driving ----------------------------------------------------------------------------------
 
     @cached_property
     def controls(self) -> Controls:
@@ -418,17 +378,17 @@ class CarAssembly(Assembly):
         return Controls(self.car)
 
     def running(self, speed: float) -> State:
-        """Return the state in which it runs straight ahead at a speed, see `running.straight`.
+        """Return the state of steady motion straight ahead at a speed, see `running.straight`.
 
         Parameters
         ----------
         speed : float
-            Of the body's centre of mass, more than zero [m/s].
+            Speed of the body's centre of mass, more than zero [m/s].
 
         Raises
         ------
         InputError
-            If the car does not drive, nothing drives it, or no such state is found.
+            If the car does not drive, no axle is driven, or no such state is found.
         PositionError
             If it does not rest on its wheels.
         """
@@ -447,12 +407,7 @@ class CarAssembly(Assembly):
         return straight(self.model, names, at(self, held, self.coordinates_at_rest(held)), speed)
 
     def require_driving(self) -> None:
-        """Refuse a car that does not drive.
-
-        Raises
-        ------
-        InputError
-        """
+        """Raise an `InputError` if the car does not drive."""
         if not self.car.drives:
             problem = (
                 f'a car with car = "{self.car.described.car}" does not travel. Write car = "full" '
@@ -461,18 +416,13 @@ class CarAssembly(Assembly):
             raise InputError([problem], self.heading)
 
     def riding(self) -> "CarAssembly":
-        """Return the car whose body does not travel, of the same files: itself, if it is one."""
+        """Return the car of the same files whose body does not travel, which may be itself."""
         if not self.car.drives:
             return self
         return CarAssembly(self.car.with_changes({"car": "roll"}))
 
     def require_riding(self) -> None:
-        """Refuse a car that drives where its body must not travel.
-
-        Raises
-        ------
-        InputError
-        """
+        """Raise an `InputError` if the body travels."""
         if self.car.drives:
             problem = (
                 'a car with car = "full" travels; a ride needs a car that does not. Write car = '
@@ -481,7 +431,7 @@ class CarAssembly(Assembly):
             raise InputError([problem], self.heading)
 
     def body_at(self, state: Array) -> dict[str, float]:
-        """Return how its body is in a state: heave [m], pitch and roll [rad]."""
+        """Return the pose of its body in a state: heave [m], pitch and roll [rad]."""
         names = self.model.state_names
         if not self.car.drives:
             return {name: float(state[names.index(name)]) for name in self.car.coordinates}
@@ -494,17 +444,17 @@ class CarAssembly(Assembly):
         }
 
     def upright(self, camber: float) -> float:
-        """Return the part of the load of a tyre that is along the normal of the road.
+        """Return the part of a tyre's force that is normal to the road [1].
 
-        A tyre that rolls loads along that; the force of others is in the plane of the wheel.
+        The load of a rolling tyre is normal to the road; other tyre forces are in the wheel plane.
         """
         return 1.0 if self.car.drives else float(np.cos(camber))
 
-    # -- how it rides -----------------------------------------------------------------------------
+    # -- ride -------------------------------------------------------------------------------------
 
     @cached_property
-    def _by_themselves(self) -> dict[str, "_HeldWheel"]:
-        """The equations of each wheel on a body that is held."""
+    def _held_wheels(self) -> dict[str, "_HeldWheel"]:
+        """The equations of each wheel on a held body."""
         found: dict[str, _HeldWheel] = {}
         for end, part in self.held.items():
             for side in part.wheels:
@@ -521,52 +471,50 @@ class CarAssembly(Assembly):
         Parameters
         ----------
         states : ndarray, shape (n, states)
-            Of its equations; the rack is taken to be in its middle.
+            States of the equations; the rack is assumed in its middle.
         """
         return {
             wheel: one.travel(states, self.model.state_names)
-            for wheel, one in self._by_themselves.items()
+            for wheel, one in self._held_wheels.items()
         }
 
     def travel_slopes(self, state: Array) -> dict[str, dict[str, float]]:
-        """Return the derivatives of these heights by the coordinates that move each wheel."""
+        """Return the derivatives of `travels` with respect to the coordinates of each wheel."""
         return {
             wheel: one.slopes(state, self.model.state_names)
-            for wheel, one in self._by_themselves.items()
+            for wheel, one in self._held_wheels.items()
         }
 
     def felt_at(self) -> dict[str, Array]:
-        """Return where the acceleration of the body is felt, from its centre of mass [m]."""
+        """Return the points of measured body accelerations, from the centre of mass [m]."""
         seats = self.car.described.seat_places()
         places = {f"{name}_acceleration": place - self.car.com for name, place in seats.items()}
         return {"body_acceleration": np.zeros(3)} | places
 
     def behind(self) -> dict[str, float]:
-        """Return how far each wheel is behind the foremost one at design [m]."""
+        """Return the distance of each wheel behind the foremost one at design [m]."""
         x = {wheel: float(center[0]) for wheel, center in self.car.wheel_centers.items()}
         return {wheel: max(x.values()) - at for wheel, at in x.items()}
 
     @property
     def track(self) -> float:
         """The mean distance of left and right wheel centres at design [m]; 0 of a quarter car."""
-        centers = self.car.wheel_centers
-        return float(
-            np.mean([abs(centers[f"{e}_left"][1] - centers[f"{e}_right"][1]) for e in self.axles])
-            if self.axles
-            else 0.0
-        )
+        if not self.axles:
+            return 0.0
+        y = {wheel: center[1] for wheel, center in self.car.wheel_centers.items()}
+        return float(np.mean([abs(y[f"{end}_left"] - y[f"{end}_right"]) for end in self.axles]))
 
     def mode_motions(self, state: Array) -> dict[str, tuple[float, dict[str, float]]]:
-        """Return the motions by which modes are named: mass, and amplitude by coordinates.
+        """Return the reference motions that name modes: mass, and amplitude by coordinate.
 
-        Those of the body, and the heights of the wheel centres above the road, together and
-        oppositely. The mass of an axle is that of all its parts; of a pitch and a roll of the body
-        it is a moment of inertia.
+        They are the motions of the body, and the heights of the wheel centres above the road, in
+        phase and opposite. The mass of an axle is that of all its parts; of a pitch and a roll of
+        the body it is a moment of inertia.
 
         Parameters
         ----------
         state : ndarray
-            Of rest.
+            State of rest.
         """
         body, inertia = self.car.described.body, self.car.described.body.elements()
         of_body = {"heave": body.mass_kg, "pitch": inertia["yy"], "roll": inertia["xx"]}
@@ -584,7 +532,7 @@ class CarAssembly(Assembly):
         return found
 
     def _wheel_heights(self, state: Array) -> dict[str, dict[str, float]]:
-        """Return the derivatives of the heights of wheel centres above the road, by coordinates."""
+        """Return the derivatives of the wheel centres' heights above the road, by coordinate."""
         found = {}
         for wheel, slopes in self.travel_slopes(state).items():
             x, y, _ = self.car.wheel_centers[wheel] - self.car.com if self.axles else np.zeros(3)
@@ -593,7 +541,7 @@ class CarAssembly(Assembly):
         return found
 
     def coordinates_at(self, position: RigPosition) -> Array:
-        """Refuse: a car begins at rest, or at a state of its equations."""
+        """Raise an `InputError`: a car begins at rest, or in a state of its equations."""
         del position
         problem = (
             "heights of wheels: the body of a car moves too; it begins at rest. Leave them out."
@@ -603,15 +551,15 @@ class CarAssembly(Assembly):
 
 @dataclass(frozen=True)
 class _HeldWheel:
-    """The equations of a wheel on a body that is held, beside those of the car.
+    """The equations of a wheel on a held body, with the coordinates of a car.
 
     Attributes
     ----------
     model : Model or WholeAxleModel
     prefix : str
-        Begins the names of its signals there.
+        Prefix of the names of its signals in the equations.
     names : dict of str to str
-        The coordinates of the car by those that move the wheel there.
+        The coordinates of the car by those of the equations.
     """
 
     model: Any
@@ -642,13 +590,12 @@ class _HeldWheel:
 
 
 def _held_parts(car: Car) -> dict[str, HeldAssembly]:
-    """Return the axles on a body that is held, by end; of a quarter car its corner."""
+    """Return the axles on a held body, by end; of a quarter car its corner."""
     if car.corner is not None:
         return {"": CornerAssembly(Model(car.corner))}
-    return {end: _assembly(axle) for end, axle in car.axles.items()}
-
-
-def _assembly(axle: Axle | WholeAxle) -> HeldAssembly:
-    if isinstance(axle, WholeAxle):
-        return whole_axle_assembly(axle.KEY)(axle)
-    return AxleAssembly(axle)
+    return {
+        end: whole_axle_assembly(axle.KEY)(axle)
+        if isinstance(axle, WholeAxle)
+        else AxleAssembly(axle)
+        for end, axle in car.axles.items()
+    }

@@ -1,4 +1,4 @@
-"""Both axles of a car in some positions, as the formulas of their measures take them."""
+"""Kinematics of both axles of a car, for the formulas of their measures."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -14,11 +14,11 @@ from .quantity import Quantity
 
 @dataclass(frozen=True)
 class CarKinematics:
-    """How the wheels of a car are, and how they move first.
+    """Positions and first derivatives of the wheels of a car.
 
     Attributes
     ----------
-    axles : mapping of str to AxleKinematics or RigidAxleKinematics
+    axles : mapping of str to AxleKinematics or WholeAxleKinematics
         By end, the front one first.
     count : int
         Number of positions.
@@ -29,16 +29,16 @@ class CarKinematics:
 
     @property
     def vehicles(self) -> tuple[Any, ...]:
-        """What the vehicle adds, by wheel."""
+        """The data of the vehicle, by wheel."""
         return tuple(vehicle for axle in self.axles.values() for vehicle in axle.vehicles)
 
     def of_wheel(self, measures: Mapping[str, Measure], wheel: str) -> Array:
-        """Return what a measure is of a wheel; no numbers where its axle does not have it."""
+        """Return the measure of a wheel, from those by end; NaN if its axle does not have it."""
         end, _, side = wheel.partition("_")
         return self._of(measures, end, side)
 
     def of_axles(self, measures: Mapping[str, Measure]) -> Array:
-        """Return what a measure is of the axles, (axles, n)."""
+        """Return the measure of the axles, from those by end, (axles, n)."""
         return np.stack([self._of(measures, end, SIDES[0]) for end in self.axles])
 
     def _of(self, measures: Mapping[str, Measure], end: str, side: str) -> Array:
@@ -53,12 +53,7 @@ class CarKinematics:
 
 
 def measures_of_axles(by_end: Mapping[str, tuple[Measure, ...]]) -> tuple[Measure, ...]:
-    """Return the measures of a car: those of its axles, each of which may lack some.
-
-    Parameters
-    ----------
-    by_end : mapping of str to tuple of Measure
-    """
+    """Return the measures of a car from those of its axles, each of which may lack some."""
     quantities: dict[str, tuple[Quantity, Any]] = {}
     for measures in by_end.values():
         for one in measures:

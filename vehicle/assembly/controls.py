@@ -17,14 +17,14 @@ Array = NDArray[np.float64]
 
 
 class Controls:
-    """Inputs of the equations of a car that drives, from what its driver does.
+    """Inputs of the equations of a driving car, from steering wheel and pedals.
 
-    Numbers and arrays alike; each method returns values by the names of inputs.
+    Each method takes numbers or arrays and returns values by the names of inputs.
 
     Parameters
     ----------
     car : Car
-        One that drives.
+        A car that drives.
 
     Examples
     --------
@@ -39,12 +39,12 @@ class Controls:
 
     @cached_property
     def _sense(self) -> float:
-        """The sense of the rack, cached since it needs the kinematics of the axle."""
+        """The sense of the rack, cached because it needs the kinematics of the axle."""
         return sense_of_rack(self._front)
 
     @property
     def _front(self) -> Any:
-        """The front axle: one with a rack, where the car is steered."""
+        """The front axle, which has the rack of a steered car."""
         return self.car.axles["front"]
 
     def rack(
@@ -60,8 +60,8 @@ class Controls:
         Raises
         ------
         InputError
-            If nothing steers the car, its files do not say how far the rack moves for a turn of the
-            steering wheel, or the angle is beyond a curve of the file.
+            If the car has no rack, its files have no rack travel per turn of the steering wheel, or
+            the angle is beyond a curve of the file.
         """
         with Validator("rack") as given:
             values = [
@@ -89,17 +89,17 @@ class Controls:
         return {name: _plain(value) for name, value in zip(names, found, strict=True)}
 
     def brakes(self, pedal: ArrayLike) -> dict[str, Any]:
-        """Return the torques of the brakes, half of an axle's at each of its wheels.
+        """Return the torques of the brakes [N m], half of an axle's at each of its wheels.
 
         Parameters
         ----------
         pedal : array_like
-            From 0 to 1.
+            From 0 (released) to 1 (down).
 
         Raises
         ------
         InputError
-            If the pedal is beyond its way, or the file has no brakes.
+            If the pedal is outside this range, or the file has no brakes.
         """
         with Validator("brakes") as given:
             pressed = given.array("pedal", pedal, empty=True)
@@ -121,12 +121,12 @@ class Controls:
         }
 
     def drive(self, torque: ArrayLike) -> dict[str, Any]:
-        """Return the torques of the drive: by the shares of the axles, equal left and right.
+        """Return the torques of the drive [N m], by the axles' shares, equal left and right.
 
         Parameters
         ----------
         torque : array_like
-            At all wheels together, positive forward [N m].
+            Sum at all wheels, positive forward [N m].
 
         Raises
         ------
@@ -145,5 +145,5 @@ class Controls:
 
 
 def _plain(value: Array) -> Any:
-    """Return a number where there is one value, else the array."""
+    """Return a single value as a number, others as they are."""
     return float(value) if np.ndim(value) == 0 else value

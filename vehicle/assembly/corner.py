@@ -10,8 +10,8 @@ from ...core.named_types import ArrayLike
 from ...core.validator import Validator
 from ..corner.bushes import described_bushings, softness_of_rack
 from ..corner.corner import Array, Corner
-from ..input.vehicle import TyreSection
 from ..kinds import Suspension
+from ..models.axle.file import TorqueReaction
 from ..models.model import Model
 from ..models.positions import PositionError, arm_angles, design_height
 from ..models.reach import at_rest, height_and_slope, travel_range
@@ -45,49 +45,25 @@ class CornerAssembly(HeldAssembly):
 
     def __init__(self, model: Model) -> None:
         self.model: Model = model
+        self.subject: Suspension = model.suspension
         self.wheels = (model.suspension.vehicle.side,)
         self.motions = _TRAVEL | _RACK if self.steered else _TRAVEL
 
     @property
-    def subject(self) -> Suspension:
+    def wheeled(self) -> Sequence[Suspension]:
         """The suspension."""
-        return self.model.suspension
-
-    @property
-    def steered(self) -> bool:
-        """Whether it has a rack."""
-        return self.subject.steered()
-
-    @property
-    def tyres(self) -> Sequence[TyreSection]:
-        """The tyre."""
-        return (self.subject.tyre,)
-
-    @property
-    def tyre_radii(self) -> Sequence[float | None]:
-        """The radius of the wheel [m]."""
-        return (self.subject.tyre_radius(),)
-
-    @property
-    def has_bushes(self) -> bool:
-        """Whether its file has bushes."""
-        return bool(self.subject.bushings)
+        return (self.subject,)
 
     @property
     def words(self) -> str:
-        """What it is, in a sentence."""
+        """A description in a sentence."""
         return f"A {self.subject.heading()}, {self.wheels[0]} side."
 
     def usual(
-        self,
-        motion: str,
-        extent: SweepRange | None = None,
-        *,
-        travel: float = 0.0,
-        rack: float = 0.0,
+        self, motion: str, ends: SweepRange | None = None, *, travel: float = 0.0, rack: float = 0.0
     ) -> Array:
-        """Return the usual positions of a motion, zero included [m]."""
-        far = extent or SweepRange()
+        """Return the default positions of a motion, zero included [m]."""
+        far = ends or SweepRange()
         if motion == "rack":
             return usual_rack(self.model, extent=far.rack, step=far.step, travel=travel)
         return usual_travel(
@@ -97,13 +73,13 @@ class CornerAssembly(HeldAssembly):
     def position(
         self, motion: str, along: Array, *, travel: float = 0.0, rack: float = 0.0
     ) -> RigPosition:
-        """Return where wheel and rack are along a motion."""
+        """Return the positions of wheel and rack along a motion."""
         if motion == "rack":
             return RigPosition({self.wheels[0]: np.full_like(along, travel)}, along)
         return self.at_travel(along, rack)
 
     def held_in(self, motion: str, travel: float, rack: float) -> dict[Quantity, float]:
-        """Return what a motion holds."""
+        """Return the constant quantities of a motion."""
         return {TRAVEL: travel} if motion == "rack" else super().held_in(motion, travel, rack)
 
     def refuse_holding(self, given: Validator, motion: str, travel: float, rack: float) -> None:
@@ -119,7 +95,7 @@ class CornerAssembly(HeldAssembly):
         return (self.model.names.arm,)
 
     def names_of(self, wheel: str) -> WheelNames:
-        """Return what its equations call what belongs to its wheel."""
+        """Return the names of its wheel in the equations."""
         del wheel
         return WheelNames("", "", self.model.names.spin, self.model.names.actuator)
 
@@ -130,7 +106,7 @@ class CornerAssembly(HeldAssembly):
         return self.model, "", {arm: arm}
 
     def at_rest(self, coordinates: Array, rack: float) -> tuple[Array, Array]:
-        """Return states and inputs without rates; a free rack is a state."""
+        """Return states and inputs with zero rates; a free rack is a state."""
         return at_rest(self.model, coordinates[..., 0], rack)
 
     def coordinates_at_rest(self, held: RestConditions) -> Array:
@@ -143,7 +119,7 @@ class CornerAssembly(HeldAssembly):
         return np.array([nearest(moment, reach, self.model.design_state[0])])
 
     def refuse_unsteered(self, what: str) -> None:
-        """Refuse what moves a rack where there is none."""
+        """Raise an `InputError` for an option that needs a rack if there is none."""
         self.subject.refuse_without_rack(what)
 
     @property
@@ -151,19 +127,14 @@ class CornerAssembly(HeldAssembly):
         """The motion of the rack."""
         return "rack" if self.steered else None
 
-    def refuse_motion(self, motion: str) -> None:
-        """Refuse steering without a rack."""
-        if motion in ("rack", "steer"):
-            self.subject.refuse_without_rack(f"the motion {motion!r}")
-
     def refuse_of_steering(self, names: Iterable[str]) -> None:
-        """Refuse characteristics that have no meaning for a wheel that nothing steers."""
+        """Raise an `InputError` for characteristics that only a steered wheel has."""
         for name in names:
             if name in OF_STEERING:
                 self.subject.refuse_without_rack(name)
 
     def coordinates_of(self, suffix: str) -> dict[str, str]:
-        """Return what the arm's angle is called."""
+        """Return the name of the arm's angle."""
         del suffix
         return {self.model.names.arm: "arm_angle"}
 
@@ -177,7 +148,7 @@ class CornerAssembly(HeldAssembly):
         return OVER_RACK if motion == "rack" else OVER_TRAVEL
 
     def kinematics(self, position: RigPosition) -> MirroredCorner:
-        """Return how the wheel is and how it moves first."""
+        """Return position and first derivatives of the wheel."""
         travel, rack = position.travels[self.wheels[0]], position.rack
 
         def straight() -> Corner | None:
@@ -193,43 +164,43 @@ class CornerAssembly(HeldAssembly):
         )
 
     def poses(self, position: RigPosition) -> dict[str, PartPoses]:
-        """Return its parts with rigid joints."""
+        """Return the parts with rigid joints."""
         return {"": poses_of(self.model, position.travels[self.wheels[0]], position.rack)}
 
     def soft_lines(self, poses: Mapping[str, PartPoses]) -> dict[str, SoftLines]:
-        """Return how spring and stops deflect."""
+        """Return the flexibilities of spring and stops."""
         return {suffix: lines_of(each) for suffix, each in poses.items()}
 
     @cached_property
     def _sense(self) -> float:
-        """How the arm angle changes as the wheel rises, +1 or -1."""
+        """The sign of the arm angle's derivative with respect to wheel height."""
         _, slope = height_and_slope(self.model, self.model.design_state[0])
         return float(np.sign(slope))
 
     @property
     def design_wheel_coordinates(self) -> Array:
-        """The arm angle at design, with the sign of the coordinate [rad]."""
+        """The arm angle at design, with the sign that rises with the wheel [rad]."""
         return self._sense * self.model.design_state[:1]
 
     def wheel_coordinates(self, travels: Sequence[float | None], rack: float) -> Array:
-        """Return the coordinate where the wheel is at a height above design."""
+        """Return the coordinate for a height of the wheel above design."""
         (travel,) = travels
         if travel is None:
             return self.design_wheel_coordinates
         return self._sense * arm_angles(self.model, [design_height(self.model) + travel], rack)
 
     def wheel_reach(self, rack: float) -> list[WheelReach]:
-        """Return how far the wheel goes."""
+        """Return the range of the wheel."""
         found = travel_range(self.model, rack)
         low, high = (self._sense * angle for angle in found.arm_angle)
         return [WheelReach((low, high), found.height)]
 
     def at_wheel_coordinates(self, coordinates: Array, racks: Array) -> dict[str, PartPoses]:
-        """Return its parts at rest; the coordinate is the arm angle, of either sign [rad]."""
+        """Return the parts at rest; the coordinate is the arm angle, of either sign [rad]."""
         return {"": self.at_angles(coordinates[:, 0], racks)}
 
     def at_angles(self, coordinates: Array, racks: Array) -> CornerParts:
-        """Return its parts at rest, (n,)."""
+        """Return the parts at rest, (n,)."""
         return CornerParts.of(self.model, *at_rest(self.model, self._sense * coordinates, racks))
 
     def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
@@ -237,47 +208,51 @@ class CornerAssembly(HeldAssembly):
         del wheel
         return getattr(self.subject, which) is not None
 
+    def torque_on(self, what: Literal["brakes", "drive"]) -> TorqueReaction:
+        """Return the part that reacts the torque of brakes or drive."""
+        return "carrier" if what == "brakes" else "body"
+
     @property
     def rules(self) -> tuple[str, ...]:
-        """What decides where statics alone does not."""
+        """The assumptions that resolve statical indeterminacy."""
         return rules_of(self.subject)
 
     def between(
         self, poses: Mapping[str, PartPoses], loads: Sequence[Load]
     ) -> tuple[list[Load], dict[str, BodyPose]]:
-        """Return what holds the rack."""
+        """Return the loads on the rack."""
         axis = poses[""].rack_axis
         return ([], {}) if axis is None else on_the_rack(axis, loads, "rack_guide")
 
     def in_motion(
         self, states: Array, inputs: Array
     ) -> tuple[dict[str, PartPoses], dict[str, Array]]:
-        """Return its parts in some states, and the rates of these."""
+        """Return the parts in some states, and the rates of these."""
         poses = CornerParts.of(self.model, states, inputs)
         return {"": poses}, {"": self.model.evaluate("rhs", states, inputs)}
 
     def parts_with(self, values: Mapping[str, Array], count: int) -> dict[str, PartPoses]:
-        """Return its parts, by the names of its states and inputs."""
+        """Return the parts, by the names of its states and inputs."""
         return {"": CornerParts.of(self.model, *states_with(self.model, values, count))}
 
     def bushes(self, given: Validator, bushings: Mapping[str, Any] | None) -> Bushings:
-        """Return bushes as a caller describes them, or those of the file."""
+        """Return the bushes that a caller describes, or those of the file."""
         described = described_bushings(given, bushings, self.subject.bushings)
         found = self.subject.bushes(given, described)
         return Bushings({"": found}, softness_of_rack(given, described))
 
     @property
     def heading(self) -> str:
-        """What it is called."""
+        """The name of its kind."""
         return self.subject.TITLE
 
     @property
     def corners(self) -> Mapping[str, Model]:
-        """Itself."""
+        """The model of its wheel."""
         return {self.wheels[0]: self.model}
 
     def without_friction(self) -> "CornerAssembly":
-        """Return the same without friction."""
+        """Return the corner without friction."""
         return CornerAssembly(self.model.of_another(self.subject.without_friction()))
 
 
@@ -293,7 +268,7 @@ def corner_at(model: Model, travels: Array, rack: Array) -> Corner:
 
 
 def poses_of(model: Model, travels: Array, rack: Array) -> CornerParts:
-    """Return the parts of a corner with rigid joints at wheel travels and places of the rack [m].
+    """Return the parts of a corner with rigid joints, from wheel travels and rack positions [m].
 
     Raises
     ------
@@ -305,7 +280,7 @@ def poses_of(model: Model, travels: Array, rack: Array) -> CornerParts:
 
 
 def lines_of(poses: PartPoses) -> SoftLines:
-    """Return how spring and stops of a corner deflect."""
+    """Return the flexibilities of spring and stops of a corner."""
     model: Model = poses.model
     angles = poses.states[..., model.state_names.index(model.names.arm)]
     if model.free_rack:

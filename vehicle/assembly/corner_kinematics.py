@@ -1,6 +1,6 @@
-"""The corner of a suspension, from its compiled model.
+"""Kinematics of a corner, from its compiled model.
 
-It is exact: nothing is differenced but, where a steering axis is that of the motion, its rate.
+All derivatives are exact, except the rate of a steering axis that is the axis of a screw.
 """
 
 from functools import cached_property
@@ -22,7 +22,7 @@ from ..models.points import hardpoints
 from ..models.reach import at_rest
 from .steering_axis import AxisOfPoints, AxisOfTheScrew, of_the_screw
 
-# Of a spring that can be said to hold the wheel when it is locked.
+# The least motion ratio of a spring that holds the wheel when its length is fixed.
 _LEAST_RATIO = 0.05
 
 
@@ -35,10 +35,6 @@ def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -
     arm_angle, rack_position : array_like
         Angle of the lower arm as in the state [rad], and displacement of the rack [m]; they are
         broadcast.
-
-    Returns
-    -------
-    Corner
     """
     kind = model.suspension
     states, inputs = at_rest(model, arm_angle, rack_position)
@@ -65,20 +61,13 @@ def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -
 
 
 def gaps(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -> tuple[Array, ...]:
-    """Return what is open of each stop at arm angles and rack positions.
-
-    Parameters
-    ----------
-    model : Model
-    arm_angle, rack_position : array_like
-        Angle of the lower arm as in the state [rad], and displacement of the rack [m]; they are
-        broadcast.
+    """Return the gap of each stop at arm angles and rack positions, see `corner`.
 
     Returns
     -------
     tuple of ndarray
-        For each stop that the model has: positive where it is free, negative where it is compressed
-        [m]. What `catalogue.AT_STOPS` names jumps where a gap closes.
+        For each stop of the model: positive if it is free, negative if it is compressed [m]. The
+        measures `AT_STOPS` jump where a gap closes.
     """
     return model.suspension.gaps_at(_strokes(model, *at_rest(model, arm_angle, rack_position)))
 
@@ -92,7 +81,7 @@ def vehicle(described: WheeledSection, side: float, end: str | None) -> Vehicle:
     side : float
         +1 left, -1 right.
     end : str or None
-        'front' or 'rear'; None if the file does not have it.
+        'front' or 'rear'; None if the file does not have this.
     """
     given, tyre, steered = described.vehicle, described.tyre, described.steered()
     rear = end == "rear"
@@ -127,7 +116,7 @@ def _metres(length: float | None) -> float | None:
 
 
 def _spread(value: Any) -> Any:
-    """Return a number as it is, and those of many over their positions."""
+    """Return a number as it is, and the numbers of a batch over its positions."""
     return spread(value) if isinstance(value, BatchNumber) else value
 
 
@@ -138,7 +127,7 @@ def design_axis(suspension: Suspension) -> Array:
 
 
 class _Pose:
-    """A model at many positions at rest, and the first motions of its wheel carrier there."""
+    """A model at rest in n positions, and the velocities of its wheel carrier at unit rates."""
 
     def __init__(self, model: Model, states: Array, inputs: Array) -> None:
         self.model, self.states, self.inputs = model, states, inputs
@@ -152,18 +141,18 @@ class _Pose:
 
     @cached_property
     def by_rack(self) -> CarrierMotion:
-        """The motion for a unit rate of the rack, the arm held."""
+        """The motion for a unit rate of the rack, with the arm held."""
         return self._motion("rack")
 
     @property
     def steering(self) -> CarrierMotion:
-        """The motion per unit of rack travel, the wheel centre held at its height."""
+        """The motion per unit of rack travel, with the wheel centre at constant height."""
         return self.by_rack.minus(self.travel, self.by_rack.velocity[..., 2])
 
     def steering_with_spring_locked(self) -> CarrierMotion:
         """Return the motion per unit of rack travel with the spring's length held.
 
-        No numbers where the spring hardly moves with the wheel: it would lock nothing.
+        NaN where the spring hardly moves with the wheel, so that it does not hold the wheel.
         """
         by_arm, by_rack = (
             self.model.signal("spring_velocity", *self._at_unit_rate(what))
@@ -174,7 +163,7 @@ class _Pose:
         return self.by_rack.minus(self.by_arm, by_rack / by_arm)
 
     def _motion(self, what: str) -> CarrierMotion:
-        """Return the motion for a unit rate of the arm angle, or of the rack, the other held."""
+        """Return the motion for a unit rate of the arm angle or of the rack; the other is held."""
         model = self.model
         states, inputs = self._at_unit_rate(what)
         twist = model.evaluate("velocities", states, inputs)[..., self.carrier, :]
@@ -185,7 +174,7 @@ class _Pose:
     def _at_unit_rate(self, what: str) -> tuple[Array, Array]:
         """Return states and inputs with a unit rate of the arm angle, or of the rack.
 
-        Velocities are linear in the rates, so that those at unit rate are the derivatives.
+        Velocities are linear in the rates: at unit rate they are the derivatives.
         """
         model, states, inputs = self.model, self.states.copy(), self.inputs.copy()
         if what == "arm":
@@ -199,7 +188,7 @@ class _Pose:
 
 
 def _steering_axis(pose: _Pose) -> SteeringAxis:
-    """Return the axis about which the wheel is steered; see `SteeringAxis`."""
+    """Return the steering axis of the wheel; see `SteeringAxis`."""
     given, points, travel = pose.model.suspension.hardpoints, pose.points, pose.travel
     if given.STEERING_AXIS is None:
         return _axis_of_the_motion(pose)
@@ -215,7 +204,7 @@ def _steering_axis(pose: _Pose) -> SteeringAxis:
 
 
 def _axis_of_the_motion(pose: _Pose) -> AxisOfTheScrew:
-    """Return the axis of the carrier's first motion when it is steered."""
+    """Return the screw axis of the carrier's velocity when it is steered."""
     place = pose.model.state_names.index(pose.model.names.arm)
 
     def ends(turn: float) -> tuple[Array, Array]:

@@ -1,4 +1,4 @@
-"""What is between the parts of a suspension, or of both of an axle, and the chassis: a rack."""
+"""Loads on the rack between suspensions and chassis."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -13,7 +13,7 @@ from .part_poses import wrench_about
 Array = NDArray[np.float64]
 
 STEERING = "steering"
-"""What holds a rack along its axis."""
+"""The name of the actuation of a rack along its axis."""
 
 _OF_GUIDE = "the moment of the rack's guide is about the inner end of the tie rod"
 
@@ -22,12 +22,12 @@ STILL = np.zeros(3)
 
 @dataclass(frozen=True)
 class BodyPose:
-    """Where a part in equilibrium is, in n positions.
+    """The pose of a part in equilibrium, in n positions.
 
     Attributes
     ----------
     center : ndarray, shape (n, 3)
-        About which its moments are summed [m].
+        The reference point of its moments [m].
     turned : ndarray, shape (n, 3, 3)
         Its rotation from design.
     """
@@ -37,12 +37,12 @@ class BodyPose:
 
     @classmethod
     def unturned(cls, center: Array) -> "BodyPose":
-        """Return a part whose own axes are those of the chassis."""
+        """Return the pose of a part whose own axes are those of the chassis."""
         return cls(center, np.broadcast_to(np.eye(3), (*center.shape, 3)))
 
 
 def rules_of(suspension: Suspension) -> tuple[str, ...]:
-    """Return what decides where statics alone does not, of one suspension."""
+    """Return the assumptions that resolve the statical indeterminacy of one suspension."""
     of_guide = (_OF_GUIDE,) if suspension.steered() else ()
     return (*suspension.structure().rules, *of_guide)
 
@@ -50,16 +50,16 @@ def rules_of(suspension: Suspension) -> tuple[str, ...]:
 def on_the_rack(
     axis: Array, loads: Sequence[Load], point: str
 ) -> tuple[list[Load], dict[str, BodyPose]]:
-    """Return what holds a rack: along its axis the steering, in all else its guide.
+    """Return the loads on a rack: of the steering along its axis, of its guide otherwise.
 
     Parameters
     ----------
     axis : ndarray, shape (3,)
         A unit vector.
     loads : sequence of Load
-        All others; those of tie rods on the rack say where it is.
+        All other loads; those of tie rods on the rack define its position.
     point : str
-        Name of the middle between the tie rods, about which the moments are taken.
+        Name of the middle between the tie rods, the reference point of the moments.
 
     Returns
     -------

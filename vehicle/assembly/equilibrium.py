@@ -1,4 +1,4 @@
-"""The state of rest on the road, by the equations of motion."""
+"""The state of rest on the road, from the equations of motion."""
 
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
@@ -36,14 +36,14 @@ def equilibrium(
     ----------
     model : Model, AxleModel, RigidAxleModel or CarModel
     rack_position : float, optional
-        Displacement at which the rack is held [m]. With a free rack, what holds it there is minus
+        Displacement at which the rack is held [m]. With a free rack, the holding force is minus
         the third generalised force (``forces`` of the compiled module).
     road_height : float or mapping of str to float, optional
-        Height of the road under all wheels, or by wheel, 'left' and 'right', of a car
-        'front_left' and so on, and zero where it is not given [m].
+        Height of the road under all wheels, or by wheel: 'left' and 'right', of a car
+        'front_left' and so on; zero by default [m].
     wheel_load : float or mapping of str to float, optional
         Instead of a road: the vertical force of the road on all wheels, or by wheel, positive up
-        [N]. `road_under_load` returns where the road of one wheel then is.
+        [N]. `road_under_load` returns the height of the road of one wheel.
     strut_force : float or mapping of str to float, optional
         Force of the actuator in the strut, or beside the spring, of all wheels or by wheel,
         positive when it pushes chassis and wheel apart [N].
@@ -51,14 +51,14 @@ def equilibrium(
         Rate of all wheels relative to their carriers, positive rolling forward [rad/s].
     inputs : mapping of str to float, optional
         Further inputs by name, in SI units: loads on the wheels of a model with ``wheel_loads``.
-        The wheels are braked by their carriers: where no ``hub_torque`` is given, the state carries
-        that which holds the wheel.
+        The wheels are braked by their carriers: by default ``hub_torque`` is the torque that holds
+        the wheel.
 
     Returns
     -------
     State
-        With zero rates but those of the wheels' spin. It carries the inputs that keep it at rest
-        (road, rack, actuator force): ``model.signals(rest)`` are those of rest, and
+        With zero rates except those of the wheels' spin. It contains the inputs that keep it at
+        rest (road, rack, actuator force): ``model.signals(rest)`` are those of rest, and
         ``simulate(model, t_span, rest)`` stays there. The state is the one nearest to the design
         position; of an axle with an anti-roll bar, nearest to the rest of each side without it.
 
@@ -110,13 +110,13 @@ def equilibrium(
 def state_at_heights(
     assembly: Assembly, heights: Mapping[str, float], *, rack: float = 0.0, spin_rate: float = 0.0
 ) -> State:
-    """Return the state without rates, but those of the wheels' spin, with wheels at given heights.
+    """Return the state with wheels at given heights, and zero rates except the wheels' spin.
 
     Parameters
     ----------
     assembly : Assembly
     heights : mapping of str to float
-        Of wheel centres by wheel, chassis axes [m]; where none is given, as at design.
+        Heights of wheel centres by wheel, chassis axes [m]; by default those at design.
     rack : float, optional
         Displacement of the rack [m].
     spin_rate : float, optional
@@ -157,7 +157,7 @@ def _rack(given: Validator, assembly: Assembly | None, position: Any) -> float:
 def each_wheel(
     given: Validator, assembly: Assembly | None, name: str, value: Any, unit: str
 ) -> dict[str, float]:
-    """Return what is given for all wheels, or by wheel."""
+    """Return the values by wheel of an argument that is one number or a mapping."""
     limits: dict[str, Any] = {}
     if name == "wheel_load":
         limits = {"least": 0.0, "advice": "A road only pushes."}

@@ -1,12 +1,12 @@
-"""What holds and loads an assembly that comes to rest."""
+"""The conditions of a search for rest: rack, road and applied forces."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 
 @dataclass(frozen=True)
 class RestConditions:
-    """What an assembly is held and loaded by while it comes to rest.
+    """Constraints and applied forces of an assembly that comes to rest.
 
     Attributes
     ----------
@@ -27,7 +27,3 @@ class RestConditions:
     loads: Mapping[str, float] = field(default_factory=dict)
     actuators: Mapping[str, float] = field(default_factory=dict)
     inputs: Mapping[str, float] = field(default_factory=dict)
-
-    def without_inputs(self) -> "RestConditions":
-        """Return the same without further inputs, which have other names for another assembly."""
-        return replace(self, inputs={})

@@ -20,9 +20,10 @@ class Load:
     Attributes
     ----------
     part, point : str
-        On which part, and where: a hardpoint, ``contact``, or ``mass`` for its centre of mass.
+        The loaded part, and the point: a hardpoint, ``contact``, or ``mass`` for its centre of
+        mass.
     by : str
-        What exerts it: another part, or ``spring``, ``damper``, ``road``, ``gravity``.
+        The source: another part, or ``spring``, ``damper``, ``road``, ``gravity``.
     force, moment, at : ndarray, shape (..., 3)
         Chassis axes, the moment about the point [N], [N m], [m].
     """
@@ -50,7 +51,7 @@ def known(poses: PartPoses) -> list[Load]:
 
 
 def along_line(poses: PartPoses, line: LineForce, force: Array) -> list[Load]:
-    """Return forces along a line on both of its parts, positive when they push."""
+    """Return the loads of a force along a line on both of its parts, positive when it pushes."""
     points = poses.points
     push = force[..., None] * line.direction(points)
     ends = ((line.first, line.at[0], -push), (line.second, line.at[1], push))

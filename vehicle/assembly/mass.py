@@ -11,12 +11,12 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class PartMass:
-    """What the acceleration of a part moves.
+    """Mass and inertia of a part.
 
     Attributes
     ----------
     body : str
-        What the part is called in the equations.
+        The name of the part in the equations.
     mass : float
         [kg]
     tensor : ndarray, shape (3, 3)
@@ -31,17 +31,17 @@ class PartMass:
     def of(
         cls, parameters: Mapping[str, float], name: str, body: str, spin_axis: Array | None = None
     ) -> "PartMass":
-        """Return the mass of a part.
+        """Return mass and inertia of a part.
 
         Parameters
         ----------
         parameters : mapping
             Of the equations.
         name : str
-            What begins the names of its parameters.
+            The prefix of the names of its parameters.
         body : str
         spin_axis : ndarray, shape (3,), optional
-            Of a wheel, at design: its inertia is that about this axis and that across it.
+            Of a wheel, at design: its parameters are the inertia about this axis and across it.
         """
         tensor = (
             _tensor(parameters, name)

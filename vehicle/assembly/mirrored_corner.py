@@ -1,4 +1,4 @@
-"""The wheel of a corner, and its mirror image where both wheels of a car are looked at."""
+"""The wheel of a corner, and its mirror image for measures of both wheels."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from .wheel import steer, toe
 
 @dataclass(frozen=True)
 class MirroredCorner:
-    """A corner in many positions.
+    """A corner in n positions.
 
     Attributes
     ----------
@@ -20,8 +20,8 @@ class MirroredCorner:
     mirrored : callable
         Returns the other wheel over the rack: the mirror image of the corner.
     straight : callable
-        Returns the corner with the rack in its middle, at the same height; None where it cannot be
-        there.
+        Returns the corner with the rack in its middle, at the same height; None if that is out of
+        reach.
     """
 
     corner: Corner
@@ -35,7 +35,7 @@ class MirroredCorner:
 
     @property
     def vehicles(self) -> tuple[Vehicle, ...]:
-        """What the vehicle adds."""
+        """The data of the vehicle."""
         return (self.corner.vehicle,)
 
     @cached_property
@@ -57,7 +57,7 @@ class MirroredCorner:
     def wheelbase(self) -> float:
         """The wheelbase [m]."""
         found = self.corner.vehicle.wheelbase
-        assert found is not None  # what needs it is left out where it is not known
+        assert found is not None  # measures that need it are left out if it is not known
         return found
 
     @property
@@ -75,7 +75,7 @@ class MirroredCorner:
     def turned(self) -> tuple[Array, Array]:
         """Steer angles without static toe, the left wheel first [rad].
 
-        No numbers where the wheel cannot be straight ahead at this height.
+        NaN if the wheel cannot be straight ahead at this height.
         """
         straight = self.straight()
         # toe-in steers the left wheel to the right, and the right one to the left

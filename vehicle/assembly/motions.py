@@ -1,4 +1,4 @@
-"""Where a rig puts the wheels of an axle: the usual positions of each motion."""
+"""Motions of an axle of two corners on a rig: the default positions, and opposite travel."""
 
 import numpy as np
 
@@ -26,7 +26,7 @@ USUAL_ROLL_STEP = np.deg2rad(0.25)
 USUAL_ANGLE_STEP = np.deg2rad(10.0)  # of the steering wheel
 _MOST_TURNS = 40.0 * np.pi  # twenty turns of it
 MOST_ROLL = np.pi / 4.0
-# Heights of wheels are met to their rounding, 1e-16 m of a metre: a step as small changes nothing.
+# Rounding of heights of the order of 1 m is 1e-16 m: Newton's steps of this size change nothing.
 _CLOSE = 1e-15
 _MOST_STEPS = 100
 
@@ -38,7 +38,7 @@ def track(axle: Axle) -> float:
 
 
 def travels(axle: Axle, extent: SweepRange, sides: tuple[str, ...] = (LEFT, RIGHT)) -> Array:
-    """Return usual wheel travels that some wheels reach [m], zero included."""
+    """Return default wheel travels within the range of some wheels [m], zero included."""
     found = [
         usual_travel(axle.models[side], rebound=extent.rebound, bump=extent.bump, step=extent.step)
         for side in sides
@@ -48,7 +48,7 @@ def travels(axle: Axle, extent: SweepRange, sides: tuple[str, ...] = (LEFT, RIGH
 
 
 def rolls(axle: Axle, extent: SweepRange) -> Array:
-    """Return usual roll angles that both wheels reach [rad], zero included."""
+    """Return default roll angles within the range of both wheels [rad], zero included."""
     most = extent.roll
     if most is None:
         ends = (1.0 - CLEARANCE) * _most_opposite(axle) * np.array([-1.0, 1.0])
@@ -59,7 +59,7 @@ def rolls(axle: Axle, extent: SweepRange) -> Array:
 
 
 def racks(axle: Axle, extent: SweepRange) -> Array:
-    """Return usual displacements of the rack that both wheels reach [m], zero included."""
+    """Return default rack displacements within the range of both wheels [m], zero included."""
     found = [
         usual_rack(model, extent=extent.rack, step=extent.step) for model in axle.models.values()
     ]
@@ -68,12 +68,9 @@ def racks(axle: Axle, extent: SweepRange) -> Array:
 
 
 def steering_angles(axle: Axle, extent: SweepRange) -> Array | None:
-    """Return angles of the steering wheel for the usual displacements of the rack [rad].
+    """Return steering-wheel angles for the default rack displacements [rad].
 
-    Returns
-    -------
-    ndarray or None
-        None where nothing says how the steering wheel moves the rack.
+    None if no file has the ratio of steering wheel and rack.
     """
     most = float(racks(axle, extent)[-1])
     if axle.steering is not None:
@@ -101,12 +98,12 @@ def steering_angles(axle: Axle, extent: SweepRange) -> Array | None:
 
 
 def turns_the_rack(axle: Axle) -> bool:
-    """Return whether its files say how the steering wheel moves the rack."""
+    """Return whether its files have the ratio of steering wheel and rack."""
     return axle.steered() and (axle.steering is not None or travel_per_turn(axle) is not None)
 
 
 def travel_per_turn(axle: Axle) -> float | None:
-    """Return the rack travel for one turn of the steering wheel that the files give [m]."""
+    """Return the rack travel for one turn of the steering wheel, if a file has it [m]."""
     given = axle.right.rack.travel_per_turn_mm
     return None if given is None else given / 1e3
 
@@ -114,7 +111,7 @@ def travel_per_turn(axle: Axle) -> float | None:
 def opposite(axle: Axle, angles: Array, rack: float = 0.0) -> tuple[Array, Array]:
     """Return the travels of the left and the right wheel for roll angles of the body [m].
 
-    The wheel centres move oppositely, by as much as turns the line between them by the angle.
+    The wheel centres move oppositely, so that the line through them turns by the angle.
 
     Parameters
     ----------
@@ -127,7 +124,7 @@ def opposite(axle: Axle, angles: Array, rack: float = 0.0) -> tuple[Array, Array
     Raises
     ------
     PositionError
-        If a wheel does not get there.
+        If this is out of reach.
     """
     if np.abs(angles).max(initial=0.0) >= MOST_ROLL:
         worst = np.degrees(np.abs(angles).max())
@@ -161,23 +158,23 @@ def _reaches(axle: Axle, rack: float) -> dict[str, tuple[float, float]]:
 
 
 def _nearest_end(axle: Axle, rack: float) -> tuple[str, tuple[float, float]]:
-    """Return the side that ends opposite travels of both wheels, and how far it travels [m]."""
+    """Return the side with the smallest range for opposite travel, and its range [m]."""
     reaches = _reaches(axle, rack)
     side = min(reaches, key=lambda side: min(-reaches[side][0], reaches[side][1]))
     return side, reaches[side]
 
 
 def _most_opposite(axle: Axle, rack: float = 0.0) -> float:
-    """Return how far both wheels go either way [m]."""
+    """Return the greatest opposite travel of both wheels [m]."""
     low, high = _nearest_end(axle, rack)[1]
     return min(-low, high)
 
 
 def _half_travels(axle: Axle, angles: Array, rack: float, most: float) -> Array:
-    """Return the travels of the right wheel that turn the line by the angles [m].
+    """Return the travels of the right wheel at which the line has the roll angles [m].
 
-    Newton's method with the exact slope. Beside a dead point, where its step may lead out of the
-    bracket, the bracket is halved.
+    By Newton's method with the exact slope; a step that leads out of the bracket, beside a dead
+    point, is replaced by half of the bracket.
     """
     half = np.clip(0.5 * track(axle) * np.sin(angles), -most, most)
     low, high = np.full_like(half, -most), np.full_like(half, most)

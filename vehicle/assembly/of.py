@@ -32,7 +32,7 @@ def assembly_of(subject: Any) -> Assembly:
     Raises
     ------
     InputError
-        If it is something else.
+        If it is none of these.
     """
     with Validator("assembly") as given:
         return given_assembly(given, subject, cars=True)
@@ -45,15 +45,11 @@ def _found(subject: Any) -> Assembly | None:
     return None
 
 
-def _of_suspension(suspension: Suspension) -> Assembly:
-    """Return a corner by the equations in which every body with mass counts."""
-    return CornerAssembly(Model(suspension, free_rack=bool(suspension.neglected_masses())))
-
-
 _ASSEMBLIES: dict[type, Callable[[Any], Assembly]] = {
     Assembly: lambda assembly: assembly,
     Model: CornerAssembly,
-    Suspension: _of_suspension,
+    # by the equations in which every body with mass counts
+    Suspension: lambda one: CornerAssembly(Model(one, free_rack=bool(one.neglected_masses()))),
     Axle: AxleAssembly,
     AxleModel: lambda model: AxleAssembly(model.axle, model),
     WholeAxle: lambda axle: whole_axle_assembly(axle.KEY)(axle),
@@ -73,7 +69,7 @@ def model_of(
     wheel_loads: bool = False,
     progress: Callable[[str], None] | None = None,
 ) -> AnyModel:
-    """Return the equations of motion of a suspension, an axle or a car, in which all mass counts.
+    """Return the complete equations of motion of a suspension, an axle or a car.
 
     Parameters
     ----------
@@ -86,7 +82,7 @@ def model_of(
     Raises
     ------
     InputError
-        If it is something else, or a car with inputs that it does not have.
+        If it is none of these, or a car with `wheel_loads`.
     """
     with Validator("model_of") as given:
         kinds = (Suspension, Axle, WholeAxle, Car)
@@ -106,12 +102,7 @@ def model_of(
 
 
 def declaration_of(subject: Suspension | Axle | WholeAxle | Car) -> "Formulation":
-    """Return the declaration of which the equations of motion of `model_of` were derived.
-
-    Parameters
-    ----------
-    subject : Suspension, Axle, WholeAxle or Car
-    """
+    """Return the declaration from which the equations of motion of `model_of` were derived."""
     require_generator()
     from ...generator.mechanisms import model_named  # noqa: PLC0415 (an extra)
 
@@ -137,7 +128,7 @@ _MODEL_NEEDED = (
 
 
 def given_model(given: Validator, model: Any) -> Assembly:
-    """Return the assembly of equations of motion, or refuse what is not one's.
+    """Return the assembly of the equations of motion of one, or refuse any other object.
 
     Parameters
     ----------
@@ -145,7 +136,7 @@ def given_model(given: Validator, model: Any) -> Assembly:
     model : Model, AxleModel, RigidAxleModel or CarModel
     """
     given.instance("model", model, MODELS, _MODEL_NEEDED)
-    # what is refused is never seen, see `Validator`
+    # a result of refused arguments is not used, see `Validator`
     return assembly_of(model) if isinstance(model, MODELS) else None  # type: ignore[return-value]
 
 
@@ -156,13 +147,13 @@ def given_assemblies(
     given: Validator, name: str, subjects: Any, *, cars: bool
 ) -> dict[str, Assembly]: ...
 def given_assemblies(given: Validator, name: str, subjects: Any, *, cars: bool = False) -> Any:
-    """Return the assemblies of an argument by their names, or refuse what is none.
+    """Return the assemblies of an argument by their names, or refuse other objects.
 
     Parameters
     ----------
     given : Validator
     name : str
-        Of the argument.
+        Name of the argument.
     subjects : mapping of str to Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
     cars : bool, optional
         Whether they may be cars.
@@ -191,7 +182,7 @@ def car_assembly_of(source: str, subject: Any, needed: str) -> CarAssembly:
     Raises
     ------
     InputError
-        If it is something else.
+        If it is none of these.
     """
     with Validator(source) as given:
         given.instance("subject", subject, (Car, CarModel, CarAssembly), needed)
@@ -209,14 +200,14 @@ def given_assembly(
 def given_assembly(
     given: Validator, subject: Any, name: str = "subject", *, cars: bool = False
 ) -> Any:
-    """Return the assembly of an argument, or refuse it: the result must not be used then.
+    """Return the assembly of an argument, or refuse it.
 
     Parameters
     ----------
     given : Validator
     subject : Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
     name : str, optional
-        Of the argument.
+        Name of the argument.
     cars : bool, optional
         Whether it may be a car.
     """

@@ -1,9 +1,10 @@
-"""Where the parts of a suspension are, and what acts on them from outside."""
+"""Poses of the parts of a suspension, and the external forces on them."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,77 +24,92 @@ from .wheel import lowest_point, upward_across
 Array = NDArray[np.float64]
 
 CONTACT, CENTER = "contact", "wheel_center"
-"""Where loads act on a wheel: at its lowest point, and at its centre."""
+"""The points of a wheel at which loads act: its lowest point and its centre."""
 
 
-class PartPoses(Protocol):
-    """The parts of a suspension, or of a rigid axle, in n positions, and what acts by itself.
+@dataclass(frozen=True)
+class PartPoses(ABC):
+    """The parts of a suspension or of an axle in n positions, and the forces that need no input.
 
     Attributes
     ----------
-    model : Any
+    model : Model or WholeAxleModel
         Its equations.
     states, inputs : ndarray
         As in the compiled module.
-    points : mapping of str to ndarray
-        Hardpoints, (n, 3) [m].
-    centers, turned : mapping of str to ndarray
+    points : dict of str to ndarray
+        Hardpoints, and ``contact`` of each wheel if its radius is known, (n, 3) [m].
+    centers, turned : dict of str to ndarray
         Of each part a point that it carries, its centre of mass if it has one, (n, 3) [m]; and its
         rotation from design, (n, 3, 3).
-    structure : Structure
-        What holds the parts together.
-    design : mapping of str to ndarray
-        The hardpoints at design, (3,) [m].
-    wheels : mapping of str to RoadWheel
-        By the part that each is.
-    rack_axis : ndarray or None
-        Along which a rack slides.
     """
 
-    @property
-    def model(self) -> Any: ...  # noqa: D102 (attributes stand above)
-    @property
-    def states(self) -> Array: ...  # noqa: D102
-    @property
-    def inputs(self) -> Array: ...  # noqa: D102
-    @property
-    def points(self) -> Mapping[str, Array]: ...  # noqa: D102
-    @property
-    def centers(self) -> Mapping[str, Array]: ...  # noqa: D102
-    @property
-    def turned(self) -> Mapping[str, Array]: ...  # noqa: D102
-    @property
-    def structure(self) -> Structure: ...  # noqa: D102
-    @property
-    def design(self) -> Mapping[str, Array]: ...  # noqa: D102
-    @property
-    def wheels(self) -> Mapping[str, RoadWheel]: ...  # noqa: D102
-    @property
-    def rack_axis(self) -> Array | None: ...  # noqa: D102
+    model: Any
+    states: Array
+    inputs: Array
+    points: dict[str, Array]
+    centers: dict[str, Array]
+    turned: dict[str, Array]
 
+    @property
+    @abstractmethod
+    def structure(self) -> Structure:
+        """The joints and force elements between the parts."""
+
+    @property
+    @abstractmethod
+    def design(self) -> Mapping[str, Array]:
+        """The hardpoints at design, (3,) [m]."""
+
+    @property
+    @abstractmethod
+    def wheels(self) -> Mapping[str, RoadWheel]:
+        """The wheels, by part, the left one first."""
+
+    @property
+    def rack_axis(self) -> Array | None:
+        """The axis along which a rack slides, if there is one."""
+        return None
+
+    @abstractmethod
     def weights(self) -> Mapping[str, Array]:
-        """Return the weight of each part that has one, (3,) [N]."""
+        """Return the weight of each part with a mass, (3,) [N]."""
 
-    def forces_along_lines(self) -> Mapping[str, Array]:
+    def forces_along_lines(self) -> dict[str, Array]:
         """Return the force of each line of the structure, positive when it pushes, (n,) [N]."""
+        values = self.signals()
+        values |= dict(zip(self.model.input_names, np.moveaxis(self.inputs, -1, 0), strict=True))
+        nothing = np.zeros(self.states.shape[:-1])
+        return {
+            line.name: sum((values[name] for name in line.signals if name in values), nothing)
+            for line in self.structure.lines
+        }
 
-    def signals(self) -> Mapping[str, Array]:
+    def signals(self) -> dict[str, Array]:
         """Return the signals of the equations, (n,)."""
+        found: dict[str, Array] = self.model.signals(self.states, self.inputs)
+        return found
 
+    @abstractmethod
     def parameters_of(self, line: LineForce) -> Mapping[str, float]:
-        """Return the parameters of the spring or the stops on a line, as one wheel has them."""
+        """Return the parameters of spring or stops on a line, with the names of a right wheel."""
 
+    @abstractmethod
     def counted_by(self, line: LineForce) -> str:
-        """Return the signal by which the stops on a line count: a length."""
+        """Return the signal, a length, that determines the force of the stops on a line."""
 
     def carried_by(self, part: str, point: str) -> Array:
-        """Return where a part has a hardpoint, apart from others that it is joined to, (n, 3)."""
+        """Return the position of a hardpoint on a part, if its joints were apart, (n, 3) [m]."""
+        del part
+        return self.points[point]
 
+    @abstractmethod
     def allowed_lengths(self) -> Sequence[LengthLimit]:
         """Return the lengths that the file allows, of these signals."""
 
+    @abstractmethod
     def twists(self) -> Mapping[str, Array]:
-        """Return how each part moves, at rest, for a unit rate of each coordinate by itself.
+        """Return the velocities of each part at rest for a unit rate of each coordinate alone.
 
         Returns
         -------
@@ -101,50 +117,45 @@ class PartPoses(Protocol):
             Angular velocity, and velocity of `centers`, with the brakes closed and the rack held.
         """
 
+    @abstractmethod
     def masses(self) -> Mapping[str, PartMass]:
-        """Return what the acceleration of each part with a mass moves."""
+        """Return mass and inertia of each part with a mass."""
 
     def rates_of_inputs(self) -> Array:
         """Return the rates of the inputs that move parts, of the shape of `inputs`."""
+        return np.zeros_like(self.inputs)
 
+    @abstractmethod
     def tyre_forces(self) -> Mapping[str, Array]:
         """Return the force of the tyre on each wheel, in the plane of the wheel, (n, 3) [N]."""
 
+    @abstractmethod
     def inputs_of_wheels(self) -> Mapping[str, Mapping[str, Array]]:
         """Return the inputs of `kintrafo.vehicle.corner.wheel_loads` on each wheel, (n,).
 
-        Empty, where the equations have none.
+        It is empty if the equations do not have them.
         """
 
 
 @dataclass(frozen=True)
-class CornerParts:
-    """A suspension in many positions; arrays have one leading dimension, that of the positions.
+class CornerParts(PartPoses):
+    """The parts of a suspension in n positions.
 
     Attributes
     ----------
     model : Model
-    states, inputs : ndarray
-        As in the compiled module.
-    points : dict of str to ndarray
-        Hardpoints, and ``contact`` where the wheel's radius is known [m].
-    centers, turned : dict of str to ndarray
-        Centre of mass [m] and rotation from design of each part.
+    states, inputs, points, centers, turned
+        As of `PartPoses`.
     axis : ndarray, shape (n, 3)
         Spin axis of the wheel, pointing outboard.
     """
 
     model: Model
-    states: Array
-    inputs: Array
-    points: dict[str, Array]
-    centers: dict[str, Array]
-    turned: dict[str, Array]
     axis: Array
 
     @classmethod
     def of(cls, model: Model, states: Array, inputs: Array) -> "CornerParts":
-        """Return the positions of some states."""
+        """Return the parts in some states."""
         bodies = model.equations.BODIES
         centers = model.evaluate("positions", states, inputs)
         rotations = model.evaluate("orientations", states, inputs)
@@ -171,7 +182,7 @@ class CornerParts:
 
     @property
     def structure(self) -> Structure:
-        """What holds the parts together."""
+        """The joints and force elements between the parts."""
         return self.model.suspension.structure()
 
     @cached_property
@@ -185,7 +196,7 @@ class CornerParts:
 
     @property
     def rack_axis(self) -> Array | None:
-        """Along which the rack slides; None where nothing is steered."""
+        """The axis along which the rack slides; None without a rack."""
         suspension = self.model.suspension
         return unit_vector(suspension.rack.axis) if suspension.steered() else None
 
@@ -195,18 +206,9 @@ class CornerParts:
         return self.model.parameters
 
     def counted_by(self, line: LineForce) -> str:
-        """Return the signal by which the stops on a line count: a length."""
+        """Return the length that determines the force of the stops."""
         del line
         return f"{self.model.suspension.STOPPED}_length"
-
-    def carried_by(self, part: str, point: str) -> Array:
-        """Return where a part has a hardpoint: where all that are joined there have it, (n, 3)."""
-        del part
-        return self.points[point]
-
-    def signals(self) -> dict[str, Array]:
-        """Return the signals of the equations, (n,)."""
-        return self.model.signals(self.states, self.inputs)
 
     def allowed_lengths(self) -> Sequence[LengthLimit]:
         """Return the lengths that the file allows."""
@@ -218,19 +220,15 @@ class CornerParts:
         masses = {name: model.parameters[f"{name}_mass"] for name in model.equations.BODIES}
         return {name: -mass * model.parameters["gravity"] * UP for name, mass in masses.items()}
 
-    def forces_along_lines(self) -> dict[str, Array]:
-        """Return the force of each line of the structure, positive when it pushes, (n,) [N]."""
-        return forces_along(self.structure, self.model, self.states, self.inputs)
-
     def twists(self) -> dict[str, Array]:
-        """Return how each part moves for a unit rate of the arm angle, (n, 1, 6)."""
+        """Return the velocities of each part for a unit rate of the arm angle, (n, 1, 6)."""
         model, states = self.model, self.states.copy()
         states[..., model.state_names.index(f"{model.names.arm}_rate")] = 1.0
         found = model.evaluate("velocities", states, self.inputs)
         return {name: found[:, i, None] for i, name in enumerate(model.equations.BODIES)}
 
     def masses(self) -> dict[str, PartMass]:
-        """Return what the acceleration of each part with a mass moves."""
+        """Return mass and inertia of each part with a mass."""
         values, suspension = self.model.parameters, self.model.suspension
         axes = {"wheel": suspension.wheel.spin_axis(suspension.vehicle.sign)}
         return {
@@ -240,7 +238,7 @@ class CornerParts:
         }
 
     def rates_of_inputs(self) -> Array:
-        """Return the rates of the inputs that move parts: those of a rack that is held."""
+        """Return the rates of the inputs that move parts: those of a prescribed rack."""
         model, inputs = self.model, self.inputs
         by_time = np.zeros_like(inputs)
         if model.suspension.steered() and not model.free_rack:
@@ -256,7 +254,7 @@ class CornerParts:
         return {"wheel": force[:, None] * upward_across(self.axis)}
 
     def inputs_of_wheels(self) -> dict[str, dict[str, Array]]:
-        """Return the inputs on the wheel; empty where the equations have none."""
+        """Return the inputs on the wheel; empty if the equations have none."""
         if not self.model.wheel_loads:
             return {}
         return {"wheel": dict(zip(self.model.input_names, self.inputs.T, strict=True))}
@@ -265,7 +263,7 @@ class CornerParts:
 def states_with(
     model: System, values: Mapping[str, Array], count: int, prefix: str = ""
 ) -> tuple[Array, Array]:
-    """Return states and inputs of equations, (count, names) each; missing ones are zero.
+    """Return arrays of states and inputs, (count, names) each; missing values are zero.
 
     Parameters
     ----------
@@ -283,19 +281,6 @@ def states_with(
     return states, inputs
 
 
-def forces_along(
-    structure: Structure, model: System, states: Array, inputs: Array
-) -> dict[str, Array]:
-    """Return the force of each line of a structure in some states, (n,) [N]."""
-    values = model.signals(states, inputs)
-    values |= dict(zip(model.input_names, np.moveaxis(inputs, -1, 0), strict=True))
-    nothing = np.zeros(states.shape[:-1])
-    return {
-        line.name: sum((values[name] for name in line.signals if name in values), nothing)
-        for line in structure.lines
-    }
-
-
 def wheel_axes(wheel: RoadWheel) -> Array:
     """Return the axes of a wheel on the road as rows, (n, 3, 3): forward, left, up.
 
@@ -305,7 +290,7 @@ def wheel_axes(wheel: RoadWheel) -> Array:
 
 
 def touching(wheel: RoadWheel) -> Array:
-    """Return where the road touches a wheel: its lowest point, or its centre without a radius."""
+    """Return the contact of a wheel with the road; its centre if the radius is not known."""
     radius = wheel.vehicle.tyre_radius
     return wheel.center if radius is None else lowest_point(wheel.center, wheel.axis, radius)
 
@@ -324,7 +309,7 @@ def road_axes(left: Array) -> Array:
 
 
 def rotated(matrix: Array, rotation: Array) -> Array:
-    """Return a matrix of forces and moments, (..., 6, 6), in axes that are turned."""
+    """Return a matrix of forces and moments, (..., 6, 6), in rotated axes."""
     both = np.zeros((*rotation.shape[:-2], 6, 6))
     both[..., :3, :3] = both[..., 3:, 3:] = rotation
     result: Array = both @ matrix @ both.mT
@@ -332,5 +317,5 @@ def rotated(matrix: Array, rotation: Array) -> Array:
 
 
 def wrench_about(point: Array, at: Array, force: Array, moment: Array | float = 0.0) -> Array:
-    """Return force and moment about a point, (..., 6), of a force and a moment elsewhere."""
+    """Return force and moment about `point`, (..., 6), of a force and a moment at another one."""
     return np.concatenate(np.broadcast_arrays(force, moment + cross(at - point, force)), axis=-1)

@@ -1,6 +1,6 @@
-"""What a number is called, its unit, its definition and its sign."""
+"""Quantities: name, unit, definition and sign of a number."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from ...core.quantities import Display, display_of
@@ -10,7 +10,7 @@ _DEG_PER_MM = display_of({"units": "rad"}).factor * 1e-3
 
 @dataclass(frozen=True)
 class Quantity:
-    """What a characteristic is called and means.
+    """Name, unit, definition and sign of a characteristic.
 
     Attributes
     ----------
@@ -19,9 +19,9 @@ class Quantity:
     units : str
         SI unit; "1" for a pure number.
     long_name, definition, sign : str
-        In words; the definition in one line.
+        Texts of one line.
     display : Display or None
-        Unit for a person, where it is not the usual one.
+        Display unit, if it is not the usual one.
     """
 
     name: str
@@ -33,7 +33,8 @@ class Quantity:
 
     def attributes(self) -> dict[str, Any]:
         """Return the attributes of the variable in a dataset."""
-        shown = self.display or _display(self.units)
+        per_length = Display("deg/mm", _DEG_PER_MM) if self.units == "rad/m" else None
+        shown = self.display or per_length or display_of({"units": self.units})
         return {
             "units": self.units,
             "long_name": self.long_name,
@@ -43,66 +44,34 @@ class Quantity:
             "display_factor": shown.factor,
         }
 
+    def of_wheel(self, wheel: str) -> "Quantity":
+        """Return the quantity of one wheel, as a column of a flat table."""
+        name, words = f"{self.name}_{wheel}", f"{self.long_name}, {wheel}"
+        return replace(self, name=name, long_name=words)
 
-def _display(units: str) -> Display:
-    return Display("deg/mm", _DEG_PER_MM) if units == "rad/m" else display_of({"units": units})
 
-
-TRAVEL = Quantity(
-    "wheel_travel",
-    "m",
-    "wheel travel",
+TRAVEL = Quantity("wheel_travel", "m", "wheel travel",
     "height of the wheel centre above its design height",
-    "positive in bump",
-)
-RACK = Quantity(
-    "rack_position",
-    "m",
-    "rack displacement",
+    "positive in bump")  # fmt: skip
+RACK = Quantity("rack_position", "m", "rack displacement",
     "displacement of the rack along its axis from its middle position",
-    "positive along the rack's axis",
-)
-ROLL = Quantity(
-    "roll_angle",
-    "rad",
-    "roll angle",
+    "positive along the rack's axis")  # fmt: skip
+ROLL = Quantity("roll_angle", "rad", "roll angle",
     "inclination of the line through the wheel centres, which move oppositely, to the plane of the "
     "body's x and y axes, from that at design",
-    "positive with the right side down",
-)
-STEERING_WHEEL = Quantity(
-    "steering_wheel_angle",
-    "rad",
-    "steering-wheel angle",
+    "positive with the right side down")  # fmt: skip
+STEERING_WHEEL = Quantity("steering_wheel_angle", "rad", "steering-wheel angle",
     "angle of the steering wheel from its middle position",
-    "positive to the left",
-)
-HEAVE = Quantity(
-    "body_heave",
-    "m",
-    "heave of the body",
+    "positive to the left")  # fmt: skip
+HEAVE = Quantity("body_heave", "m", "heave of the body",
     "height of the body above that at design, over wheels that stay",
-    "positive up",
-)
-PITCH = Quantity(
-    "body_pitch",
-    "rad",
-    "pitch of the body",
+    "positive up")  # fmt: skip
+PITCH = Quantity("body_pitch", "rad", "pitch of the body",
     "turn of the body about the axis to the left, by the travels of its axles over their distance",
-    "positive nose down",
-)
-LATERAL_ACCELERATION = Quantity(
-    "lateral_acceleration",
-    "m/s^2",
-    "lateral acceleration",
+    "positive nose down")  # fmt: skip
+LATERAL_ACCELERATION = Quantity("lateral_acceleration", "m/s^2", "lateral acceleration",
     "acceleration of the centre of gravity across the heading, in a steady turn on a level road",
-    "positive to the left",
-)
-SPEED = Quantity(
-    "speed",
-    "m/s",
-    "speed",
+    "positive to the left")  # fmt: skip
+SPEED = Quantity("speed", "m/s", "speed",
     "of the car along the road",
-    "positive forward",
-    Display("km/h", 3.6),
-)
+    "positive forward", Display("km/h", 3.6))  # fmt: skip

@@ -1,14 +1,13 @@
 """The search for a stable state of rest of equations of motion, with any number of coordinates.
 
-An assembly rests where the generalised forces of the coordinates that move its wheels are zero and
-push it back from beside. `nearest` looks for that over all of the way of one coordinate, `settled`
-from a position near it with any number of them.
+At rest the generalised forces of the coordinates that move the wheels are zero, and restoring
+nearby. `nearest` searches the whole range of one coordinate, `settled` starts from a nearby
+position with any number of them.
 
-The search of load cases (`analysis.loads.static_equilibrium`) is another one, because its forces
-are others: virtual work of the loads on the wheels, for many cases on one grid, down to a rounding
-that it knows. Here any input of the equations acts (actuators, roads, forces of a program), and the
-reach of one wheel is searched for roots that lie within one step of the grid, which a case on stops
-does not have.
+The search of load cases (`analysis.loads.static_equilibrium`) has other forces: virtual work of the
+loads on the wheels, for many cases on one grid, down to a known rounding. Here any input of the
+equations acts (actuators, roads, forces of a program), and the range of one wheel is also searched
+for two roots within one step of the grid.
 """
 
 from collections.abc import Callable
@@ -26,10 +25,10 @@ from .held import RestConditions
 Array = NDArray[np.float64]
 Forces = Callable[[ArrayLike], Array]
 
-# Between so many radians an equilibrium of one coordinate is looked for.
+# Step of the grid on which an equilibrium of one coordinate is searched [rad].
 _STEP = np.deg2rad(0.5)
 _EPSILON = float(np.finfo(np.float64).eps)
-# What is left of the forces at rest, over the stiffness times a metre or a radian.
+# Residual forces at rest, over the stiffness times a metre or a radian.
 _AT_REST = 1e-9
 
 
@@ -60,7 +59,7 @@ def at(assembly: Assembly, held: RestConditions, coordinates: ArrayLike) -> tupl
 
 
 def forces_of(assembly: Assembly, held: RestConditions) -> Forces:
-    """Return what gives the generalised forces of coordinates at rest, shape (..., coordinates)."""
+    """Return the function of the coordinates at rest that yields their generalised forces."""
     model = assembly.model
     rows = [model.state_names.index(name) for name in assembly.coordinates]
 
@@ -72,7 +71,7 @@ def forces_of(assembly: Assembly, held: RestConditions) -> Forces:
 
 
 def settled(assembly: Assembly, held: RestConditions, near: Array, message: str) -> Array:
-    """Return the coordinates of a stable state of rest near some others.
+    """Return the coordinates of a stable state of rest, searched from some others.
 
     Parameters
     ----------
@@ -80,12 +79,12 @@ def settled(assembly: Assembly, held: RestConditions, near: Array, message: str)
     held : RestConditions
     near : ndarray, shape (coordinates,)
     message : str
-        Of the error where there is none.
+        Message of the error if there is none.
 
     Raises
     ------
     PositionError
-        If there is none, or if a length is beyond what the file allows there.
+        If there is none, or if a length is beyond its limits in the file there.
     """
     from scipy.optimize import root  # noqa: PLC0415 (slow to import)
 
@@ -95,7 +94,7 @@ def settled(assembly: Assembly, held: RestConditions, near: Array, message: str)
         left, slopes = forces(found), _slopes(forces, found)
     except ModelError:
         raise PositionError(message) from None
-    # nothing is nearer to zero than the stiffness times the rounding of a coordinate
+    # forces are rounded to the stiffness times the rounding of a coordinate
     small = _AT_REST * max(float(np.abs(slopes).max()), 1.0)
     if not np.abs(left).max() <= small or not (np.linalg.eigvals(slopes).real < 0.0).all():
         raise PositionError(message)
@@ -104,7 +103,7 @@ def settled(assembly: Assembly, held: RestConditions, near: Array, message: str)
 
 
 def _slopes(forces: Forces, coordinates: Array, step: float = 1e-6) -> Array:
-    """Return the derivatives of the forces by the coordinates."""
+    """Return the derivatives of the forces with respect to the coordinates."""
     columns = [
         forces(coordinates + d) - forces(coordinates - d) for d in step * np.eye(len(coordinates))
     ]
@@ -112,28 +111,28 @@ def _slopes(forces: Forces, coordinates: Array, step: float = 1e-6) -> Array:
 
 
 def nearest(moment: Callable[[ArrayLike], Array], reach: AngleRange, design: float) -> float:
-    """Return the arm angle nearest to design at which a moment is zero and pushes back [rad].
+    """Return the arm angle nearest to design at which a moment is zero and restoring [rad].
 
     Parameters
     ----------
     moment : callable
-        Moment about the arm's hinge by the arm angle.
+        Moment about the arm's hinge as a function of the arm angle.
     reach : AngleRange
-        In which it is looked for.
+        The searched range.
     design : float
         Angle at the design position [rad].
 
     Raises
     ------
     PositionError
-        If there is none; with the moments at the ends.
+        If there is none; the message has the moments at the ends.
     """
     from scipy.optimize import brentq  # noqa: PLC0415 (slow to import)
 
     low, high = reach.arm_angle
     grid = np.linspace(low, high, 1 + round(abs(high - low) / _STEP))
     grid, values = _with_dips(moment, grid, moment(grid))
-    # from low to high wheel position the angle falls: a stable moment goes from below to above zero
+    # from low to high wheel position the angle falls: a stable moment changes from minus to plus
     stable = np.flatnonzero((values[:-1] <= 0.0) & (values[1:] > 0.0))
     if stable.size == 0:
         message = (
@@ -146,16 +145,15 @@ def nearest(moment: Callable[[ArrayLike], Array], reach: AngleRange, design: flo
         raise PositionError(message)
     closest = stable[np.argmin(np.abs(grid[stable] - design))]
     ends = float(grid[closest]), float(grid[closest + 1])
-    # to the last digits
     return float(brentq(lambda a: float(moment(a)), *ends, xtol=1e-15, rtol=4 * _EPSILON))
 
 
 def _with_dips(
     moment: Callable[[ArrayLike], Array], grid: Array, values: Array
 ) -> tuple[Array, Array]:
-    """Add where the moment comes to zero and goes back between neighbours of a grid.
+    """Return a grid and values with further points between two roots within one step.
 
-    Two roots within a step leave no change of sign, but a least amount beside them.
+    Two roots within a step leave no change of sign, but a minimum of the amount beside them.
     """
     from scipy.optimize import minimize_scalar  # noqa: PLC0415 (slow to import)
 

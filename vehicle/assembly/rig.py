@@ -1,4 +1,4 @@
-"""What a rig does to wheels and rack: its motions, and the positions along them."""
+"""Motions of wheels and rack on a rig, and the positions along them."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -14,11 +14,11 @@ class RigMotion:
     Attributes
     ----------
     along : Quantity
-        What varies: wheel travel, roll angle, steering-wheel angle or rack displacement.
+        The varied quantity: wheel travel, roll angle, steering-wheel angle or rack displacement.
     words : str
-        What it is, 'both wheels rise and fall together'.
+        A description, 'both wheels rise and fall together'.
     title : str
-        What curves are over, 'parallel wheel travel'.
+        The abscissa of curves, 'parallel wheel travel'.
     """
 
     along: Quantity
@@ -28,16 +28,16 @@ class RigMotion:
 
 @dataclass(frozen=True)
 class RigPosition:
-    """Where a rig holds the wheels and the rack, in n positions.
+    """Positions of the wheels and the rack on a rig, (n,).
 
     Attributes
     ----------
     travels : mapping of str to ndarray, each of shape (n,)
         Heights of the wheel centres above design by the names of the wheels [m].
     rack : ndarray, shape () or (n,)
-        Displacement of the rack [m]; zero where there is none.
+        Displacement of the rack [m]; zero without a rack.
     per_turn : ndarray or None
-        Where a steering wheel turns, the rack travel for one turn of it there, with its sign [m].
+        Signed rack travel for one turn of the steering wheel there, if it turns [m].
     """
 
     travels: Mapping[str, Array]
@@ -47,12 +47,12 @@ class RigPosition:
 
 @dataclass(frozen=True)
 class WheelReach:
-    """How far a wheel goes.
+    """The range of a wheel.
 
     Attributes
     ----------
     coordinate : tuple of float
-        Its coordinate at the lowest and at the highest position, as of
+        Its coordinate at the lowest and at the highest position, see
         `HeldAssembly.at_wheel_coordinates`.
     height : tuple of float
         Heights of the wheel centre there [m].
@@ -75,7 +75,7 @@ class SweepRange:
     rack : float or None
         To either side [m].
     step : float
-        Distance of the positions, of wheel travel and rack [m].
+        Distance of positions of wheel travel and rack [m].
     """
 
     rebound: float | None = None

@@ -27,7 +27,7 @@ class RigidAxleAssembly(WholeAxleAssembly):
     ----------
     axle : RigidAxle
     model : RigidAxleModel, optional
-        Its equations, where there are some already.
+        Its equations, if they exist already.
     """
 
     AXLE, MODEL, PARTS = RigidAxle, RigidAxleModel, RigidAxleParts
@@ -45,12 +45,12 @@ class RigidAxleAssembly(WholeAxleAssembly):
 
     @property
     def moves_rigidly(self) -> bool:
-        """Whether it moves with rigid joints: five rods let it move only by their bushes."""
+        """Whether it moves with rigid joints; on five rods it moves only as bushes deflect."""
         return not self.axle.overheld
 
     @property
     def simplified(self) -> Sequence[str]:
-        """What linear compliance leaves out of an axle on five rods, in words."""
+        """Effects on an axle on five rods that linear compliance neglects, for a sentence."""
         if not self.axle.overheld:
             return ()
         (fifth,) = {*self.axle.rods} - {*self.axle.guides}
@@ -63,12 +63,12 @@ class RigidAxleAssembly(WholeAxleAssembly):
 
     @property
     def words(self) -> str:
-        """What it is, in a sentence."""
+        """A description in a sentence."""
         rods = ", ".join(self.axle.rods).replace("_", " ")
         return f"A {self.axle.heading()} on {len(self.axle.rods)} rods, {rods}."
 
     def soft_lines(self, poses: Mapping[str, Any]) -> dict[str, SoftLines]:
-        """Return how springs and stops deflect."""
+        """Return the flexibilities of springs and stops."""
         if not self.axle.overheld:
             return super().soft_lines(poses)
         return {"": lines_by_rates(self.KINEMATICS(poses[""]))}
@@ -97,7 +97,7 @@ class RigidAxleAssembly(WholeAxleAssembly):
         } | super().further(over, poses, found)
 
     def described(self) -> dict[str, str]:
-        """Return its track and its rods in words."""
+        """Return the track and the lengths of the rods as text."""
         rods = ", ".join(
             f"{name.replace('_', ' ')} {1e3 * float(np.linalg.norm(outer - inner)):.1f} mm"
             for name, (inner, outer) in self.axle.ends().items()
@@ -109,4 +109,4 @@ class RigidAxleAssembly(WholeAxleAssembly):
         """The anti-roll bar, if it has one."""
         if self.axle.anti_roll_bar is None:
             return None
-        return RollBar(BEAM, self.model.parameters["bar_rate"])
+        return RollBar(self.model.parameters["bar_rate"], BEAM)

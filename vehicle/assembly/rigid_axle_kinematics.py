@@ -1,7 +1,7 @@
-"""A rigid axle at many positions: the derivatives of its relative coordinates.
+"""Kinematics of a rigid axle over n positions: the derivatives of its relative coordinates.
 
-The two motions are those of the coordinates: heave, the middle of the axle rising by a metre with
-its inclination held; and roll, the wheels moving oppositely, by a radian with the left wheel up.
+The two motions are those of the coordinates: heave, the middle of the axle rising by a metre at
+constant inclination; and roll, the wheels moving oppositely, by a radian with the left wheel up.
 """
 
 from dataclasses import dataclass
@@ -27,7 +27,7 @@ class RigidAxleKinematics(WholeAxleKinematics):
 
     @cached_property
     def _slopes(self) -> dict[str, Array]:
-        """Derivatives of the relative coordinates by heave and roll, (n, 2) each."""
+        """Derivatives of the relative coordinates with respect to heave and roll, (n, 2) each."""
         by = self.model.evaluate("relative_jacobian", self.parts.states)[..., :2]
         return {n: by[:, i] for i, n in enumerate(self.model.equations.RELATIVE_COORDINATES)}
 
@@ -36,6 +36,6 @@ class RigidAxleKinematics(WholeAxleKinematics):
         return self._relative[name]
 
     def slope(self, name: str, by: str) -> Array:
-        """Return the derivative of such a coordinate by heave or roll."""
+        """Return the derivative of such a coordinate with respect to heave or roll."""
         found: Array = self._slopes[name][:, self.model.COORDINATES.index(by)]
         return found

@@ -1,8 +1,4 @@
-"""The parts of a rigid axle at many positions, and what acts on them by itself.
-
-The parts are the beam, both wheels and the rods; names of points and of what there is twice end in
-``_left`` and ``_right``, as those of other axles do.
-"""
+"""The parts of a rigid axle in n positions: the beam, both wheels and the rods."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -29,18 +25,13 @@ _LEFTWARD = np.array([0.0, 1.0, 0.0])
 
 @dataclass(frozen=True)
 class RigidAxleParts(WholeAxleParts):
-    """A rigid axle in n positions.
+    """The parts of a rigid axle in n positions.
 
     Attributes
     ----------
     model : RigidAxleModel
-    states, inputs : ndarray
-        As in the compiled module.
-    centers, turned : dict of str to ndarray
-        Of each part a point, (n, 3) [m]: the centre of mass, of rods their middle; and the rotation
-        from design, (n, 3, 3).
-    points : dict of str to ndarray
-        By name, (n, 3) [m].
+    states, inputs, points, centers, turned
+        As of `WholeAxleParts`; the centre of a rod is its middle.
     """
 
     model: RigidAxleModel
@@ -59,9 +50,9 @@ class RigidAxleParts(WholeAxleParts):
 
     @classmethod
     def of(cls, model: RigidAxleModel, states: Array, inputs: Array | None = None) -> Self:
-        """Return the parts in some states, by default without any input."""
+        """Return the parts in some states, by default with zero inputs."""
         found = super().of(model, states, inputs)
-        # rods have no mass, and so none of their own
+        # the equations have no centre of mass of a rod, which has no mass
         for name, (inner, outer) in model.axle.ends().items():
             chassis, beam = (found.points[f"{name}_{end}"] for end in (CHASSIS, "axle"))
             if name not in found.turned:
@@ -109,9 +100,9 @@ class RigidAxleParts(WholeAxleParts):
         return BEAM
 
     def carried_by(self, part: str, point: str) -> Array:
-        """Return where a part has a point, (n, 3) [m].
+        """Return the position of a point on a part, (n, 3) [m].
 
-        A fifth rod is as long as at design, in the middle between where the others leave its ends.
+        A fifth rod keeps its design length, centred between its ends on axle and chassis.
         """
         if part not in self.axle.rods or part in self.axle.guides:
             return self.points[point]
@@ -134,7 +125,7 @@ class RigidAxleParts(WholeAxleParts):
 
     @property
     def rate_of_twist(self) -> float:
-        """The moment of the anti-roll bar by the inclination [N m/rad]; zero without one."""
+        """The moment of the anti-roll bar per inclination [N m/rad]; zero without one."""
         return self.model.parameters[self.RATE]
 
     def by_torque(self) -> list[Load]:

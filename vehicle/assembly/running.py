@@ -1,4 +1,4 @@
-"""A car that runs straight ahead at a steady speed."""
+"""Steady motion of a car straight ahead."""
 
 from collections.abc import Mapping
 
@@ -15,30 +15,30 @@ from .wheel_names import WheelNames
 Array = NDArray[np.float64]
 
 _MOST_STEPS, _HALVINGS = 40, 20
-# Remaining accelerations and velocities [m/s^2, rad/s^2, m/s].
+# Residual accelerations and velocities [m/s^2, rad/s^2, m/s].
 _STEADY = 1e-8
-# Scales by which the drive torque and the rack are small beside an angle [N m, m].
+# Scales of the unknown drive torque and rack relative to angles [N m, m].
 _TORQUE, _RACK = 1e3, 0.1
 
 
 def straight(
     model: CarModel, wheels: Mapping[str, WheelNames], rest: tuple[Array, Array], speed: float
 ) -> State:
-    """Return the state in which a car runs straight ahead at a speed, along x of the world.
+    """Return the state of a car in steady motion straight ahead, along x of the world.
 
-    The drive torque keeps the speed, and the rack keeps a car straight whose sides differ; the
-    state carries both as its inputs.
+    The drive torque keeps the speed, and the rack keeps a car with unequal sides straight; the
+    state contains both as its inputs.
 
     Parameters
     ----------
     model : CarModel
-        Of a car that drives.
+        The equations of a driving car.
     wheels : mapping of str to WheelNames
-        What its equations call what belongs to each wheel.
+        Names of each wheel in the equations.
     rest : tuple of ndarray
         State and inputs at rest.
     speed : float
-        Of the body's centre of mass [m/s].
+        Speed of the body's centre of mass [m/s].
 
     Raises
     ------
@@ -47,10 +47,10 @@ def straight(
 
     Notes
     -----
-    By Newton's method with the exact Jacobians, from the car at rest on wheels that roll at its
+    Newton's method with the exact Jacobians starts from the car at rest on wheels that roll at its
     speed. Unknown are height and attitude of the body, the coordinates of the suspensions, the
     velocity of the body, the spin of the wheels, the deflections of the tyres, drive torque and
-    rack. What vanishes is every acceleration, with the velocity of the body along x given.
+    rack. Every acceleration vanishes, and the velocity of the body along x is given.
     """
     return _Search(model, wheels, speed).from_rest(*rest)
 
@@ -62,7 +62,7 @@ class _Search:
         self.layout = layout
         spins = [names.spin for names in wheels.values()]
         places = {name: i for i, name in enumerate(self.names)}
-        # directions of positions: all but along x and y of the body, and the turns of wheels
+        # directions of positions, except x and y of the body and the spin angles of the wheels
         idle = {layout.directions[places[name]] for name in ("body_x", "body_y", *spins)}
         self.moved = [i for i in layout.directions.values() if i not in idle]
         rates = [places[f"body_{name}"] for name in "uvw"] + [places[f"{s}_rate"] for s in spins]
@@ -71,7 +71,7 @@ class _Search:
         self.columns = self._columns_of_inputs()
 
     def _columns_of_inputs(self) -> Array:
-        """Return the directions of the inputs that are unknown: drive torque and rack."""
+        """Return the directions of the unknown inputs, drive torque and rack."""
         names = list(self.model.input_names)
         drive, rack = Controls(self.model.car).drive(_TORQUE), {"rack_position": _RACK}
         unknown = [drive, rack] if self.model.car.steered() else [drive]
@@ -82,7 +82,7 @@ class _Search:
         return columns
 
     def from_rest(self, state: Array, inputs: Array) -> State:
-        """Return the state that is found from one at rest."""
+        """Return the steady state, searched from a state of rest."""
         loads = {w: float(self.model.signal(n.load, state, inputs)) for w, n in self.wheels.items()}
         state, inputs = state.copy(), inputs.copy()
         state[self.names.index("body_u")] = self.speed
@@ -129,7 +129,10 @@ class _Search:
     def _shortened(
         self, state: Array, inputs: Array, left: Array, step: Array, changed: Array
     ) -> tuple[Array, Array, Array, bool]:
-        """Return where a step leads, halved until it leads nearer; or nowhere."""
+        """Return state, inputs and residuals after a step, halved until the residuals decrease.
+
+        The last item is False if no part of the step decreases them.
+        """
         part = 1.0
         for _ in range(_HALVINGS):
             moved, acting = self.layout.normalised(state + part * step), inputs + part * changed

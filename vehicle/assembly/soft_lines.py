@@ -1,4 +1,4 @@
-"""How springs and stops deflect along their lines, for a unit force along each."""
+"""Flexibilities of springs and stops along their lines."""
 
 from dataclasses import dataclass, replace
 
@@ -13,15 +13,15 @@ from .whole_axle_kinematics import WholeAxleKinematics
 
 @dataclass(frozen=True)
 class SoftLines:
-    """How springs and stops deflect along their lines; arrays over n positions.
+    """Flexibilities of springs and stops along their lines, in n positions.
 
     Attributes
     ----------
     springs : ndarray, shape (n, springs, springs)
-        By how much each spring becomes shorter by a unit force along each [m/N].
+        Compression of each spring for a unit force along each [m/N].
     stops : ndarray, shape (n, dampers)
-        The same of the stops beside each damper by themselves; infinite where none acts. None of
-        them, where a file has no stops.
+        Compression of the stops beside each damper for a unit force on the damper's line alone
+        [m/N]; infinite if none acts. It has no columns if the file has no stops.
     """
 
     springs: Array
@@ -29,9 +29,9 @@ class SoftLines:
 
 
 def soft_lines(there: Corner) -> SoftLines:
-    """Return how spring and stops of a suspension deflect for a unit force along each.
+    """Return the flexibilities of spring and stops of a suspension.
 
-    With what their own force does as their direction changes.
+    They include the effect of the preload as the direction of a line changes.
     """
     rates = wheel.wheel_rate(replace(there, stops=()))
     if not (rates > 0.0).all():
@@ -50,9 +50,9 @@ def soft_lines(there: Corner) -> SoftLines:
 
 
 def lines_by_rates(beam: WholeAxleKinematics) -> SoftLines:
-    """Return how springs and stops deflect by their rates alone.
+    """Return the flexibilities of springs and stops from their rates alone.
 
-    Five rods have no motion with which the directions of forces would change.
+    An axle on five rods has no motion that would change the directions of forces.
     """
     rates = np.stack([beam.rate_of_spring(side) for side in SIDES], axis=1)
     if not (rates > 0.0).all():
@@ -67,11 +67,11 @@ def lines_by_rates(beam: WholeAxleKinematics) -> SoftLines:
 
 
 def lines_of_beam(beam: WholeAxleKinematics) -> SoftLines:
-    """Return how springs and stops deflect along their lines, for a unit force along each."""
+    """Return the flexibilities of springs and stops of an axle without sides."""
     growth = np.stack([beam.growth(f"{side}_spring") for side in SIDES], axis=1)
     rates = np.stack([beam.rate_of_stops(side) for side in SIDES], axis=1)
     by_stops = np.stack([beam.growth(f"{side}_damper") for side in SIDES], axis=1)
-    # by both coordinates; what remains without the stops is of the springs
+    # by both coordinates; without the stops the stiffness of the springs remains
     stiffness = -beam.of_springs[1] - by_stops.mT @ (rates[..., None] * by_stops)
     least = np.linalg.eigvalsh(0.5 * (stiffness + stiffness.mT))[:, 0]
     if not (least > 0.0).all():

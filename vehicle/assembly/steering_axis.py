@@ -1,10 +1,9 @@
-"""The axis about which the wheel is steered: that of two hardpoints, or that of the motion itself.
+"""The steering axis of a wheel: a line through two hardpoints, or a screw axis.
 
-Where the knuckle turns about two points (a wishbone's ball joints, a strut's mount), the axis is
-the line through them. Links of which no two meet have no such points: the knuckle then turns about
-the axis of its first motion when the rack moves and the spring keeps its length, the axis of that
-screw. Of links that meet in ball joints that is the line through them, if the spring acts on one
-of the links.
+If the knuckle turns about two points (a wishbone's ball joints, a strut's mount), the axis is the
+line through them. Links of which no two meet have no such points: the axis is then the screw axis
+of the knuckle's velocity when the rack moves and the spring keeps its length. For links that meet
+in ball joints this is the line through them, if the spring acts on one of the links.
 """
 
 from collections.abc import Callable
@@ -15,7 +14,7 @@ import numpy as np
 
 from ..corner.corner import Array, CarrierMotion
 
-# Half the distance of the two points that stand for an axis without points of its own [m].
+# Half the distance of the two points that represent a screw axis [m].
 _HALF = 0.1
 # Step of the arm's angle in differences of fourth order [rad]: their error is some 1e-4^4 of the
 # axis, and that of rounding 1e-16 / 1e-4.
@@ -32,7 +31,7 @@ class AxisOfPoints:
     lower, upper : ndarray, shape (..., 3)
         The points, the upper one above the lower [m].
     rate : ndarray, shape (..., 3)
-        Derivative of the vector from the lower to the upper one by wheel travel [1].
+        Derivative of the vector from the lower to the upper one with respect to wheel travel [1].
     """
 
     lower: Array
@@ -41,14 +40,14 @@ class AxisOfPoints:
 
 
 class AxisOfTheScrew:
-    """The axis of a motion; only requested values are computed.
+    """The screw axis of a motion; only requested values are computed.
 
     Parameters
     ----------
     ends : callable
-        Takes by how much the arm is turned further [rad], returns the lower and the upper point.
+        Takes a further rotation of the arm [rad], returns the lower and the upper point.
     rise : ndarray
-        Derivative of wheel travel by the arm's angle [m/rad].
+        Derivative of wheel travel with respect to the arm's angle [m/rad].
     """
 
     def __init__(self, ends: Callable[[float], tuple[Array, Array]], rise: Array) -> None:
@@ -70,7 +69,7 @@ class AxisOfTheScrew:
 
     @cached_property
     def rate(self) -> Array:
-        """Derivative of the vector from the lower to the upper one by wheel travel, (..., 3)."""
+        """Derivative of the vector between the points with respect to wheel travel, (..., 3)."""
         rate = np.zeros_like(self.lower)
         for by, weight in _WEIGHTS.items():
             low, high = self._ends(by * _STEP)
@@ -86,7 +85,7 @@ def of_the_screw(center: Array, steering: CarrierMotion) -> tuple[Array, Array]:
     center : ndarray, shape (..., 3)
         The wheel centre [m].
     steering : CarrierMotion
-        Of the wheel carrier, the spring locked.
+        Motion of the wheel carrier with the spring's length fixed.
 
     Returns
     -------

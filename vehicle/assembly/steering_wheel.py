@@ -1,4 +1,4 @@
-"""How the steering wheel moves the rack, and to which side that steers."""
+"""The ratio of steering wheel and rack, and its sign."""
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from .wheel import steer_gradient
 
 
 def rack_of(axle: Axle, angles: Array, sense: float | None = None) -> tuple[Array, Array]:
-    """Return rack displacements at angles, and the travel for a turn there, with its sign [m].
+    """Return rack displacements at angles, and the signed rack travel per turn there [m].
 
     Parameters
     ----------
@@ -19,7 +19,7 @@ def rack_of(axle: Axle, angles: Array, sense: float | None = None) -> tuple[Arra
     angles : ndarray
         Of the steering wheel, positive to the left [rad].
     sense : float, optional
-        That of `sense_of_rack`, where it is known already.
+        The result of `sense_of_rack`, if it is known already.
     """
     sense = sense_of_rack(axle) if sense is None else sense
     if axle.steering is not None:
@@ -34,15 +34,15 @@ def rack_of(axle: Axle, angles: Array, sense: float | None = None) -> tuple[Arra
         return axle.steering.rack(angles), axle.steering.travel_per_turn(angles)
     amount = motions.travel_per_turn(axle)
     assert amount is not None
-    # the files give it without sign: the wheel turned to the left steers to the left
+    # files have it without sign: a steering wheel turned to the left steers to the left
     per_turn = amount * sense
     return angles * per_turn / (2.0 * np.pi), np.full_like(angles, per_turn)
 
 
 def per_turn_at(axle: Axle, racks: Array) -> Array | None:
-    """Return the rack travel for one turn of the steering wheel where the rack is [m].
+    """Return the signed rack travel per turn of the steering wheel at rack displacements [m].
 
-    With its sign; None where nothing says it, and NaN beyond the points of a curve.
+    None if no file has it, and NaN beyond the points of a curve.
     """
     if axle.steering is not None:
         return axle.steering.travel_per_turn_at(racks)
@@ -51,7 +51,7 @@ def per_turn_at(axle: Axle, racks: Array) -> Array | None:
 
 
 def sense_of_rack(axle: Axle) -> float:
-    """Return +1 where a positive displacement of the rack steers to the left, or -1."""
+    """Return +1 if a positive displacement of the rack steers to the left, else -1."""
     design = AxleKinematics.at(axle, 0.0, 0.0, 0.0)
     return float(np.sign(sum(steer_gradient(corner) for corner in design.corners.values())))
 
@@ -67,7 +67,7 @@ def rack_motion(
     angle, rate, acceleration : ndarray
         Of the steering wheel, positive to the left [rad, rad/s, rad/s^2].
     sense : float, optional
-        That of `sense_of_rack`, where it is known already.
+        The result of `sense_of_rack`, if it is known already.
     """
     position, per_turn = rack_of(axle, angle, sense)
     slope = per_turn / (2.0 * np.pi)

@@ -88,7 +88,7 @@ class TwistBeamParts(WholeAxleParts):
         return f"arm_{side}"
 
     def masses(self) -> dict[str, PartMass]:
-        """Return what the acceleration of parts moves; the left arm is the right one's image."""
+        """Return mass and inertia of the parts; the left arm is the image of the right one."""
         found = super().masses()
         arm = found[f"arm_{LEFT}"]
         return found | {f"arm_{LEFT}": replace(arm, tensor=_MIRROR @ arm.tensor @ _MIRROR)}
@@ -101,7 +101,7 @@ class TwistBeamParts(WholeAxleParts):
 
     @property
     def rate_of_twist(self) -> float:
-        """The torque of the beam by its twist [N m/rad]."""
+        """The torque of the beam per twist [N m/rad]."""
         return self.axle.beam.rate
 
     def by_torque(self) -> list[Load]:
@@ -120,7 +120,7 @@ class TwistBeamAssembly(WholeAxleAssembly):
     ----------
     axle : TwistBeamAxle
     model : TwistBeamModel, optional
-        Its equations, where there are some already.
+        Its equations, if they exist already.
     """
 
     AXLE, MODEL, PARTS = TwistBeamAxle, TwistBeamModel, TwistBeamParts
@@ -132,7 +132,7 @@ class TwistBeamAssembly(WholeAxleAssembly):
 
     @property
     def words(self) -> str:
-        """What it is, in sentences."""
+        """A description in sentences."""
         return (
             f"A {self.axle.heading()}: two arms and a beam of {self.axle.beam.rate_Nm_per_deg:.4g} "
             "N m/deg between them."
@@ -141,7 +141,7 @@ class TwistBeamAssembly(WholeAxleAssembly):
     def _travels(self, motion: str, along: Array) -> tuple[Array, Array]:
         """Return the travels of the left and the right wheel along a motion [m].
 
-        In roll they are opposite, by as much as turns the line through the wheel centres.
+        In roll they are opposite, so that the line through the wheel centres has the angle.
         """
         left, right = super()._travels(motion, along)
         if motion != "roll":
@@ -173,4 +173,4 @@ class TwistBeamAssembly(WholeAxleAssembly):
         rate = self.axle.beam.rate
         if not rate:
             return None
-        return TwistBar(f"arm_{RIGHT}", f"arm_{LEFT}", ACROSS, rate, attrgetter("twist"))
+        return TwistBar(rate, f"arm_{RIGHT}", f"arm_{LEFT}", ACROSS, attrgetter("twist"))

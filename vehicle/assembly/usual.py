@@ -1,4 +1,4 @@
-"""The usual ranges of wheel travel and of the rack, as far as a wheel goes."""
+"""The default ranges of wheel travel and of the rack."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,10 +10,10 @@ from ..models.positions import PositionError, arm_angles, design_height, travel_
 
 Array = NDArray[np.float64]
 
-# What a sweep covers where nothing is said, as far as it can be reached.
+# Default ends of a sweep, if they can be reached.
 USUAL_TRAVEL = 0.080  # bump and rebound of a passenger car [m]
 USUAL_RACK = 0.060  # to either side [m]
-# By default a sweep keeps clear of the ends of the motion by this part of them.
+# By default a sweep ends before the ends of the motion, by this part of the distance.
 CLEARANCE = 0.02
 _MOST_POINTS = 100_000
 
@@ -27,10 +27,6 @@ def grid(lowest: float, highest: float, step: float) -> Array:
         Ends of the range; zero lies between them or is one of them.
     step : float
         Distance of the values.
-
-    Returns
-    -------
-    ndarray
 
     Examples
     --------
@@ -53,7 +49,7 @@ def grid(lowest: float, highest: float, step: float) -> Array:
             f"{lowest * 1e3:g} mm to {highest * 1e3:g} mm. Choose a larger step."
         )
         raise InputError([problem], "sweep")
-    # a step that fits up to rounding ends at the end itself
+    # a grid point within rounding of an end is the end
     below, above = (int(np.floor(abs(end) / step + 1e-9)) for end in (lowest, highest))
     values = np.arange(-below, above + 1) * step
     near = 1e-9 * step
@@ -75,12 +71,12 @@ def usual_travel(
     ----------
     model : Model
     rebound, bump : float, optional
-        How far down and up, both positive [m]; by default 80 mm, or less where the suspension
-        cannot go so far.
+        Ends below and above design, both positive [m]; by default 80 mm, or less if the suspension
+        does not reach them.
     step : float, optional
         Distance of the positions [m].
     rack : float, optional
-        Displacement of the rack at which the range is looked up [m].
+        Displacement of the rack [m].
 
     Returns
     -------
@@ -109,11 +105,11 @@ def usual_rack(
     ----------
     model : Model
     extent : float, optional
-        How far to either side [m]; by default 60 mm, or less where the steering cannot go so far.
+        End to either side [m]; by default 60 mm, or less if the steering does not reach it.
     step : float, optional
         Distance of the positions [m].
     travel : float, optional
-        Wheel travel at which the range is looked up [m].
+        Wheel travel [m].
 
     Returns
     -------
@@ -131,7 +127,7 @@ def usual_rack(
 
 
 def _reachable_rack(model: Model, travel: float) -> float:
-    """Return the usual extent of the rack, halved until the wheel gets there on both sides."""
+    """Return the default extent of the rack, halved until both ends are in range [m]."""
     extent = USUAL_RACK
     while extent > 1e-3:
         if all(_reaches(model, travel, sign * extent) for sign in (-1.0, 1.0)):

@@ -1,9 +1,8 @@
-"""Characteristics of one wheel: the formulas.
+"""Formulas of the characteristics of one wheel.
 
-Each function takes a `Corner`, or a `RoadWheel` where it needs no more, and returns an array over
-its positions, SI units. Signs are those of docs/suspension/characteristics.md. A quantity that
-grows without bound (the length of a swing arm about an instant centre far away) becomes infinite
-there.
+Each function takes a `Corner`, or a `RoadWheel` if that is sufficient, and returns an array over
+its positions, SI units. Signs are those of docs/suspension/characteristics.md. Unbounded quantities
+(the length of a swing arm about an instant centre at infinity) are infinite.
 """
 
 import numpy as np
@@ -30,29 +29,32 @@ def steer(corner: RoadWheel) -> Array:
 
 
 def camber_gradient(corner: Corner) -> Array:
-    """Return the derivative of camber by wheel travel [rad/m]."""
+    """Return the derivative of camber with respect to wheel travel [rad/m]."""
     return camber_rate(corner, corner.travel)
 
 
 def bump_steer(corner: Corner) -> Array:
-    """Return the derivative of toe by wheel travel [rad/m], positive toe-in in bump."""
+    """Return the derivative of toe with respect to travel [rad/m], positive toe-in in bump."""
     return toe_rate(corner, corner.travel)
 
 
 def steer_gradient(corner: Corner) -> Array:
-    """Return the derivative of the steer angle by rack travel, wheel height held [rad/m]."""
+    """Return the derivative of the steer angle with respect to rack travel [rad/m].
+
+    The wheel centre keeps its height.
+    """
     assert corner.steering is not None
     return -corner.vehicle.side * toe_rate(corner, corner.steering)
 
 
 def camber_rate(corner: RoadWheel, motion: CarrierMotion) -> Array:
-    """Return how fast the camber changes in a motion [rad]."""
+    """Return the rate of camber in a motion [rad per unit]."""
     turned = _turned_axis(corner, motion)
     return _angle_rate(_camber_sides(corner, corner.axis), _camber_sides(corner, turned))
 
 
 def toe_rate(corner: RoadWheel, motion: CarrierMotion) -> Array:
-    """Return how fast the toe angle changes in a motion [rad]."""
+    """Return the rate of toe in a motion [rad per unit]."""
     turned = _turned_axis(corner, motion)
     return _angle_rate(_toe_sides(corner, corner.axis), _toe_sides(corner, turned))
 
@@ -66,7 +68,7 @@ def caster(corner: Corner) -> Array:
 
 
 def caster_gradient(corner: Corner) -> Array:
-    """Return the derivative of caster by wheel travel [rad/m]."""
+    """Return the derivative of caster with respect to wheel travel [rad/m]."""
     axis, rate = _steering_axis(corner), _steered_about(corner).rate
     return _angle_rate(_caster_sides(axis), _caster_sides(rate))
 
@@ -111,20 +113,20 @@ def contact(corner: RoadWheel) -> Array:
 
 
 def contact_rate(corner: Corner) -> Array:
-    """Return the derivative of the contact's place by wheel travel, (..., 3) [1]."""
+    """Return the derivative of the contact's position with respect to travel, (..., 3) [1]."""
     motion = corner.travel
     return lowest_point_rate(motion.velocity, corner.axis, motion.turning, _radius(corner))
 
 
 def half_track_change(corner: RoadWheel) -> Array:
-    """Return how much farther outboard the contact is than at design [m]."""
+    """Return the displacement of the contact from design [m], positive outboard."""
     design = lowest_point(corner.design_center, corner.design_axis, _radius(corner))
     change: Array = corner.vehicle.side * (contact(corner)[..., 1] - design[..., 1])
     return change
 
 
 def wheelbase_change(corner: RoadWheel) -> Array:
-    """Return how much farther forward the wheel centre is than at design [m]."""
+    """Return the displacement of the wheel centre from design [m], positive forward."""
     change: Array = corner.center[..., 0] - corner.design_center[..., 0]
     return change
 
@@ -132,8 +134,7 @@ def wheelbase_change(corner: RoadWheel) -> Array:
 def roll_center_height_kinematic(corner: Corner) -> Array:
     """Return the height above the contact at which the contact's normal meets y = 0 [m].
 
-    The normal is that of the path of the contact point, fixed to the wheel carrier, seen from the
-    front.
+    The normal is that of the path of the contact point, fixed to the wheel carrier, in front view.
     """
     velocity = contact_velocity(corner)
     return _quotient(contact(corner)[..., 1] * velocity[..., 1], velocity[..., 2])
@@ -171,12 +172,12 @@ def side_view_hub_angle(corner: Corner) -> Array:
 
 
 def anti_dive(corner: Corner) -> Array:
-    """Return the part of the braking pitch that the front suspension takes up [1]."""
+    """Return the part of the braking pitch that the front suspension reacts [1]."""
     return _front_brake_share(corner) * _braking(corner)
 
 
 def anti_lift_braked(corner: Corner) -> Array:
-    """Return the part of the braking pitch that the rear suspension takes up [1]."""
+    """Return the part of the braking pitch that the rear suspension reacts [1]."""
     return (_front_brake_share(corner) - 1.0) * _braking(corner)
 
 
@@ -210,7 +211,7 @@ def damper_motion_ratio(corner: Corner) -> Array:
 
 
 def wheel_force(corner: Corner) -> Array:
-    """Return the vertical force at the wheel that spring and stops take, by virtual work [N]."""
+    """Return the vertical force of spring and stops at the wheel, by virtual work [N]."""
     force = np.zeros_like(corner.arm_rotation)
     for spring in (corner.spring, *corner.stops):
         force = force - spring.force * spring.stroke.slope
@@ -218,10 +219,9 @@ def wheel_force(corner: Corner) -> Array:
 
 
 def wheel_rate(corner: Corner) -> Array:
-    """Return the derivative of the force of spring and stops at the wheel by wheel travel [N/m].
+    """Return the derivative of `wheel_force` with respect to wheel travel [N/m].
 
-    By virtual work a spring of force F acts at the wheel as F MR, with MR the motion ratio; both
-    change.
+    A spring of force F has the force F MR at the wheel, with the motion ratio MR; both change.
     """
     rate = np.zeros_like(corner.arm_rotation)
     for spring in (corner.spring, *corner.stops):
@@ -239,11 +239,11 @@ def ride_rate(corner: Corner) -> Array:
     return _quotient(wheel * tyre, wheel + tyre)
 
 
-# -- what the formulas share ----------------------------------------------------------------------
+# -- shared by the formulas -----------------------------------------------------------------------
 
 
 def _quotient(numerator: Array, denominator: Array) -> Array:
-    """Divide without a warning: what is divided by zero is infinite."""
+    """Return a quotient, infinite for a zero denominator, without a warning."""
     with np.errstate(divide="ignore", invalid="ignore"):
         return numerator / denominator
 
@@ -276,19 +276,19 @@ def lowest_point(center: Array, axis: Array, radius: float) -> Array:
 
 
 def upward_across(axis: Array) -> Array:
-    """Return the unit vector across an axis that points upward most: in the plane of a wheel."""
+    """Return the steepest upward unit vector perpendicular to an axis, in the plane of a wheel."""
     across = axis[..., 2:]
     upward: Array = (UP - axis * across) / np.sqrt(1.0 - across**2)
     return upward
 
 
 def lowest_point_rate(velocity: Array, axis: Array, turning: Array, radius: float) -> Array:
-    """Return how fast the lowest point of a thin disc goes, which is not fixed to it.
+    """Return the velocity of the lowest point of a thin disc, which is not fixed to it.
 
     Parameters
     ----------
     velocity : ndarray, shape (..., 3)
-        Of its centre.
+        Velocity of its centre.
     axis, turning : ndarray, shape (..., 3)
         Its axis, and its angular velocity.
     radius : float
@@ -307,7 +307,7 @@ def contact_velocity(corner: Corner) -> Array:
 
 
 def _steered_about(corner: Corner) -> SteeringAxis:
-    assert corner.steering_axis is not None  # what needs it is left out where there is none
+    assert corner.steering_axis is not None  # measures that need it are left out without a rack
     return corner.steering_axis
 
 
@@ -317,7 +317,7 @@ def _steering_axis(corner: Corner) -> Array:
 
 
 def _offsets(corner: Corner, point: Array) -> tuple[Array, Array]:
-    """Return where the steering axis passes a point at its height: ahead and inboard."""
+    """Return the offsets of the steering axis at the height of a point, ahead and inboard."""
     axis, lower = _steering_axis(corner), _steered_about(corner).lower
     rise = (point - lower)[..., 2:] / axis[..., 2:]
     away = lower + rise * axis - point
@@ -328,19 +328,19 @@ def _offsets(corner: Corner, point: Array) -> tuple[Array, Array]:
 
 
 def _heading(corner: Corner) -> Array:
-    """Return the horizontal unit vector in which the wheel rolls forward."""
+    """Return the horizontal unit vector of the wheel's forward direction."""
     heading = cross(corner.vehicle.side * corner.axis, UP)
     length: Array = np.linalg.norm(heading, axis=-1, keepdims=True)
     return heading / length
 
 
 def _instant_center(corner: Corner) -> tuple[Array, Array, Array]:
-    """Cut the links' planes with the vertical transverse plane through the wheel centre.
+    """Return the intersection of the links' planes in the transverse plane of the wheel centre.
 
     Returns
     -------
     y, z, scale : ndarray
-        Homogeneous coordinates: the centre is at (y, z) / scale, and far away where scale is zero.
+        Homogeneous coordinates: the centre is at (y, z) / scale, at infinity if scale is zero.
     """
     (first_y, first_z, first), (second_y, second_z, second) = (
         _trace(plane.point, plane.normal, corner.center[..., 0]) for plane in corner.links
@@ -351,7 +351,7 @@ def _instant_center(corner: Corner) -> tuple[Array, Array, Array]:
 
 
 def _trace(point: Array, normal: Array, x: Array) -> tuple[Array, Array, Array]:
-    """Return a, b, c of the line a y + b z = c in which a plane cuts the plane of given x."""
+    """Return a, b, c of the line a y + b z = c in which a plane intersects that of given x."""
     level = np.einsum("...i,...i->...", normal, point) - normal[..., 0] * x
     return normal[..., 1], normal[..., 2], level
 

@@ -1,7 +1,7 @@
-"""The line through the wheel centres of an axle: how far it is inclined, and how fast that changes.
+"""The line through the wheel centres of an axle: its inclination, and the rate of this.
 
-A roll of the body is an inclination of this line to the plane of the body's x and y axes, from that
-at design.
+A roll of the body is the inclination of this line to the body's x-y plane, relative to that at
+design.
 """
 
 from dataclasses import dataclass
@@ -29,7 +29,7 @@ class WheelCentreLine:
     across : ndarray, shape (n, 3)
         From the right wheel centre to the left one [m].
     rate : ndarray, shape (n, 3)
-        Its derivative by opposite travel of the wheels, the right one upward [1].
+        Its derivative with respect to opposite travel of the wheels, the right one upward [1].
     design : ndarray, shape (3,)
         The line at design [m].
     """
@@ -42,7 +42,7 @@ class WheelCentreLine:
     def at(
         cls, axle: Axle, left: ArrayLike, right: ArrayLike, rack: float = 0.0
     ) -> "WheelCentreLine":
-        """Return it at travels of both wheels and a displacement of the rack [m].
+        """Return the line at travels of both wheels and a displacement of the rack [m].
 
         Raises
         ------
@@ -64,12 +64,12 @@ class WheelCentreLine:
 
     @property
     def roll_rate(self) -> Array:
-        """Its derivative by opposite travel, (n,) [rad/m]."""
+        """The derivative of the roll angle with respect to opposite travel, (n,) [rad/m]."""
         return -inclination_rate(self.across, self.rate)
 
 
 def inclination_rate(along: Array, rate: Array) -> Array:
-    """Return how fast a vector that changes at a rate is inclined to the x-y plane [rad]."""
+    """Return the rate of a vector's inclination to the x-y plane, from the vector's rate [rad]."""
     level = np.hypot(along[..., 0], along[..., 1])
     spread = (along[..., :2] * rate[..., :2]).sum(-1) / level
     fast: Array = (level * rate[..., 2] - along[..., 2] * spread) / (level**2 + along[..., 2] ** 2)
@@ -81,7 +81,7 @@ def _inclination(along: Array) -> Array:
 
 
 def _center(model: Model, travel: Array, rack: float) -> tuple[Array, Array]:
-    """Return where a wheel centre is at some travels [m], and its derivative by them, (n, 3)."""
+    """Return a wheel centre at travels [m], and its derivative with respect to them, (n, 3)."""
     angles = arm_angles(model, design_height(model) + travel, rack)
     states, inputs = at_rest(model, angles, rack, arm_rate=1.0)
     body = model.suspension.carrier

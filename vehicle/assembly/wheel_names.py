@@ -1,4 +1,4 @@
-"""What the equations of motion of an assembly call what belongs to one wheel."""
+"""The names of one wheel's states, inputs and signals in the equations of motion."""
 
 from dataclasses import dataclass
 
@@ -10,15 +10,15 @@ class WheelNames:
     Attributes
     ----------
     prefix : str
-        Begins the names of its inputs: empty for a corner, ``left_`` for an axle.
+        Prefix of its inputs: empty for a corner, ``left_`` for an axle.
     signals : str
-        Begins the names of its signals and events: ``left_front_`` for an axle.
+        Prefix of its signals and events: ``left_front_`` for an axle.
     spin : str
         State: the angle of the wheel about its axis.
     actuator : str
         Input: the force of the actuator beside its spring.
     tyre : str
-        What the signal of the tyre's load is called after that beginning.
+        The signal of the tyre's load, without this prefix.
     """
 
     prefix: str
@@ -44,6 +44,6 @@ class WheelNames:
 
     @property
     def events(self) -> tuple[str, str]:
-        """The events at which the wheel leaves the ground, and at which it comes back."""
+        """The events at which the wheel leaves and touches the ground."""
         leaves, touches = (f"{self.signals}wheel_{what}_ground" for what in ("leaves", "touches"))
         return leaves, touches

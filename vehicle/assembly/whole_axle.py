@@ -1,4 +1,4 @@
-"""An axle without sides, such as a rigid axle, as an assembly: the members that all share."""
+"""The base of assemblies of axles without sides, such as a rigid axle."""
 
 from collections.abc import Mapping, Sequence
 from importlib import import_module
@@ -11,8 +11,6 @@ from ...core.validator import Validator
 from ..corner.bushes import described_bushings
 from ..corner.corner import Array
 from ..data.starter import words_of
-from ..input.vehicle import TyreSection
-from ..models.axle.file import TorqueReaction
 from ..models.plausibility import Plausibility
 from ..models.reach import PositionError
 from ..models.sides import SIDES
@@ -33,26 +31,26 @@ from .wheel_names import WheelNames
 from .whole_axle_kinematics import WholeAxleKinematics
 from .whole_axle_parts import WholeAxleParts
 
-# What each wheel travels per metre of what varies; in roll it is the half track times the sine.
+# Travel of each wheel per travel of the motion; in roll it is the half track times the sine.
 _SHARES = {"bump": (1.0, 1.0), "left": (1.0, 0.0), "right": (0.0, 1.0)}
-# So far both wheels are moved when its reach is looked for [m].
+# Greatest travel of both wheels in the search for the range [m].
 _FAR = 0.4
 _NO_REST = (
     "the axle has no stable equilibrium near its design position. Check the springs' rate and "
     "free length, the tyres' rate and free height, the load of the wheels, or the road."
 )
-# Where the axle is under a load, it could go as many times as far.
+# The loops close up to this multiple of the travel of a loaded axle.
 _CLEAR = 1.02
 
 
 class WholeAxleAssembly(HeldAssembly):
-    """An axle of two wheels whose heights are those of two coordinates.
+    """An axle whose two coordinates determine the heights of both wheels.
 
     Parameters
     ----------
     axle : WholeAxle
     model : WholeAxleModel, optional
-        Its equations, where there are some already.
+        Its equations, if they exist already.
 
     Attributes
     ----------
@@ -76,7 +74,7 @@ class WholeAxleAssembly(HeldAssembly):
     axle: Any
 
     def __init__(self, axle: Any, model: Any = None) -> None:
-        self.axle = axle
+        self.subject = self.axle = axle
         self.model = self._model() if model is None else model
 
     def _model(self) -> WholeAxleModel:
@@ -84,41 +82,16 @@ class WholeAxleAssembly(HeldAssembly):
         return self.MODEL(self.axle)
 
     @property
-    def subject(self) -> Any:
-        """The axle."""
-        return self.axle
-
-    @property
-    def steered(self) -> bool:
-        """No rack steers it."""
-        return False
-
-    @property
-    def tyres(self) -> Sequence[TyreSection]:
-        """The tyres."""
-        return [self.axle.tyre] * len(SIDES)
-
-    @property
-    def tyre_radii(self) -> Sequence[float | None]:
-        """The radii of the wheels [m]."""
-        return [self.axle.tyre_radius()] * len(SIDES)
-
-    @property
-    def has_bushes(self) -> bool:
-        """Whether its file has bushes."""
-        return bool(self.axle.bushings)
+    def wheeled(self) -> Sequence[WholeAxle]:
+        """The axle, for each wheel."""
+        return [self.axle] * len(SIDES)
 
     def usual(
-        self,
-        motion: str,
-        extent: SweepRange | None = None,
-        *,
-        travel: float = 0.0,
-        rack: float = 0.0,
+        self, motion: str, ends: SweepRange | None = None, *, travel: float = 0.0, rack: float = 0.0
     ) -> Array:
-        """Return the usual positions of a motion, zero included [m] or [rad]."""
+        """Return the default positions of a motion, zero included [m] or [rad]."""
         del travel, rack
-        far = extent or SweepRange()
+        far = ends or SweepRange()
         if motion == "roll":
             with Validator("roll") as given:
                 amount = 0.0 if far.roll is None else far.roll
@@ -136,7 +109,7 @@ class WholeAxleAssembly(HeldAssembly):
         return grid(low, high, far.step)
 
     def _ends(self, motion: str, most: float) -> list[float]:
-        """Return how far a motion goes either way, at most so far and clear of its ends."""
+        """Return the ends of a motion either way, at most `most`, before the ends of its range."""
         ends = []
         for value in (-most, most):
             left, right = self._travels(motion, np.array(value))
@@ -155,7 +128,7 @@ class WholeAxleAssembly(HeldAssembly):
     def position(
         self, motion: str, along: Array, *, travel: float = 0.0, rack: float = 0.0
     ) -> RigPosition:
-        """Return where the wheels are along a motion."""
+        """Return the positions of the wheels along a motion."""
         del travel, rack
         if motion == "roll" and np.abs(along).max(initial=0.0) >= MOST_ROLL:
             worst = np.degrees(np.abs(along).max())
@@ -165,7 +138,7 @@ class WholeAxleAssembly(HeldAssembly):
         return RigPosition(dict(zip(SIDES, travels, strict=True)), np.zeros(()))
 
     def refuse_holding(self, given: Validator, motion: str, travel: float, rack: float) -> None:
-        """Refuse a travel that is for steering, and a rack."""
+        """Refuse a constant travel, and a rack."""
         if rack:
             given.fail(f"rack_position: {words_of(self.axle.KEY)} has no rack. Leave it out.")
         if travel:
@@ -173,7 +146,7 @@ class WholeAxleAssembly(HeldAssembly):
 
     @property
     def coordinates(self) -> tuple[str, ...]:
-        """The two that move the wheels up and down."""
+        """The two coordinates that move the wheels up and down."""
         found: tuple[str, ...] = self.model.COORDINATES
         return found
 
@@ -188,18 +161,18 @@ class WholeAxleAssembly(HeldAssembly):
         return found
 
     def names_of(self, wheel: str) -> WheelNames:
-        """Return what its equations call what belongs to a wheel."""
+        """Return the names of a wheel in the equations."""
         prefix = f"{wheel}_"
         return WheelNames(
             prefix, f"{prefix}axle_", f"{prefix}spin_angle", f"{prefix}spring_actuator"
         )
 
     def wheel_equations(self, wheel: str) -> tuple[WholeAxleModel, str, Mapping[str, str]]:
-        """Return its own equations, whose coordinates move both wheels."""
+        """Return the equations of the axle, whose coordinates move both wheels."""
         return self.model, self.names_of(wheel).signals, {name: name for name in self.coordinates}
 
     def coordinates_of(self, suffix: str) -> dict[str, str]:
-        """Return what the coordinates are called."""
+        """Return the names of the coordinates."""
         del suffix
         return {name: name for name in self.coordinates}
 
@@ -215,12 +188,12 @@ class WholeAxleAssembly(HeldAssembly):
         return self.MEASURES
 
     def kinematics(self, position: RigPosition) -> WholeAxleKinematics:
-        """Return the position of the axle and the first derivatives of its motion."""
+        """Return positions and first derivatives of the axle."""
         self.require_rigid_motion()
         return self.KINEMATICS(self._at(position))
 
     def poses(self, position: RigPosition) -> dict[str, PartPoses]:
-        """Return its parts with rigid joints."""
+        """Return the parts with rigid joints."""
         return {"": self._at(position)}
 
     def _at(self, position: RigPosition) -> WholeAxleParts:
@@ -228,7 +201,7 @@ class WholeAxleAssembly(HeldAssembly):
         return self.PARTS.of(self.model, self.model.states_at(left, right))
 
     def soft_lines(self, poses: Mapping[str, Any]) -> dict[str, SoftLines]:
-        """Return how springs and stops deflect."""
+        """Return the flexibilities of springs and stops."""
         return {"": lines_of_beam(self.KINEMATICS(poses[""]))}
 
     @property
@@ -244,11 +217,11 @@ class WholeAxleAssembly(HeldAssembly):
         return found
 
     def wheel_reach(self, rack: float) -> None:
-        """Return None: how far a wheel goes depends on the other one."""
+        """Return None: the range of a wheel depends on the other one."""
         del rack
 
     def at_wheel_coordinates(self, coordinates: Array, racks: Array) -> dict[str, PartPoses]:
-        """Return its parts at rest; the coordinates are the travels of both wheels [m]."""
+        """Return the parts at rest; the coordinates are the travels of both wheels [m]."""
         del racks
         return {"": self._parts(coordinates)}
 
@@ -256,7 +229,7 @@ class WholeAxleAssembly(HeldAssembly):
         return self.PARTS.of(self.model, self.model.placed(*travels.T))
 
     def reached(self, coordinates: Array, racks: Array) -> NDArray[np.bool_]:
-        """Return where it and its dampers reach, with springs and dampers upright."""
+        """Return whether axle and dampers are within range, springs and dampers upright, (n,)."""
         del racks
         margins = self.model.margins(self.model.placed(*coordinates.T))
         found = np.asarray((margins > 0.0).all(axis=-1))
@@ -264,26 +237,21 @@ class WholeAxleAssembly(HeldAssembly):
         return found
 
     def locked(self, coordinates: Array) -> NDArray[np.bool_]:
-        """Return where it locks, or where it does not come from design."""
+        """Return whether the axle is at the end of its range, or not reached from design, (n,)."""
         beyond = self.model.parts_of_ways(*coordinates.T) < 1.0
         margins = self.model.margins(self.model.placed(*(_CLEAR * coordinates).T))
-        # those of the loops; a damper may be near the end of its length
+        # margins of the loops only: a damper may be near the end of its stroke
         closing = margins[:, : len(self.model.equations.GUARDS)]
         return np.asarray(beyond | ~(closing > 0.0).all(axis=-1))
 
     def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
-        """Return whether it has a stop, of both wheels."""
+        """Return whether both wheels have a stop."""
         del wheel
         return getattr(self.axle, which) is not None
 
-    def torque_on(self, what: Literal["brakes", "drive"]) -> TorqueReaction | None:
-        """Return what holds the torque of brakes or drive."""
-        part = getattr(self.axle, what)
-        return None if part is None else part.torque_on
-
     @property
     def rules(self) -> tuple[str, ...]:
-        """What decides where statics alone does not."""
+        """The assumptions that resolve statical indeterminacy."""
         found: tuple[str, ...] = self.axle.structure().rules
         return found
 
@@ -302,24 +270,18 @@ class WholeAxleAssembly(HeldAssembly):
     def in_motion(
         self, states: Array, inputs: Array
     ) -> tuple[dict[str, PartPoses], dict[str, Array]]:
-        """Return its parts in some states, and the rates of these."""
+        """Return the parts in some states, and the rates of these."""
         rates = self.model.evaluate("rhs", states, inputs)
         return {"": self.PARTS.of(self.model, states, inputs)}, {"": rates}
 
     def parts_with(self, values: Mapping[str, Array], count: int) -> dict[str, PartPoses]:
-        """Return its parts, by the names of its states and inputs."""
+        """Return the parts, by the names of its states and inputs."""
         return {"": self.PARTS.of(self.model, *states_with(self.model, values, count))}
 
     def bushes(self, given: Validator, bushings: Mapping[str, Any] | None) -> Bushings:
-        """Return bushes as a caller describes them, or those of the file."""
+        """Return the bushes that a caller describes, or those of the file."""
         described = described_bushings(given, bushings, self.axle.bushings)
         return Bushings({"": self.axle.bushes(given, described)}, 0.0)
-
-    @property
-    def heading(self) -> str:
-        """What it is called."""
-        found: str = self.axle.heading()
-        return found
 
     def plausibility(self) -> Plausibility:
         """Return the unlikely values of its file."""
@@ -327,7 +289,7 @@ class WholeAxleAssembly(HeldAssembly):
         return found
 
     def reach(self) -> dict[str, tuple[float, bool]]:
-        """Return how far it goes up and down, and whether something ends that."""
+        """Return the travel of both wheels down and up [m], and whether it is limited."""
         found = {}
         for name, far in (("down", -_FAR), ("up", _FAR)):
             part = self.model.farthest(far, far)
@@ -335,19 +297,13 @@ class WholeAxleAssembly(HeldAssembly):
         return found
 
     def without_friction(self) -> "WholeAxleAssembly":
-        """Return the same without the friction of its dampers."""
+        """Return the axle without the friction of its dampers."""
         smooth = self.axle.with_changes({"damper.friction_N": 0.0})
         return type(self)(smooth, self.MODEL(smooth))
 
 
 def whole_axle_assembly(key: str) -> type[WholeAxleAssembly]:
-    """Return the assembly of an axle that one file describes: that of the module with its name.
-
-    Parameters
-    ----------
-    key : str
-        One of `data.starter.whole_axles`.
-    """
+    """Return the class of an axle without sides, from the module with its key."""
     module = import_module(f".{key}", __package__)
     found: type[WholeAxleAssembly] = class_in(module, WholeAxleAssembly)
     return found

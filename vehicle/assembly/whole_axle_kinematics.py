@@ -1,11 +1,11 @@
-"""An axle without sides at many positions: first derivatives of its motion, and its springs.
+"""Kinematics of an axle without sides over n positions, and the rates of its springs.
 
 Motions are those of the two coordinates that move the wheels up and down, or of both wheels:
 ``heave``, both rise by a metre; ``roll``, the left one rises by a metre and the right one falls;
 ``left`` and ``right``, one of them rises by a metre and the other one keeps its height.
 
-Lengths of springs, and their forces, are differentiated by the equations themselves: velocities at
-unit rates of the coordinates are first derivatives, and the derivatives of these are second ones.
+The compiled equations differentiate lengths and forces of springs: velocities at unit rates of the
+coordinates are first derivatives, and the derivatives of these are second ones.
 """
 
 from dataclasses import dataclass
@@ -63,7 +63,7 @@ class WholeAxleKinematics:
 
     @property
     def end(self) -> str:
-        """At which end of the vehicle it is."""
+        """The end of the vehicle, 'front' or 'rear'."""
         found: str = self.axle.end
         return found
 
@@ -95,7 +95,7 @@ class WholeAxleKinematics:
         height: Array = 0.5 * sum(heights) - self.axle.center[2]
         return height
 
-    # -- how it moves by its coordinates ---------------------------------------------------------
+    # -- derivatives with respect to its coordinates ---------------------------------------------
 
     @cached_property
     def _twists(self) -> dict[str, Array]:
@@ -130,11 +130,11 @@ class WholeAxleKinematics:
         axis = self.parts.wheel_axis(side)
         return lowest_point_rate(velocity, axis, self.turning(side, by), radius)
 
-    # -- how it moves in motions of both wheels ---------------------------------------------------
+    # -- derivatives in motions of both wheels ----------------------------------------------------
 
     @cached_property
     def heights(self) -> Array:
-        """The derivatives of both heights by both coordinates, (n, 2, 2) [m/rad]."""
+        """Derivatives of both heights with respect to both coordinates, (n, 2, 2) [m/rad]."""
         names = self.model.COORDINATES
         rows = [[self.velocity(s, self.wheel_center(s), by)[:, 2] for by in names] for s in SIDES]
         return np.moveaxis(np.array(rows), -1, 0)
@@ -148,7 +148,7 @@ class WholeAxleKinematics:
         }
 
     def _in_motion(self, how: str, by_coordinate: list[Array]) -> Array:
-        """Return a rate per metre of a motion, (n, 3), from its rates per unit of coordinates."""
+        """Return a rate per metre of a motion, (n, 3), from those per unit of the coordinates."""
         first, second = (
             rate[:, None] * part
             for rate, part in zip(self._of_motions[how].T, by_coordinate, strict=True)
@@ -185,14 +185,14 @@ class WholeAxleKinematics:
 
     @cached_property
     def inclination_rate(self) -> Array:
-        """The turn of the line through the wheel centres in roll, left end up [rad/m]."""
+        """The rotation of the line through the wheel centres in roll, left end up [rad/m]."""
         left, right = (self.wheel_center(side) for side in SIDES)
         up, down = (self.motion(side, "roll").velocity for side in SIDES)
         return inclination_rate(left - right, up - down)
 
     @cached_property
     def rolled(self) -> tuple[Array, Array]:
-        """Travels of both wheels, and lateral motion of both contacts, by a roll of the body.
+        """Travels of both wheels, and lateral motions of both contacts, per roll of the body.
 
         The wheel centres move oppositely; (n, 2) each, the left wheel first [m/rad].
         """
@@ -247,21 +247,21 @@ class WholeAxleKinematics:
 
     @cached_property
     def of_springs(self) -> tuple[Array, Array]:
-        """What springs and stops do by both coordinates, (n, 2), and its derivatives, (n, 2, 2)."""
+        """Generalised forces of springs and stops, (n, 2), and their derivatives, (n, 2, 2)."""
         forces = [self._virtual_work(f"{side}_{part}", force) for side, part, force in _SPRINGS]
         work, slopes = zip(*forces, strict=True)
         return np.sum(work, axis=0), np.sum(slopes, axis=0)
 
     @cached_property
     def of_bar(self) -> tuple[Array, Array]:
-        """The same for the anti-roll bar, or the beam, which resists the second coordinate."""
+        """The same of the anti-roll bar or the beam, which resists the second coordinate."""
         rate = self.model.parameters[self.parts.RATE]
         turned = self.parts.states[:, self.model.state_names.index(self.model.COORDINATES[1])]
         slopes = np.broadcast_to(np.diag([0.0, -rate]), (turned.size, 2, 2))
         return np.stack([np.zeros_like(turned), -rate * turned], -1), slopes
 
     def wheel_force(self, side: str) -> Array:
-        """Return the vertical force at a wheel that springs, stops and bar take [N]."""
+        """Return the vertical force of springs, stops and bar at a wheel [N]."""
         return self._at_wheels(self.of_springs[0] + self.of_bar[0])[:, SIDES.index(side)]
 
     def _at_wheels(self, work: Array) -> Array:
@@ -280,9 +280,9 @@ class WholeAxleKinematics:
         return self._stiffness(*self.of_bar)
 
     def _stiffness(self, work: Array, slopes: Array) -> Array:
-        """Return the derivatives of both wheels' forces by both travels, left first [N/m].
+        """Return the derivatives of both wheels' forces with respect to both travels [N/m].
 
-        Vertical forces F through the wheel centres do the same virtual work as springs and bar:
+        Vertical forces F through the wheel centres have the virtual work of springs and bar:
         with the heights z and the coordinates q, ``Q + J' F = 0`` and ``J = dz/dq``, so that
         ``J' dF/dz J = -dQ/dq - F d2z/dq2``.
         """
@@ -298,7 +298,7 @@ class WholeAxleKinematics:
         return stiffness
 
     def growth(self, path: str) -> Array:
-        """Return how the length of a spring or a damper grows by both coordinates, (n, 2)."""
+        """Return the derivatives of a spring's or damper's length by both coordinates, (n, 2)."""
         rates = [self._at_unit_rate[by][0][f"{path}_velocity"] for by in self.model.COORDINATES]
         return np.stack(rates, -1)
 
@@ -316,7 +316,7 @@ class WholeAxleKinematics:
         return rate_at(parameters, self._signals[f"{side}_spring_length"])
 
     def _virtual_work(self, path: str, force: str) -> tuple[Array, Array]:
-        """Return what a force along a path does by both coordinates, and its derivatives."""
+        """Return the generalised forces of a force along a path, and their derivatives."""
         acting, growth = self._signals[force], self.growth(path)
         bends = [self._at_unit_rate[by][1][f"{path}_velocity"] for by in self.model.COORDINATES]
         changes = self._at_unit_rate[self.model.COORDINATES[0]][1][force]

@@ -1,10 +1,9 @@
-"""The parts of an axle that one file describes at many positions, and what acts on them by itself.
+"""The parts of an axle without sides in n positions, and the forces that need no input.
 
-Names of points and of parts of which there are two end in ``_left`` and ``_right``, as those of
-other axles do.
+Names of points and parts of which there are two end in ``_left`` and ``_right``, as in other axles.
 """
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -23,7 +22,7 @@ from ..models.whole_axle_model import WholeAxleModel
 from .corner_kinematics import vehicle
 from .load import Load, known
 from .mass import PartMass
-from .part_poses import CENTER, CONTACT, forces_along
+from .part_poses import CENTER, CONTACT, PartPoses
 from .wheel import lowest_point, upward_across
 
 Array = NDArray[np.float64]
@@ -32,33 +31,23 @@ BAR = "bar"
 
 
 @dataclass(frozen=True)
-class WholeAxleParts(ABC):
-    """Such an axle in n positions.
+class WholeAxleParts(PartPoses):
+    """The parts of an axle without sides in n positions.
 
     Attributes
     ----------
     model : WholeAxleModel
-    states, inputs : ndarray
-        As in the compiled module.
-    centers, turned : dict of str to ndarray
-        Of each part a point, (n, 3) [m]: the centre of mass if it has one; and the rotation from
-        design, (n, 3, 3).
-    points : dict of str to ndarray
-        By name, (n, 3) [m].
+    states, inputs, points, centers, turned
+        As of `PartPoses`.
     PARAMETERS : mapping of str to str
         Prefix of the names of parameters, by part with mass.
     MASSIVE : mapping of str to str
         Names of these parts in the equations.
     RATE : str
-        The parameter with the rate of the bar or beam, by the second coordinate.
+        The parameter with the rate of the bar or beam, per unit of the second coordinate.
     """
 
     model: WholeAxleModel
-    states: Array
-    inputs: Array
-    centers: dict[str, Array]
-    turned: dict[str, Array]
-    points: dict[str, Array]
 
     PARAMETERS: ClassVar[Mapping[str, str]]
     MASSIVE: ClassVar[Mapping[str, str]]
@@ -66,7 +55,7 @@ class WholeAxleParts(ABC):
 
     @classmethod
     def of(cls, model: Any, states: Array, inputs: Array | None = None) -> Self:
-        """Return the parts in some states, by default without any input."""
+        """Return the parts in some states, by default with zero inputs."""
         if inputs is None:
             inputs = np.zeros((len(states), len(model.input_names)))
         bodies = cls.bodies(model.axle)
@@ -75,7 +64,7 @@ class WholeAxleParts(ABC):
         turns = np.moveaxis(model.evaluate("orientations", states, inputs)[:, rows], 1, 0)
         centers, turned = (dict(zip(bodies, found, strict=True)) for found in (places, turns))
         points = cls.placed(model.axle, centers, turned)
-        return cls(model, states, inputs, centers, turned, points)
+        return cls(model, states, inputs, points, centers, turned)
 
     @classmethod
     def bodies(cls, axle: Any) -> Mapping[str, str]:
@@ -94,7 +83,7 @@ class WholeAxleParts(ABC):
         ----------
         axle : WholeAxle
         centers, turned : mapping of str to ndarray
-            By part: its centre of mass, (n, 3) [m], and its rotation from design, (n, 3, 3).
+            Centres of mass, (n, 3) [m], and rotations from design, (n, 3, 3), by part.
         """
 
     @staticmethod
@@ -107,7 +96,7 @@ class WholeAxleParts(ABC):
         ----------
         axle : WholeAxle
         centers, turned : mapping of str to ndarray
-            By side: the wheel centre [m], and the rotation of the carrier from design.
+            Wheel centres [m], and rotations of the carriers from design, by side.
         """
         radius = axle.tyre_radius()
         if radius is None:
@@ -124,7 +113,7 @@ class WholeAxleParts(ABC):
 
     @property
     def structure(self) -> Structure:
-        """What holds the parts together."""
+        """The joints and force elements between the parts."""
         found: Structure = self.axle.structure()
         return found
 
@@ -158,36 +147,18 @@ class WholeAxleParts(ABC):
             for side in SIDES
         }
 
-    @property
-    def rack_axis(self) -> Array | None:
-        """No rack steers it."""
-        return None
-
     def parameters_of(self, line: LineForce) -> Mapping[str, float]:
-        """Return the parameters of the spring or the stops on a line, as the right side's are."""
+        """Return the parameters of spring or stops on a line, with the names of the right side."""
         return of_side(self.model.parameters, line.name.rpartition("_")[2])
 
-    def signals(self) -> dict[str, Array]:
-        """Return the signals of the equations, (n,)."""
-        return self.model.signals(self.states, self.inputs)
-
     def counted_by(self, line: LineForce) -> str:
-        """Return the signal by which the stops beside a damper count: its length."""
+        """Return the length of a damper, which determines the force of its stops."""
         name, _, side = line.name.rpartition("_")
         return f"{side}_{name}_length"
-
-    def carried_by(self, part: str, point: str) -> Array:
-        """Return where a part has a point: where all that are joined there have it, (n, 3) [m]."""
-        del part
-        return self.points[point]
 
     def allowed_lengths(self) -> Sequence[LengthLimit]:
         """Return the lengths of the dampers that the file allows."""
         return self.model.allowed_lengths()
-
-    def mass(self, part: str) -> float:
-        """Return the mass of a part [kg]."""
-        return self.model.parameters[f"{self.PARAMETERS[part]}_mass"]
 
     def wheel_axis(self, side: str) -> Array:
         """Return the spin axis of a wheel, which points left, (n, 3)."""
@@ -195,7 +166,7 @@ class WholeAxleParts(ABC):
         return axis
 
     def twists(self) -> dict[str, Array]:
-        """Return how parts with mass move for a unit rate of each coordinate, (n, 2, 6)."""
+        """Return the velocities of the parts for a unit rate of each coordinate, (n, 2, 6)."""
         found = []
         for coordinate in self.model.COORDINATES:
             states = self.states.copy()
@@ -206,16 +177,12 @@ class WholeAxleParts(ABC):
         return {part: both[:, bodies.index(body)] for part, body in self.MASSIVE.items()}
 
     def masses(self) -> dict[str, PartMass]:
-        """Return what the acceleration of the parts moves."""
+        """Return mass and inertia of each part with a mass."""
         axes = {f"wheel_{side}": self.axle.wheel.spin_axis(SENSE[side]) for side in SIDES}
         return {
             part: PartMass.of(self.model.parameters, self.PARAMETERS[part], body, axes.get(part))
             for part, body in self.MASSIVE.items()
         }
-
-    def rates_of_inputs(self) -> Array:
-        """Return zeros: nothing but the states moves the parts."""
-        return np.zeros_like(self.inputs)
 
     def tyre_forces(self) -> dict[str, Array]:
         """Return the forces of the tyres, in the planes of their wheels, (n, 3) [N]."""
@@ -229,7 +196,7 @@ class WholeAxleParts(ABC):
         }
 
     def inputs_of_wheels(self) -> dict[str, dict[str, Array]]:
-        """Return the inputs on both wheels; empty where the equations have none."""
+        """Return the inputs on both wheels; empty if the equations have none."""
         if not self.model.wheel_loads:
             return {}
         given = dict(zip(self.model.input_names, self.inputs.T, strict=True))
@@ -238,7 +205,7 @@ class WholeAxleParts(ABC):
         }
 
     def upright(self) -> NDArray[np.bool_]:
-        """Return where springs and dampers have turned by less than a right angle from design."""
+        """Return whether springs and dampers have turned by less than 90 deg from design, (n,)."""
         fine = np.ones(len(self.states), dtype=bool)
         for side in SIDES:
             design = self.axle.points(side)
@@ -257,7 +224,7 @@ class WholeAxleParts(ABC):
     @property
     @abstractmethod
     def rate_of_twist(self) -> float:
-        """The torque of the bar or beam by its twist [N m/rad]; zero without one."""
+        """The torque of the bar or beam per twist [N m/rad]; zero without one."""
 
     @property
     def torque(self) -> Array:
@@ -275,10 +242,7 @@ class WholeAxleParts(ABC):
         return [*known(self), *(replace(one, moment=torque * one.moment) for one in of_bar)]
 
     def weights(self) -> dict[str, Array]:
-        """Return the weight of each part that has a mass, (3,) [N]."""
-        gravity = self.model.parameters["gravity"]
-        return {part: -self.mass(part) * gravity * UP for part in self.MASSIVE}
-
-    def forces_along_lines(self) -> dict[str, Array]:
-        """Return the force of each spring and damper, positive when it pushes, (n,) [N]."""
-        return forces_along(self.structure, self.model, self.states, self.inputs)
+        """Return the weight of each part with a mass, (3,) [N]."""
+        values = self.model.parameters
+        masses = {part: values[f"{self.PARAMETERS[part]}_mass"] for part in self.MASSIVE}
+        return {part: -mass * values["gravity"] * UP for part, mass in masses.items()}

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from ...core.validator import Validator
 from ..analysis.ride.by_speed import OF_CAR, OF_WHEELS, by_speed
 from ..assembly.assembly import Assembly
-from ..assembly.by_wheel import of_wheel
 from ..assembly.quantity import SPEED
 from ..models.car.car import WHEELS
 from ..roads.rough import roughness_of
@@ -27,7 +26,7 @@ _USUAL_KM_PER_H, _AT_KM_PER_H = (40.0, 60.0, 80.0, 100.0, 120.0), 80.0
 _KNOWN = OF_CAR | {
     each.name: each
     for quantity in OF_WHEELS
-    for each in (quantity, *(of_wheel(quantity, wheel) for wheel in WHEELS))
+    for each in (quantity, *(quantity.of_wheel(wheel) for wheel in WHEELS))
 }
 
 

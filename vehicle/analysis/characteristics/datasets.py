@@ -10,7 +10,7 @@ from ....core.validator import Validator
 from ...assembly.assembly import Assembly
 from ...assembly.by_wheel import axle_coordinate, of_wheels, wheel_coordinate
 from ...assembly.measures import axle, corner, of_whole_axles
-from ...assembly.measures.measure import columns, of_side
+from ...assembly.measures.measure import columns
 from ...assembly.of import given_assembly
 from ...assembly.quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
 from ...assembly.rig import SweepRange
@@ -45,7 +45,7 @@ OF_CARS = columns(corner.OVER_TRAVEL, ["left"]) | {
     each.name: each
     for measure in (*axle.OVER_TRAVEL, *of_whole_axles())
     for place in (WHEELS if measure.scope == "wheel" else ENDS)
-    for each in [of_side(measure.quantity, place)]
+    for each in [measure.quantity.of_wheel(place)]
 }
 """Characteristics of cars by the names of their columns, over the motions of the body."""
 

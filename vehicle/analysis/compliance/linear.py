@@ -13,7 +13,7 @@ from ....core.validator import Validator
 from ....core.vectors import cross
 from ...assembly import wheel
 from ...assembly.assembly import HeldAssembly
-from ...assembly.by_wheel import WHEEL, of_wheel, of_wheels, wheel_coordinate
+from ...assembly.by_wheel import WHEEL, of_wheels, wheel_coordinate
 from ...assembly.of import given_assembly
 from ...assembly.part_poses import touching, wheel_axes
 from ...assembly.quantity import TRAVEL, Quantity
@@ -346,7 +346,7 @@ COMPLIANCES_OF_AXLES = {
     for test in RIG_LOADS
     for how in loadings(test, SIDES)
     for quantity in (
-        *(of_wheel(q, side) for side in SIDES for q in quantities_under(test, how).values()),
+        *(q.of_wheel(side) for side in SIDES for q in quantities_under(test, how).values()),
         *quantities_of_beam(test, how).values(),
     )
 }

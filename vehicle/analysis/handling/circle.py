@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ....core.errors import InputError
 from ....core.quantities import Display
 from ....equations.errors import ModelError
-from ...assembly.by_wheel import WHEEL, of_wheel, wheel_coordinate
+from ...assembly.by_wheel import WHEEL, wheel_coordinate
 from ...assembly.quantity import Quantity
 from ...models.reach import PositionError
 from .body_motion import QUANTITIES
@@ -90,7 +90,7 @@ def columns_of_turns(wheels: Sequence[str]) -> dict[str, Quantity]:
     every |= {name: (words, _PER) for name, words in _GRADIENTS.items()} | _OF_TORQUE
     found = {name: _column(name, *described) for name, described in every.items()}
     by_wheel = [
-        of_wheel(_column(name, words, _UNITS.get(name, "rad")), wheel)
+        _column(name, words, _UNITS.get(name, "rad")).of_wheel(wheel)
         for name, words in _OF_WHEELS.items()
         for wheel in wheels
     ]

@@ -1,4 +1,4 @@
-"""What assemblies are measured by: their characteristics, each with its formula.
+"""The characteristics of assemblies, each with its formula.
 
     `measure`      the class of a measure, and its evaluation
     `quantities`   name, unit, definition and sign of each quantity
@@ -21,6 +21,6 @@ from .measure import Measure
 
 
 def of_whole_axles() -> Iterator[Measure]:
-    """Yield the measures of all axles without sides: those of the modules with their names."""
+    """Yield the measures of all axles without sides, from the modules with their names."""
     for key in reversed(whole_axles()):
         yield from import_module(f".{key}", __package__).MEASURES

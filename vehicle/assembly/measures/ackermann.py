@@ -1,8 +1,7 @@
-"""Characteristics of the two wheels of a steered axle: the formulas.
+"""Formulas of the characteristics of both wheels of a steered axle.
 
-Steer angles are positive to the left [rad], as arrays over the positions of the rack. What
-compares both wheels takes them from those with the rack in its middle: without static toe, which
-steers no car.
+Steer angles are positive to the left [rad], as arrays over the positions of the rack. They are
+relative to those with the rack in its middle position: static toe is left out.
 """
 
 from typing import Protocol
@@ -12,10 +11,10 @@ import numpy as np
 from ...corner.corner import Array, Corner
 from ..wheel import steer_gradient
 
-# Wheels that are steered less than this roll straight ahead [rad].
+# A smaller mean steer angle is straight ahead [rad].
 _STRAIGHT = 1e-9
-# Differences of both angles grow with the square of them, and are rounded by 1e-15 rad: of wheels
-# that are steered less than this the quotient of two differences has not six digits [rad].
+# The difference of both angles grows with their square, and is rounded by 1e-15 rad: at smaller
+# angles the quotient of two differences has less than six digits [rad].
 _STEERED = 1e-4
 
 
@@ -44,7 +43,7 @@ class Steered(Protocol):
 
     @property
     def per_turn(self) -> float | Array | None:
-        """Rack travel for one turn of the steering wheel [m]; None where nothing says it."""
+        """Rack travel for one turn of the steering wheel [m]; None if not known."""
 
 
 def error_of(of: Steered) -> Array:
@@ -52,7 +51,7 @@ def error_of(of: Steered) -> Array:
     return ackermann_error(*of.turned, of.wheelbase, of.design_track)
 
 
-def part_of(of: Steered) -> Array:
+def percentage_of(of: Steered) -> Array:
     """Return the Ackermann percentage of two wheels [1]; see `ackermann`."""
     return ackermann(*of.turned, of.wheelbase, of.design_track)
 
@@ -70,9 +69,9 @@ def ratio_of(of: Steered) -> Array:
 
 
 def ackermann_error(left: Array, right: Array, wheelbase: float, track: float | Array) -> Array:
-    """Return how much more the outer wheel is steered than for rolling without slip [rad].
+    """Return the outer steer angle less that for rolling without slip [rad].
 
-    With the angles counted towards the inside of the turn, the outer wheel would have to be at
+    With angles positive towards the inside of the turn, the latter is
     ``atan(L / (L / tan inner + t))``.
 
     Parameters
@@ -94,11 +93,11 @@ def ackermann_error(left: Array, right: Array, wheelbase: float, track: float | 
 
 
 def ackermann(left: Array, right: Array, wheelbase: float, track: float | Array) -> Array:
-    """Return the Ackermann percentage as a part of one [1].
+    """Return the Ackermann percentage as a fraction [1].
 
-    One for wheels that roll without slip, zero for parallel ones: the difference of the two steer
-    angles over what it has to be. Not defined (NaN) straight ahead, and where the wheels are
-    steered to different sides.
+    It is the difference of the two steer angles over that for rolling without slip: one for wheels
+    without slip, zero for parallel ones. NaN straight ahead, and with wheels steered to different
+    sides.
     """
     inner, outer = _inner_and_outer(left, right)
     wanted = inner - _ideal_outer(inner, wheelbase, track)
@@ -127,14 +126,14 @@ def steering_ratio(
     Parameters
     ----------
     left_gradient, right_gradient : ndarray
-        Derivatives of the steer angles by rack travel [rad/m].
+        Derivatives of the steer angles with respect to rack travel [rad/m].
     travel_per_turn : float or ndarray
         Rack travel for one turn of the steering wheel [m].
 
     Returns
     -------
     ndarray
-        Without sign; infinite where the rack does not steer.
+        Without sign; infinite if the rack does not steer.
     """
     mean = 0.5 * (left_gradient + right_gradient)
     with np.errstate(divide="ignore"):
@@ -142,7 +141,7 @@ def steering_ratio(
 
 
 def _inner_and_outer(left: Array, right: Array) -> tuple[Array, Array]:
-    """Return the two angles, counted towards the inside of the turn."""
+    """Return the two angles, positive towards the inside of the turn."""
     to_left = left + right > 0.0
     return np.where(to_left, left, -right), np.where(to_left, right, -left)
 

@@ -10,13 +10,13 @@ from . import axle_rolling, pitching, rolling
 from .corner import COMPARED, GROUND, PITCH, PLACE, STEERING, TRAVEL
 from .measure import Measure, of_axle, of_wheel
 
-# Of a wheel alone, what an axle has better: by both wheels, and for front and rear.
+# Measures of a single wheel that an axle defines by both wheels, and for front and rear.
 _REPLACED = ("roll_center_height_kinematic", "anti_dive", "anti_lift_braked", "arm_rotation")
 _ON_CARRIER = "contact with brakes on the carrier, wheel centre with inboard ones"
 
 
-def _by_themselves(measures: tuple[Measure, ...]) -> tuple[Measure, ...]:
-    """Return what each wheel has by itself."""
+def _of_each(measures: tuple[Measure, ...]) -> tuple[Measure, ...]:
+    """Return the measures that each wheel of an axle has as a corner has them."""
     return tuple(measure for measure in measures if measure.name not in _REPLACED)
 
 
@@ -33,7 +33,7 @@ PATH = (
     of_axle("track_change", axle_rolling.track_change, GROUND),
     of_wheel("inclination", axle_rolling.inclination, GROUND),
 )
-"""Where the wheels are."""
+"""Positions of the wheels relative to each other."""
 
 ROLL = (
     of_axle("roll_center_height", lambda pair: axle_rolling.roll_center(pair)[1], GROUND),
@@ -67,7 +67,7 @@ ROLL = (
     of_axle("bar_torque", lambda pair: pair.torque, (), _has_bar),
     of_wheel("link_force", axle_rolling.link_force, (), _has_bar),
 )
-"""What springs, bar and geometry make of rolling."""
+"""Roll: its geometry, and the forces of springs and bar."""
 
 PITCHING = (
     of_wheel(
@@ -82,7 +82,7 @@ PITCHING = (
     ),
     of_wheel("anti_squat", pitching.driving, PITCH, _is("rear", driven=True)),
 )  # fmt: skip
-"""What the wheels' paths make of braking and driving."""
+"""Effects of braking and driving forces, from the wheels' paths."""
 
 _COMPARED = tuple(
     replace(measure, known_to=_is("front")) if measure.needs == ("wheelbase",) else measure
@@ -90,13 +90,13 @@ _COMPARED = tuple(
 )
 _RACK = Measure(RACK, lambda pair: pair.rack, "axle", (), lambda pair: pair.per_turn is not None)
 
-OVER_TRAVEL = (*_by_themselves(PLACE + TRAVEL), *PATH, *ROLL, *PITCHING)
-"""What there is over travel and rolling."""
+OVER_TRAVEL = (*_of_each(PLACE + TRAVEL), *PATH, *ROLL, *PITCHING)
+"""Measures over travel and roll."""
 
-_ON_A_RACK = (*_by_themselves(PLACE + STEERING), *PATH)
+_ON_A_RACK = (*_of_each(PLACE + STEERING), *PATH)
 
 OVER_RACK = (*_ON_A_RACK, *_COMPARED)
-"""What there is over the rack."""
+"""Measures over the rack."""
 
 OVER_STEERING = (*_ON_A_RACK, _RACK, *_COMPARED)
-"""What there is over the steering wheel."""
+"""Measures over the steering wheel."""

@@ -1,4 +1,4 @@
-"""Roll centre, jacking and the anti-roll bar of an axle of two corners: the formulas.
+"""Formulas of roll centre, jacking and anti-roll bar of an axle of two corners.
 
 Each takes an `AxleKinematics` and returns an array over its positions, SI units, chassis axes.
 """
@@ -12,7 +12,7 @@ from ..axle_kinematics import AxleKinematics
 
 
 def track_change(pair: AxleKinematics) -> Array:
-    """Return how much farther apart the contacts are than at design [m]."""
+    """Return the change of the contacts' distance from design [m]."""
     return wheel.half_track_change(pair.corners[LEFT]) + wheel.half_track_change(
         pair.corners[RIGHT]
     )
@@ -31,13 +31,13 @@ def inclination(pair: AxleKinematics, side: str) -> Array:
 
 
 def roll_center(pair: AxleKinematics) -> tuple[Array, Array]:
-    """Return where the normals to the contacts' paths meet, seen from the front.
+    """Return the intersection of the normals to the contacts' paths, in front view.
 
     Returns
     -------
     lateral, height : ndarray
-        From the middle between the contacts, along the line through them to the left, and across it
-        upward [m]; infinite where the normals are parallel.
+        From the middle between the contacts, along the line through them to the left, and
+        perpendicular to it upward [m]; infinite if the normals are parallel.
     """
     left, right = _contacts(pair)
     (a, b, c), (d, e, f) = (
@@ -67,12 +67,12 @@ def _normal(corner: Corner, at: Array) -> tuple[Array, Array, Array]:
 
 def link_force(pair: AxleKinematics, side: str) -> Array:
     """Return the tension of the drop link [N]."""
-    # the bar turns the half back by the torque; the link pulls its top towards the foot
+    # the torque turns the half back; the link pulls its top towards the foot
     return SENSE[side] * pair.torque / -pair.halves[side].lever
 
 
 def by_roll(pair: AxleKinematics, side: str, by_travel: Array) -> Array:
-    """Return what changes by wheel travel as a change by roll, both wheels moving as in roll."""
+    """Return the derivative with respect to roll of a quantity from that to wheel travel."""
     return -pair.contact(side)[..., 1] * by_travel
 
 

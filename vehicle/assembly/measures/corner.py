@@ -1,13 +1,13 @@
-"""The measures of a corner, and those that each wheel of an axle has by itself, too."""
+"""The measures of a corner, most of which each wheel of an axle has, too."""
 
 from .. import wheel
 from . import ackermann
 from .measure import of_axle, of_corner
 
 GROUND = ("tyre_radius",)
-"""What places a contact."""
+"""The data that define a contact."""
 PITCH = (*GROUND, "wheelbase", "center_of_gravity_height")
-_STEERED = ("steered",)
+_STEERED, _WHEELBASE = ("steered",), ("wheelbase",)
 _BRAKING = (*PITCH, "front_brake_share")
 
 PLACE = (
@@ -28,7 +28,7 @@ PLACE = (
     of_corner("wheelbase_change", wheel.wheelbase_change),
     of_corner("arm_rotation", lambda corner: corner.arm_rotation),
 )
-"""Where the wheel is: over wheel travel and over the rack."""
+"""Position of the wheel, over wheel travel and over the rack."""
 
 TRAVEL = (
     of_corner("spring_length", lambda corner: corner.spring.stroke.length),
@@ -46,28 +46,28 @@ TRAVEL = (
     of_corner("anti_dive", wheel.anti_dive, (*_BRAKING, "front")),
     of_corner("anti_lift_braked", wheel.anti_lift_braked, (*_BRAKING, "rear")),
 )
-"""What the motion over wheel travel decides."""
+"""Derivatives of the motion over wheel travel."""
 
 AT_STOPS = frozenset({"wheel_rate", "ride_rate"})
-"""Names of those that jump where a stop begins to act."""
+"""Names of measures that jump where a stop begins to act."""
 
 STEERING = (of_corner("steer_gradient", wheel.steer_gradient),)
-"""What the motion over the rack decides, for one wheel."""
+"""Derivatives of the motion of one wheel over the rack."""
 
 COMPARED = (
-    of_axle("ackermann_error", ackermann.error_of, ("wheelbase",)),
-    of_axle("ackermann", ackermann.part_of, ("wheelbase",)),
-    of_axle("turning_circle", ackermann.circle_of, ("wheelbase",)),
+    of_axle("ackermann_error", ackermann.error_of, _WHEELBASE),
+    of_axle("ackermann", ackermann.percentage_of, _WHEELBASE),
+    of_axle("turning_circle", ackermann.circle_of, _WHEELBASE),
     of_axle("steering_ratio", ackermann.ratio_of, (), lambda of: of.per_turn is not None),
 )
-"""What compares two wheels that are steered."""
+"""Comparisons of two steered wheels."""
 
 BOTH = (
     of_axle("steer_left", lambda of: wheel.steer(of.left)),
     of_axle("steer_right", lambda of: wheel.steer(of.right)),
     *COMPARED,
 )
-"""What a wheel and its mirror image are steered by."""
+"""Steer angles of a wheel and its mirror image, and their comparisons."""
 
 OVER_TRAVEL = (*PLACE, *TRAVEL)
 OVER_RACK = (*PLACE, *STEERING, *BOTH)
@@ -77,4 +77,4 @@ OF_STEERING = frozenset(
     for measure in (*OVER_TRAVEL, *OVER_RACK)
     if "steered" in measure.needs or measure not in OVER_TRAVEL
 )
-"""Names of those that have no meaning for a wheel that nothing steers."""
+"""Names of measures that only a steered wheel has."""

@@ -21,13 +21,14 @@ class Measure:
         Its name, unit, definition and sign.
     formula : callable
         Takes the kinematics of the assembly (`MirroredCorner`, `AxleKinematics` or
-        `RigidAxleKinematics`), of a wheel also its name, and returns an array over the positions.
+        `WholeAxleKinematics`), with scope 'wheel' also the name of a wheel, and returns an array
+        over the positions.
     scope : {'wheel', 'axle'}
-        Whether each wheel has it, or the axle.
+        Whether it belongs to each wheel or to the axle.
     needs : tuple of str
         Attributes of `Vehicle` without which it is not defined.
     known_to : callable
-        Takes the kinematics, returns whether they have what else it needs.
+        Takes the kinematics, returns whether all further data that it needs are known.
     """
 
     quantity: Quantity
@@ -42,16 +43,16 @@ class Measure:
         return self.quantity.name
 
     def defined_for(self, of: Any) -> bool:
-        """Return whether everything that it needs is given."""
+        """Return whether all data that it needs are known."""
         given = (getattr(v, need) is not None for need in self.needs for v in of.vehicles)
         return all(given) and self.known_to(of)
 
     def at(self, of: Any, wheel: str) -> Array:
-        """Return the values of a wheel, or of the axle, for any wheel."""
+        """Return the values of a wheel; those of an axle for any wheel."""
         return self.formula(of, wheel) if self.scope == "wheel" else self.formula(of)
 
     def columns(self, wheels: Sequence[str]) -> dict[str, str]:
-        """Return the wheels by the names of their columns in a flat table; '' for the axle."""
+        """Return the wheel of each column in a flat table, by its name; '' for the axle."""
         if self.scope == "axle":
             return {self.name: ""}
         if len(wheels) == 1:
@@ -66,18 +67,18 @@ def of_wheel(
     known_to: Callable[[Any], bool] = lambda _: True,
     definition: str = "",
 ) -> Measure:
-    """Return a measure that each wheel has, with another definition than the usual if it has one.
+    """Return a measure of each wheel.
 
     Parameters
     ----------
     name : str
-        Of `QUANTITIES`.
+        A name of `QUANTITIES`.
     formula : callable
         Takes the kinematics and the name of a wheel.
     needs, known_to : optional
-        As of `Measure`.
+        As in `Measure`.
     definition : str, optional
-        Instead of that of the quantity.
+        By default that of the quantity.
     """
     return Measure(_quantity(name, definition), formula, "wheel", needs, known_to)
 
@@ -89,14 +90,14 @@ def of_axle(
     known_to: Callable[[Any], bool] = lambda _: True,
     definition: str = "",
 ) -> Measure:
-    """Return a measure that an axle has; as `of_wheel`, but the formula takes the kinematics."""
+    """Return a measure of an axle, as `of_wheel`; the formula takes the kinematics alone."""
     return Measure(_quantity(name, definition), formula, "axle", needs, known_to)
 
 
 def of_corner(
     name: str, formula: Callable[[Corner], Array], needs: tuple[str, ...] = ()
 ) -> Measure:
-    """Return a measure that each wheel has by itself; the formula takes its `Corner`."""
+    """Return a measure of each wheel that is independent of others; `formula` takes a `Corner`."""
     return of_wheel(name, lambda of, wheel: formula(of.corners[wheel]), needs)
 
 
@@ -111,17 +112,17 @@ def values(
     wheels: Sequence[str],
     names: Container[str] | None = None,
 ) -> dict[str, Array]:
-    """Return measures by the names of their columns, all that are defined or some.
+    """Return all or some measures that are defined, by the names of their columns.
 
     Parameters
     ----------
     measures : iterable of Measure
-    of : Single, Pair or Beam
+    of : MirroredCorner, AxleKinematics or WholeAxleKinematics
         The kinematics in n positions.
     wheels : sequence of str
         Their names.
     names : container of str, optional
-        Which columns; those that are not defined are left out.
+        Names of columns.
 
     Returns
     -------
@@ -139,27 +140,21 @@ def values(
 def columns(measures: Iterable[Measure], wheels: Sequence[str]) -> dict[str, Quantity]:
     """Return the quantities of measures by the names of their columns in a flat table."""
     return {
-        name: measure.quantity if name == measure.name else of_side(measure.quantity, wheel)
+        name: measure.quantity if name == measure.name else measure.quantity.of_wheel(wheel)
         for measure in measures
         for name, wheel in measure.columns(wheels).items()
     }
 
 
-def of_side(quantity: Quantity, wheel: str) -> Quantity:
-    """Return a quantity of each wheel as the column of one of them."""
-    name, words = f"{quantity.name}_{wheel}", f"{quantity.long_name}, {wheel}"
-    return replace(quantity, name=name, long_name=words)
-
-
 def some_of_axle(measures: Iterable[Measure], names: Container[str] | None) -> bool:
-    """Return whether some measures are those of an axle."""
+    """Return whether some measures belong to an axle."""
     return any(m.scope == "axle" and (names is None or m.name in names) for m in measures)
 
 
 def _wanted(
     measures: Iterable[Measure], wheels: Sequence[str], names: Container[str] | None
 ) -> Iterator[tuple[Measure, Mapping[str, str]]]:
-    """Yield the measures that have a column of these names, with those columns."""
+    """Yield the measures with columns of these names, and those columns."""
     for measure in measures:
         every = measure.columns(wheels)
         chosen = {n: w for n, w in every.items() if names is None or n in names}

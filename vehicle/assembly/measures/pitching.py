@@ -1,9 +1,9 @@
-"""Anti-dive, anti-lift and anti-squat: the formulas.
+"""Formulas of anti-dive, anti-lift and anti-squat.
 
-Of the change of load by a longitudinal acceleration, m a h / L, they say which part the path of a
-wheel, or of a rigid axle, takes up without the springs. A force F along the road at a point that
-moves by (v_x, v_z) lifts the body by F v_x / v_z. The point is the contact, fixed to the carrier,
-where the torque is held there; the wheel centre, where a shaft leads it to the body.
+They are the part of the load transfer by a longitudinal acceleration, m a h / L, that the path of a
+wheel, or of a rigid axle, carries without the springs. A force F along the road at a point with
+velocity (v_x, v_z) lifts the body by F v_x / v_z. The point is the contact, fixed to the carrier,
+if the carrier reacts the torque; it is the wheel centre if a shaft leads the torque to the body.
 """
 
 from collections.abc import Sequence
@@ -15,22 +15,22 @@ from ...models.rigid_axle.axle import RigidAxle
 
 
 class Pitching(Protocol):
-    """What moves in a side view: an `AxleKinematics` or a `RigidAxleKinematics`."""
+    """Kinematics in side view: of an `AxleKinematics` or a `WholeAxleKinematics`."""
 
     @property
     def axle(self) -> Axle | RigidAxle:
-        """The axle, which says where brakes and drive are."""
+        """The axle, with the reactions of brakes and drive."""
 
     @property
     def end(self) -> str:
-        """At which end of the vehicle it is."""
+        """The end of the vehicle, 'front' or 'rear'."""
 
     @property
     def vehicles(self) -> Sequence[Vehicle]:
-        """What the vehicle adds, of each wheel."""
+        """The data of the vehicle, by wheel."""
 
     def path_slope(self, torque_on: str, side: str) -> Array:
-        """Return how far forward goes per rise where a longitudinal force acts, v_x / v_z."""
+        """Return the slope v_x / v_z of the path of the point of a longitudinal force [1]."""
 
 
 def braking(of: Pitching, side: str = "") -> Array:
@@ -38,9 +38,9 @@ def braking(of: Pitching, side: str = "") -> Array:
 
     Parameters
     ----------
-    of : Pair or Beam
+    of : AxleKinematics or WholeAxleKinematics
     side : str, optional
-        Which wheel, of an `AxleKinematics`.
+        The wheel, of an `AxleKinematics`.
     """
     front = of.vehicles[0].front_brake_share
     assert front is not None
@@ -55,7 +55,7 @@ def driving(of: Pitching, side: str = "") -> Array:
 
 
 def _path(of: Pitching, side: str, torque_on: str) -> Array:
-    """Return (L / h) v_x / v_z, positive where the axle's load falls as the force grows."""
+    """Return (L / h) v_x / v_z, positive if the axle's load falls as the force grows."""
     vehicle = of.vehicles[0]
     assert vehicle.wheelbase is not None
     assert vehicle.center_of_gravity_height is not None

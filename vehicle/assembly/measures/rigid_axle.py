@@ -32,7 +32,7 @@ GUIDANCE = (
     of_axle("heave_steer", lambda beam: beam.slope("yaw", HEAVE)),
     of_axle("axle_lateral", lambda beam: beam.coordinate("sway")),
     of_axle("axle_longitudinal", lambda beam: beam.coordinate("shift")),
-    # it points to the middle of the car
+    # the nose of the final drive points to the middle of the car
     of_axle(
         "pinion_angle",
         lambda beam: (1.0 if beam.end == "front" else -1.0) * beam.coordinate("pitch"),

@@ -1,4 +1,4 @@
-"""Roll centre and jacking of a rigid axle: the formulas.
+"""Formulas of roll centre and jacking of a rigid axle.
 
 Each takes a `RigidAxleKinematics` and returns an array over its positions, SI units, chassis axes.
 """
@@ -15,9 +15,9 @@ from .whole_axle import dot
 def roll_center_height(beam: RigidAxleKinematics) -> Array:
     """Return the height of the roll centre above the line through the contacts [m].
 
-    Of the points midway between the contacts, across the line through them as it is seen from the
-    front, the one that does not move along this line when the axle rolls and the middle of the
-    contacts does not move across it. A force there is along no motion of roll.
+    In front view it lies on the perpendicular bisector of the contacts: the point that does not
+    move along the line through the contacts when the axle rolls and their middle does not move
+    across this line. A force along the line at this point does no work in roll.
     """
     left, right = (beam.contact(side) for side in SIDES)
     middle, line = 0.5 * (left + right), (left - right)[:, 1:]
@@ -34,7 +34,7 @@ def roll_center_height(beam: RigidAxleKinematics) -> Array:
 def jacking(beam: RigidAxleKinematics) -> Array:
     """Return the lift of the body by a force on the tyres to the left, over that force [1].
 
-    By virtual work the force pushes the axle up, so the body down, where the axle goes to the left
+    By virtual work the force pushes the axle up, and the body down, if the axle moves to the left
     as it rises.
     """
     middle = 0.5 * (beam.contact(LEFT) + beam.contact(RIGHT))

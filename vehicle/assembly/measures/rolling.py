@@ -1,12 +1,11 @@
-"""Track, roll moment and roll stiffness of two wheels: the formulas.
+"""Formulas of track, roll moment and roll stiffness of two wheels.
 
-Each takes `AxleKinematics` or `RigidAxleKinematics` and returns an array over its positions, SI
-units, chassis axes.
-Forces of the road are vertical and act on the wheels; unsprung weights are left out. The stiffness
-of both wheels is a matrix K of two rows, the left wheel first: the derivative of the wheels' forces
-by their travels. A roll of the body by phi (positive about the x axis: right side down) moves the
-wheels by -y phi, with y the lateral position of each contact, so that the stiffness in roll is
-y' K y.
+Each takes `AxleKinematics` or `WholeAxleKinematics` and returns an array over its positions, SI
+units, chassis axes. Forces of the road are vertical and act on the wheels; unsprung weights are
+left out. The stiffness of both wheels is a 2 x 2 matrix K, the left wheel first: the derivative of
+the wheels' forces with respect to their travels. A roll of the body by phi (positive about the x
+axis: right side down) moves the wheels by -y phi, with y the lateral position of each contact, so
+that the stiffness in roll is y' K y.
 """
 
 from collections.abc import Sequence
@@ -19,17 +18,17 @@ from ...models.sides import LEFT, RIGHT, SIDES
 
 
 class TwoWheels(Protocol):
-    """Two wheels in n positions: an `AxleKinematics` or a `RigidAxleKinematics`."""
+    """Two wheels in n positions: an `AxleKinematics` or a `WholeAxleKinematics`."""
 
     @property
     def vehicles(self) -> Sequence[Vehicle]:
-        """What the vehicle adds, of each wheel."""
+        """The data of the vehicle, by wheel."""
 
     def contact(self, side: str) -> Array:
         """Return the lowest point of a wheel, (n, 3) [m]."""
 
     def wheel_force(self, side: str) -> Array:
-        """Return the vertical force that springs, stops and bar take at a wheel, (n,) [N]."""
+        """Return the vertical force of springs, stops and bar at a wheel, (n,) [N]."""
 
     @property
     def springs(self) -> Array:
@@ -41,7 +40,7 @@ class TwoWheels(Protocol):
 
     @property
     def rolled(self) -> tuple[Array, Array]:
-        """Travels of both wheels, and lateral motion of both contacts, by a roll, (n, 2) each."""
+        """Travels of both wheels, and lateral motion of both contacts, per roll, (n, 2) each."""
 
 
 def track(of: TwoWheels) -> Array:
@@ -50,16 +49,16 @@ def track(of: TwoWheels) -> Array:
 
 
 def moment(of: TwoWheels) -> Array:
-    """Return the moment that the wheels' forces make against a roll of the body [N m]."""
+    """Return the moment of the wheels' forces against a roll of the body [N m]."""
     levers, forces = _levers(of), _forces(of)
     total: Array = -(levers * forces).sum(-1)
     return total
 
 
 def moment_gradient(of: TwoWheels) -> Array:
-    """Return the derivative of the moment by the roll angle, wheels moving oppositely [N m/rad].
+    """Return the derivative of the moment with respect to opposite travel as a roll [N m/rad].
 
-    By the product rule: forces change, and so do their levers.
+    By the product rule: both the forces and their levers change.
     """
     travels, moved = of.rolled
     changes = np.einsum("...ij,...j->...i", of.springs + of.bar, travels)
@@ -103,7 +102,7 @@ def with_tyres(of: TwoWheels) -> Array:
 
 
 def in_roll(of: TwoWheels, rates: Array) -> Array:
-    """Return the stiffness in roll of one of both wheels [N m/rad]."""
+    """Return the roll stiffness y' K y for a stiffness K of both wheels [N m/rad]."""
     levers = _levers(of)
     by_roll: Array = np.einsum("...i,...ij,...j->...", levers, rates, levers)
     return by_roll

@@ -1,7 +1,7 @@
-"""The measures of a twist-beam axle, and what of its formulas is its own.
+"""The measures of a twist-beam axle, and the formulas that only it has.
 
-Each wheel has what wheels have by themselves, in the motion of both that a rig calls parallel
-travel, and in addition what it does in roll, where the wheel centres move oppositely.
+Each wheel has the measures of a single wheel, in parallel travel of both, and further measures in
+roll, with the wheel centres moving oppositely.
 """
 
 from collections.abc import Callable
@@ -30,8 +30,8 @@ _JACKING = replace(
 def roll_center_height(of: WholeAxleKinematics) -> Array:
     """Return the height of the roll centre above the line through the contacts [m].
 
-    As the wheel centres move oppositely, seen from the front, the line through the contacts turns
-    about a point midway between them; a lateral force there is along no motion of roll.
+    As the wheel centres move oppositely, the line through the contacts turns in front view about a
+    point midway between them; a lateral force at this point does no work in roll.
     """
     left, right = (of.contact(side) for side in SIDES)
     line = (left - right)[:, 1:]
@@ -57,16 +57,16 @@ def jacking(of: WholeAxleKinematics, side: str) -> Array:
 
 
 def in_roll(of: WholeAxleKinematics, side: str, rate: Callable[..., Array]) -> Array:
-    """Return the derivative of a quantity by the roll of the body to the line through the wheels.
+    """Return the derivative of a quantity with respect to the roll of the body on the wheels.
 
     Parameters
     ----------
     of : WholeAxleKinematics
     side : str
     rate : callable
-        Rate of the quantity by the motion of the carrier of the wheel.
+        Takes a wheel and the motion of its carrier, returns the rate of the quantity.
     """
-    # the left wheel up is the right side of the body down, reversed
+    # roll is positive with the right side of the body down, that is, with the right wheel up
     found: Array = -rate(of.corners[side], of.motion(side, "roll")) / of.inclination_rate
     return found
 
@@ -120,4 +120,4 @@ MEASURES = (
     of_axle("bar_twist", lambda of: of.parts.twist),
     of_axle("bar_torque", lambda of: of.parts.torque),
 )  # fmt: skip
-"""All of them, the same over every motion."""
+"""All measures, the same over every motion."""

@@ -12,7 +12,7 @@ from .measure import of_axle, of_wheel
 
 
 def is_at(end: str, *, driven: bool = False) -> Callable[[WholeAxleKinematics], bool]:
-    """Return the condition of an axle at an end of the vehicle, and of a driven one if `driven`."""
+    """Return the condition that an axle is at an end of the vehicle, and driven if `driven`."""
     return lambda of: of.end == end and (of.axle.drive is not None or not driven)
 
 
@@ -34,13 +34,13 @@ def _ratio(part: str, how: str, of: WholeAxleKinematics, side: str) -> Array:
 
 
 def wheel_rate(of: WholeAxleKinematics, side: str) -> Array:
-    """Return the derivative of a wheel's force by the travel of both wheels [N/m]."""
+    """Return the derivative of a wheel's force with respect to the travel of both wheels [N/m]."""
     rates: Array = (of.springs + of.bar)[:, SIDES.index(side), :].sum(-1)
     return rates
 
 
 def wheel_rate_alone(of: WholeAxleKinematics, side: str) -> Array:
-    """Return the derivative of a wheel's force by its own travel, the other one at rest [N/m]."""
+    """Return the derivative of a wheel's force with respect to its own travel alone [N/m]."""
     place = SIDES.index(side)
     rates: Array = (of.springs + of.bar)[:, place, place]
     return rates
