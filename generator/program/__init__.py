@@ -1,6 +1,6 @@
-"""The straight-line program: steps, constants, derivatives, what is shared, counts.
+"""The straight-line program: steps, constants, derivatives, shared subexpressions.
 
-Nothing here knows a mechanism.
+Nothing here depends on mechanisms.
 """
 
 from .constants import ConstantStage

@@ -1,4 +1,4 @@
-"""What the constants of a parameter set must fulfil: some must vanish, others must not."""
+"""Conditions on the constants of a parameter set: some must vanish, others must not."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ class Assumption:
     quantity
         The sine of an angle (unit ``1``), or a distance (``m``).
     scale
-        The length that a distance is compared with; 1 for an angle.
+        Length with which a distance is compared; 1 for an angle.
     meaning, remedy
-        What it means that it is not zero, and what to do then.
+        Cause of a quantity that is not zero, and its remedy, for the message.
     """
 
     name: str
@@ -40,12 +40,12 @@ class Condition:
     Attributes
     ----------
     quantity
-        A distance (unit ``m``), the sine of an angle (``1``), or what is left of a mass; its sign
-        does not matter.
+        A distance (unit ``m``), the sine of an angle (``1``), or the rest of a mass after
+        elimination; its sign does not matter.
     least
-        What its amount must exceed.
+        Lower bound of its absolute value.
     meaning, remedy
-        What it means that it does not, and what to do then.
+        Cause of a smaller value, and its remedy, for the message.
     """
 
     quantity: sp.Expr

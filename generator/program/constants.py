@@ -28,9 +28,9 @@ class ConstantStage:
     parameters
         Symbols that are fixed for one parameter set.
     reserved
-        Names that no step may have: those of states and inputs.
+        Names of states and inputs, which no step may have.
     derived
-        What represents other symbols that the equations name like parameters.
+        Expressions in parameters, by the symbols that represent them in equations.
     steps
         The steps, in order.
     blocks
@@ -73,20 +73,13 @@ class ConstantStage:
         return any(symbol in names for names in known) or name in self.reserved
 
     def note(self, name: str) -> None:
-        """Keep the name of a program's step from being used for a constant."""
+        """Reserve the name of a program's step, so that no constant gets it."""
         self._varying.add(name)
 
     def define(self, name: str, expression: sp.Expr, section: str) -> sp.Expr:
-        """Append a step and return its symbol, or that of the same step defined before.
+        """Append a step of a section; return its symbol, or that of an equal step defined before.
 
-        The symbol has a number behind its name where something else has that name already.
-
-        Parameters
-        ----------
-        name, expression
-            The step.
-        section
-            The part of the derivation.
+        A number is added to the name where it is taken already.
         """
         form = self._form(expression)
         if form in self._known:
@@ -100,10 +93,10 @@ class ConstantStage:
         return symbol
 
     def _form(self, expression: sp.Expr) -> sp.Expr:
-        """Return the form by which a step is found again.
+        """Return the form by which an equal step is found.
 
-        What a mirror image has alike, up to the sign, is often written with its brackets and signs
-        in other places; where there are copies, steps are compared when multiplied out.
+        In a mirror image, equal expressions often have their brackets and signs in other places:
+        where there are copies, steps are compared in expanded form.
         """
         return sp.expand(expression) if self.derived else expression
 
@@ -122,17 +115,16 @@ class ConstantStage:
     def function(
         self, functions: Iterable[Function], assumptions: Iterable[Assumption] = ()
     ) -> Function:
-        """Return the parameter stage: all constants that some functions read or that are checked.
+        """Return the parameter stage: all constants that functions read or that are checked.
 
-        What must be zero, or must not, is computed like any constant, so that an error can say by
-        how much it is off.
+        A quantity that is checked is a constant too, so that an error can contain its value.
 
         Parameters
         ----------
         functions
-            What reads the constants.
+            Readers of the constants.
         assumptions
-            What is checked beside the conditions.
+            Quantities to check, beside those of the conditions.
         """
         used = set().union(*(f.free_symbols for f in functions))
         used = used.union(*(symbols_of(a.quantity) | symbols_of(a.scale) for a in assumptions))

@@ -1,4 +1,4 @@
-"""Derivatives of single steps, of which those of a program are made."""
+"""Partial derivatives of single steps; those of a program are composed of them."""
 
 from __future__ import annotations
 
@@ -16,16 +16,14 @@ if TYPE_CHECKING:
 def chain_rule(
     expression: sp.Expr, tangent: Mapping[sp.Symbol, sp.Expr], symbol: sp.Symbol | None = None
 ) -> sp.Expr:
-    """Return the sum of partial derivatives times tangents; see `partials`.
+    """Return the sum of partial derivatives times tangents.
 
     Parameters
     ----------
-    expression
-        What is differentiated.
+    expression, symbol
+        As in `partials`.
     tangent
-        The derivative of each symbol that moves.
-    symbol
-        The name of the expression.
+        The derivative of each symbol that varies.
     """
     return sp.Add(*(partial * tangent[s] for s, partial in partials(expression, tangent, symbol)))
 
@@ -33,19 +31,17 @@ def chain_rule(
 def partials(
     expression: sp.Expr, moving: Container[sp.Symbol], symbol: sp.Symbol | None = None
 ) -> Iterator[tuple[sp.Symbol, sp.Expr]]:
-    """Yield each moving symbol of an expression with the derivative by it.
-
-    A root or a reciprocal that is a step of its own is differentiated in terms of its own symbol,
-    so that it is not computed again.
+    """Yield each moving symbol of an expression with the partial derivative with respect to it.
 
     Parameters
     ----------
     expression
-        What is differentiated.
+        In names of the program.
     moving
-        The symbols that move.
+        The symbols that vary.
     symbol
-        The name of the expression.
+        The step that the expression defines: the derivative of a root or a reciprocal is written by
+        it, and so without a second root.
     """
     own = expression.is_Pow and expression.exp in (sp.Rational(1, 2), -1)
     if symbol is None or not own:
@@ -59,10 +55,10 @@ def partials(
 def _partials(
     expression: sp.Expr, moving: Container[sp.Symbol]
 ) -> Iterator[tuple[sp.Symbol, sp.Expr]]:
-    """Yield each moving symbol of an expression with the derivative by it.
+    """Yield each moving symbol of an expression with the derivative with respect to it.
 
-    Of a sum, only the terms with the symbol are looked at: the equation of motion of a long chain
-    is one sum over all of its bodies.
+    Of a sum, only the terms with the symbol are differentiated: the equation of motion of a long
+    chain is one sum over all of its bodies.
     """
     having: dict[sp.Symbol, list[sp.Expr]] = {}
     for term in sp.Add.make_args(expression):
@@ -74,10 +70,10 @@ def _partials(
 
 
 def _partial(expression: sp.Expr, s: sp.Symbol) -> sp.Expr:
-    """Return the derivative of an expression that has a symbol by that symbol.
+    """Return the derivative of an expression with respect to a symbol that it contains.
 
-    SymPy's ``diff`` gives the same, but differentiates what has no such symbol, too: it spends
-    its time on products with zero.
+    SymPy's ``diff`` returns the same, but also differentiates arguments without the symbol, and
+    spends most of its time on products with zero.
     """
     if expression == s:
         return sp.Integer(1)

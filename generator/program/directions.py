@@ -1,12 +1,12 @@
 """Derivatives of a whole function: along a direction, and of a weighted sum of its results.
 
-Both are functions again: straight-line, without branches, with the guards of the function that they
-are of. They follow its steps as they are emitted, so they are the derivatives of what is computed.
+Both are functions again: straight-line, without branches, with the guards of the original function.
+They follow its steps as emitted, and so are the derivatives of the values that it computes.
 
-A *tangent* (forward mode) is given a direction of everything that the function reads and returns
-how its results change along it. An *adjoint* (reverse mode) is given a weight of each result, and
-returns the derivatives of the weighted sum by everything that the function reads. It passes the
-steps once from the last to the first, for any number of them, and costs some times the function.
+A *tangent* (forward mode) reads a direction, the rate of each symbol that the function reads, and
+returns the rates of its results. An *adjoint* (reverse mode) reads a weight for each result, and
+returns the derivatives of the weighted sum with respect to all symbols that the function reads. It
+passes the steps once, from the last to the first, and costs a few evaluations of the function.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from .function import Function
 
 TANGENT, ADJOINT = "tangent", "adjoint"
-"""How the names of such functions end."""
+"""Ends of the names of such functions."""
 
 
 def tangent(function: Function, direction: Mapping[sp.Symbol, sp.Symbol], doc: str) -> Function:
@@ -38,9 +38,9 @@ def tangent(function: Function, direction: Mapping[sp.Symbol, sp.Symbol], doc: s
     Parameters
     ----------
     direction
-        Of each symbol that is read, the symbol of its derivative.
+        Symbol of the derivative of each symbol that is read.
     doc
-        One line that says what it returns.
+        Docstring of one line.
     """
     known = _Names(function, direction.values())
     along: dict[sp.Symbol, sp.Expr] = {s: direction[s] for s in function.free_symbols}
@@ -65,11 +65,11 @@ def adjoint(
     Parameters
     ----------
     by
-        What to differentiate by, in the order of the results.
+        Symbols to differentiate with respect to, in the order of the results.
     weights
         Of the results of the function.
     doc
-        One line that says what it returns.
+        Docstring of one line.
     """
     known = _Names(function, weights)
     active = set(by)
@@ -103,31 +103,23 @@ def adjoint(
 
 
 class _Names:
-    """Names of the steps of a derivative, none of them that of anything else in it."""
+    """Names for the steps of a derivative, distinct from all others in it."""
 
     def __init__(self, function: Function, more: Iterable[sp.Symbol]) -> None:
         known = function.free_symbols.union(more, (step.symbol for step in function.steps))
         self._taken = {symbol.name for symbol in known}
 
     def free(self, name: str) -> sp.Symbol:
-        """Return a symbol of that name, or with a number behind it."""
+        """Return a symbol of a name, with a number added where it is taken."""
         symbol = first_free(name, self._taken.__contains__)
         self._taken.add(symbol.name)
         return symbol
 
 
 def written(function: Function, steps: list[Step], results: tuple[sp.Expr, ...]) -> Function:
-    """Return a function of those of some steps that it needs, which guards what it did before.
-
-    Parameters
-    ----------
-    function
-        The function before.
-    steps, results
-        All steps, and the results.
-    """
+    """Return a function with new results and the steps that they need; its guards stay the same."""
     kept = (*results, *(guard.quantity for guard in function.guards))
-    alive, _ = drop_dead(steps, list(kept))
+    alive = drop_dead(steps, kept)
     called = {s.expression.args[0].name for s in alive if isinstance(s.expression, Iterated)}
     blocks = tuple(block for block in function.blocks if block.name in called)
     pruned = replace(function, steps=tuple(alive), results=kept, blocks=blocks)

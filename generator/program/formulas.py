@@ -15,12 +15,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Steps:
-    """Functions of symbols; what a formula defines is a step.
+    """Functions of symbols for formulas; definitions become steps.
 
     Parameters
     ----------
     program
-        What receives the steps.
+        Receives the steps.
     prefix
         Begins their names.
     """

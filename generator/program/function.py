@@ -1,4 +1,4 @@
-"""What is emitted: a function, and the iterations that it calls."""
+"""Emitted functions, and the iterations that they call."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from .steps import Guard, Step
 
 LOST = "lost"
-"""Result of a block: one where it has not arrived, else zero."""
+"""Result of a block: one where it did not converge, else zero."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,7 +26,7 @@ class Function:
     Attributes
     ----------
     name, doc
-        C name without the model's prefix, and one line that says what it returns.
+        C name without the model's prefix, and docstring of one line.
     steps
         The assignments, in order.
     results
@@ -38,7 +38,7 @@ class Function:
     guards
         The guards that act in this function.
     part
-        What the file that it is printed in adds to the model's name; empty: nothing.
+        End of the name of its file, behind the model's name.
     blocks
         The iterations that it calls; none in a model whose loops all have a closed form.
     """
@@ -55,7 +55,7 @@ class Function:
 
     @property
     def members(self) -> tuple[Function, ...]:
-        """The function itself, as of a stage that has no other."""
+        """The function itself, as a stage of one member."""
         return (self,)
 
     @property
@@ -73,17 +73,17 @@ class Function:
 
 @dataclass(frozen=True, eq=False)
 class Stage:
-    """Functions that are computed together: what they share is computed once.
+    """Functions that are computed together, with their common steps computed once.
 
-    The program of each is that which it has by itself, so that its results are the same to the last
-    bit; who writes a stage carries out equal operations once.
+    Each has the program that it has alone, so that its results are the same to the last bit; the
+    printer of a stage emits equal operations once.
 
     Attributes
     ----------
     name, doc
         As of a function.
     members
-        The functions, whose results are returned one behind the other.
+        The functions; their results are concatenated.
     """
 
     name: str
@@ -92,7 +92,7 @@ class Stage:
 
     @property
     def part(self) -> str:
-        """What the file that it is printed in adds to the model's name."""
+        """End of the name of its file, behind the model's name."""
         return self.members[0].part
 
     @property
@@ -102,12 +102,12 @@ class Stage:
 
     @property
     def guards(self) -> tuple[Guard, ...]:
-        """The guards that act in one of the functions, in the order of the first that has each."""
+        """The guards of all functions, each once, in the order of the functions."""
         return tuple(dict.fromkeys(guard for member in self.members for guard in member.guards))
 
     @property
     def blocks(self) -> tuple[IterationBlock, ...]:
-        """The iterations that are called."""
+        """The iterations that the functions call."""
         return tuple({block.name: block for m in self.members for block in m.blocks}.values())
 
     @property
@@ -118,18 +118,18 @@ class Stage:
 
 @dataclass(frozen=True)
 class Driven:
-    """A coordinate on the way of a block.
+    """A driven coordinate along the path of a block.
 
     Attributes
     ----------
     now
-        Its name in the block, where it represents the coordinate of a stage.
+        Its symbol in the block, at a stage of the path.
     way
-        The name of how far it goes in that stage.
+        Symbol of its change within the stage.
     start, end
-        At the design position, and in a call.
+        Its values at the design position, and in a call.
     unit
-        What of it is as much as a radian.
+        Change of it that counts like a radian.
     turns
         Whether it is an angle: a full turn changes nothing.
     """
@@ -144,12 +144,12 @@ class Driven:
 
 @dataclass(frozen=True)
 class Estimate:
-    """What one iteration is given, as symbols.
+    """Symbols of the start of one iteration.
 
     Attributes
     ----------
     base, step
-        The estimate is this base, and this step from it.
+        The estimate is the sum of both.
     held
         The inverse of J of the stage before: a row for each unknown.
     """
@@ -166,20 +166,20 @@ class IterationBlock:
     Attributes
     ----------
     name, doc
-        Name of the function in C, and what it finds (behind a verb, without a full stop).
+        Name of the function in C, and its result (behind a verb, without a full stop).
     unknowns
-        Names of what it finds; at the design position they are zero.
+        Names of the unknowns; at the design position they are zero.
     equations
         Number of residuals.
     constants
-        What it reads of one parameter set.
+        Constants of one parameter set that it reads.
     driven
-        The coordinates that move it.
+        The coordinates on which it depends.
     estimate
-        What `once` is given beside constants and coordinates.
+        Inputs of `once` beside constants and coordinates.
     once
-        One iteration. Its outputs are those of the block but for `LOST`, the square of how far it
-        is from the design position, the correction, and the square of how much J has changed.
+        One iteration. Its outputs are those of the block but for `LOST`, the squared distance from
+        the design position, the correction, and the square of the relative change of J.
     """
 
     name: str
@@ -198,7 +198,7 @@ class IterationBlock:
 
     @property
     def given(self) -> list[sp.Expr]:
-        """What it is called with: constants, and start, end and unit of every coordinate."""
+        """Arguments of a call: constants, and start, end and unit of every coordinate."""
         along = [value for d in self.driven for value in (d.start, d.end, d.unit)]
         return [*self.constants, *along]
 
@@ -210,10 +210,10 @@ class IterationBlock:
 
     @property
     def results(self) -> tuple[str, ...]:
-        """Names of what it returns, in order.
+        """Names of its results, in order.
 
-        The unknowns; a matrix, row by row, that over the determinant is the inverse of J; that
-        determinant, with the sign that makes it positive at the design position; whether it is
+        The unknowns; a matrix, row by row, that divided by the determinant is the inverse of J;
+        that determinant, with the sign that makes it positive at the design position; whether it is
         lost.
         """
         return (*self.unknowns, *self.elements, "determinant", LOST)

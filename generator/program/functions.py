@@ -1,4 +1,4 @@
-"""Functions of a step that SymPy does not have: guards, choices, and what iterations return."""
+"""Functions of a step that SymPy does not have: guards, choices, results of iterations."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ import sympy as sp
 
 
 class Guarded(sp.Function):  # type: ignore[misc]  # SymPy has no types
-    """The first argument where it is over its floor, the second; that floor where it is not.
+    """The first argument where it exceeds its floor, the second; elsewhere that floor.
 
-    It is called where a closed form has a root or a divisor that vanishes when a loop cannot close.
-    The arithmetic stays free of branches and of NaN; the status word says that the guard acted.
+    Guards a root or a divisor of a closed form that vanishes when a loop cannot close. The
+    arithmetic has no branch and no NaN; the status word shows that the guard acted.
     """
 
     nargs = 2
@@ -53,12 +53,11 @@ class IsPositive(sp.Function):  # type: ignore[misc]
 
 
 class Iterated(sp.Function):  # type: ignore[misc]
-    """All results of an iteration (`iteration.Block`) together, as one value.
+    """All results of an iteration (`IterationBlock`) together, as one value.
 
-    The first argument is the name of the block, the others are what it is given.
-
-    Its derivative is zero by definition: what follows the iteration corrects its result once more,
-    in straight-line code, and the derivative of that correction is the exact one.
+    The first argument is the name of the block, the others are the arguments of the call. The
+    derivative is zero by definition: straight-line code behind the iteration corrects its result
+    once more, and the derivative of that correction is the exact one.
     """
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
@@ -68,7 +67,7 @@ class Iterated(sp.Function):  # type: ignore[misc]
 
 
 class Component(sp.Function):  # type: ignore[misc]
-    """One result of an iteration, by its place; the derivative is zero by definition."""
+    """One result of an iteration, by its index; the derivative is zero by definition."""
 
     nargs = 2
 

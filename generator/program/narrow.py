@@ -1,4 +1,4 @@
-"""A function of some results: with the steps, guards and iterations that these need."""
+"""Functions of some results, with the steps, guards and iterations that these need."""
 
 from __future__ import annotations
 
@@ -28,20 +28,19 @@ def function_of(
     shape: Sequence[int] | None = None,
     part: str = "",
 ) -> Function:
-    """Return a function of results, which have labels; steps, guards and blocks may be too many.
+    """Return a function of labelled results, with those steps, guards and blocks that they need.
 
     Parameters
     ----------
-    name, doc
-        Of the function.
+    name, doc, shape, part
+        As in `Function`; without a shape the results are a row.
     results
         By their labels.
     steps, guards, blocks
-        Of which those are taken that the results need.
-    shape, part
-        As in `Function`.
+        More than the results need, as a rule.
     """
-    alive, expressions = drop_dead([*steps], [*results.values()])
+    expressions = list(results.values())
+    alive = drop_dead([*steps], expressions)
     read = [*(step.expression for step in alive), *expressions]
     guarded = {g.args[0] for expression in read for g in expression.atoms(Guarded)}
     called = {e.args[0].name for e in read if isinstance(e, Iterated)}
@@ -59,17 +58,7 @@ def function_of(
 
 
 def narrowed(function: Function, name: str, doc: str, labels: Sequence[str]) -> Function:
-    """Return a function of those results of another that have some labels.
-
-    Parameters
-    ----------
-    function
-        The function.
-    name, doc
-        Of the new one.
-    labels
-        Those of the results.
-    """
+    """Return a function of the results of another one that have given labels, under a new name."""
     of_label = dict(zip(function.labels, function.results, strict=True))
     results = {label: of_label[label] for label in labels}
     return function_of(

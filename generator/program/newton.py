@@ -1,37 +1,37 @@
-"""Newton's method as a block of an otherwise straight-line program, for what has no closed form.
+"""Newton's method as a block of an otherwise straight-line program, for loops without closed form.
 
 A *block* is a function of its own that follows a solution: from the design position, where it is
-zero, to the coordinates of a call. What it repeats is straight-line code, written by the same
-printers as everything else: residuals g and their Jacobian J at one estimate, for one position of
-the driven coordinates, with all that is placed before the loops (`IterationBlock.once`). Around it
-is one loop that all blocks share, with a bounded number of iterations (``follow.c``, and
-`kintrafo.equations.following`).
+zero, to the coordinates of a call. Straight-line code, by the same printers as everything else,
+computes one iteration: residuals g and their Jacobian J at one estimate, for one position of the
+driven coordinates, with the poses of all bodies that are placed before the loops
+(`IterationBlock.once`). One loop around it, shared by all blocks, has a bounded number of
+iterations (``follow.c``, and `kintrafo.equations.following`).
 
-*The way* goes straight from the coordinates of the design position to those of the call, in stages.
-Where a hinge is further than a full turn from its design position, a turn alone is followed first;
-if it leads back to the design position, whole turns are left out. So what a block finds depends on
-its arguments only, is continuous wherever it is found, and is on the branch on which the mechanism
-moves along this way.
+The *path* leads straight from the coordinates of the design position to those of the call, in
+stages. Where a hinge is further than a full turn from its design position, a turn alone is followed
+first; if it leads back to the design position, whole turns are left out. So the result of a block
+depends on its arguments only, is continuous where it exists, and is on the branch on which the
+mechanism moves along this path.
 
-*A stage* is accepted where Newton's method converges from the tangent (the way of the stage before,
-continued), and where J has changed by less than half of itself since the stage before, ``|J0^-1 J -
-1| <= 1/2`` (of more equations than unknowns: J0^-1 is the pseudoinverse). J cannot become singular
-in between then, so that no other branch meets this one; and where J differs from one matrix by less
-than that, g has one root, so that there is no other one to go to. Both are free of scales. The
-tangents ``-J^-1 g_v`` at both ends of a stage have to lead where the unknowns go: the first one is
-where Newton's method starts, and what the last one misses is at most twice what the first one does,
-or half of itself. A stage over a gap comes back from a dead point, and its last tangent shows that.
-What is placed before in closed form has to close all the way, too
-(`IterationDerivation._failing`). A stage that is not accepted is tried again, shorter. Where stages
-become as short as nothing, the branch ends: a dead point.
+A *stage* is accepted where Newton's method converges from the tangent (the path of the stage
+before, continued), and where J has changed by less than half of itself since the stage before,
+``|J0^-1 J - 1| <= 1/2`` (of more equations than unknowns: J0^-1 is the pseudoinverse). J cannot
+become singular in between then, so that no other branch meets this one; and where J differs from
+one matrix by less than that, g has one root, so that the iteration cannot reach another one. Both
+are free of scales. The tangents ``-J^-1 g_v`` at both ends of a stage must agree with the change of
+the unknowns: the error of the last tangent is at most twice that of the first one, which starts
+Newton's method, or half of the change. A stage over a gap comes back from a dead point, and its
+last tangent shows that. Closed forms before the loops must close along the whole stage, too
+(`IterationDerivation._failing`). A stage that is not accepted is tried again, shorter. Where the
+length of the stages goes to zero, the branch ends: a dead point.
 
-After `ITERATIONS`, or where a branch ends, the block says that it is lost (`LOST`) and returns what
-it has, which is finite. Behind it, straight-line code evaluates the residuals again; its guard
-refuses what does not fulfil them, and what is lost (`closed_forms.inverse`).
+After `ITERATIONS`, or where a branch ends, the block reports that it is lost (`LOST`) and returns
+its last, finite estimate. Behind it, straight-line code evaluates the residuals again; its guard
+refuses an estimate that does not fulfil them, and a lost one (`closed_forms.inverse`).
 
-Derivatives: a block returns the adjugate and the determinant of its Jacobian J, too. Behind it,
-one more correction ``x - J^-1 g(x, v)`` is written out, in which only g depends on the arguments v.
-It changes nothing but the last digits, and its derivative is ``-J^-1 g_v``: that of the implicit
+Derivatives: a block returns the adjugate and the determinant of its Jacobian J, too. Behind it, one
+more correction ``x - J^-1 g(x, v)`` is written out, in which only g depends on the arguments v. It
+changes nothing but the last digits, and its derivative is ``-J^-1 g_v``: that of the implicit
 function theorem. So derivatives of the results of a block are zero by definition (`Iterated`).
 """
 
@@ -57,20 +57,20 @@ Matrix = list[list[sp.Expr]]
 
 @dataclass(frozen=True)
 class IterationResult:
-    """What one iteration finds.
+    """Equations of one iteration at an estimate.
 
     Attributes
     ----------
     unknowns
         The estimate.
     misfits
-        What it leaves of the equations.
+        The residuals of the equations.
     rows
         J.
     apart
-        The square of how far the estimate is from the design position; whole turns do not count.
+        The squared distance of the estimate from the design position, without whole turns.
     given, by_given
-        Quantities that the equations have frozen, and how the misfits change with each.
+        Frozen quantities of the equations, and the derivatives of the misfits with respect to each.
     """
 
     unknowns: Sequence[sp.Expr]
@@ -82,15 +82,15 @@ class IterationResult:
 
 
 class IterationDerivation:
-    """The program of one iteration, with all that is placed before the loops at that stage.
+    """The program of one iteration, with all bodies that are placed before the loops at that stage.
 
     Parameters
     ----------
     around
-        The program that the block is called from.
+        The program that calls the block.
     driven
-        Of every coordinate that moves anything: the symbol, the value at design, what of it is as
-        much as a radian, and whether a full turn of it changes nothing.
+        Of every coordinate that moves anything: the symbol, the value at design, the change that
+        counts like a radian, and whether a full turn changes nothing.
     """
 
     def __init__(
@@ -124,7 +124,7 @@ class IterationDerivation:
         return symbol
 
     def repeated(self, values: Iterable[sp.Expr]) -> list[sp.Expr]:
-        """Append what values of the program around are at this stage."""
+        """Append copies of values of the calling program, at this stage of the path."""
         values, steps = list(values), self._around.steps
         needed = ancestors(steps, values) - self._needed
         for step in [s for s in steps.values() if s.symbol in needed]:
@@ -142,13 +142,7 @@ class IterationDerivation:
         equations: int,
         derive: Callable[[Program, Estimate], IterationResult],
     ) -> IterationBlock:
-        """Derive the block.
-
-        Parameters
-        ----------
-        derive
-            Writes the equations at an estimate into the program.
-        """
+        """Return the block of an iteration; `derive` writes its equations at an estimate."""
         program, count = self.program, len(unknowns)
         estimate = Estimate(
             tuple(self._own(f"{name}_from") for name in unknowns),
@@ -192,7 +186,7 @@ class IterationDerivation:
         )
 
     def _changed(self, held: Sequence[Sequence[sp.Symbol]], rows: Matrix) -> sp.Expr:
-        """Return the square of ``|J0^-1 J - 1|``, and more where what is placed before is not."""
+        """Return ``|J0^-1 J - 1|^2``, increased where a closed form before the loops fails."""
         columns = [list(column) for column in zip(*rows, strict=True)]
         squares = []
         for i, line in enumerate(held):
@@ -202,12 +196,12 @@ class IterationDerivation:
         return sp.Add(*squares, *self._failing())
 
     def _failing(self) -> list[sp.Expr]:
-        """Return a summand for each margin of what is placed before: zero where it is positive.
+        """Return a summand for each margin of the closed forms before: zero where it is positive.
 
-        A closed form that moves much faster than its coordinate can be behind a gap within a stage,
-        and look as before. So its margin has to be positive all the way back to where the stage
-        begins, too: by its value and slope at the end, and its curvature if that bends it down.
-        What else iterates follows a way of its own.
+        A closed form that moves much faster than its coordinate can cross a gap within a stage and
+        look the same on both sides. So its margin must be positive back to the beginning of the
+        stage, too: by its value and slope at the end, and by its curvature where that bends it
+        down. Other iterations follow a path of their own.
         """
         steps = [step.expression for step in self.program.steps.values()]
         margins = [_margins(steps), _margins(e for e in steps if not isinstance(e, Frozen))]
@@ -219,7 +213,7 @@ class IterationDerivation:
 
 
 def _margins(expressions: Iterable[sp.Expr]) -> list[sp.Expr]:
-    """Return by how much the quantities that are guarded are over their floors."""
+    """Return the guarded quantities less their floors."""
     guarded = {g for e in expressions for g in e.atoms(Guarded)}
     return sorted((g.args[0] - g.args[1] for g in guarded), key=str)
 
@@ -228,13 +222,7 @@ def _margins(expressions: Iterable[sp.Expr]) -> list[sp.Expr]:
 
 
 def inverted(program: Program, rows: Matrix) -> tuple[Matrix, sp.Expr]:
-    """Append the adjugate and the determinant of J, or those of J^T J, the former times J^T.
-
-    Parameters
-    ----------
-    program, rows
-        Receives the steps, and J.
-    """
+    """Append the adjugate and the determinant of J, or those of J^T J, the former times J^T."""
     if len(rows) == len(rows[0]):
         return adjugate(program, rows)
     columns = [list(column) for column in zip(*rows, strict=True)]
@@ -254,11 +242,6 @@ def adjugate(program: Program, matrix: Matrix) -> tuple[Matrix, sp.Expr]:
     With the adjugate, a singular matrix needs no case of its own. A cofactor is a sum over products
     of a minor of the rows above and one of the rows below (Laplace): a thousand operations for six
     rows, some thirty for three.
-
-    Parameters
-    ----------
-    program, matrix
-        Receives the steps, and the matrix.
     """
     size = len(matrix)
     columns = tuple(range(size))
@@ -271,7 +254,8 @@ def adjugate(program: Program, matrix: Matrix) -> tuple[Matrix, sp.Expr]:
             terms = []
             for chosen in combinations(rest, row):
                 others = tuple(c for c in rest if c not in chosen)
-                sign = _sign([*chosen, column, *others]) * _reversal(len(others))
+                # the rows below are in reversed order
+                sign = _sign([*chosen, column, *others]) * _sign(range(len(others))[::-1])
                 terms.append(sign * above[row][chosen] * below[size - 1 - row][others])
             cofactor = sp.Add(*terms)
             result[column][row] = program.define(f"adjugate_{column + 1}{row + 1}", cofactor)
@@ -281,15 +265,7 @@ def adjugate(program: Program, matrix: Matrix) -> tuple[Matrix, sp.Expr]:
 
 
 def named(program: Program, name: str, matrix: Matrix) -> Matrix:
-    """Append the elements of a matrix.
-
-    Parameters
-    ----------
-    program, name
-        Receives the steps, and what begins their names.
-    matrix
-        The matrix.
-    """
+    """Append the elements of a matrix as steps; the name begins theirs."""
     return [
         [program.define(f"{name}_{i}{j}", entry) for j, entry in enumerate(row, 1)]
         for i, row in enumerate(matrix, 1)
@@ -320,17 +296,6 @@ def _sign(order: Sequence[int]) -> int:
     return -1 if sum(a > b for a, b in combinations(order, 2)) % 2 else 1
 
 
-def _reversal(count: int) -> int:
-    """Return the sign of turning round some rows."""
-    return _sign(range(count)[::-1])
-
-
 def times(matrix: Matrix, vector: Sequence[sp.Expr]) -> list[sp.Expr]:
-    """Return the product of a matrix and a vector.
-
-    Parameters
-    ----------
-    matrix, vector
-        Rows of the one, and elements of the other.
-    """
+    """Return the product of a matrix, by rows, and a vector."""
     return [sum((a * b for a, b in zip(row, vector, strict=True)), sp.Integer(0)) for row in matrix]

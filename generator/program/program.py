@@ -1,11 +1,11 @@
 """The straight-line program: named steps, no branch, and no iteration but where one is allowed.
 
-A *step* is a name and a small expression in earlier names. Everything the generator derives is a
-step of one `Program`; an emitted `Function` is the part of the program that its results need.
+A *step* is a name and a small expression in earlier names. Every derived quantity is a step of one
+`Program`; an emitted `Function` is the part of the program that its results need.
 
-Two stages are distinguished by what a step depends on, not by who wrote it: steps (and parts of
-steps) that depend on parameters only are *constants*, computed once per parameter set; all others
-belong to the right-hand side.
+Two stages are distinguished by the symbols that a step depends on: steps (and parts of steps) that
+depend on parameters only are *constants*, computed once per parameter set; all others belong to the
+right-hand side.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class Program:
     Parameters
     ----------
     constants
-        Where steps go that depend on parameters only.
+        Receives the steps that depend on parameters only.
     """
 
     constants: ConstantStage
@@ -50,22 +50,22 @@ class Program:
     guards: dict[sp.Symbol, Guard] = field(default_factory=dict)
     _section: str = ""
     _known: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
-    _varying: set[sp.Expr] = field(default_factory=set)  # nothing in them can be hoisted
+    _varying: set[sp.Expr] = field(default_factory=set)  # without parts to hoist
     _spells: bool = False
-    # outputs of narrow parts with the inputs of these, and derivatives of the ones by the others
+    # outputs of narrow parts with their inputs, and the derivatives with respect to these
     _narrow: dict[sp.Symbol, tuple[sp.Symbol, ...]] = field(default_factory=dict)
     _partials: dict[tuple[sp.Symbol, sp.Symbol], sp.Expr] = field(default_factory=dict)
 
     def section(self, title: str) -> None:
-        """Name the part of the derivation that the next steps belong to."""
+        """Begin a section of the derivation, to which the next steps belong."""
         self._section = title
 
     def define(self, name: str, expression: Any) -> sp.Expr:
         """Append a step and return its symbol.
 
-        Numbers, symbols and their negatives are returned as they are, and an expression that is
-        already a step is not repeated, so that zeros and shared values disappear on the way. The
-        symbol has a number behind its name where something else has that name already.
+        Numbers, symbols and their negatives are returned unchanged, and an expression that is
+        already a step is not repeated, so that zeros and shared values disappear on the way. A
+        number is added to the name where it is taken already.
 
         Parameters
         ----------
@@ -93,7 +93,7 @@ class Program:
 
     @contextmanager
     def spelling(self) -> Iterator[None]:
-        """Let steps have formulas in any form; see `spelled`.
+        """Allow steps to have formulas in any form; see `spelled`.
 
         Raises
         ------
@@ -116,15 +116,7 @@ class Program:
         return sp.Symbol(name) in self.steps or self.constants.has(name)
 
     def vector(self, name: str, vector: Vector, suffixes: str = "xyz") -> Vector:
-        """Append a step for each component of a vector.
-
-        Parameters
-        ----------
-        name, vector
-            What begins the names of the steps, and the vector.
-        suffixes
-            What ends them.
-        """
+        """Append a step for each component of a vector; its name ends with the suffix."""
         return Vector(
             *(self.define(f"{name}_{s}", c) for s, c in zip(suffixes, vector, strict=True))
         )
@@ -132,33 +124,27 @@ class Program:
     def axes(
         self, names: tuple[str, str, str], vectors: Iterable[Vector], suffixes: str = "xyz"
     ) -> tuple[Vector, Vector, Vector]:
-        """Append a step for each component of three vectors.
-
-        Parameters
-        ----------
-        names, vectors
-            What begins the names of the steps, and the vectors.
-        suffixes
-            What ends them.
-        """
+        """Append a step for each component of three vectors; their names end with the suffixes."""
         x, y, z = (self.vector(n, v, suffixes) for n, v in zip(names, vectors, strict=True))
         return x, y, z
 
     def guarded(
         self, name: str, expression: Any, meaning: str, unit: str, floor: Any = SMALLEST
     ) -> sp.Expr:
-        """Append a step whose value must be over a floor, and return its guarded form.
+        """Append a step whose value must exceed a floor, and return its guarded form.
 
         Constants are not guarded: the parameter stage checks them all at once.
 
         Parameters
         ----------
-        name, meaning, unit
-            Of the quantity, and what it means that it is not over the floor.
+        name, unit
+            Of the quantity.
         expression
             The quantity.
+        meaning
+            Cause of a value below the floor, for the message.
         floor
-            In parameters and constants, or a number; see `conditioning`.
+            In parameters and constants, or a number; see `floors`.
         """
         symbol = self.define(name, expression)
         if self.constants.contains(symbol):
@@ -169,13 +155,7 @@ class Program:
         return Guarded(symbol, self.guards[symbol].floor)
 
     def iterated(self, name: str, block: IterationBlock) -> dict[str, sp.Expr]:
-        """Append the call of a block that iterates, and return its results by name.
-
-        Parameters
-        ----------
-        name, block
-            What begins the names of the steps, and the block.
-        """
+        """Append the call of a block that iterates; return its results by name."""
         results = self.define(name, Iterated(block.symbol, *block.given))
         return {
             label: self.define(f"{name}_{label}", Component(results, place))
@@ -191,24 +171,20 @@ class Program:
         label: str,
         instead: Mapping[sp.Symbol, sp.Expr] | None = None,
     ) -> list[sp.Expr]:
-        """Differentiate expressions along one symbol, step by step (forward mode).
+        """Differentiate expressions with respect to one symbol, step by step (forward mode).
 
         Parameters
         ----------
         along
-            The symbol to differentiate by.
-        targets
-            Expressions in the names of the program.
-        label
-            Ends the names of the new steps: ``name__label``.
-        instead
+            The symbol.
+        targets, label, instead
             As in `along`.
 
         Raises
         ------
         ValueError
-            If the symbol is a parameter: derivatives by those are of whole functions, and of
-            `prepare` (`directions`).
+            If the symbol is a parameter: derivatives with respect to parameters are those of whole
+            functions, and of `prepare` (`directions`).
         """
         if self.constants.contains(along):
             message = f"{along} is a parameter; see `directions` for derivatives by parameters"
@@ -227,13 +203,13 @@ class Program:
         Parameters
         ----------
         direction
-            Of each symbol that changes, by how much.
+            The rate of each symbol that changes.
         targets
             Expressions in the names of the program.
         label
             Ends the names of the new steps: ``name__label``.
         instead
-            Of steps, expressions of the same value that are differentiated in their place.
+            Expressions of the same value as some steps, to be differentiated instead of these.
         """
         tangent: dict[sp.Symbol, sp.Expr] = dict(direction)
         if instead:
@@ -246,14 +222,14 @@ class Program:
         return [chain_rule(target, tangent) for target in targets]
 
     def narrow(self, inputs: Iterable[sp.Expr], outputs: Iterable[sp.Expr]) -> None:
-        """Have steps differentiated by few others that they depend on, once for all directions.
+        """Differentiate steps along a few others that they depend on, once for all directions.
 
-        A direction then takes a product for each pair of them, and not all that is between.
+        A direction then takes one product for each pair of them, and not all steps in between.
 
         Parameters
         ----------
         inputs, outputs
-            The few steps, and those that depend on them; on states and inputs, too, where need be.
+            The few steps, and those that depend on them, and on states and inputs.
         """
         given = {symbol for e in inputs for symbol in symbols_of(e)}
         ends = [s for e in outputs for s in symbols_of(e) if s in self.steps and s not in given]
@@ -265,7 +241,7 @@ class Program:
         self._narrow |= dict.fromkeys(ends, ordered)
 
     def _by_inputs(self, output: sp.Symbol, tangent: Mapping[sp.Symbol, sp.Expr]) -> sp.Expr:
-        """Return the derivative of a step of a narrow part: its own ones by the inputs of that."""
+        """Return the derivative of an output of a narrow part, from those along its inputs."""
         inputs = self._narrow[output]
         total = sp.Integer(0)
         for symbol in inputs:
@@ -274,7 +250,7 @@ class Program:
         return total
 
     def _partial(self, output: sp.Symbol, by: sp.Symbol) -> sp.Expr:
-        """Return the derivative of an output of a narrow part by one of its inputs."""
+        """Return the derivative of an output of a narrow part with respect to one of its inputs."""
         if (output, by) not in self._partials:
             inputs = self._narrow[output]
             together = [s for s, others in self._narrow.items() if others == inputs]
@@ -290,16 +266,10 @@ class Program:
         label: str,
         through: frozenset[sp.Symbol] = frozenset(),
     ) -> None:
-        """Add the derivatives of all steps that some expressions need, where they are not zero.
+        """Add to `tangent` the nonzero derivatives of all steps that some targets need.
 
-        Parameters
-        ----------
-        tangent
-            Those that are known, by the steps.
-        targets, label
-            As in `along`.
-        through
-            Outputs of a narrow part that are not differentiated by its inputs.
+        Outputs of a narrow part are differentiated with respect to its inputs, but for those in
+        `through`.
         """
         moving = {
             symbol: step
@@ -321,17 +291,7 @@ class Program:
     def substitute(
         self, replacements: Mapping[sp.Symbol, sp.Expr], targets: Iterable[sp.Expr], label: str
     ) -> list[sp.Expr]:
-        """Repeat the steps of some expressions with other symbols in place of given ones.
-
-        Parameters
-        ----------
-        replacements
-            Symbols of the program and what replaces them.
-        targets
-            Expressions in the names of the program.
-        label
-            Ends the names of the new steps: ``name__label``.
-        """
+        """Repeat the steps of some targets with symbols replaced; new names are ``name__label``."""
         targets = list(targets)
         needed = ancestors(self.steps, targets)
         replaced = dict(replacements)
@@ -382,17 +342,7 @@ class Program:
         results: Mapping[str, sp.Expr],
         shape: Sequence[int] | None = None,
     ) -> Function:
-        """Prune the program to some results; `share_together` makes a function of it.
-
-        Parameters
-        ----------
-        name, doc
-            Of the function.
-        results
-            By their labels.
-        shape
-            Of the array; none: a row.
-        """
+        """Prune the program to some results; `share_together` makes a function of it."""
         written = (self.constants.insert_derived(sp.sympify(e)) for e in results.values())
         expressions = [self._hoist(e) for e in written]
         needed = ancestors(self.steps, expressions)

@@ -1,4 +1,4 @@
-"""Which steps are emitted: none that is not read, and what is common but once."""
+"""The steps that are emitted: without those that are not read, with common parts only once."""
 
 from __future__ import annotations
 
@@ -15,35 +15,21 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
 
-def drop_dead(steps: list[Step], results: list[sp.Expr]) -> tuple[list[Step], list[sp.Expr]]:
-    """Remove the steps that no result depends on.
-
-    Parameters
-    ----------
-    steps, results
-        The steps in their order, and the results.
-    """
+def drop_dead(steps: list[Step], results: Iterable[sp.Expr]) -> list[Step]:
+    """Return the steps that some results depend on, in order."""
     wanted = set().union(*map(symbols_of, results))
     alive = []
     for step in reversed(steps):
         if step.symbol in wanted:
             alive.append(step)
             wanted |= symbols_of(step.expression)
-    return alive[::-1], results
+    return alive[::-1]
 
 
 def share(
     steps: list[Step], results: list[sp.Expr], names: Iterator[sp.Symbol]
 ) -> tuple[list[Step], list[sp.Expr]]:
-    """Name the common subexpressions of the whole program.
-
-    Parameters
-    ----------
-    steps, results
-        The steps in their order, and the results.
-    names
-        Of what is shared.
-    """
+    """Return steps and results in which every common subexpression is a step with a new name."""
     expressions = [*(s.expression for s in steps), *results]
     common = _Common(expressions, names)
     reduced = [common.named(e) for e in expressions]
@@ -53,7 +39,7 @@ def share(
 
     def place(expression: sp.Expr, section: str) -> None:
         for symbol in sorted(symbols_of(expression) & waiting.keys(), key=attrgetter("name")):
-            if symbol in waiting:  # not placed meanwhile, with one that comes before it
+            if symbol in waiting:  # not placed meanwhile, with an earlier one
                 definition = waiting.pop(symbol)
                 place(definition, section)
                 shared.append(Step(symbol, definition, section))
@@ -75,23 +61,15 @@ def share(
 
 
 class _Common:
-    """What several expressions have in common.
+    """The common subexpressions of several expressions.
 
-    The names, and what they represent, are those of SymPy's ``cse``. That takes every expression
-    apart, sorts what it consists of, and puts it together again; most have nothing in common with
-    others, and stay as they are here.
-
-    Parameters
-    ----------
-    expressions
-        All of them, in order.
-    names
-        Of what they have in common.
+    The names, and the order, are those of SymPy's ``cse``, which takes every expression apart,
+    sorts its parts, and composes it again; here, expressions without common parts stay as they are.
 
     Attributes
     ----------
     definitions
-        What each name represents, in terms of names before it.
+        The expression of each name, in terms of names before it.
     """
 
     def __init__(self, expressions: Iterable[sp.Expr], names: Iterator[sp.Symbol]) -> None:
@@ -99,7 +77,7 @@ class _Common:
         self.definitions: dict[sp.Symbol, sp.Expr] = {}
         self._names = names
         self._named: dict[sp.Expr, sp.Symbol] = {}
-        # sums and products in which parts of others stand together
+        # sums and products in which parts of others are grouped
         self._regrouped = opt_cse(expressions)
         self._seen: set[sp.Expr] = set()
         self._repeated: set[sp.Expr] = set()
@@ -108,10 +86,10 @@ class _Common:
             self._look_at(expression)
 
     def named(self, expression: sp.Expr) -> sp.Expr:
-        """Return an expression with names for what it has in common with others."""
+        """Return an expression with names for its common parts."""
         if expression in self._named:
             return self._named[expression]
-        settled = isinstance(expression, sp.Basic)  # what is regrouped is not put together yet
+        settled = isinstance(expression, sp.Basic)  # a regrouped one is not composed yet
         if not self._parts(expression) or (settled and not self._is_changed(expression)):
             return expression
         grouped = self._regrouped.get(expression, expression)
@@ -123,7 +101,7 @@ class _Common:
         return name
 
     def _look_at(self, expression: sp.Expr) -> None:
-        """Note what comes for the second time."""
+        """Note the parts that occur a second time."""
         parts = self._parts(expression)
         if not parts:
             return
@@ -135,11 +113,11 @@ class _Common:
             self._look_at(part)
 
     def _parts(self, expression: sp.Expr) -> tuple[sp.Expr, ...]:
-        """Return what an expression consists of; the exponent of what is regrouped is an int."""
+        """Return the parts of an expression; the exponent of a regrouped one is an int."""
         return tuple(getattr(self._regrouped.get(expression, expression), "args", ()))
 
     def _is_changed(self, expression: sp.Expr) -> bool:
-        """Return whether an expression is repeated, or has something in it that is."""
+        """Return whether an expression, or a part of it, is repeated."""
         if expression not in self._changes:
             self._changes[expression] = expression in self._repeated or any(
                 map(self._is_changed, self._parts(expression))
@@ -147,7 +125,7 @@ class _Common:
         return self._changes[expression]
 
     def _in_order(self, expression: sp.Expr) -> Iterable[sp.Expr]:
-        """Return the parts of an expression, so that names do not depend on hashes."""
+        """Return the parts of an expression, in an order that does not depend on hashes."""
         parts: Iterable[sp.Expr] = expression.args
         if not isinstance(expression, sp.Add | sp.Mul):
             return parts

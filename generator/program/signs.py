@@ -1,8 +1,8 @@
-"""Signs taken out of steps: sums and products further on take them up, and cost nothing more.
+"""Signs moved from steps into the sums and products that read them, where they cost nothing.
 
 ``t = -a - b`` with ``r = c + t`` becomes ``minus_t = a + b`` with ``r = c - minus_t``: the same to
-the last bit, since rounding does not know the sign, and one operation less. Where a value must have
-its sign, as the argument of a function or as a result, it keeps the step that gives it one.
+the last bit, since rounding does not depend on the sign, and one operation less. Where a value must
+have its sign, as the argument of a function or as a result, it keeps its step.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Container, Iterable, Mapping
 
 LOCAL = "shared_"
-"""How names begin that say nothing: those of common subexpressions."""
+"""Beginning of the names of common subexpressions, which have no meaning."""
 
 
 def take_out_signs(
@@ -27,16 +27,16 @@ def take_out_signs(
     kept: Container[sp.Symbol],
     has: Callable[[str], bool],
 ) -> tuple[list[Step], list[sp.Expr]]:
-    """Write steps and results without steps that are a sign and no more.
+    """Return steps and results, without steps that only change a sign.
 
     Parameters
     ----------
     steps, results
-        Of a program; what nothing reads afterwards is left in it.
+        Of a program; steps that nothing reads afterwards are left in it.
     kept
         Steps that stay as they are.
     has
-        Returns whether a name is that of something else.
+        Returns whether a name is taken.
     """
     steps = list(steps)
     names = {s.name for step in steps for s in (step.symbol, *symbols_of(step.expression))}
@@ -51,12 +51,12 @@ def take_out_signs(
 
 
 class _Signs:
-    """What has been found out about the signs of the steps so far.
+    """The signs of the steps so far.
 
     Attributes
     ----------
     opposite
-        What represents a step that is the negative of something else.
+        The negative of another expression, by the step that equals it.
     called
         Better names of common subexpressions: those of steps that are their negatives.
     """
@@ -67,7 +67,7 @@ class _Signs:
         self.called: dict[sp.Symbol, sp.Symbol] = {}
 
     def without(self, step: Step, *, kept: bool) -> list[Step]:
-        """Return what a step becomes: itself, or its opposite before it."""
+        """Return the step itself, or a step of its opposite before it."""
         expression = _absorbed(step.expression, self.opposite)
         if kept or not _is_negative(expression):
             return [Step(step.symbol, expression, step.section)]
@@ -85,7 +85,7 @@ class _Signs:
 
 
 def _is_negative(expression: sp.Expr) -> bool:
-    """Return whether a sign is in front of all of an expression."""
+    """Return whether an expression is the negative of a simpler one."""
     if expression.is_Add:
         return all(map(_is_negative, expression.args))
     return bool(expression.is_Mul and expression.as_coeff_Mul()[0].is_negative)

@@ -1,9 +1,9 @@
 """Formulas of users, in the operations that are emitted.
 
-What is emitted has sums, products, quotients, square roots, sine, cosine, the inverses of both,
+Emitted code has sums, products, quotients, square roots, sine, cosine, the inverses of both,
 exponential function and logarithm, all with the same bits on every machine, and with exact
-derivatives. Other functions are written by these where they can be. What has a corner or a jump is
-written by `Positive` and `IsPositive`, which is how motions with derivatives find it.
+derivatives. Other functions are written by these where possible. A corner or a jump is written by
+`Positive` and `IsPositive`, by which motions with derivatives find it.
 """
 
 from __future__ import annotations
@@ -25,30 +25,19 @@ WRITTEN = (
     "sums, products, quotients, powers with whole and half exponents, sqrt, sin, cos, tan, sec, "
     "csc, cot, asin, acos, atan, atan2, exp, log, Abs, sign, Max, Min, Heaviside, Piecewise"
 )
-"""What a formula may have."""
+"""The functions that a formula may have."""
 
 _EMITTED = (
-    sp.sin,
-    sp.cos,
-    sp.asin,
-    sp.atan2,
-    sp.exp,
-    sp.log,
-    Guarded,
-    SignOf,
-    Positive,
-    IsPositive,
-    Iterated,
-    Component,
-    Frozen,
-)
-_LARGEST_POWER = 4  # that a step is multiplied out to
-_LARGEST_BELOW = 2  # that may stand below a fraction's line
+    sp.sin, sp.cos, sp.asin, sp.atan2, sp.exp, sp.log,
+    Guarded, SignOf, Positive, IsPositive, Iterated, Component, Frozen,
+)  # fmt: skip
+_LARGEST_POWER = 4  # to which a step is expanded
+_LARGEST_BELOW = 2  # in a denominator
 _EXACT = 2**53  # whole numbers up to there are doubles
 
 
 class SpellingError(ValueError):
-    """A formula has something for which there is no operation."""
+    """A formula contains a function without an emitted operation."""
 
 
 def spelled(define: Define, formula: Any) -> sp.Expr:
@@ -64,7 +53,7 @@ def spelled(define: Define, formula: Any) -> sp.Expr:
     Raises
     ------
     SpellingError
-        If it is neither, or has what cannot be written; it says what.
+        If it is neither, or has an operation that cannot be written; the message names it.
     """
     try:
         expression = sp.sympify(formula, strict=True)
@@ -169,7 +158,7 @@ class _Speller:
 
 
 def _is_computed(e: sp.Expr) -> bool:
-    """Return whether it is a real number by functions that are not emitted, such as exp(2)."""
+    """Return whether an expression is a number by functions that are not emitted, as exp(2)."""
     whole = e.is_Pow and (2 * e.exp).is_Integer
     written = e.is_Add or e.is_Mul or whole or isinstance(e, _EMITTED)
     return not written and not e.is_Symbol and bool(e.is_number and e.is_real)
@@ -202,14 +191,6 @@ def _minimum(first: sp.Expr, *others: sp.Expr) -> sp.Expr:
     return first
 
 
-def _sign(x: sp.Expr) -> sp.Expr:
-    return IsPositive(x) - IsPositive(-x)
-
-
-def _heaviside(x: sp.Expr, at_zero: sp.Expr) -> sp.Expr:
-    return IsPositive(x) + at_zero * (1 - IsPositive(x) - IsPositive(-x))
-
-
 _BY_OTHERS: dict[type, Callable[..., sp.Expr]] = {
     sp.tan: lambda x: sp.sin(x) / sp.cos(x),
     sp.cot: lambda x: sp.cos(x) / sp.sin(x),
@@ -218,9 +199,9 @@ _BY_OTHERS: dict[type, Callable[..., sp.Expr]] = {
     sp.acos: lambda x: sp.pi / 2 - sp.asin(x),
     sp.atan: lambda x: sp.atan2(x, 1),
     sp.Abs: lambda x: Positive(x) + Positive(-x),
-    sp.sign: _sign,
+    sp.sign: lambda x: IsPositive(x) - IsPositive(-x),
     sp.Max: _maximum,
     sp.Min: _minimum,
-    sp.Heaviside: _heaviside,
+    sp.Heaviside: lambda x, zero: IsPositive(x) + zero * (1 - IsPositive(x) - IsPositive(-x)),
 }
-"""What is written by other functions."""
+"""Functions that are written by other ones."""

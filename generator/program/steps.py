@@ -1,4 +1,4 @@
-"""Steps of a program, the guards among them, and which steps a result depends on."""
+"""Steps of a program, the guards among them, and the steps that a result depends on."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ class Step:
 
 @dataclass(frozen=True)
 class Guard:
-    """A quantity that must be over a floor, its unit, and what it means when it is not.
+    """A quantity that must exceed a floor, its unit, and the cause of a value below it.
 
-    The floor is a constant, or a number; see `conditioning`.
+    The floor is a constant, or a number; see `floors`.
     """
 
     quantity: sp.Symbol
@@ -38,34 +38,18 @@ class Guard:
 
     @property
     def margin(self) -> sp.Expr:
-        """How far the quantity is over its floor: positive where the model is valid."""
+        """The quantity less its floor: positive where the model is valid."""
         return self.quantity - self.floor
 
 
 def first_free(name: str, taken: Callable[[str], bool]) -> sp.Symbol:
-    """Return the symbol of a name, with a number behind it if the name is taken.
-
-    Parameters
-    ----------
-    name
-        The name.
-    taken
-        Returns whether a name is taken.
-    """
+    """Return the symbol of a name, with a number added if `taken` returns that it is taken."""
     names = chain([name], (f"{name}_{i}" for i in count(2)))
     return sp.Symbol(next(n for n in names if not taken(n)))
 
 
 def ancestors(steps: Mapping[sp.Symbol, Step], expressions: Iterable[sp.Expr]) -> set[sp.Symbol]:
-    """Return the steps that some expressions depend on.
-
-    Parameters
-    ----------
-    steps
-        By their symbols.
-    expressions
-        In these symbols.
-    """
+    """Return the symbols of the steps that some expressions depend on."""
     waiting = [s for e in expressions for s in symbols_of(e) if s in steps]
     found: set[sp.Symbol] = set()
     while waiting:

@@ -1,4 +1,4 @@
-"""Which symbols an expression has."""
+"""The symbols of expressions."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ if TYPE_CHECKING:
 
 @cacheit  # type: ignore[untyped-decorator]  # SymPy has no types
 def symbols_of(expression: sp.Expr) -> frozenset[sp.Symbol]:
-    """Return the symbols of an expression, those of each of its parts collected once.
+    """Return the symbols of an expression; those of each of its parts are collected once.
 
     A derivation asks some hundred times as often as there are expressions; SymPy's own
-    ``free_symbols`` goes through the expression anew each time.
+    ``free_symbols`` traverses the expression each time.
     """
     if expression.is_Symbol:
         return frozenset((expression,))

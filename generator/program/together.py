@@ -1,7 +1,7 @@
-"""Functions with one program: what several of them have in common is written in one way.
+"""Functions with one program, in which equal quantities are written in one way.
 
-Each function alone would name what is common within it, and put sums and products together
-accordingly: the same quantity then had other last bits in other functions.
+Each function alone would share its own common subexpressions and group sums and products by them:
+the last bits of a quantity would then depend on the function.
 """
 
 from __future__ import annotations
@@ -28,13 +28,13 @@ def share_together(
     order: Iterable[sp.Symbol],
     has: Callable[[str], bool],
 ) -> tuple[list[Function], list[str]]:
-    """Name the common subexpressions of functions, in all of them alike.
+    """Share the common subexpressions of functions, in all of them alike.
 
     Parameters
     ----------
     variants
-        Pruned functions: those of one program, and those of variants of it, in which steps of the
-        same name may differ. What ends the names of these comes first, none for the program itself.
+        Pruned functions of one program, and of variants of it in which steps of the same name may
+        differ, by the ends of the names of these steps; the end is empty for the program itself.
     order
         Of the steps of the program.
     has
@@ -43,7 +43,7 @@ def share_together(
     Returns
     -------
     functions
-        One behind the other.
+        Those of all variants, concatenated.
     order
         Names of the steps of all of them, in the order of the program.
     """
@@ -57,22 +57,15 @@ def share_together(
     steps, results = take_out_signs(steps, results, guarded.union(results), has)
     functions, start = [], 0
     for function in pruned:
-        own, values = drop_dead(steps, results[start : start + function.size])
+        values = results[start : start + function.size]
+        own = drop_dead(steps, values)
         functions.append(replace(function, steps=tuple(own), results=tuple(values)))
         start += function.size
     return functions, [step.symbol.name for step in steps]
 
 
 class _Joined:
-    """The steps of several functions, each once.
-
-    Parameters
-    ----------
-    order
-        Of the steps of the program that most of them are from.
-    has
-        Returns whether a name is that of a constant, a state or an input.
-    """
+    """The steps of several functions, each once, in the order of the program that most are from."""
 
     def __init__(self, order: Iterable[sp.Symbol], has: Callable[[str], bool]) -> None:
         self._has = has
@@ -100,7 +93,7 @@ class _Joined:
         return replace(function, results=results, guards=guards)
 
     def _named(self, symbol: sp.Symbol, expression: sp.Expr, ending: str) -> sp.Symbol:
-        """Return the symbol of a step: another one where other functions mean something else."""
+        """Return the symbol of a step: a new one where the name has another value elsewhere."""
 
         def is_another(name: str) -> bool:
             step = self._steps.get(sp.Symbol(name))

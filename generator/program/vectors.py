@@ -1,7 +1,8 @@
 """Vectors of three symbolic components.
 
-A `Vector` does not know the axes it is written in. By convention, positions are in the *work axes*
-(ground-fixed, see `kinematics.Kinematics`), and twists are in the axes of the body they belong to.
+A `Vector` does not contain the axes that its components refer to. By convention, positions are in
+the *work axes* (ground-fixed, see `kinematics.Kinematics`), and twists are in the axes of the body
+they belong to.
 """
 
 from __future__ import annotations
@@ -25,13 +26,7 @@ class Vector:
 
     @classmethod
     def of(cls, x: Any, y: Any, z: Any) -> Vector:
-        """Build a vector from numbers or expressions.
-
-        Parameters
-        ----------
-        x, y, z
-            The components.
-        """
+        """Return a vector of numbers or expressions."""
         return cls(sp.sympify(x), sp.sympify(y), sp.sympify(z))
 
     def __iter__(self) -> Iterator[sp.Expr]:
@@ -78,7 +73,7 @@ class Twist:
     """Angular velocity and velocity of the body's origin, both in body axes.
 
     The same pair also holds accelerations: angular acceleration and the *inertial* acceleration of
-    the origin, again written in body axes.
+    the origin, also in body axes.
     """
 
     angular: Vector
@@ -125,13 +120,7 @@ class SymmetricTensor:
 
     @classmethod
     def of_point_mass(cls, mass: sp.Expr, at: Vector) -> SymmetricTensor:
-        """Return ``mass (|at|^2 1 - at at^T)``, the inertia of a point mass about the origin.
-
-        Parameters
-        ----------
-        mass, at
-            The mass [kg], and where it is from the origin.
-        """
+        """Return ``mass (|at|^2 1 - at at^T)``, the inertia of a point mass about the origin."""
         x, y, z = at
         return cls(
             mass * (y * y + z * z),
@@ -156,13 +145,7 @@ class SymmetricTensor:
 
     @classmethod
     def transverse(cls, moment: sp.Expr, axis: Vector) -> SymmetricTensor:
-        """Return ``moment (1 - axis axis^T)`` for a unit axis.
-
-        Parameters
-        ----------
-        moment, axis
-            Across the axis, and the axis.
-        """
+        """Return ``moment (1 - axis axis^T)`` for a unit axis."""
         return cls.of_point_mass(moment, axis)
 
     def __iter__(self) -> Iterator[sp.Expr]:
@@ -176,7 +159,7 @@ class SymmetricTensor:
 
     @property
     def columns(self) -> tuple[Vector, Vector, Vector]:
-        """Its columns, which are its rows."""
+        """Its columns, which are also its rows."""
         return (
             Vector(self.xx, self.xy, self.xz),
             Vector(self.xy, self.yy, self.yz),
@@ -185,7 +168,7 @@ class SymmetricTensor:
 
     @property
     def opposite(self) -> SymmetricTensor:
-        """The trace less the tensor: of second moments the inertia."""
+        """The trace less the tensor: the inertia, of second moments."""
         xx, yy, zz, xy, xz, yz = self
         return SymmetricTensor(yy + zz, xx + zz, xx + yy, -xy, -xz, -yz)
 

@@ -20,7 +20,11 @@ Program = tuple[list[Step], list[sp.Expr]]
 
 def without_signs(steps: dict[sp.Symbol, sp.Expr], *results: sp.Expr, has=()) -> Program:
     made = [Step(symbol, expression, "") for symbol, expression in steps.items()]
-    return drop_dead(*take_out_signs(made, results, {*results}, {*has}.__contains__))
+    return alive(*take_out_signs(made, results, {*results}, {*has}.__contains__))
+
+
+def alive(steps: list[Step], results: list[sp.Expr]) -> Program:
+    return drop_dead(steps, results), results
 
 
 def written(program: Program) -> dict[str, sp.Expr]:
@@ -83,8 +87,8 @@ def test_same_bits_and_no_more_operations(seed: int) -> None:
             continue
         symbols.append(sp.Symbol(f"step_{k}" if rng.random() < 0.7 else f"shared_{k}"))
         steps.append(Step(symbols[-1], value, ""))
-    before = drop_dead(steps, [symbols[-1] + symbols[-2], symbols[-3] * symbols[-1]])
-    after = drop_dead(*take_out_signs(*before, (), ().__contains__))
+    before = alive(steps, [symbols[-1] + symbols[-2], symbols[-3] * symbols[-1]])
+    after = alive(*take_out_signs(*before, (), ().__contains__))
     # small numbers, so that sums of thirty products neither overflow nor lose a term
     values = {name: rng.uniform(0.5, 1.5) for name in "abc"}
     assert evaluated(*after, values) == evaluated(*before, values)
