@@ -32,12 +32,12 @@ app = typer.Typer(help=__doc__, no_args_is_help=True, add_completion=False)
 console = Console(width=None if sys.stdout.isatty() else 110)
 
 
-# In the head of every file that is emitted; one without it is a user's own.
+# In the head of every emitted file; a file without it is a user's own.
 _MARK = "do not edit"
 
 
 def _write(target: Path, text: str) -> bool:
-    """Write a file unless it is the same already, so that nothing is compiled in vain."""
+    """Write a file unless its contents are the same already, so that it is not compiled again."""
     if target.exists():
         found = target.read_text(encoding="utf-8", errors="replace")
         if found == text:

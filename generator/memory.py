@@ -1,7 +1,7 @@
-"""How much SymPy remembers of its own results, which the garbage collector skips meanwhile.
+"""SymPy's memory of its own results, and pauses of the garbage collector.
 
 By default SymPy remembers the last thousand. A derivation comes back to far more of them, and takes
-half as long again without; what it keeps in all is some 100 MB. SymPy reads the number when it is
+half as long again without; all of them take some 100 MB. SymPy reads the number when it is
 imported, so that this comes first; where a program has imported SymPy before, its own choice stays.
 """
 
@@ -15,10 +15,10 @@ os.environ.setdefault("SYMPY_CACHE_SIZE", "None")
 
 @contextmanager
 def uncollected() -> Iterator[None]:
-    """Let Python's search for circles of objects rest.
+    """Suspend Python's search for cycles of objects.
 
-    It goes through all that SymPy remembers, over and over, and finds nothing to be freed: a sixth
-    of the time of a derivation, and of printing what came of it.
+    It traverses all results that SymPy remembers, over and over, and finds nothing to free: a sixth
+    of the time of a derivation, and of printing its results.
     """
     was_on = gc.isenabled()
     gc.disable()

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     Notify = Callable[[str], None]
 
 WORTH_REPORTING_S = 10.0
-"""What is over sooner needs no word about how long it takes."""
+"""Least duration of work whose remaining time is reported [s]."""
 
 
 def silent(text: str) -> None:
@@ -22,19 +22,19 @@ def silent(text: str) -> None:
 
 
 def counted(notify: Notify, what: str, items: Iterable[T]) -> Iterator[T]:
-    """Yield items one by one and report which of them it is.
+    """Yield items one by one and report their number.
 
-    Where all of them take more than `WORTH_REPORTING_S`, as far as those behind say, also how long
-    the rest takes.
+    The remaining time is reported too, if all items are expected to take more than
+    `WORTH_REPORTING_S`.
 
     Parameters
     ----------
     notify
         Called with each report.
     what
-        What is done to each, in a few words.
+        The work on each item, in a few words.
     items
-        What it is done to.
+        To be processed.
     """
     items, started = list(items), time.monotonic()
     for done, item in enumerate(items):

@@ -15,13 +15,13 @@ set: the slot is along the guide, for all positions or for none; `prepare` refus
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 from typing import TYPE_CHECKING, ClassVar
 
 import sympy as sp
 
 from ..declare.joints import Prismatic, Revolute
 from ..kinematics.extent import require
-from ..kinematics.motion import once
 from ..loops.forms import ClosedForm
 from ..program.floors import LENGTH
 from ..program.vectors import NO_TWIST, ZERO, Twist, Vector
@@ -160,8 +160,8 @@ class ScotchYoke(ClosedForm):
             return kin.define_bias(on_base.placed.body, carried + own)
 
         yoke, block = sliding
-        yoke.placed.bias = once(lambda: bias(yoke, 0))
-        block.placed.bias = once(lambda: bias(block, 1))
+        yoke.placed.bias = cache(lambda: bias(yoke, 0))
+        block.placed.bias = cache(lambda: bias(block, 1))
 
 
 @dataclass(frozen=True)

@@ -11,11 +11,12 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from functools import cache
 from typing import TYPE_CHECKING, ClassVar
 
 import sympy as sp
 
-from ..kinematics.motion import Axes, BodyMotion, PointMotion, from_axes, once, to_axes
+from ..kinematics.motion import Axes, BodyMotion, PointMotion, from_axes, to_axes
 from ..program.vectors import NO_TWIST, UNIT_X, ZERO, Twist, Vector
 from .constraints import STILL, Moving
 
@@ -452,7 +453,7 @@ def add_motion(
         found = solve(f"{placed.body}_{unsolved.unknown}_bias", residual_rates)
         return kin.define_bias(placed.body, unsolved.with_unknowns(rest, found))
 
-    placed.bias = once(bias)
+    placed.bias = cache(bias)
 
 
 # -- helpers --------------------------------------------------------------------------------------

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING
 
-from ..kinematics.motion import once
 from ..program.vectors import NO_TWIST, ZERO, Twist
 from .solved_motion import place_at, projector
 
@@ -38,4 +38,4 @@ def place_turned_alike(kin: Kinematics, body: str, like: BodyMotion, on: str, po
         linear = to_body("velocity_bias", moved.bias)
         return kin.define_bias(body, Twist(like.bias().angular, linear))
 
-    placed.bias = once(bias)
+    placed.bias = cache(bias)

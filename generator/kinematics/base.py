@@ -1,16 +1,15 @@
-r"""A body that moves freely in the world, as the base of what hangs on it.
+r"""A body that moves freely in the world, as the base of bodies that hang on it.
 
-What hangs on a free body is solved in the axes of that body, as on the ground, and no closed form
-knows that the body moves; `carried` adds what its motion does. With R its axes in the world,
-``(u, v, w)`` the velocity of its centre of mass O and ``(p, q, r)`` its angular velocity, both in
-its own axes:
+These are solved in the axes of the base, as on the ground, and no closed form depends on its
+motion; `carried` adds the motion of the base. With R its axes in the world, ``(u, v, w)`` the
+velocity of its centre of mass O and ``(p, q, r)`` its angular velocity, both in its own axes:
 
     r_O' = R (u, v, w),    e' = 1/2 e o (0, p, q, r) + k (1 - |e|^2) e.
 
-The unit quaternion e = (e0, e1, e2, e3), scalar first, turns the body from design. R is that of
-e / |e|, so that its columns are orthonormal for any norm, and the motion does not depend on
-the norm. The second term is along e: it moves the norm towards one, which the steps of an
-integration would carry away in the long run, and leaves the rotation as it is.
+The unit quaternion e = (e0, e1, e2, e3), scalar first, turns the body from design. R is that of e /
+|e|, so that its columns are orthonormal for any norm, and the motion does not depend on the norm.
+The second term is along e: it keeps the norm near one, against the drift of numerical integration,
+and does not change the rotation.
 """
 
 from __future__ import annotations
@@ -35,10 +34,9 @@ if TYPE_CHECKING:
     from ..program.program import Program
 
 KEEPS_NORM = sp.Integer(1)
-"""How fast the norm of the quaternion comes back to one: half of that rate [1/s].
+"""Half of the rate at which the norm of the quaternion returns to one [1/s].
 
-Slow beside any motion, so that no step is shorter for it, and fast beside what an integration does
-to the norm.
+Slow beside any motion, so that it shortens no step, and fast beside the drift by integration.
 """
 
 NONE = sp.Integer(0)
@@ -76,12 +74,12 @@ class Base(ABC):
     @property
     @abstractmethod
     def position(self) -> Vector:
-        """Where its centre of mass is, in the world."""
+        """Position of its centre of mass in the world."""
 
     @property
     @abstractmethod
     def velocity(self) -> Vector:
-        """That of its centre of mass, in its own axes."""
+        """Velocity of its centre of mass, in its own axes."""
 
     @property
     @abstractmethod
@@ -95,7 +93,7 @@ class Base(ABC):
 
     @property
     def coordinates(self) -> tuple[str, ...]:
-        """What moves it."""
+        """Names of the coordinates that move it."""
         return tuple(self.twists)
 
     @property
@@ -106,10 +104,10 @@ class Base(ABC):
     @property
     @abstractmethod
     def bias(self) -> Twist:
-        """How the twist changes, in its own axes, without accelerations of the coordinates."""
+        """Rate of its twist in its own axes, without accelerations of the coordinates."""
 
     def shares(self, wrench: Twist) -> dict[str, sp.Expr]:
-        """Return what a wrench about its centre of mass does along each coordinate."""
+        """Return the power of a wrench at its centre of mass per unit rate of each coordinate."""
         return {k: twist.dot(wrench) for k, twist in self.twists.items()}
 
     # -- world and base ---------------------------------------------------------------------------
@@ -123,7 +121,7 @@ class Base(ABC):
         return to_axes(self.axes, v)
 
     def place(self, at: Vector) -> Vector:
-        """Return where a point of the base is in the world, by its place at design."""
+        """Return the position in the world of a point, given by its design position."""
         place: Vector = self.position + self.to_world(at - self.center)
         return place
 
@@ -135,11 +133,11 @@ class FreeBase(Base):
     Attributes
     ----------
     joint
-        Whose second body it is.
+        Its free joint.
     axes
         Its axes.
     speed_of
-        From one of its coordinates to its speed.
+        Returns the speed of one of its coordinates.
     """
 
     program: Program
@@ -149,7 +147,7 @@ class FreeBase(Base):
 
     @classmethod
     def of(cls, program: Program, joint: Free, speed_of: Callable[[str], sp.Expr]) -> FreeBase:
-        """Append the axes of a body from its quaternion."""
+        """Append the axes of a body, from its quaternion."""
         body = joint.second.name
         program.section(f"{body}: free in the world")
         _, _, _, *names = (entry.name for entry in free_states(joint).positions)
@@ -206,19 +204,19 @@ class FreeBase(Base):
 
     @property
     def bias(self) -> Twist:
-        """None: its speeds are in its own axes."""
+        """Zero: its speeds are in its own axes."""
         return NO_TWIST
 
     @property
     def position(self) -> Vector:
-        """Where its centre of mass is, in the world."""
+        """Position of its centre of mass in the world."""
         x, y, z = self._positions[:3]
         place: Vector = self.center + Vector(x, y, z)
         return place
 
     @property
     def velocity(self) -> Vector:
-        """That of its centre of mass, in its own axes."""
+        """Velocity of its centre of mass, in its own axes."""
         return Vector(*list(self._speeds.values())[:3])
 
     @property
@@ -229,7 +227,7 @@ class FreeBase(Base):
     # -- positions and speeds ---------------------------------------------------------------------
 
     def directions(self) -> dict[str, dict[sp.Symbol, sp.Expr]]:
-        """Return the columns of N(q): how positions change per unit of each speed."""
+        """Return the columns of N(q): rates of the positions per unit of each speed."""
         x, y, z, e0, e1, e2, e3 = self._positions
         half = sp.Rational(1, 2)
         moved = ({x: a.x, y: a.y, z: a.z} for a in self.axes)
@@ -254,7 +252,7 @@ class FreeBase(Base):
         return found
 
     def reported(self, kind: str) -> sp.Expr:
-        """Return a coordinate of its joint as reports have it: a displacement or an angle."""
+        """Return a displacement or an angle of its joint, as reports have it."""
         (x, y, z, *_), (forward, left, up) = self._positions, self.axes
         return {
             "x": lambda: x,

@@ -1,7 +1,7 @@
-"""What a moving base carries: its motion in the world, from that on the base.
+"""Motion in the world of a body on a moving base, from its motion on the base.
 
-With v and omega those of the base at its centre of mass O, in its own axes, a point at r from
-O with the velocity r' relative to the body has
+With v and omega those of the base at its centre of mass O, in its own axes, a point at r from O
+with the velocity r' relative to the body has
 
     velocity      v + omega x r + r',
     acceleration  v' + omega' x r + omega x (v + omega x r) + 2 omega x r' + r''.
@@ -10,10 +10,11 @@ O with the velocity r' relative to the body has
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 from typing import TYPE_CHECKING
 
 from ..program.vectors import NO_TWIST, ZERO, Twist, Vector
-from .motion import from_axes, once, to_axes
+from .motion import from_axes, to_axes
 
 if TYPE_CHECKING:
     from .base import Base
@@ -27,9 +28,9 @@ class Carried:
     Attributes
     ----------
     base
-        What carries it.
+        The moving base.
     part, relative
-        The bodies that it is solved with, and its motion on the base.
+        The kinematics that it is part of, and its motion on the base.
     axes
         Those of the body, in the axes of the base.
     arm
@@ -51,13 +52,13 @@ class Carried:
         self.motion = replace(
             placed,
             motion={**placed.motion, **self._columns()},
-            bias=once(self._bias),
-            total=once(self._total),
+            bias=cache(self._bias),
+            total=cache(self._total),
             carrier=self._carrier(),
         )
 
     def _from_center(self, work: Vector) -> Vector:
-        """Return the way from the centre of mass of the base to a place in work axes."""
+        """Return the vector from the centre of mass of the base to a position in work axes."""
         place: Vector = self.part.to_ground(work) + self.part.work_origin - self.base.center
         return place
 
@@ -67,7 +68,7 @@ class Carried:
             self._program.vector(f"{self.relative.body}_lever_{i}", self.arm.cross(axis))
             for i, axis in enumerate(self.axes, 1)
         ]
-        # what turns the base moves a point by omega x r, whose part along an axis is omega . r x a
+        # a turn of the base moves a point by omega x r, with omega . r x a along an axis a
         return {
             k: Twist(
                 to_axes(self.axes, twist.angular),
@@ -84,10 +85,8 @@ class Carried:
     def of_origin(self, k: str | None) -> Vector:
         """Return the velocity of the origin on the base, in the axes of the base.
 
-        Parameters
-        ----------
-        k
-            Per unit rate of a coordinate; None: at the rates at which biases are computed.
+        It is that per unit rate of a coordinate; for None, at the rates at which biases are
+        computed.
         """
         placed, part = self.relative, self.part
         if placed.at is None:
@@ -106,7 +105,7 @@ class Carried:
         return self.part.to_ground(placed.at.bias)
 
     def _carrier(self) -> tuple[str, Vector] | None:
-        """Return the neighbour that shares the origin; of a point of the base, its own axes."""
+        """Return the neighbour that shares the origin, with its own coordinates of that point."""
         carrier = self.relative.carrier
         if carrier is None or carrier[0] != self.base.body:
             return carrier
@@ -117,7 +116,7 @@ class Carried:
         return self._program.vector(f"{self.relative.body}_carried_omega", omega, "123")
 
     def _velocity(self) -> Vector:
-        """Return the velocity that the base has at the origin of the body, in its own axes."""
+        """Return the velocity of the base at the origin of the body, in its own axes."""
         velocity = self.base.velocity + self.base.omega.cross(self.arm)
         return self._program.vector(f"{self.relative.body}_carried_velocity", velocity)
 

@@ -17,28 +17,15 @@ if TYPE_CHECKING:
 
 
 def reported(mechanism: Mechanism, joint: str, kind: str) -> str | None:
-    """Return the first name under which a joint's coordinate is reported.
-
-    Parameters
-    ----------
-    mechanism
-        Whose report it is.
-    joint, kind
-        Name of the joint, and which of its coordinates.
-    """
+    """Return the first name under which a kind of coordinate of a joint is reported."""
     entries = mechanism.coordinates
     return next((c.name for c in entries if (c.joint.name, c.kind) == (joint, kind)), None)
 
 
 def chain_to(mechanism: Mechanism, body: str) -> list[Joint] | None:
-    """Return the joints from the ground to a body, as few as can be; None if none lead there.
+    """Return the fewest joints from the ground to a body, or None.
 
-    None leads to what moves freely in the world, or hangs on it.
-
-    Parameters
-    ----------
-    mechanism, body
-        Whose joints, and which body.
+    There are none to a body that moves freely in the world, or that hangs on such a body.
     """
     graph = nx.DiGraph()
     for joint in mechanism.joints:
@@ -54,12 +41,6 @@ def chain_to(mechanism: Mechanism, body: str) -> list[Joint] | None:
 
 
 def before_telescope(chain: Sequence[Joint], joint: Joint) -> bool:
-    """Return whether a telescope is next behind a joint of a chain.
-
-    Parameters
-    ----------
-    chain, joint
-        The joints from the ground on, and one of them.
-    """
+    """Return whether the joint behind one of a chain is a telescope."""
     behind = chain[chain.index(joint) + 1 :]
     return bool(behind) and isinstance(behind[0], Cylindrical)

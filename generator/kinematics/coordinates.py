@@ -1,4 +1,4 @@
-"""The driven coordinates of a model: which there are, how fast they are, what each moves."""
+"""The driven coordinates of a model: names, rates, and the bodies that each moves."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Coordinates:
     Parameters
     ----------
     formulation
-        Whose coordinates they are.
+        The model.
     held
         Prescribed joints that do not move in this variant.
 
@@ -35,8 +35,8 @@ class Coordinates:
     states
         The layout of the state.
     symbols
-        The symbol of each coordinate by its name: a reported name, or that of a motion. That of a
-        free body, which has none but speeds, is its speed.
+        The symbol of each coordinate by its name: a reported name, or that of a motion; of a free
+        body, which has no coordinates, the speeds.
     moving
         The names of those that move.
     independent
@@ -48,11 +48,10 @@ class Coordinates:
 
     Notes
     -----
-    *Unit rate.* Bodies that hang together without the ground or a base that moves, and that a
-    single coordinate moves there (rotors apart), have their biases computed for a unit rate of that
-    coordinate; they are scaled by the square of the true rate at the very end. `rate_scale` is the
-    true rate for such a coordinate, and one for all others, whose biases are computed at the true
-    rates.
+    *Unit rate.* The biases of connected bodies, apart from ground and moving bases, that a single
+    coordinate moves (rotors apart) are computed for a unit rate of that coordinate, and scaled by
+    the square of the true rate at the very end. `rate_scale` is the true rate for such a
+    coordinate, and one for all others, whose biases are computed at the true rates.
     """
 
     def __init__(self, formulation: Formulation, held: Iterable[str] = ()) -> None:
@@ -66,27 +65,29 @@ class Coordinates:
         self.driven = formulation.driven
         self.given = formulation.given
         self._given_names = frozenset(joint.name for joint in self.given)
-        self.symbols = {k: sp.Symbol(self._symbol(k)) for j in self.driven for k in self.all_of(j)}
+        names = [k for joint in self.driven for k in self.all_of(joint)]
+        inputs = {name: motion.inputs[0].name for name, motion in self._motions.items()}
+        self.symbols = {k: sp.Symbol(inputs.get(k, k)) for k in names}
         self.moving = [k for j in self.driven if j.name not in self._held for k in self.all_of(j)]
         self.independent = list(self.states.coordinates)
         self.eliminated = list(self.states.eliminated_coordinates)
         self.solved: dict[str, sp.Expr] = {}
 
     def of(self, joint: Joint) -> str:
-        """Return the name of the coordinate that moves a driven joint, or what follows it."""
+        """Return the name of the coordinate that moves a driven joint, or one that follows it."""
         joint = joint.first_followed
         if joint.name in self._motion_of:
             return self._motion_of[joint.name]
         return next(c.name for c in self._mechanism.coordinates if c.joint.name == joint.name)
 
     def all_of(self, joint: Joint) -> tuple[str, ...]:
-        """Return the names of all coordinates of a driven joint, of which a free one has six."""
+        """Return the names of all coordinates of a driven joint; a free one has six."""
         if joint in self.formulation.independent:
             return self.states.part_of(joint).coordinates
         return (self.of(joint),)
 
     def ratio(self, joint: Joint) -> sp.Expr:
-        """Return by how much a joint moves for one unit of the coordinate that moves it."""
+        """Return the displacement of a joint per unit of the coordinate that moves it."""
         if joint.gear is None:
             return sp.Integer(1)
         return joint.gear.ratio.symbol * self.ratio(joint.gear.joint)
@@ -99,9 +100,6 @@ class Coordinates:
         """Return whether a given joint moves in this variant."""
         return self.of(joint) in self.moving
 
-    def _symbol(self, name: str) -> str:
-        return self._motions[name].inputs[0].name if name in self._motions else name
-
     # -- rates ------------------------------------------------------------------------------------
 
     @property
@@ -110,7 +108,7 @@ class Coordinates:
         return list(self._speeds)
 
     def true_rate(self, coordinate: str) -> sp.Expr:
-        """Return the rate of a coordinate: a symbol, but where constraints give it."""
+        """Return the rate of a coordinate: a symbol, unless constraints give it."""
         if coordinate in self.solved:
             return self.solved[coordinate]
         motion = self._motions.get(coordinate)
@@ -121,12 +119,12 @@ class Coordinates:
         return sp.Integer(1) if coordinate in self.single_coordinate else self.true_rate(coordinate)
 
     def rate_scale(self, coordinate: str) -> sp.Expr:
-        """Return by whose square the biases of what a coordinate moves are to be scaled."""
+        """Return the factor whose square scales the biases of bodies that a coordinate moves."""
         return self.true_rate(coordinate) if coordinate in self.single_coordinate else sp.Integer(1)
 
     def rate_scale_of(self, placed: BodyMotion) -> sp.Expr:
-        """Return by whose square the bias of a body is to be scaled."""
-        if placed.total is not None:  # what a base carries has that of the true rates
+        """Return the factor whose square scales the bias of a body."""
+        if placed.total is not None:  # on a moving base, its bias is that of the true rates
             return sp.Integer(1)
         single = [k for k in placed.motion if k in self.single_coordinate]
         return self.rate_scale(single[0]) if single else sp.Integer(1)
@@ -140,7 +138,7 @@ class Coordinates:
         return self.ratio(joint) * self.acceleration(self.of(joint))
 
     def acceleration(self, coordinate: str) -> sp.Expr:
-        """Return the part of a coordinate's acceleration that is given: that of an input."""
+        """Return the given part of a coordinate's acceleration: that of an input."""
         if coordinate in self._motions and coordinate in self.moving:
             return sp.Symbol(self._motions[coordinate].rates[1])
         return sp.Integer(0)
@@ -151,7 +149,7 @@ class Coordinates:
     def rotors(self) -> dict[str, Body]:
         """The bodies of revolution at the end of a chain, by their independent spin coordinate.
 
-        What others follow through gears moves more than itself, and is none of them.
+        A body whose hinge others follow through gears is not one of them.
         """
         rotors = {}
         followed = [joint.first_followed for joint in self._mechanism.geared]
@@ -164,9 +162,10 @@ class Coordinates:
 
     @cached_property
     def single_coordinate(self) -> frozenset[str]:
-        """The independent coordinates that alone move bodies that hang together.
+        """The independent coordinates that alone move connected bodies.
 
-        On a base that moves they do so on the base: what the base does is added at the true rates.
+        On a moving base, they do so relative to the base; its own motion is added at the true
+        rates.
         """
         pacing = list(self._pacing())
         together = {k for several in pacing if len(several) > 1 for k in several}
@@ -174,7 +173,7 @@ class Coordinates:
         return frozenset(alone.intersection(self.independent))
 
     def _pacing(self) -> Iterator[set[str]]:
-        """Yield the coordinates that move bodies which hang together."""
+        """Yield sets of coordinates that move connected bodies."""
         graph = nx.Graph([joint.bodies for joint in self._mechanism.joints])
         drives = [
             (j.second.name, k)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class Spanning(Protocol):
-    """What has points: a step of a plan, or a leg."""
+    """A step of a plan, or a leg, with points."""
 
     @property
     def points(self) -> tuple[Point, ...]:
@@ -26,12 +26,7 @@ class Spanning(Protocol):
 def extent_squared(kin: Kinematics, step: Spanning) -> sp.Expr:
     """Append the square of the extent of the loop that a step closes, a constant [m^2].
 
-    Of a step that closes none, it is that of all joints.
-
-    Parameters
-    ----------
-    kin, step
-        The kinematics so far, and the step.
+    It is that of all joints for a step that closes no loop.
     """
     loop = kin.closed_by(step)
     joints = loop.joints if loop else kin.mechanism.joints
@@ -62,9 +57,9 @@ def require(
     name, quantity
         The constant.
     least, unit
-        What its size must be over, and their unit.
+        Lower bound of its absolute value, and their unit.
     meaning, remedy
-        What it means that it is not, and what to do then.
+        Cause of a smaller value, and its remedy, for the message.
     """
     program = kin.program
     value = program.define(name, quantity)

@@ -1,4 +1,4 @@
-"""Slides of guides, and how fast they change, from the poses of two placed bodies."""
+"""Slides of guides and their rates, from the poses of two placed bodies."""
 
 from __future__ import annotations
 
@@ -14,13 +14,7 @@ if TYPE_CHECKING:
 
 
 def slide_of(kin: Kinematics, joint: Prismatic) -> sp.Expr:
-    """Return the slide of a guide [m]: given or solved.
-
-    Parameters
-    ----------
-    kin, joint
-        The kinematics so far, and the guide.
-    """
+    """Return the slide of a guide [m]: given or solved."""
     if kin.coordinates.is_given(joint):
         return kin.given(joint)
     return kin.program.define(f"slide_{joint.name}", kin.slides[joint.name])
@@ -30,12 +24,7 @@ def sliding_rates(kin: Kinematics, joint: Prismatic) -> dict[str, sp.Expr]:
     """Return the rate of a guide's slide per unit rate of each coordinate that changes it.
 
     The guide's direction d turns with the first body, and both bodies turn alike: ``d . v`` of the
-    second body's origin, less that of what the first has there.
-
-    Parameters
-    ----------
-    kin, joint
-        The kinematics so far, and the guide.
+    second body's origin, less that of the first body at the same point.
     """
     if kin.coordinates.is_given(joint):
         own = kin.coordinates.of(joint), kin.coordinates.ratio(joint)

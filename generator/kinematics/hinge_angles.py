@@ -1,4 +1,4 @@
-"""Angles of hinges: from which direction they count, and from the poses of two placed bodies."""
+"""Angles of hinges: their reference, and their values from the poses of two placed bodies."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ class HingeDesign:
     axis
         Unit vector, in the sense in which the angle is positive.
     zero, mark
-        Unit vectors across it, between which the angle is: on the first body and on the second.
+        Unit vectors across it that include the angle: on the first body and on the second.
     along, radius
-        Where the point is, from the point of the hinge: along the axis, and across it.
+        Position of the point relative to that of the hinge: along the axis, and across it.
     """
 
     axis: Vector
@@ -41,13 +41,7 @@ class HingeDesign:
 
     @classmethod
     def of(cls, kin: Kinematics, joint: Revolute) -> HingeDesign:
-        """Describe a hinge that has an ``angle_to``.
-
-        Parameters
-        ----------
-        kin, joint
-            The kinematics so far, and the hinge.
-        """
+        """Return the design of a hinge that has an ``angle_to``."""
         assert joint.angle_to is not None
         program, name = kin.program, joint.name
         n = axis_at_design(kin, joint)
@@ -64,47 +58,23 @@ class HingeDesign:
         return cls(axis, zero, mark, along, radius)
 
     def angle(self, program: Program, name: str) -> sp.Expr:
-        """Append the angle [rad], from 0 to pi.
-
-        Parameters
-        ----------
-        program, name
-            Receives the step, and what begins its name.
-        """
+        """Append the angle [rad], from 0 to pi; the name begins that of the step."""
         sine, cosine = self.axis.dot(self.zero.cross(self.mark)), self.zero.dot(self.mark)
         return program.define(f"{name}_angle_design", sp.atan2(sine, cosine))
 
 
 def axis_at_design(kin: Kinematics, joint: Revolute) -> Vector:
-    """Return the unit vector along a hinge as declared, at design, in work axes.
-
-    Parameters
-    ----------
-    kin, joint
-        The kinematics so far, and the hinge.
-    """
+    """Return the unit vector along a hinge as declared, at design, in work axes."""
     return kin.unit(f"{joint.name}_axis_design", kin.to_work(joint.axis.vector))
 
 
 def positive_axis_at_design(kin: Kinematics, joint: Revolute) -> Vector:
-    """Return the unit vector about which the angle of a hinge is positive, at design.
-
-    Parameters
-    ----------
-    kin, joint
-        The kinematics so far, and the hinge.
-    """
+    """Return the unit vector about which the angle of a hinge is positive, at design."""
     return axis_at_design(kin, joint) if joint.angle_to is None else HingeDesign.of(kin, joint).axis
 
 
 def angle_of(kin: Kinematics, joint: Revolute) -> sp.Expr:
-    """Return the angle of a hinge [rad]: given, solved, or from the poses of its two bodies.
-
-    Parameters
-    ----------
-    kin, joint
-        The kinematics so far, and the hinge.
-    """
+    """Return the angle of a hinge [rad]: given, solved, or from the poses of its two bodies."""
     if kin.coordinates.is_given(joint):
         return kin.given(joint)
     if joint.name in kin.angles and joint.angle_to is None:
@@ -117,11 +87,6 @@ def turning_rates(kin: Kinematics, joint: Revolute) -> dict[str, sp.Expr]:
     """Return the rate of a hinge's angle per unit rate of each coordinate that turns it.
 
     The axis is fixed in both bodies: ``n . omega`` of the second less that of the first.
-
-    Parameters
-    ----------
-    kin, joint
-        The kinematics so far, and the hinge.
     """
     rates: dict[str, sp.Expr] = {}
     for sense, name in ((1, joint.second.name), (-1, joint.first.name)):
@@ -134,29 +99,24 @@ def turning_rates(kin: Kinematics, joint: Revolute) -> dict[str, sp.Expr]:
 
 
 def is_first_axis(kin: Kinematics, joint: Revolute) -> bool:
-    """Return whether a hinge placed its second body, so that it is the first of the body's axes.
-
-    Parameters
-    ----------
-    kin, joint
-        The kinematics so far, and the hinge.
-    """
+    """Return whether a hinge is the first of its second body's axes, which it placed."""
     return kin.placed[joint.second.name].hinge == joint.name
 
 
 @dataclass(frozen=True)
 class DrivenCoordinate:
-    """A driven coordinate, on the way from the design position.
+    """A driven coordinate, along the path from the design position.
 
     Attributes
     ----------
     symbol, start
-        Where it is, and where it is at design.
+        Its value, and that at design.
     turns
-        Whether it is an angle alone. A turn of one that others follow through gears leads nowhere
-        back to.
+        Whether it is an angle alone, of which a full turn changes nothing: not so where others
+        follow it through gears.
     moves
-        What goes with it, itself first: by how much for one unit of it, and whether that slides.
+        The joints that it moves, its own first: displacement per unit of it, and whether they
+        slide.
     """
 
     symbol: sp.Symbol
@@ -165,9 +125,9 @@ class DrivenCoordinate:
     moves: tuple[tuple[sp.Expr, bool], ...]
 
     def unit(self, size: sp.Expr) -> sp.Expr:
-        """Return what of it is as much as a radian, given what of a slide is.
+        """Return the change of it that counts like a radian, for that size of a slide.
 
-        Of a wheel that turns several times as fast, it is as much less.
+        For a wheel that a gear turns several times as fast, it is smaller by that ratio.
         """
         (_, slides), *others = self.moves
         if not others:
@@ -177,8 +137,8 @@ class DrivenCoordinate:
 
 
 def driven_coordinates(kin: Kinematics) -> Iterator[DrivenCoordinate]:
-    """Yield each driven coordinate that moves something of a part."""
-    # loops on a body that moves freely close in its axes, and do not depend on where it is
+    """Yield each driven coordinate that moves a body of a part."""
+    # loops on a body that moves freely close in its axes, and do not depend on its position
     given = (j for j in kin.coordinates.given if not isinstance(j, Free))
     inside = [j for j in given if j.second.name in kin.bodies]
     for joint in dict.fromkeys(j.first_followed for j in inside):
@@ -207,12 +167,7 @@ def turn_between(kin: Kinematics, joint: Revolute) -> tuple[sp.Expr, sp.Expr]:
 
     With ``angle_to``, from the two directions that the angle is declared between. Without, it is
     the turn from the design position: with a the axes of the second body as the first carries them
-    on from there, and b as they are, ``2 sin = n . sum(a x b)`` and ``1 + 2 cos = sum(a . b)``.
-
-    Parameters
-    ----------
-    kin, joint
-        The kinematics so far, and the hinge.
+    from there, and b their present ones, ``2 sin = n . sum(a x b)`` and ``1 + 2 cos = sum(a . b)``.
     """
     first, second = kin.placed[joint.first.name], kin.placed[joint.second.name]
     n = _carried(kin, first, f"{joint.name}_axis", positive_axis_at_design(kin, joint))
@@ -231,6 +186,6 @@ def turn_between(kin: Kinematics, joint: Revolute) -> tuple[sp.Expr, sp.Expr]:
 
 
 def _carried(kin: Kinematics, placed: BodyMotion, name: str, design: Vector) -> Vector:
-    """Return where a body has carried a direction from the design position."""
+    """Return a direction that a body has carried from the design position."""
     local = kin.program.vector(f"{name}_on_{placed.body}", to_axes(placed.design_axes, design))
     return from_axes(placed.axes, local)

@@ -1,4 +1,4 @@
-"""Which body of a mechanism is a base at the end of joints (`jointed_base`)."""
+"""The body of a mechanism that is a base at the end of joints (`jointed_base`)."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ if TYPE_CHECKING:
 
 
 def jointed_base(formulation: Formulation) -> tuple[list[str], str] | None:
-    """Return the body that carries all others, with those that lead to it; None without one.
+    """Return the links to the body that carries all others, and that body; None without one.
 
-    The way from the ground is along independent hinges and guides, each body of it but the last
-    has no other joints and no mass, and what hangs on the last one closes loops with it. Nothing
-    follows others through gears.
+    The path from the ground is along independent hinges and guides; each body on it but the last
+    has no other joints and no mass, and bodies that hang on the last one close loops with it. No
+    joint follows others through gears.
     """
     mechanism = formulation.mechanism
     if mechanism.geared or formulation.states.free:
@@ -41,7 +41,7 @@ def jointed_base(formulation: Formulation) -> tuple[list[str], str] | None:
 
 
 def _closes_loops(mechanism: Mechanism, base: str, before: set[str]) -> bool:
-    """Return whether some of what hangs on a base is joined to it twice."""
+    """Return whether bodies that hang on a base are joined to it twice."""
     graph = nx.Graph([joint.bodies for joint in mechanism.joints])
     graph.remove_nodes_from({base, *before})
     ends = [

@@ -1,7 +1,7 @@
-"""A body that joints lead to from the ground, one after the other, as a base of what hangs on it.
+"""A body that joints lead to from the ground, one behind the other, as a base of other bodies.
 
-The body of a car is one, on a guide and two hinges: it heaves, pitches and rolls. What hangs on it
-is solved in its axes, as on the ground; the coordinates of the joints are those of the state.
+The body of a car is one, on a guide and two hinges: it heaves, pitches and rolls. The bodies that
+hang on it are solved in its axes, as on the ground; the coordinates of the joints are states.
 """
 
 from __future__ import annotations
@@ -79,7 +79,7 @@ class JointedBase(Base):
 
     @cached_property
     def position(self) -> Vector:
-        """Where its centre of mass is, in the world."""
+        """Position of its centre of mass in the world."""
         return self.root.place_in_world(self.root.position(self._placed, self.com))
 
     @cached_property
@@ -106,7 +106,7 @@ class JointedBase(Base):
 
     @property
     def velocity(self) -> Vector:
-        """That of its centre of mass."""
+        """Velocity of its centre of mass."""
         return self._total.linear
 
     @property
@@ -116,7 +116,7 @@ class JointedBase(Base):
 
     @cached_property
     def bias(self) -> Twist:
-        """How the twist changes: the acceleration less that of axes which turn."""
+        """Rate of its twist in its own, turning axes."""
         acceleration = self._own(self.root.point_bias(self._placed, self._local))
         change = acceleration - self.omega.cross(self.velocity)
         return Twist(
@@ -126,6 +126,6 @@ class JointedBase(Base):
 
 
 def _turned(root: Kinematics, placed: BodyMotion, v: Vector) -> Vector:
-    """Return where a body has carried a direction of the ground."""
+    """Return a direction of the ground that a body has carried from design."""
     now = from_axes(placed.axes, to_axes(placed.design_axes, root.to_work(v)))
     return root.to_ground(now)

@@ -51,29 +51,29 @@ class Kinematics:
     program
         Receives the steps.
     coordinates
-        Those of the model whose bodies they are.
+        Those of the model.
     loops
         The loop that a step closes, by the step.
     bodies
-        Those to place, with the ground: all, or a part that can be solved by itself.
+        Those to place, with the ground: all, or a part that can be solved alone.
     origin
-        A point of the base at which positions are best counted; None: the origin of its axes.
+        The point of the base that is the origin of positions; None: the origin of its axes.
     free
         The moving body on which those bodies hang; None: they hang on the ground.
 
     Notes
     -----
-    *Records.* `spans` and `turned` say which telescopes and rods placed a body, `meetings` what a
-    hinge or guide was solved for, by the joint: the residuals are derived from them.
+    *Records.* `spans` and `turned` list the telescopes and rods that placed a body, `meetings` the
+    points for which a hinge or guide was solved, by the joint: residuals are derived from them.
 
-    *Base.* What the bodies hang on, ground or moving body, is at rest here: motion is relative to
-    it, and ground axes are those of the base at design. `Base` says what its own motion adds, and
-    `in_world`, `from_world` and `place_in_world` lead from here to the world.
+    *Base.* The ground or moving body on which the bodies hang is at rest here: motion is relative
+    to it, and ground axes are those of the base at design. `Base` adds its own motion; `in_world`,
+    `from_world` and `place_in_world` transform to and from the world.
 
     *Work axes.* The base-fixed axes in which positions are computed are chosen so that most
     components vanish: x along the hinge of the first revolute joint on the ground, z upward, origin
-    at the point of the base at the first transformer. On a base that moves they are its own axes,
-    in which all that hangs on it is summed up.
+    at the point of the base at the first transformer. On a moving base they are its own axes,
+    in which the contributions of all bodies on it are summed.
     """
 
     def __init__(
@@ -141,7 +141,7 @@ class Kinematics:
         return self.program.vector("work_x", axis * sign), z
 
     def closed_by(self, step: object) -> Loop | None:
-        """Return the loop that a step closes; none where it closes none."""
+        """Return the loop that a step closes; None where it closes none."""
         return self._loops.get(step)
 
     def loop_of(self, step: object) -> str:
@@ -149,13 +149,7 @@ class Kinematics:
         return f"the loop {' - '.join(self._loops[step].bodies)}"
 
     def unit(self, name: str, vector: Vector) -> Vector:
-        """Append the unit vector along a constant vector.
-
-        Parameters
-        ----------
-        name, vector
-            What begins the names of the steps, and the vector.
-        """
+        """Append the unit vector along a constant vector; its name begins those of the steps."""
         v = self.program.vector(f"{name}_vector", vector)
         length = self.program.define(f"{name}_norm", sp.sqrt(v.dot(v)))
         return self.program.vector(name, v * (1 / length))
@@ -164,11 +158,6 @@ class Kinematics:
         """Append two unit vectors across a constant one, without a case for any direction.
 
         Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6(1), 2017.
-
-        Parameters
-        ----------
-        name, n
-            What begins the names of the steps, and the unit vector.
         """
         s = self.program.define(f"{name}_half_space", SignOf(n.z))
         a = self.program.define(f"{name}_slope", -1 / (s + n.z))
@@ -212,7 +201,7 @@ class Kinematics:
 
     @property
     def height_of_origin(self) -> sp.Expr:
-        """How high the origin of the work axes is in the world."""
+        """Height of the origin of the work axes in the world [m]."""
         return self.work_origin.z if self.free is None else self.free.place(self.work_origin).z
 
     def design_direction(self, direction: Direction) -> Vector:
@@ -227,13 +216,7 @@ class Kinematics:
         return self.program.vector(f"work_{direction.name}", self.to_work(vector))
 
     def local(self, placed: BodyMotion, point: Point) -> Vector:
-        """Return the constant body coordinates of a point.
-
-        Parameters
-        ----------
-        placed, point
-            The body, and the point by its place at the design position.
-        """
+        """Return the constant coordinates of a point in body axes."""
         if point not in placed.local:
             arm = self.program.vector(
                 f"{placed.body}_arm_{point.name}", self.design(point) - placed.design_origin
@@ -244,13 +227,7 @@ class Kinematics:
         return placed.local[point]
 
     def local_direction(self, placed: BodyMotion, direction: Direction) -> Vector:
-        """Return the constant body components of a direction fixed in a body.
-
-        Parameters
-        ----------
-        placed, direction
-            The body, and the direction at the design position.
-        """
+        """Return the constant components in body axes of a direction fixed in a body."""
         return self.program.vector(
             f"{placed.body}_{direction.name}",
             to_axes(placed.design_axes, self.design_direction(direction)),
@@ -270,18 +247,12 @@ class Kinematics:
         )
 
     def position(self, placed: BodyMotion, point: Point) -> Vector:
-        """Return where a point of a placed body is, in work axes.
-
-        Parameters
-        ----------
-        placed, point
-            The body, and the point by its place at the design position.
-        """
+        """Return the position of a point of a placed body, in work axes."""
         offset = from_axes(placed.axes, self.local(placed, point))
         return self.program.vector(f"at_{self._label(placed.body, point)}", placed.origin + offset)
 
     def _label(self, body: str, point: Point) -> str:
-        """Return a name for a point's motion; the first body that carries it needs none in it."""
+        """Return a name for a point's motion, without that of the first body that carries it."""
         owner = self._owners.setdefault(point, body)
         return point.name if owner == body else f"{point.name}_on_{body}"
 
@@ -295,59 +266,32 @@ class Kinematics:
         return self.define_twist(placed.body, "now", twist)
 
     def define_twist(self, body: str, label: str, twist: Twist) -> Twist:
-        """Append the components of a twist.
-
-        Parameters
-        ----------
-        body, label
-            What begins the names of the steps: body, and coordinate or ``now``.
-        twist
-            The twist.
-        """
+        """Append the components of a twist; the label is the coordinate or ``now``."""
         return Twist(
             self.program.vector(f"{body}_omega_{label}", twist.angular, "123"),
             self.program.vector(f"{body}_velocity_{label}", twist.linear, "123"),
         )
 
     def define_bias(self, body: str, twist: Twist) -> Twist:
-        """Append the components of a bias acceleration.
-
-        Parameters
-        ----------
-        body, twist
-            The body, and its accelerations.
-        """
+        """Append the components of a bias acceleration."""
         return Twist(
             self.program.vector(f"{body}_alpha", twist.angular, "123"),
             self.program.vector(f"{body}_acceleration", twist.linear, "123"),
         )
 
     def point_bias(self, placed: BodyMotion, local: Vector) -> Vector:
-        """Return the bias acceleration of a point of a body, in body axes.
-
-        Parameters
-        ----------
-        placed, local
-            The body, and the point in its axes.
-        """
+        """Return the bias acceleration of a point of a body, given in body axes, in body axes."""
         bias, omega = placed.bias(), self.total(placed).angular
         return bias.linear + bias.angular.cross(local) + omega.cross(omega.cross(local))
 
     def point_motion(self, body: str, point: Point) -> PointMotion:
-        """Return position, velocities and bias acceleration of a point, in work axes.
-
-        Parameters
-        ----------
-        body, point
-            Name of the body, and the point by its place at the design position.
-        """
-        if (body, point) in self._points:
-            return self._points[body, point]
-        self._points[body, point] = self.motion_of(self.placed[body], point)
+        """Return position, velocities and bias acceleration of a point, in work axes."""
+        if (body, point) not in self._points:
+            self._points[body, point] = self.motion_of(self.placed[body], point)
         return self._points[body, point]
 
     def motion_of(self, placed: BodyMotion, point: Point) -> PointMotion:
-        """Append the motion of a point of a body that moves in some way."""
+        """Append the motion of a point of a body."""
         label, local = self._label(placed.body, point), self.local(placed, point)
         motion = {}
         for coordinate, twist in placed.motion.items():

@@ -1,4 +1,4 @@
-"""What is known of a body while a mechanism is being solved.
+"""Motion of a body while a mechanism is being solved.
 
 Positions are in the work axes, twists in body axes. *Motion* is velocity per unit rate of one
 coordinate, so it is a column of a Jacobian; *bias* is the acceleration that remains when the
@@ -25,43 +25,15 @@ IDENTITY: Axes = (UNIT_X, UNIT_Y, UNIT_Z)
 
 
 def to_axes(axes: Axes, v: Vector) -> Vector:
-    """Return the components of a work vector along some axes.
-
-    Parameters
-    ----------
-    axes
-        Three unit vectors.
-    v
-        The vector.
-    """
+    """Return the components of a work vector along three orthonormal axes."""
     return Vector(*(v.dot(axis) for axis in axes))
 
 
 def from_axes(axes: Axes, v: Vector) -> Vector:
-    """Return the work components of a vector given along some axes.
-
-    Parameters
-    ----------
-    axes
-        Three unit vectors.
-    v
-        The components along them.
-    """
+    """Return the work components of a vector given along three orthonormal axes."""
     x, y, z = axes
     work: Vector = x * v.x + y * v.y + z * v.z
     return work
-
-
-def once(compute: Callable[[], Twist]) -> Callable[[], Twist]:
-    """Compute a bias on first use only: many functions never need it."""
-    cache: list[Twist] = []
-
-    def bias() -> Twist:
-        if not cache:
-            cache.append(compute())
-        return cache[0]
-
-    return bias
 
 
 @dataclass
@@ -84,7 +56,7 @@ class BodyMotion:
     hinge
         The hinge whose axis is the first of the body axes, if one placed the body.
     total
-        The twist at the true rates, of a body that a free one carries; None: the sum of `motion`.
+        The twist at the true rates, of a body on a moving base; None: the sum of `motion`.
     at
         Motion of the origin, in work axes, where it is known as that of a point of the carrier.
     turn
@@ -108,7 +80,7 @@ class BodyMotion:
 
 @dataclass(frozen=True)
 class Turn:
-    """An angle about the first axis of a body: where the others are zero, in work axes."""
+    """An angle about the first axis of a body, with the other axes at its zero, in work axes."""
 
     cosine: sp.Expr
     sine: sp.Expr
@@ -220,15 +192,15 @@ class TelescopeEnds:
 
 @dataclass(frozen=True)
 class Meeting:
-    """What the coordinate of a hinge or guide was solved for.
+    """The condition for which the coordinate of a hinge or guide was solved.
 
     Attributes
     ----------
     parent, body
         The placed body, and the one that the joint carries.
     point, target, target_body
-        A point of the body, and the point of a placed body that it meets, or that it is as far
-        from as a rod is long.
+        A point of the body, and the point of a placed body that it meets, or that a rod connects it
+        with.
     rod
         That rod; None: the points meet.
     """
@@ -243,14 +215,14 @@ class Meeting:
 
 @dataclass(frozen=True)
 class OffLine:
-    """A link of a telescope whose axis misses the link's known point: its turn is still open.
+    """A link of a telescope whose axis misses the link's known point; its turn is not known yet.
 
     Attributes
     ----------
     ends
         The telescope with the names of its points and bodies.
     axis, offset
-        At the design position: unit vector of the axis from anchor to end, and what leads from
+        At the design position: unit vector of the axis from anchor to end, and the vector from
         the axis to the end, across it (constants, work axes).
     span, span_squared
         From anchor to end, and the square of that distance.

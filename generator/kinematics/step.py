@@ -1,4 +1,4 @@
-"""A step of a plan: it places a body, or finds its line."""
+"""Steps of a plan, which place a body, or find its line."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Ends = tuple[str, "Point", "Point"]
 
 
 class KinematicStep(ABC):
-    """What the kinematics of a mechanism is made of, in order."""
+    """A step of the kinematics of a mechanism."""
 
     @property
     @abstractmethod
@@ -28,11 +28,11 @@ class KinematicStep(ABC):
     @property
     @abstractmethod
     def title(self) -> str:
-        """What the derivation calls it."""
+        """Its title in the derivation."""
 
     @property
     def points(self) -> tuple[Point, ...]:
-        """The points between which it reaches, beside those of the joints of its loop."""
+        """Its points, beside those of the joints of its loop."""
         return ()
 
     @abstractmethod
@@ -40,7 +40,7 @@ class KinematicStep(ABC):
         """Append poses, velocities and biases."""
 
     def origin_on(self, ground: str) -> Point | None:
-        """Return the point of the ground at which positions are best counted, if there is one."""
+        """Return the point of the ground that is the best origin of positions, if there is one."""
         del ground
         return None
 
@@ -49,5 +49,5 @@ class KinematicStep(ABC):
         yield from ()
 
     def assumptions(self) -> Iterator[Assumption]:
-        """Yield what it takes to be zero, beside what `lines` and a plane ask for."""
+        """Yield quantities that it assumes to be zero, beside those of `lines` and of a plane."""
         yield from ()

@@ -1,1 +1,1 @@
-"""Loops of a mechanism: the joint graph, what is known, and the order of solution."""
+"""Loops of a mechanism: the joint graph, known coordinates, and the order of solution."""

@@ -1,7 +1,7 @@
-"""Guides that point from one joint to another by their numbers alone, as struts are declared.
+"""Guides directed at a joint by their default numbers alone, as struts are often declared.
 
 A strut of a guide between two ball joints closes in closed form if its guide is along the line of
-the two for any hardpoints. Three numbers say so for the default ones alone.
+the two for any hardpoints. Three numbers fulfil that for the default hardpoints alone.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from ..declare.geometry import Point
     from ..declare.mechanism import Mechanism
 
-# A strut that misses a joint on purpose does so by more [rad].
+# A strut that misses a joint by intent does so by more [rad].
 _NEAR = math.radians(1.0)
 
 

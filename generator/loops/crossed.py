@@ -1,8 +1,8 @@
-"""Links at crosses that hold less, or more, than is meant.
+"""Links at universal joints that constrain less, or more, than intended.
 
-A link with a cross at either end keeps its length and carries a moment, too: two equations, and
-a shaft between two bearings could be neither longer nor shorter. Nothing in the catalogue solves
-both, and to leave one out would be wrong.
+A link with a universal joint at either end keeps its length and carries a moment, too: two
+equations, and a shaft between two bearings could be neither longer nor shorter. Nothing in the
+catalogue solves both, and to leave one out would be wrong.
 """
 
 from __future__ import annotations
@@ -17,13 +17,7 @@ if TYPE_CHECKING:
 
 
 def between_crosses(mechanism: Mechanism, cycle: Cycle) -> str:
-    """Return a sentence on a body of a loop that two crosses alone hold; empty: there is none.
-
-    Parameters
-    ----------
-    mechanism, cycle
-        The mechanism, and the loop.
-    """
+    """Return a sentence on a body of a loop with universal joints only; empty without one."""
     for body in cycle.bodies:
         crosses = mechanism.joints_of(body)
         if body == mechanism.ground or not all(isinstance(j, Universal) for j in crosses):
@@ -40,12 +34,9 @@ def between_crosses(mechanism: Mechanism, cycle: Cycle) -> str:
 
 
 def crosses_turned(mechanism: Mechanism, cycle: Cycle) -> str:
-    """Return a sentence on a cross whose first body is a link on a guide; empty: there is none.
+    """Return a sentence on a universal joint that is declared the wrong way round, or "".
 
-    Parameters
-    ----------
-    mechanism, cycle
-        The mechanism, and the loop.
+    Its first body is a link on a guide.
     """
     for joint in cycle.joints:
         if isinstance(joint, Universal):

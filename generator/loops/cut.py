@@ -16,16 +16,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class PairCandidate:
-    """A pair of joints at which a loop could be cut, and what that eliminates.
+    """A pair of joints at which a loop could be cut.
 
     Attributes
     ----------
     eliminated
         Number of unknown coordinates of the two joints.
     equations
-        Number of closure equations that remain, of the six of a spatial loop or the three of one in
-        a plane or about a point. The turn of a link about the line through two ball joints takes
-        part in none.
+        Number of closure equations that remain, of the six of a spatial loop or the three of a
+        planar one or one about a point. The turn of a link about the line through two ball joints
+        is in none of them.
     """
 
     joints: tuple[Joint, Joint]
@@ -35,7 +35,7 @@ class PairCandidate:
 
 @dataclass(frozen=True)
 class CutLoop:
-    """A loop cut at the centres of a pair of joints, seen as two arcs from anchor to end.
+    """A loop cut at the centres of a pair of joints, as two arcs from anchor to end.
 
     ``joints`` and ``bodies`` are those of one arc; ``other_joints`` and ``others`` of the other.
     """
@@ -49,7 +49,7 @@ class CutLoop:
 
 
 def _common_point(joint: Joint, cycle: Cycle) -> Point | None:
-    """Return the point that a joint keeps common; in a plane, a hinge has one too."""
+    """Return the point that a joint keeps common to both bodies; that of a planar hinge, too."""
     if cycle.planar and isinstance(joint, Revolute):
         return joint.axis.through
     if cycle.center is not None:
@@ -58,13 +58,7 @@ def _common_point(joint: Joint, cycle: Cycle) -> Point | None:
 
 
 def views(cycle: Cycle, pair: PairCandidate) -> list[CutLoop]:
-    """Return the four ways to look at a cut loop: either arc first, either direction.
-
-    Parameters
-    ----------
-    cycle, pair
-        The loop, and the joints at which it is cut.
-    """
+    """Return the four ways to see a cut loop: either arc first, in either direction."""
     i, j = sorted(cycle.joints.index(joint) for joint in pair.joints)
     anchor, end = (_common_point(cycle.joints[k], cycle) for k in (i, j))
     if anchor is None or end is None:
@@ -84,19 +78,13 @@ def views(cycle: Cycle, pair: PairCandidate) -> list[CutLoop]:
 
 
 def pair_candidates(known: Known, cycle: Cycle) -> list[PairCandidate]:
-    """Return the pairs of joints that both keep a point in common, most eliminated first.
-
-    Parameters
-    ----------
-    known, cycle
-        The known motions, and the loop.
-    """
+    """Return the pairs of joints with a common point each, most eliminated unknowns first."""
     pairs = [
         _pair(known, cycle, a, b)
         for a, b in combinations(cycle.joints, 2)
         if _common_point(a, cycle) is not None and _common_point(b, cycle) is not None
     ]
-    if cycle.center is not None:  # all ends of arcs are one point: forms for two would take them
+    if cycle.center is not None:  # all ends of arcs are one point: not for forms with two
         pairs = [pair for pair in pairs if pair.equations == 0]
     return sorted(pairs, key=lambda p: -p.eliminated)
 

@@ -1,4 +1,4 @@
-"""What is wrong with a mechanism that cannot be solved."""
+"""Errors of a mechanism that cannot be solved."""
 
 
 class TopologyError(ValueError):
@@ -11,7 +11,7 @@ class NoClosedFormError(ValueError):
     Attributes
     ----------
     solved
-        How many loops were solved before.
+        Number of loops that were solved before.
     """
 
     def __init__(self, message: str, solved: int = 0) -> None:

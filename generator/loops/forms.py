@@ -1,4 +1,4 @@
-"""What a closed form, or anything else that places bodies, says to the planner."""
+"""Interface of the planner: closed forms, and other steps that place bodies."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ if TYPE_CHECKING:
 
 
 class PlannedStep(KinematicStep):
-    """A step that says what it makes known."""
+    """A step whose results the planner records."""
 
     @abstractmethod
     def accept(self, known: Known) -> set[Coordinate]:
-        """Record what follows from the step; return the coordinates that were not known."""
+        """Record the results of the step; return the coordinates that were not known."""
 
 
 class Placement(PlannedStep):
-    """A step that places one body, whose joints are known: nothing else follows from it.
+    """A step that places one body, whose joints are known, without further results.
 
     Attributes
     ----------
@@ -49,7 +49,7 @@ class Placement(PlannedStep):
 
 
 class Closing(Protocol):
-    """What closes a loop that is solved by iteration: a joint, or a rod."""
+    """The joint or rod at which a loop is closed by iteration."""
 
     @property
     def between(self) -> tuple[str, ...]:
@@ -60,7 +60,7 @@ class Closing(Protocol):
         """The equation, for the report."""
 
     def closes(self, cycle: Cycle) -> bool:
-        """Return whether it could close a loop."""
+        """Return whether it can close a loop."""
 
 
 class Solution(PlannedStep):
@@ -77,9 +77,9 @@ class ClosedForm(Solution):
     Attributes
     ----------
     rank
-        Of several that fit, the one of the lowest rank is taken.
+        The form of the lowest rank is taken among those that fit.
     equations
-        For which numbers of remaining closure equations it is tried.
+        Numbers of remaining closure equations with which it is tried.
     """
 
     rank: ClassVar[int]
@@ -88,13 +88,7 @@ class ClosedForm(Solution):
     @classmethod
     @abstractmethod
     def match(cls, known: Known, cut: CutLoop) -> Self | None:
-        """Return the solution of a cut loop, if it is of this form and all that it reads is known.
-
-        Parameters
-        ----------
-        cut
-            The loop as two arcs from one joint of the characteristic pair to the other.
-        """
+        """Return the solution of a cut loop if it has this form and all its inputs are known."""
 
 
 class Follower(Placement):
@@ -105,32 +99,16 @@ class Follower(Placement):
     @classmethod
     @abstractmethod
     def follow(cls, known: Known, joint: Joint, parent: str, child: str) -> Self | None:
-        """Return the step that places a body by a joint of a placed one, if it can.
-
-        Parameters
-        ----------
-        known
-            The known motions.
-        joint, parent, child
-            The joint, the placed body, and the one to place.
-        """
+        """Return the step that places a child by a joint of a placed parent, if it can."""
 
 
 class Leftover(Placement):
-    """A step that places a body which nothing else places, when all loops are closed."""
+    """A step for a body that no other step places, after all loops are closed."""
 
     @classmethod
     @abstractmethod
     def left(cls, known: Known, massive: Collection[str]) -> Iterator[Self]:
-        """Yield the steps that place what is left.
-
-        Parameters
-        ----------
-        known
-            The known motions.
-        massive
-            The bodies with mass.
-        """
+        """Yield the steps that place the remaining bodies; some are massive."""
 
 
 class Iteration(Solution):
@@ -141,21 +119,21 @@ class Iteration(Solution):
     @property
     @abstractmethod
     def closing(self) -> Sequence[Closing]:
-        """What closes the loops, one of each."""
+        """The joints or rods that close the loops, one each."""
 
     @classmethod
     @abstractmethod
     def attempt(
         cls, known: Known, driven: Collection[str], waiting: Sequence[Cycle]
     ) -> Attempt | None:
-        """Return how some of the loops that wait can be solved, if they can or nearly can.
+        """Return the solution of some of the waiting loops, or the nearest attempt.
 
         Parameters
         ----------
         known
             The known motions.
         driven
-            The joints whose coordinates are given, by their names.
+            Names of the joints whose coordinates are given.
         waiting
             The loops that nothing else closes.
         """
@@ -168,9 +146,9 @@ class Attempt:
     Attributes
     ----------
     problem
-        Which equations they leave for what, for a person.
+        Numbers of equations and unknowns, in words.
     obstacle
-        Why they cannot be solved; empty: they can.
+        Reason against a solution; empty: there is none.
     """
 
     action: Iteration
@@ -181,7 +159,7 @@ class Attempt:
 
 @dataclass(frozen=True)
 class Catalogue:
-    """All that the planner tries, each in its order."""
+    """All forms that the planner tries, each kind in order."""
 
     closed: tuple[type[ClosedForm], ...]
     followers: tuple[type[Follower], ...]

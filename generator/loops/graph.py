@@ -40,9 +40,9 @@ class Cycle:
     length
         Sum of the degrees of freedom of the joints.
     normal
-        The direction of the hinges of a loop that moves in a plane; of others, none.
+        Direction of the hinges of a planar loop; none for others.
     center
-        The point about which a loop of a cross and hinges turns; of others, none.
+        The point about which a loop of a cross and hinges turns; none for others.
     """
 
     joints: tuple[Joint, ...]
@@ -64,7 +64,7 @@ class Cycle:
 
 @dataclass(frozen=True)
 class JointGraph:
-    """The joint graph of a mechanism and what follows from it."""
+    """The joint graph of a mechanism, and its properties."""
 
     mechanism: Mechanism
 
@@ -85,18 +85,12 @@ class JointGraph:
                 first, second = joint.bodies
                 message = f"bodies {first!r} and {second!r} have two joints between them"
                 raise TopologyError(message)
-            # a weld is in no loop; with a length of zero the way back would be as short
+            # a weld is in no loop; with a length of zero the path back would be as short
             graph.add_edge(*joint.bodies, joint=joint, length=joint.freedoms or 1)
         return graph
 
     def joint_between(self, first: str, second: str) -> Joint:
-        """Return the joint that connects two bodies.
-
-        Parameters
-        ----------
-        first, second
-            Names of the bodies.
-        """
+        """Return the joint that connects two bodies."""
         joint: Joint = self.graph.edges[first, second]["joint"]
         return joint
 
@@ -117,12 +111,12 @@ class JointGraph:
 
     @property
     def redundant(self) -> int:
-        """Number of equations that hold by themselves: one for each parallel link too many."""
+        """Number of redundant equations: one for each parallel link too many."""
         return sum(len(links) - ENOUGH for links in self.parallel_links.values())
 
     @cached_property
     def parallel_links(self) -> dict[frozenset[str], tuple[str, ...]]:
-        """The links that hold two bodies together in a plane, where there are too many."""
+        """The links between two bodies that move in a plane, by these, where there are too many."""
         return families(self.mechanism, lambda loop: self.cycle(loop).planar)
 
     @property
@@ -154,16 +148,11 @@ class JointGraph:
         """Return all shortest paths between two bodies, as sequences of bodies, in a fixed order.
 
         The paper's Table 2 shows one of them where several have the same length.
-
-        Parameters
-        ----------
-        start, end
-            Names of the bodies.
         """
         return self._paths_from(start).to(end)
 
     def _paths_from(self, start: str) -> _ShortestPaths:
-        """Return the shortest paths from a body; one search serves all that ask for them."""
+        """Return the shortest paths from a body, of one search."""
         if start not in self._searches:
             self._searches[start] = _ShortestPaths(self.graph, start, self._numbers)
         return self._searches[start]
@@ -174,13 +163,12 @@ class JointGraph:
 
     @cached_property
     def _numbers(self) -> dict[str, int]:
-        """The number of each body, by its name."""
         return self.mechanism.numbers
 
     def path_table(self) -> list[list[list[str]]]:
-        """Return all shortest paths (Table 2): by the bodies they start at and those they end at.
+        """Return all shortest paths (Table 2): by their first bodies, then by their last ones.
 
-        A path is the numbers of its bodies, with strokes between them where some have two digits.
+        A path is the numbers of its bodies, with hyphens between them where some have two digits.
         """
         between = "" if max(self._numbers.values()) < 10 else "-"
         return [
@@ -204,8 +192,8 @@ class JointGraph:
     def candidate_cycles(self) -> list[Cycle]:
         """Distinct simple cycles by Horton's construction, shortest first.
 
-        Every vertex is joined with both ends of every edge by shortest paths; what is degenerate
-        (the two paths share a body or contain the edge) or repeated is left out.
+        Every vertex is joined with both ends of every edge by shortest paths; degenerate cycles
+        (the two paths share a body or contain the edge) and repeated ones are left out.
         """
         found: dict[frozenset[str], Cycle] = {}
         for cycle in self.horton_candidates():
@@ -213,7 +201,7 @@ class JointGraph:
         return sorted(found.values(), key=lambda c: (c.length, self._cycle_numbers(c)))
 
     def horton_candidates(self) -> list[Cycle]:
-        """Return every simple cycle that a pair of vertex and edge gives, with repetitions."""
+        """Return the simple cycles of all pairs of vertex and edge, with repetitions."""
         return [
             self.cycle(round_trip)
             for vertex in self.graph.nodes
@@ -222,7 +210,7 @@ class JointGraph:
         ]
 
     def _closed(self, vertex: str, joint: Joint) -> list[tuple[str, ...]]:
-        """Return the bodies of each simple cycle that a pair of vertex and edge gives."""
+        """Return the bodies of each simple cycle of a pair of vertex and edge."""
         paths = self._paths_from(vertex)
         if paths.all_part_alike(*joint.bodies):
             return []
@@ -291,7 +279,7 @@ class _ShortestPaths:
         return self._paths[end]
 
     def all_part_alike(self, one: str, other: str) -> bool:
-        """Return whether all paths to two bodies go to the same neighbour of the start first."""
+        """Return whether all paths to two bodies begin with the same neighbour of the start."""
         if self.start in (one, other):
             return False
         return len({path[1] for body in (one, other) for path in self.to(body)}) == 1
@@ -319,7 +307,7 @@ class CycleSpan:
         return rest != 0
 
     def _rest(self, cycle: Cycle) -> int:
-        """Return what is left of a cycle when all that is contained has been taken away."""
+        """Return the remainder of a cycle after division by those that were added."""
         rest = sum(self._bits[joint.name] for joint in cycle.joints)
         while rest.bit_length() in self._rows:
             rest ^= self._rows[rest.bit_length()]
@@ -327,9 +315,9 @@ class CycleSpan:
 
 
 class MinimalBasis:
-    """A minimal cycle basis in the making: what is chosen, and what can be chosen next.
+    """A minimal cycle basis under construction: the cycles chosen so far, and the next candidates.
 
-    A cycle that is a sum of chosen ones remains so, and is not looked at again.
+    A cycle that is a sum of chosen ones remains so, and is not tried again.
     """
 
     def __init__(self, topology: JointGraph, chosen: Sequence[Cycle] = ()) -> None:

@@ -1,4 +1,4 @@
-"""What is known of a mechanism while the order of solution is being found."""
+"""Known poses and coordinates of a mechanism, while the order of solution is found."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ if TYPE_CHECKING:
     from .graph import Cycle, JointGraph
 
 Coordinate = tuple[str, str]
-"""A relative coordinate: its joint, and which of the joint's."""
+"""Names of a joint and of one of its relative coordinates."""
 
 
 @dataclass
 class Known:
-    """Bodies that have their place, and relative coordinates that are given or solved.
+    """Bodies whose poses are known, and relative coordinates that are given or solved.
 
     Attributes
     ----------
@@ -30,11 +30,11 @@ class Known:
     coordinates
         Relative coordinates that are given or solved.
     steps
-        What made all this known, in order.
+        The steps so far, in order.
     guided
         By the name of a joint, the step that alone may place a body by it.
     alike
-        Pairs of bodies that do not turn against each other, since parallel links see to it.
+        Pairs of bodies that parallel links keep from turning relative to each other.
     """
 
     mechanism: Mechanism
@@ -52,21 +52,15 @@ class Known:
         return self.placed | self.on_line
 
     def knows(self, joint: Joint, coordinate: str) -> bool:
-        """Return whether a relative coordinate is given or already solved.
-
-        Parameters
-        ----------
-        joint, coordinate
-            The joint, and which of its coordinates.
-        """
+        """Return whether a relative coordinate of a joint is given or already solved."""
         return (joint.name, coordinate) in self.coordinates
 
     def unknowns_of(self, joint: Joint) -> int:
-        """Return how many relative coordinates of a joint are unknown."""
+        """Return the number of unknown relative coordinates of a joint."""
         return sum(not self.knows(joint, c) for c in joint.coordinates)
 
     def unknowns(self, cycle: Cycle) -> int:
-        """Return how many relative coordinates of a loop are unknown."""
+        """Return the number of unknown relative coordinates of a loop."""
         return sum(self.unknowns_of(joint) for joint in cycle.joints)
 
     def joins(self, joint: Joint) -> bool:

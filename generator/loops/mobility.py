@@ -1,12 +1,12 @@
-"""What can move at the design position: the closure equations of all loops, in numbers.
+"""Instantaneous mobility at the design position, from closure equations in numbers.
 
-Counting degrees of freedom takes every mechanism for a general one. Bricard's chain has six hinges,
-so six equations for six angles, and moves all the same, because its axes lie in a special way.
-Numbers show: at the design position, with the default parameters, the rates of all relative
-coordinates fulfil ``L rates = 0``, where each column of L is the screw of a coordinate, in each
-loop that the coordinate takes part in (Davies, 1981).
+The count of degrees of freedom assumes general dimensions. Bricard's chain has six hinges, so six
+equations for six angles, and moves all the same, because its axes are in a special position. At the
+design position, with the default parameters, the rates of all relative coordinates fulfil ``L rates
+= 0``, where each column of L is the screw of a coordinate, in each loop that the coordinate is part
+of (Davies, 1981).
 
-The generator asks this only where it is about to iterate; a closed form needs no numbers.
+It is evaluated only before an iteration; a closed form needs no numbers.
 """
 
 from __future__ import annotations
@@ -35,8 +35,8 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-# Of the largest singular value: below it a direction of motion is taken for exact. Dimensions are
-# declared with six digits and more where a special geometry is meant.
+# Fraction of the largest singular value below which a direction of motion counts as exact.
+# Dimensions are declared with six digits and more where a special geometry is intended.
 _TOLERANCE = 1e-7
 
 
@@ -66,7 +66,7 @@ class Mobility:
 
     @property
     def freedoms(self) -> int:
-        """How many motions there are; a joint that follows another one has none of its own."""
+        """Number of independent motions; a joint that follows another one has none of its own."""
         columns = len(self._coordinates) - len(self._topology.mechanism.geared)
         return columns - _rank(self._closure)
 
@@ -75,8 +75,10 @@ class Mobility:
         return _rank(self._closure) == _rank(self._closure[:, ~self._driven])
 
     def determines(self, coordinates: Iterable[Coordinate]) -> bool:
-        """Return whether some coordinates do not move when all driven ones do."""
-        free = _null_space(self._closure[:, ~self._driven])
+        """Return whether given coordinates are at rest when all driven ones are."""
+        closure = self._closure[:, ~self._driven]
+        _, _, right = np.linalg.svd(closure, full_matrices=True)
+        free = right[_rank(closure) :].T  # a basis of its null space
         names = [
             c for c, is_driven in zip(self._coordinates, self._driven, strict=True) if not is_driven
         ]
@@ -95,7 +97,7 @@ class Mobility:
                 joint = self._topology.joint_between(here, there)
                 sense = 1.0 if here == joint.first.name else -1.0
                 block[joint.name] = sense * screws.of(joint)
-            for joint in mechanism.geared:  # what follows moves with what is followed
+            for joint in mechanism.geared:  # a follower moves with the joint that it follows
                 block[joint.first_followed.name] += screws.ratio(joint) * block[joint.name]
                 block[joint.name] = np.zeros((6, 1))
             rows.append(np.hstack(list(block.values())))
@@ -105,7 +107,7 @@ class Mobility:
 class _Screws:
     """Angular velocity and velocity at the origin for unit rates of relative coordinates.
 
-    Lengths are in units of the size of the mechanism, so that both parts weigh alike.
+    Lengths are in units of the size of the mechanism, so that both parts have equal weight.
     """
 
     def __init__(self, mechanism: Mechanism) -> None:
@@ -121,11 +123,14 @@ class _Screws:
     def of(self, joint: Joint) -> Array:
         """Return a column for each coordinate of a joint."""
         return np.transpose(
-            [self._slide(a) if slides else self._turn(a, joint) for slides, a in self._axes(joint)]
+            [
+                np.concatenate((np.zeros(3), axis)) if slides else self._turn(axis, joint)
+                for slides, axis in self._axes(joint)
+            ]
         )
 
     def ratio(self, joint: Joint) -> float:
-        """Return by how much a joint moves for one unit of what it follows, through all gears."""
+        """Return the displacement of a joint per unit of the one it follows, through all gears."""
         if joint.gear is None:
             return 1.0
         sizes = [self._size if isinstance(j, Prismatic) else 1.0 for j in (joint, joint.gear.joint)]
@@ -133,7 +138,7 @@ class _Screws:
         return own * self.ratio(joint.gear.joint)
 
     def _axes(self, joint: Joint) -> list[tuple[bool, Array]]:
-        """Return what the coordinates of a joint go along, and whether they slide."""
+        """Return the axis of each coordinate of a joint, with whether it slides."""
         if isinstance(joint, Revolute):
             return [(False, self._unit(joint.axis.vector))]
         if isinstance(joint, Prismatic):
@@ -157,9 +162,6 @@ class _Screws:
         place = (origin - self._middle) / self._size
         return np.concatenate((axis, np.cross(place, axis)))
 
-    def _slide(self, axis: Array) -> Array:
-        return np.concatenate((np.zeros(3), axis))
-
     def _unit(self, vector: Vector) -> Array:
         number = self._number(vector)
         return number / np.linalg.norm(number)
@@ -176,7 +178,7 @@ def _reference(joint: Joint) -> Vector | None:
 
 
 def _vectors(joint: Joint) -> list[Vector]:
-    """Return everything about a joint that has components."""
+    """Return all vectors of a joint."""
     if isinstance(joint, Prismatic):
         return [joint.direction.components]
     if isinstance(joint, Revolute | Cylindrical):
@@ -189,9 +191,3 @@ def _vectors(joint: Joint) -> list[Vector]:
 def _rank(matrix: Array) -> int:
     sizes = np.linalg.svd(matrix, compute_uv=False)
     return int(np.sum(sizes > _TOLERANCE * sizes.max(initial=0.0)))
-
-
-def _null_space(matrix: Array) -> Array:
-    """Return an orthonormal basis of what a matrix maps to zero, as columns."""
-    _, _, right = np.linalg.svd(matrix, full_matrices=True)
-    return right[_rank(matrix) :].T

@@ -1,4 +1,4 @@
-"""Links between two bodies that are there once too often, as on the driving wheels of a locomotive.
+"""Redundant parallel links between two bodies, as on the driving wheels of a locomotive.
 
 Three links with a hinge at either end, in one plane and between the same two bodies, lock these
 unless all of them are parallel and equally long. Then one body moves along the other without
@@ -31,10 +31,12 @@ _Ends = dict[str, Revolute]
 def families(
     mechanism: Mechanism, in_a_plane: Callable[[Sequence[str]], bool]
 ) -> dict[frozenset[str], tuple[str, ...]]:
-    """Return the links between two bodies, by these, where there are more than enough.
+    """Return the redundant links between two bodies, by these.
 
     Parameters
     ----------
+    mechanism
+        The mechanism.
     in_a_plane
         Returns whether the loop through some bodies moves in a plane.
     """
@@ -57,30 +59,14 @@ def families(
 
 
 def ends_of(mechanism: Mechanism, link: str, pair: Collection[str]) -> _Ends | None:
-    """Return the hinges of a body on two others, by these; None: it has not one on either.
-
-    Parameters
-    ----------
-    mechanism, link
-        The mechanism, and the body.
-    pair
-        The two others.
-    """
+    """Return the hinges of a link on both bodies of a pair, by these; None without both."""
     joints = [(joint.other(link), joint) for joint in mechanism.joints_of(link)]
     hinges = {o: joint for o, joint in joints if o in pair and isinstance(joint, Revolute)}
     return hinges if len(hinges) == ENOUGH else None
 
 
 def is_along(mechanism: Mechanism, hinge: Revolute, off: Vector, length: Vector) -> bool:
-    """Return whether a way is along a hinge by default, but for rounding of another.
-
-    Parameters
-    ----------
-    mechanism, hinge
-        The mechanism, and the hinge.
-    off, length
-        The way, and the one whose rounding counts.
-    """
+    """Return whether a vector is along a hinge by default, but for the rounding of another one."""
     value = AtDefaults(mechanism)
     n, off_at, beside = (np.array([value(c) for c in v]) for v in (hinge.axis.vector, off, length))
     least = float(ROUNDING) * np.linalg.norm(n) * np.linalg.norm(beside)
@@ -88,7 +74,7 @@ def is_along(mechanism: Mechanism, hinge: Revolute, off: Vector, length: Vector)
 
 
 def _frames(mechanism: Mechanism, pair: Collection[str], links: Sequence[str]) -> list[str]:
-    """Return what else is hinged to two bodies as far apart as their links, by default."""
+    """Return other bodies with hinges on two bodies that are parallel to their links by default."""
     one, other = sorted(pair)
     found = {b.name: ends_of(mechanism, b.name, pair) for b in mechanism.bodies}
     ways = {b: _way(ends[one], ends[other]) for b, ends in found.items() if ends}

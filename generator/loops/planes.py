@@ -1,8 +1,8 @@
-"""Which loops move in a plane: hinges along each other, guides across them.
+"""Planar loops: hinges along each other, guides across them.
 
-A declaration may say so, by one direction that all hinges have. Where it does not (each hinge a
-line through two points, or along a direction of its own), the default parameters decide; that it
-stays so is one of the `assumptions`.
+A declaration may state it, by one direction that all hinges have. Otherwise (each hinge a line
+through two points, or along a direction of its own), the default parameters decide; that other ones
+fulfil it too is one of the `assumptions`.
 """
 
 from __future__ import annotations
@@ -37,10 +37,10 @@ class Planes:
         self._units: dict[Vector, Array] = {}
 
     def normal(self, joints: Sequence[Joint]) -> Direction | None:
-        """Return the direction of the hinges of a loop that moves in a plane; of others, none.
+        """Return the direction of the hinges of a planar loop; None for others.
 
-        Of hinges along one declared direction the loop is in a plane even where a guide leaves it:
-        then the declaration contradicts itself, which the `assumptions` say.
+        With hinges along one declared direction the loop is planar even where a guide leaves the
+        plane: a contradiction in the declaration, which is one of the `assumptions`.
         """
         hinges = [j for j in joints if isinstance(j, Revolute)]
         guides = [j for j in joints if isinstance(j, Prismatic)]

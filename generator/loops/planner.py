@@ -1,10 +1,9 @@
-"""From cycles to kinematic transformers: which pair of joints, which closed form, in which order.
+"""The planner, from cycles to transformers: pairs of joints, closed forms, and their order.
 
 A transformer is one loop of the minimal cycle basis, cut at its *characteristic pair of joints*
 (Hiller & Woernle, 1988): the pair whose own coordinates, taken together, are the most numerous, so
-that the fewest closure equations remain. The pairs are found by `cut`; which closed form a loop has
-is for the forms to say, of which the planner is handed a catalogue (`forms`). Everything here is
-structure.
+that the fewest closure equations remain. `cut` finds the pairs; the forms of a catalogue decide
+which loops they close (`forms`). Everything here is structure.
 """
 
 from __future__ import annotations
@@ -74,7 +73,7 @@ class Transformer:
 
 
 def _one_for_each(closing: Sequence[Closing], cycles: Sequence[Cycle]) -> tuple[Closing, ...]:
-    """Return for each of some loops something else that closes it."""
+    """Return one joint or rod for each loop that closes it."""
     return next(
         ends
         for ends in permutations(closing, len(cycles))
@@ -97,7 +96,7 @@ class Plan:
     Attributes
     ----------
     catalogue
-        What it tries; a class of plans has one.
+        The forms that it tries, of a class of plans.
     transformers
         The loops in the order in which they are solved.
     """
@@ -120,13 +119,16 @@ class Plan:
         plan._known.add_all(map(plan._mechanism.joint, plan._driven))
         plan._place_neighbours()
         plan._solve_loops()
-        plan._place_leftovers()
+        massive = [body.name for body in formulation.massive]
+        for kind in plan.catalogue.leftovers:
+            for step in kind.left(plan._known, massive):
+                plan._accept(step)
         plan._check_complete()
         return plan
 
     @property
     def steps(self) -> list[KinematicStep]:
-        """Everything the kinematics has to do, in order."""
+        """All steps of the kinematics, in order."""
         return self._known.steps
 
     @property
@@ -170,12 +172,12 @@ class Plan:
     # -- placing bodies -------------------------------------------------------------------------
 
     def _accept(self, step: PlannedStep) -> set[Coordinate]:
-        """Append a step, and record what follows from it."""
+        """Append a step, and record its results."""
         self._known.steps.append(step)
         return step.accept(self._known)
 
     def _place_neighbours(self) -> None:
-        """Place every body that follows from a placed one without a closure equation."""
+        """Place every body beside a placed one that needs no closure equation."""
         progress = True
         while progress:
             progress = False
@@ -194,15 +196,10 @@ class Plan:
         tried = (f.follow(self._known, joint, parent, child) for f in self.catalogue.followers)
         return next((step for step in tried if step), None)
 
-    def _place_leftovers(self) -> None:
-        for kind in self.catalogue.leftovers:
-            for step in kind.left(self._known, [body.name for body in self.formulation.massive]):
-                self._accept(step)
-
     # -- solving a loop -------------------------------------------------------------------------
 
     def _solve(self, cycle: Cycle, rivals: list[Cycle]) -> bool:
-        """Solve a loop if its equation is in the catalogue and all that it reads is known."""
+        """Solve a loop if a form of the catalogue fits and all its inputs are known."""
         candidates = pair_candidates(self._known, cycle)
         for pair in candidates:
             step = self._closed_form(cycle, pair)
@@ -229,7 +226,7 @@ class Plan:
         return False
 
     def _closed_form(self, cycle: Cycle, pair: PairCandidate) -> ClosedForm | None:
-        """Return the solution of a loop cut at a pair, if its equation is in the catalogue."""
+        """Return the solution of a loop cut at a pair, if a form of the catalogue fits."""
         forms = [form for form in self.catalogue.closed if pair.equations in form.equations]
         tried = (form.match(self._known, cut) for cut in views(cycle, pair) for form in forms)
         return next((step for step in tried if step), None)
@@ -237,9 +234,9 @@ class Plan:
     # -- loops without a closed form ------------------------------------------------------------
 
     def _iterate(self, waiting: list[_Offer]) -> list[_Offer]:
-        """Solve what waits by iteration, as little as possible; return the loops that still wait.
+        """Solve waiting loops by iteration, as few as possible; return those that still wait.
 
-        A body that rods hold together, or else the fewest loops of hinges and guides.
+        Solve a body on rods first, or else the fewest loops of hinges and guides.
         """
         cycles = [cycle for cycle, _ in waiting]
         crossed = [c for c in cycles if between_crosses(self._mechanism, c)]
@@ -250,8 +247,10 @@ class Plan:
         if attempt is None or attempt.obstacle or not self.formulation.allow_iteration:
             cycle = (attempt.cycles if attempt else crossed or cycles)[0]
             message = self._refusal(cycle, pair_candidates(self._known, cycle))
-            hint = "" if attempt else self._about_crosses(cycle)
-            hint = hint or apart or tilted(self._mechanism) or aimed(self._mechanism)
+            mechanism = self._mechanism
+            crosses = between_crosses(mechanism, cycle) or crosses_turned(mechanism, cycle)
+            hint = "" if attempt else crosses
+            hint = hint or apart or tilted(mechanism) or aimed(mechanism)
             if hint:
                 message += f" {hint}."
             elif attempt is None or attempt.obstacle:
@@ -319,12 +318,8 @@ class Plan:
             f"Pairs tried: {tried or 'none, since no two of its joints keep a point in common'}."
         )
 
-    def _about_crosses(self, cycle: Cycle) -> str:
-        """Return a sentence on the crosses of a loop that nothing solves, if they are why."""
-        return between_crosses(self._mechanism, cycle) or crosses_turned(self._mechanism, cycle)
-
     def _miscounted(self) -> str:
-        """Say by how much the driven coordinates differ from the degrees of freedom."""
+        """Return a sentence on the difference between driven coordinates and degrees of freedom."""
         driven = sum(j.freedoms for j in self.formulation.driven)
         mobility = self.topology.mobility - len(self._mechanism.passive_links)
         if driven == mobility:
@@ -346,7 +341,7 @@ class Plan:
 
     @staticmethod
     def _remedy(attempt: Attempt | None) -> str:
-        """Say whether an iteration would solve what has no closed form."""
+        """Return a sentence on the iteration that would solve a loop without closed form."""
         if attempt is None:
             return ""
         if attempt.obstacle:
@@ -357,7 +352,7 @@ class Plan:
         )
 
     def _check_complete(self) -> None:
-        """See that every body has a pose; say what holds the first one that has none."""
+        """Raise an error if a body has no pose, with the joint to declare for the first one."""
         placed = self._known.placed
         missing = [b.name for b in self._mechanism.bodies if b.name not in placed]
         if missing:
@@ -369,7 +364,7 @@ class Plan:
             raise NoClosedFormError(message, len(self.transformers))
 
     def _leading_to(self, joint: Joint) -> str:
-        """Say what would determine the body at the far side of a joint; empty: not this joint."""
+        """Return advice for the body at the far side of a joint; empty: not for this joint."""
         here, there = sorted(joint.bodies, key=self._known.placed.__contains__, reverse=True)
         if here not in self._known.placed or there in self._known.placed:
             return ""

@@ -1,6 +1,7 @@
-"""Which loops turn about a point: a cross, and hinges whose axes meet in its centre.
+"""Loops that turn about a point: a universal joint, and hinges whose axes meet in its centre.
 
-By declaration, or with the default parameters; that it stays so is one of the `assumptions`.
+By declaration, or with the default parameters; that other parameters fulfil it too is one of the
+`assumptions`.
 """
 
 from __future__ import annotations
@@ -21,15 +22,7 @@ if TYPE_CHECKING:
 
 
 def common_center(joints: Sequence[Joint], at_defaults: AtDefaults) -> Point | None:
-    """Return the centre of the one cross of a loop, if all else are hinges that go through it.
-
-    Parameters
-    ----------
-    joints
-        Those of the loop.
-    at_defaults
-        Evaluates expressions with the default parameters.
-    """
+    """Return the centre of a loop of one universal joint and hinges through its centre."""
     crosses = [joint for joint in joints if isinstance(joint, Universal)]
     hinges = [joint for joint in joints if isinstance(joint, Revolute)]
     if len(crosses) != 1 or len(hinges) + 1 < len(joints):

@@ -1,8 +1,8 @@
-"""Branches that hold what is held already, such as a second coupler on the pins of the first.
+"""Redundant branches, such as a second coupler on the pins of the first.
 
-Counting degrees of freedom takes every branch for a constraint of its own, so that a mechanism with
-one too many seems to be locked. In numbers, at the design position, it moves equally with the
-branch as without.
+The count of degrees of freedom takes every branch for a constraint of its own, so that a mechanism
+with one too many seems to be locked. In numbers, at the design position, its mobility is the same
+with the branch and without.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def redundant(mechanism: Mechanism, driven: Collection[str] = ()) -> str:
     mechanism
         Its default parameters are used.
     driven
-        Names of the joints that are independent or prescribed, which are left out nowhere.
+        Names of the independent or prescribed joints; no branch with one is left out.
     """
     whole = Mobility(JointGraph(mechanism), driven)
     if not whole.is_known:
@@ -52,7 +52,7 @@ def redundant(mechanism: Mechanism, driven: Collection[str] = ()) -> str:
     ]
     if not found:
         return ""
-    named, them = " or ".join(map(_told, found)), "one of them" if len(found) > 1 else "it"
+    named, them = " or ".join(map(_named, found)), "one of them" if len(found) > 1 else "it"
     return (
         f"At the design position with the default parameters it moves as freely without {named}: "
         "what that holds is held by others already, so it is redundant, and the forces in such a "
@@ -74,7 +74,7 @@ def _branches(mechanism: Mechanism) -> Iterator[Branch]:
 
 
 def _freedoms_without(mechanism: Mechanism, joints: Collection[Joint]) -> int:
-    """Return how many motions are left without some joints; less than none where nothing is."""
+    """Return the number of motions without some joints; -1 where no mechanism is left."""
     rest = tuple(joint for joint in mechanism.joints if joint not in joints)
     if not rest:
         return -1
@@ -86,7 +86,7 @@ def _freedoms_without(mechanism: Mechanism, joints: Collection[Joint]) -> int:
     return Mobility(topology, ()).freedoms
 
 
-def _told(branch: Branch) -> str:
+def _named(branch: Branch) -> str:
     bodies, joints = branch
     names = ", ".join(joint.name for joint in joints)
     return f"{' and '.join(bodies)} (joints {names})" if bodies else f"joint {names}"

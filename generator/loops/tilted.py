@@ -1,4 +1,4 @@
-"""Hinges and guides that are nearly parallel, which is rarely meant.
+"""Hinges and guides that are nearly parallel, which is rarely intended.
 
 A planar loop needs one coordinate less to close than a spatial one, but only with parallel hinges:
 a hinge that is off by a tenth of a degree locks the mechanism.
@@ -21,12 +21,12 @@ if TYPE_CHECKING:
     from ..declare.mechanism import Mechanism
     from ..program.vectors import Vector
 
-# Below it directions are equal but for rounding, above it they are not parallel [rad].
+# Below the first, directions are equal but for rounding; above the second, not parallel [rad].
 _EQUAL, _FAR = 1e-9, math.radians(1.0)
 
 
 def tilted(mechanism: Mechanism) -> str:
-    """Return a sentence on what is nearly parallel at the design position; empty: nothing is."""
+    """Return a sentence on nearly parallel axes at the design position; empty: there are none."""
     angles = {pair: angle for pair, angle in _angles(mechanism) if _EQUAL < angle < _FAR}
     if not angles:
         return ""

@@ -1,8 +1,8 @@
 """Bodies that parallel links keep from turning against each other, while others turn them.
 
-With three parallel and equally long links between two bodies there is one equation more than it
-takes. It is fulfilled where the links themselves place a body, and where guides keep both from
-turning. A loop that turns one of them against the other locks the mechanism, and is refused.
+Three parallel and equally long links between two bodies have one equation more than necessary. It
+is fulfilled where the links themselves place a body, and where guides keep both from turning. A
+loop that turns one of them against the other locks the mechanism, and is refused.
 """
 
 from __future__ import annotations
@@ -21,16 +21,9 @@ if TYPE_CHECKING:
 
 
 def turn_alike(known: Known, one: str, other: str) -> bool:
-    """Return whether two bodies do not turn against each other: guides or parallel links see to it.
+    """Return whether guides or parallel links keep two bodies from turning against each other.
 
-    Not asked is whether they do so by their dimensions, as in a parallelogram of four hinges.
-
-    Parameters
-    ----------
-    known
-        The known motions.
-    one, other
-        The bodies.
+    Special dimensions, as of a parallelogram of four hinges, do not count.
     """
     graph = nx.Graph([tuple(pair) for pair in known.alike])
     graph.add_nodes_from((one, other))
@@ -40,13 +33,7 @@ def turn_alike(known: Known, one: str, other: str) -> bool:
 
 
 def held_apart(known: Known, driven: Collection[str]) -> str:
-    """Return a sentence on parallel links of bodies that others turn; empty: there are none.
-
-    Parameters
-    ----------
-    driven
-        Names of the joints that are independent or prescribed.
-    """
+    """Return a sentence on parallel links of bodies that other loops turn, or ""."""
     for pair, links in known.topology.parallel_links.items():
         waiting = [link for link in links if link not in known.placed]
         if not waiting or len(waiting) == len(links) or not pair <= known.placed:
@@ -66,7 +53,7 @@ def held_apart(known: Known, driven: Collection[str]) -> str:
 def _or_else(
     known: Known, pair: Collection[str], links: Sequence[str], driven: Collection[str]
 ) -> str:
-    """Return what else can be done about bodies that do more than their parallel links let them."""
+    """Return further advice about bodies that other loops turn against their parallel links."""
     ends = {b.name: ends_of(known.mechanism, b.name, pair) for b in known.mechanism.bodies}
     for body, hinges in ends.items():
         if hinges and body not in links:

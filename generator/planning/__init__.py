@@ -1,1 +1,1 @@
-"""The planner with the catalogue of closed forms in its hands, and proposals of coordinates."""
+"""The planner with the catalogue of closed forms, and proposals of coordinates."""

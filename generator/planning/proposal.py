@@ -1,9 +1,8 @@
-"""Which coordinates of a mechanism can be independent: proposals, and why there is none.
+"""Proposals of independent coordinates of a mechanism, or the reason for their absence.
 
-The mobility says how many there are, but for the turns of links about their own line. Sets of so
-many reported coordinates are tried by planning the solution of all loops, joints on the ground
-before others: their coordinates are what drives, and what a person sees. A trial takes
-milliseconds, but there may be very many.
+The mobility gives their number, without the turns of links about their own line. Sets of so many
+reported coordinates are tried by planning the solution of all loops, joints on the ground before
+others: they are driven, as a rule. A trial takes milliseconds, but there may be very many.
 """
 
 from __future__ import annotations
@@ -28,7 +27,7 @@ if TYPE_CHECKING:
     from ..declare.joints import Joint
     from ..declare.mechanism import Mechanism
 
-_SECONDS_TO_FIND = 20.0  # a mechanism with so many choices has one that its author would name
+_SECONDS_TO_FIND = 20.0  # with so many choices, the author would name one
 _SECONDS_TO_ADVISE = 3.0
 _CHOICES_SHOWN = 3
 
@@ -42,7 +41,7 @@ class Proposal:
     independent
         Names of the joints.
     iterates
-        Whether a loop is left to an iteration, which `Formulation.allow_iteration` must permit.
+        Whether a loop is solved by iteration, which `Formulation.allow_iteration` must permit.
     """
 
     independent: tuple[str, ...]
@@ -51,11 +50,6 @@ class Proposal:
 
 def model_of(mechanism: Mechanism) -> Formulation:
     """Return a model of a mechanism with the first proposed coordinates, all bodies massive.
-
-    Parameters
-    ----------
-    mechanism
-        A mechanism without a prescribed motion.
 
     Raises
     ------
@@ -74,15 +68,15 @@ def proposals(
 ) -> Iterator[Proposal]:
     """Yield sets of joints whose coordinates can be independent, in the order of preference.
 
-    Those from which every loop closes in closed form come first. Of a model, what it prescribes
-    stays prescribed. Each of the two searches ends after some time, if it is given.
+    Sets with which every loop has a closed form come first. Prescribed coordinates of a model
+    remain prescribed.
 
     Parameters
     ----------
     declared
-        The model.
+        A mechanism or a model.
     seconds
-        How long to search.
+        Time limit of each of the two searches; None: unlimited.
     """
     search = CoordinateSearch(declared if isinstance(declared, Formulation) else _bare(declared))
     closed = set()
@@ -93,13 +87,7 @@ def proposals(
 
 
 def advice(refused: Formulation) -> str:
-    """Name other choices of independent coordinates for a model whose loops do not close.
-
-    Returns
-    -------
-    str
-        A sentence, or nothing.
-    """
+    """Return a sentence with other independent coordinates for a refused model, if any."""
     search = CoordinateSearch(refused)
     if search.impossible:
         return ""
@@ -118,7 +106,7 @@ class CoordinateSearch:
     Parameters
     ----------
     formulation
-        What it says of independent coordinates does not count.
+        A model; its choice of independent joints is ignored.
     """
 
     def __init__(self, formulation: Formulation) -> None:
@@ -137,7 +125,7 @@ class CoordinateSearch:
 
     @property
     def impossible(self) -> str:
-        """Why there is nothing to try; empty: there is."""
+        """Reason why no set can be tried; empty: there are sets."""
         mechanism, reported = self._model.mechanism, ", ".join(self.candidates) or "none"
         what = f"mechanism {mechanism.name!r} with mobility {self.mobility}"
         if self.count < 0 or self.mobility <= 0:
@@ -165,30 +153,22 @@ class CoordinateSearch:
         return ""
 
     def closed(self, seconds: float | None = None) -> Iterator[Proposal]:
-        """Yield what closes in closed form; stop after some time, if it is given."""
+        """Yield sets with a closed form of every loop, within a time limit."""
         yield from map(Proposal, self._closing(seconds, allow_iteration=False))
 
     def iterated(self, seconds: float | None = None) -> Iterator[Proposal]:
-        """Yield what closes where iteration is allowed; stop after some time, if it is given."""
+        """Yield sets with which every loop closes if iteration is allowed, within a time limit."""
         for independent in self._closing(seconds, allow_iteration=True):
             yield Proposal(independent, iterates=True)
 
     def model(self, independent: tuple[str, ...], *, allow_iteration: bool = False) -> Formulation:
-        """Return the model with some independent joints, by their names.
-
-        Parameters
-        ----------
-        independent
-            Names of the joints.
-        allow_iteration
-            Whether loops may be closed by iteration.
-        """
+        """Return the model with some independent joints, by their names."""
         joints = map(self._model.mechanism.joint, independent)
         every = (*self._free, *joints)
         return replace(self._model, independent=every, allow_iteration=allow_iteration)
 
     def refusal(self) -> str:
-        """Say why nothing was found, by the trial that came nearest, and what would help."""
+        """Return the reason of a failure, with the nearest trial and a remedy."""
         if self.impossible:
             return self.impossible
         name = self._model.mechanism.name
@@ -208,7 +188,7 @@ class CoordinateSearch:
         )
 
     def summary(self) -> str:
-        """Say that nothing was found, and among how many sets."""
+        """Return a sentence on the failure of all sets, with their number."""
         every = comb(len(self.candidates) - len(self._needed), self.count - len(self._needed))
         limit = "" if self._tried >= every else f"the first {self._tried} of "
         return (
@@ -233,14 +213,11 @@ class CoordinateSearch:
             try:
                 CataloguePlan.of(self.model(independent, allow_iteration=allow_iteration))
             except NoClosedFormError as refusal:
-                self._note(independent, refusal)
+                # the nearest trial is the one with the most loops solved before
+                if self._nearest is None or refusal.solved > self._nearest[1].solved:
+                    self._nearest = independent, refusal
             else:
                 yield independent
-
-    def _note(self, independent: tuple[str, ...], refusal: NoClosedFormError) -> None:
-        """Keep the trial in which the most loops were solved before one was refused."""
-        if self._nearest is None or refusal.solved > self._nearest[1].solved:
-            self._nearest = independent, refusal
 
 
 def _either(choices: Iterable[Proposal]) -> str:
@@ -248,7 +225,7 @@ def _either(choices: Iterable[Proposal]) -> str:
 
 
 def _bare(mechanism: Mechanism) -> Formulation:
-    """Return a model of a mechanism in which everything is independent that could be."""
+    """Return a model of a mechanism with all possible coordinates independent."""
     return Formulation(
         name=mechanism.name,
         title=mechanism.title,
