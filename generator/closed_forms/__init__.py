@@ -1,9 +1,9 @@
-"""The catalogue of closed forms: a file for each, with all that there is to say about it.
+"""The catalogue of closed forms, one file each.
 
-A form solves one kind of closure for position, velocity and bias acceleration. Velocities are
-those of the implicit equation, ``g_x x' = -g_u u'``, so the linear factor of the velocity level
-serves the acceleration level again. Everything is written in the axes that the solution itself
-gives to the body (line, steering arm, normal), in which most components vanish.
+A form solves one kind of closure for position, velocity and bias acceleration. Velocities are those
+of the implicit equation, ``g_x x' = -g_u u'``, so the linear factor of the velocity level serves
+the acceleration level again. Everything is written in the axes that the solution itself gives to
+the body (line, steering arm, normal), in which most components vanish.
 
 A file that is added to this folder is in the catalogue (`catalogue`).
 """

@@ -17,7 +17,7 @@ and `prepare` refuses parameters for which it vanishes (t is not finite then).
 
 The body axes are (n, t, n x t). In them D - E = (-w_n, rho - k, s sqrt(|w_p|^2 - k^2)), so the
 turning rate follows from ``(D - E) . (v_D - v_E) = l l'`` with one division. The right side is zero
-but for a telescope of known slide, which is a rod of known variable length (`rod`).
+but for a telescope of known slide, which is a rod of known variable length (`leg`).
 """
 
 from __future__ import annotations
@@ -46,16 +46,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Arm:
-    """What turns about the line, from the design position (constants).
+    """The arm that turns about the line, at the design position (constants).
 
     Attributes
     ----------
     local
-        The point D from the base, in body axes.
+        Position of the point D relative to the base, in body axes.
     design_axes
         Line, direction to D across it, normal to both; in work axes.
     base
-        The point on the line from which D is seen, at the design position.
+        The point of the line that is the origin of the arm, at the design position.
     """
 
     local: Vector
@@ -72,7 +72,7 @@ class Arm:
         end: Point,
         extent: sp.Expr,
     ) -> Arm:
-        """Return the arm of a body from a base on its line, whose design direction is given.
+        """Return the arm of a body from a base on its line to its end D.
 
         Parameters
         ----------
@@ -81,7 +81,7 @@ class Arm:
         line
             Unit vector along the line, at the design position.
         base, end
-            The point of the line from which the arm is seen, and D.
+            The point of the line, and D.
         extent
             The square of the extent of the loop.
         """
@@ -100,18 +100,18 @@ class Arm:
 
     @property
     def along(self) -> sp.Expr:
-        """How far D is from the base, along the line."""
+        """Distance of D from the base along the line [m]."""
         return self.local.x
 
     @property
     def radius(self) -> sp.Expr:
-        """How far D is from the line."""
+        """Distance of D from the line [m]."""
         return self.local.y
 
 
 @dataclass(frozen=True)
 class Reach:
-    """From the foot of the arm to the rod's anchor: w_n, w_p and n x w_p."""
+    """Vector from the foot of the arm to the rod's anchor: w_n, w_p and n x w_p."""
 
     axial: sp.Expr
     across: Vector
@@ -131,19 +131,7 @@ class ArmSolution:
 def fit_rod(
     kin: Kinematics, step: Spanning, leg: Leg, arm: Arm, line: Vector, reach: Reach
 ) -> ArmSolution:
-    """Turn an arm about a line until a leg fits, in the loop that a step closes.
-
-    Parameters
-    ----------
-    kin, step
-        The kinematics so far, and the step.
-    leg
-        The rod.
-    arm, line
-        What turns, and the unit vector about which it does.
-    reach
-        Where the anchor of the rod is.
-    """
+    """Turn an arm about a line until a leg fits, in the loop that a step closes."""
     program, body, rho = kin.program, leg.body, arm.radius
     rod = leg.rod_of(kin, step)
     loop, extent = kin.loop_of(step), extent_squared(kin, step)
@@ -187,19 +175,7 @@ def fit_rod(
 def add_turn_of_rod(
     kin: Kinematics, unsolved: Unsolved, fit: ArmSolution, arm: Arm, anchor: PointMotion
 ) -> None:
-    """Record velocities and bias of a body that a rod from an anchor holds by an arm.
-
-    Parameters
-    ----------
-    kin
-        The kinematics so far.
-    unsolved
-        The body.
-    fit, arm
-        The solution for its position.
-    anchor
-        Motion of the anchor.
-    """
+    """Record velocities and bias of a body that a rod from an anchor holds by an arm."""
     end, rod = arm.local, fit.rod
     length = FixedDistance(fit.rod_vector, end - fit.rod_vector, end, rod.squared)
     target = TargetPoint(kin, unsolved.placed, anchor)
@@ -207,7 +183,7 @@ def add_turn_of_rod(
 
 
 def _require_reach(kin: Kinematics, leg: Leg, arm: Arm, extent: sp.Expr) -> None:
-    """Have `prepare` see that the rod's anchor is beside the line."""
+    """Have `prepare` check that the rod's anchor is beside the line."""
     program, body, anchor = kin.program, leg.body, leg.anchor
     line = arm.design_axes[0]
     way = program.vector(f"{body}_reach_design", kin.design(anchor) - arm.base)
@@ -228,7 +204,7 @@ def _require_reach(kin: Kinematics, leg: Leg, arm: Arm, extent: sp.Expr) -> None
 
 
 def _branch(kin: Kinematics, leg: Leg, arm: Arm, rod: RodLeg, extent: sp.Expr) -> sp.Expr:
-    """Return on which side of the arm the rod is at the design position."""
+    """Return the sign of the side of the arm on which the rod is at the design position."""
     program, body = kin.program, leg.body
     height = program.define(f"{body}_rod_height_design", rod.design.dot(arm.design_axes[2]))
     require(

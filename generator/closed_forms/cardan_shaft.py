@@ -1,12 +1,11 @@
-r"""A shaft that telescopes between two crosses: how a steering column turns the pinion.
+r"""A shaft that telescopes between two universal joints, as between steering column and pinion.
 
 Two links on a guide along their common line are held by a cross each: one on a placed body, the
 *driving* one, the other on a body that is *driven*, on a hinge through the centre of its cross. So
 both centres are known, and with them the line n and the length. The cross on the driving body turns
 the shaft about its line (`universal_joint`), and both links alike, since the guide does not turn.
-
-The driven body turns on its hinge until its cross fits (`yoke`). Beside what is singular there, the
-shaft must not lie along the first axis of the driving cross.
+The driven body turns on its hinge until its cross fits (`yoke`). Beside the singular set of `yoke`,
+the shaft must not lie along the first axis of the driving cross.
 
 The phase of the two yokes is the angle between the second axes of both crosses about n, a constant
 that follows from the two first axes at the design position.
@@ -68,7 +67,7 @@ class CardanShaft(ClosedForm):
 
     @classmethod
     def match(cls, known: Known, cut: CutLoop) -> Self | None:
-        """Return the shaft that one arc of a loop is; the other one ends with the driven body."""
+        """Return the shaft that is one arc of a loop; the other arc ends with the driven body."""
         shaft = GuidedPair.match(cut)
         if shaft is None or not cut.other_joints or known.unknowns_of(shaft.joint) == 0:
             return None
@@ -91,7 +90,7 @@ class CardanShaft(ClosedForm):
 
     @property
     def title(self) -> str:
-        """What the derivation calls this step."""
+        """Its title in the derivation."""
         return f"transformer: {self.about} turned through the shaft of {self.shaft.links}"
 
     @property
@@ -111,7 +110,7 @@ class CardanShaft(ClosedForm):
         yield self.shaft.far, self.shaft.end, self.shaft.anchor
 
     def assumptions(self) -> Iterator[Assumption]:
-        """Yield what keeps the guide on the line of the crosses, and a cross on its hinge."""
+        """Yield the conditions that the guide is along the crosses, and a cross on its hinge."""
         shaft = self.shaft
         span = shaft.end.position - shaft.anchor.position
         way = shaft.joint.direction.components
@@ -154,7 +153,7 @@ class CardanShaft(ClosedForm):
         return DrivenYoke(self.driven, self.hinge, self.parent, self.shaft.far, named)
 
     def _slide(self, kin: Kinematics, line: OnLine) -> None:
-        """Record how far the shaft has been drawn out since the design position."""
+        """Record the extension of the shaft since the design position."""
         shaft, program = self.shaft, kin.program
         span = kin.design(shaft.end) - kin.design(shaft.anchor)
         span = program.vector(f"{shaft.near}_span_design", span)

@@ -1,13 +1,13 @@
-"""A body that only rods hold, all together: a wheel carrier on several links. No closed form.
+"""A body that several rods hold together, such as a wheel carrier on five links. No closed form.
 
 The equations, and the iteration that solves them from the design position on, are those of
-`carrier_equations`. Here is what surrounds them, in straight-line code.
+`carrier_equations`. The straight-line code around them is here.
 
-*Position.* What the iteration has found is corrected once more. That changes nothing but the last
+*Position.* The result of the iteration is corrected once more. That changes nothing but the last
 digits, and carries all derivatives: by the implicit function theorem they are ``-J^-1 g_v``.
 
-*Velocities and accelerations* fulfil ``J x = b``, b being what the starts of the rods do; they are
-solved with what the iteration knows of J^-1 (`inverse`, where the guard is, too).
+*Velocities and accelerations* fulfil ``J x = b``, where b is due to the motion of the anchors; they
+are solved with the J^-1 of the iteration (`inverse`, which contains the guard, too).
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ _RODS_WITHOUT_A_POINT = 6
 
 @dataclass(frozen=True)
 class CarrierOnRods(Iteration):
-    """A body that only rods hold, all together: its pose follows by iteration.
+    """A body that several rods hold together: its pose follows by iteration.
 
     Attributes
     ----------
@@ -113,12 +113,12 @@ class CarrierOnRods(Iteration):
 
     @property
     def title(self) -> str:
-        """What the derivation calls this step."""
+        """Its title in the derivation."""
         return f"transformers with iteration: {self.body} held by {len(self.rods)} rods"
 
     @property
     def closing(self) -> Sequence[Closing]:
-        """What closes the loops."""
+        """The rods, which close the loops."""
         return self.rods
 
     @property
@@ -149,7 +149,7 @@ class CarrierOnRods(Iteration):
 
     def carry_out(self, kin: Kinematics) -> None:
         """Find the pose of the body, and its motion."""
-        held = _Held.of(kin, self)
+        held = _BodyOnRods.of(kin, self)
         _place(kin, held, _corrected(kin, held))
         for rod in held.rods:
             place_rod(kin, rod.entry)
@@ -186,8 +186,8 @@ def _beyond(known: Known, joint: Joint, link: str) -> Joint | None:
 
 
 @dataclass(frozen=True)
-class _Held:
-    """The body and what holds it.
+class _BodyOnRods:
+    """The body and its rods.
 
     Attributes
     ----------
@@ -196,7 +196,7 @@ class _Held:
     origin
         Origin of the body axes at design: the known point, or else the end of the first rod.
     size
-        The length c of the equations: root mean square of the ways from there to the rods.
+        The length c of the equations: root mean square distance of the rods' ends from there.
     rods
         In the order of the step.
     """
@@ -208,8 +208,8 @@ class _Held:
     rods: list[_RodAtBody]
 
     @classmethod
-    def of(cls, kin: Kinematics, step: CarrierOnRods) -> _Held:
-        """Describe what an step is about."""
+    def of(cls, kin: Kinematics, step: CarrierOnRods) -> _BodyOnRods:
+        """Return the body of a step and its rods."""
         program, body = kin.program, step.body
         if step.pin is None:
             base, origin = None, kin.design(step.rods[0].end)
@@ -239,7 +239,7 @@ class _Held:
 
 @dataclass(frozen=True)
 class _RodAtBody:
-    """A rod: its length, the motion of where it starts, and its equation."""
+    """A rod: its length, the motion of its anchor, and its equation."""
 
     entry: Leg
     rod: RodLeg
@@ -257,7 +257,7 @@ class _RodAtBody:
         *,
         pinned: bool,
     ) -> _RodAtBody:
-        """Describe a rod that ends at a point of the body; positions are from a start."""
+        """Return a rod to an end at the body; positions are relative to `start`."""
         program, rod = kin.program, entry.rod_of(kin, entry)
         anchor = entry.anchor_motion(kin)
         length = program.define(f"{entry.rod}_length_design", sp.sqrt(rod.design.dot(rod.design)))
@@ -273,7 +273,7 @@ class _RodAtBody:
 
 @dataclass(frozen=True)
 class _Solved:
-    """The pose, the ways along the rods from their starts to their ends, J and its inverse."""
+    """The pose, the vectors along the rods from their anchors to their ends, J and its inverse."""
 
     pose: Pose
     rod_vectors: list[Vector]
@@ -284,8 +284,8 @@ class _Solved:
 # -- position -------------------------------------------------------------------------------------
 
 
-def _corrected(kin: Kinematics, held: _Held) -> _Solved:
-    """Correct what the iteration has found, and return the pose with its linear equations."""
+def _corrected(kin: Kinematics, held: _BodyOnRods) -> _Solved:
+    """Correct the result of the iteration; return the pose with its linear equations."""
     program, body = kin.program, held.step.body
     equations = {rod.entry.rod: rod.equation for rod in held.rods}
     iteration = block(program, body, equations, held.size, driven_coordinates(kin))
@@ -327,7 +327,7 @@ def _corrected(kin: Kinematics, held: _Held) -> _Solved:
 # -- motion ---------------------------------------------------------------------------------------
 
 
-def _place(kin: Kinematics, held: _Held, solved: _Solved) -> None:
+def _place(kin: Kinematics, held: _BodyOnRods, solved: _Solved) -> None:
     """Record pose, velocities and bias."""
     step, program, pose = held.step, kin.program, solved.pose
     placed = BodyMotion(
@@ -347,7 +347,7 @@ def _place(kin: Kinematics, held: _Held, solved: _Solved) -> None:
     kin.placed[step.body] = placed
 
 
-def _add_motion(kin: Kinematics, held: _Held, solved: _Solved, placed: BodyMotion) -> None:
+def _add_motion(kin: Kinematics, held: _BodyOnRods, solved: _Solved, placed: BodyMotion) -> None:
     """Add velocities and bias: every rod keeps its length, or has that of a known slide."""
     conditions = [
         ClosureCondition(
@@ -375,9 +375,9 @@ class _OnRods(Unsolved):
     carriers: Sequence[TargetPoint]
 
     def at_rest(self, k: str) -> Twist:
-        """Return the twist with which the point carries it."""
+        """Return its twist as carried by the point."""
         return Twist(ZERO, sum((base.rates(k).velocity for base in self.carriers), ZERO))
 
     def coasting(self) -> Twist:
-        """Return the bias with which the point carries it."""
+        """Return its bias as carried by the point."""
         return Twist(ZERO, sum((base.biases().acceleration for base in self.carriers), ZERO))

@@ -1,8 +1,9 @@
-"""The equations of a body that only rods hold, all together, and the iteration that solves them.
+"""Equations of a body that several rods hold together, and the iteration that solves them.
 
 The pose of the body has n unknowns: three of its orientation, where it also hangs at a point of
-known motion, or all six; and n rods hold it. With A_i where rod i starts, r_i the point of the body
-where it ends, seen from the origin of the body axes, and gap_i the way from A_i to that point,
+known motion, or all six; and n rods hold it. With A_i the anchor of rod i, r_i the point of the
+body where it ends, relative to the origin of the body axes, and gap_i the vector from A_i to that
+point,
 
     g_i = (gap_i^2 - l_i^2) s_i / 2 = 0,    s_i = 1 / (l_i c),
 
@@ -15,9 +16,9 @@ In body axes a small turn theta of the body, and a small shift c sigma, change g
 
 these are the rows of J. The same matrix gives velocities and accelerations (`carrier`).
 
-The attitude is given by Rodrigues' parameters u, relative to the design position and rational:
-``R = 1 + 2 (u~ + u~ u~) / (1 + u^2)``. A turn theta in body axes is composed with it by
-``(u + w + u x w) / (1 - u . w)``, where w = theta / 2 for the small ones of an iteration.
+The attitude is given by Rodrigues' parameters u, relative to the design position and rational: ``R
+= 1 + 2 (u~ + u~ u~) / (1 + u^2)``. A turn theta in body axes is composed with it by ``(u + w + u x
+w) / (1 - u . w)``, where w = theta / 2 for the small ones of an iteration.
 """
 
 from __future__ import annotations
@@ -42,7 +43,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Pose:
-    """Body axes, and how far their origin has come from the base, in work axes."""
+    """Body axes, and the displacement of their origin from the base, in work axes."""
 
     axes: Axes
     shift: Vector
@@ -55,7 +56,7 @@ class RodEquation:
     Attributes
     ----------
     anchor
-        A_i, from the base: the known point or, without one, where the origin of the body axes is
+        A_i, relative to the base: the known point or, without one, the origin of the body axes
         at the design position (work axes).
     end
         r_i (body axes).
@@ -73,15 +74,15 @@ class RodEquation:
 
     @property
     def moving(self) -> list[sp.Expr]:
-        """What may move of it."""
+        """Its components that may vary."""
         return [*self.anchor, self.squared]
 
     def rod_vector(self, pose: Pose) -> Vector:
-        """Return the way from the start of the rod to its end, in body axes."""
+        """Return the vector from the anchor of the rod to its end, in body axes."""
         return self.end - to_axes(pose.axes, self.anchor - pose.shift)
 
     def length(self, rod_vector: Vector) -> FixedDistance:
-        """Return the equation, given the way along the rod."""
+        """Return the equation, for the vector along the rod."""
         start = self.end - rod_vector
         return FixedDistance(rod_vector, start, self.end, self.squared, self.scale)
 
@@ -92,7 +93,7 @@ class RodEquation:
 
 
 def screws(size: sp.Expr | None) -> list[Twist]:
-    """Return what the unknowns do to the body: turns about its axes, and shifts along them."""
+    """Return the screw of each unknown: turns about the body's axes, and shifts along them."""
     shifts = [] if size is None else [Twist(ZERO, e * size) for e in _UNITS]
     return [Twist(e, ZERO) for e in _UNITS] + shifts
 
@@ -101,15 +102,7 @@ _UNITS = (UNIT_X, UNIT_Y, UNIT_Z)
 
 
 def rotation(program: Program, name: str, u: Vector) -> Axes:
-    """Append the body axes of Rodrigues' parameters.
-
-    Parameters
-    ----------
-    program, name
-        Receives the steps, and what begins their names.
-    u
-        The parameters.
-    """
+    """Append the body axes of Rodrigues' parameters u; the name begins those of the steps."""
     half = program.define(f"{name}_half", 2 / (1 + u.dot(u)))
     v = program.vector(f"{name}_scaled", u * half, "123")
     columns = (
@@ -120,15 +113,7 @@ def rotation(program: Program, name: str, u: Vector) -> Axes:
 
 
 def turned(axes: Axes, turn: Vector) -> Axes:
-    """Return axes after a turn so small that its square vanishes; it is given along the axes.
-
-    Parameters
-    ----------
-    axes
-        Before the turn.
-    turn
-        The rotation vector [rad].
-    """
+    """Return axes after an infinitesimal rotation, a vector along the same axes [rad]."""
     x, y, z = axes
     return (
         x + y * turn.z - z * turn.y,
@@ -149,14 +134,18 @@ def block(
     size: sp.Expr,
     driven: Iterable[DrivenCoordinate],
 ) -> IterationBlock:
-    """Return the iteration that finds the pose of a body held by some rods (`IterationDerivation`).
+    """Return the iteration that finds the pose of a body held by rods (`IterationDerivation`).
 
     Parameters
     ----------
+    program, body
+        Of the caller, and the name of the body.
     rods
         The equation of every rod, by its name.
     size
         The length c of the equations.
+    driven
+        The driven coordinates.
     """
     name = f"pose_of_{body}"
     if name in program.constants.blocks:

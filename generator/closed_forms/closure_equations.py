@@ -1,15 +1,15 @@
 """Closure equations of a tree of hinges and guides, and the iteration that solves them.
 
 The bodies of a tree are carried by hinges and guides of unknown coordinates x, from bodies that are
-placed. All is written in work axes. What the coordinates do to a body is a displacement from its
-design position (`Frame`), composed from joint to joint along the tree, so that the geometry of the
-equations is that of the design position: axes, points, lengths.
+placed. All is written in work axes. The coordinates displace a body from its design position
+(`Frame`), composed from joint to joint along the tree, so that the geometry of the equations is
+that of the design position: axes, points, lengths.
 
-Every joint that closes a loop gives what it leaves in common, every rod its length (`constraints`).
-The c of their factors is a length of the mechanism, in which slides are counted, too, so that
-neither equations nor unknowns have a unit. With the screw of a joint as a motion, the rate of an
-equation is an element of the Jacobian J; with what placed bodies do it is the right side of the
-equations for velocities (`coupled_loops`).
+Every joint that closes a loop has the equations of its constraint, every rod that of its length
+(`constraints`). The c of their factors is a length of the mechanism, which is the unit of slides,
+too, so that neither equations nor unknowns have a unit. With the screw of a joint as a motion, the
+rate of an equation is an element of the Jacobian J; with the motion of placed bodies it is the
+right side of the equations for velocities (`coupled_loops`).
 """
 
 from __future__ import annotations
@@ -35,9 +35,9 @@ if TYPE_CHECKING:
     from .tree import CutJoint, Tree
 
 Geometry = dict[str, Vector]
-"""What the equations read, by name: constants of the design position, and poses of placed bodies.
+"""Inputs of the equations, by name: constants of the design position, poses of placed bodies.
 
-Of a scalar, the first component.
+A scalar is the first component.
 """
 
 
@@ -51,7 +51,7 @@ class Frame:
     Attributes
     ----------
     axes
-        Where it has turned the work axes.
+        The work axes as turned with the body.
     origin, start
         A point of the body, now and at the design position.
     """
@@ -61,17 +61,17 @@ class Frame:
     start: Vector = ZERO
 
     def at(self, point: Vector) -> Vector:
-        """Return where a point of the body is, which is given at the design position."""
+        """Return the position of a point of the body, given at the design position."""
         return self.origin + from_axes(self.axes, point - self.start)
 
     def along(self, direction: Vector) -> Vector:
-        """Return where a direction of the body points."""
+        """Return the present direction of a direction of the body."""
         return from_axes(self.axes, direction)
 
 
 @dataclass(frozen=True)
 class Screw:
-    """What a unit rate of a coordinate does to all that the joint carries."""
+    """Motion of all bodies that a joint carries, per unit rate of its coordinate."""
 
     axis: Vector
     through: Vector
@@ -79,7 +79,7 @@ class Screw:
     size: sp.Expr
 
     def at_rate(self, rate: sp.Expr) -> tuple[Vector, Vector]:
-        """Return angular velocity and velocity of what is carried, at its origin."""
+        """Return angular velocity and velocity of the carried bodies, at its origin."""
         if self.slides:
             return ZERO, self.axis * (self.size * rate)
         return self.axis * rate, ZERO
@@ -91,14 +91,14 @@ class Screw:
 
 @dataclass(frozen=True)
 class Closure:
-    """A constraint, and the two bodies that it is about."""
+    """A constraint between two bodies."""
 
     first: str
     second: str
     constraint: Constraint
 
     def rate(self, motions: Mapping[str, Moving]) -> sp.Expr:
-        """Return how fast its residual changes with the motions of all bodies."""
+        """Return the rate of its residual with the motions of all bodies."""
         return self.constraint.rate(motions[self.first], motions[self.second])
 
     def acceleration(self, motions: Mapping[str, Moving]) -> sp.Expr:
@@ -111,7 +111,7 @@ class Closure:
 
 @dataclass(frozen=True)
 class Position:
-    """Where some values of the unknowns put the tree.
+    """Position of the tree for some values of the unknowns.
 
     Attributes
     ----------
@@ -129,11 +129,11 @@ class Position:
     equations: list[Closure]
 
     def jacobian(self) -> Matrix:
-        """Return how the residuals change with the unknowns."""
+        """Return the derivatives of the residuals with respect to the unknowns."""
         return self._columns(driven=False)
 
     def by_driven(self) -> Matrix:
-        """Return how the residuals change with the driven coordinates of the tree."""
+        """Return the derivatives of the residuals with respect to the driven coordinates."""
         return self._columns(driven=True)
 
     def _columns(self, *, driven: bool) -> Matrix:
@@ -150,7 +150,7 @@ class Position:
         return equation.constraint.rate(*motions)
 
     def carriers(self, body: str) -> list[int]:
-        """Return the places of the joints that carry a body, from the body inward."""
+        """Return the indices of the joints that carry a body, from the body inward."""
         children = self.tree.bodies
         found = []
         while body in children:
@@ -166,15 +166,16 @@ def position(
     geometry: Geometry,
     unknowns: Sequence[sp.Expr],
 ) -> Position:
-    """Append the position for some values of the unknowns.
-
-    Parameters
-    ----------
-    label
-        Begins the names of the steps.
-    """
+    """Append the position for values of the unknowns; the label begins the names of steps."""
     size, rest = geometry["size"].x, iter(unknowns)
-    frames = {body: _base(geometry, body) for body in bases(tree)}
+    frames = {
+        body: Frame(
+            (geometry[f"{body}_x"], geometry[f"{body}_y"], geometry[f"{body}_z"]),
+            geometry[f"{body}_origin"],
+            geometry[f"{body}_start"],
+        )
+        for body in bases(tree)
+    }
     screws = []
     for branch in tree.tree:
         x = geometry[f"{branch.joint.name}_given"].x if branch.driven else next(rest)
@@ -206,23 +207,17 @@ def position(
 
 
 def bases(tree: Tree) -> list[str]:
-    """Return the placed bodies that a tree or what closes its loops starts from."""
+    """Return the placed bodies that a tree, or a joint or rod that closes it, starts from."""
     touched = [branch.parent for branch in tree.tree]
     touched += [body for cut in tree.cuts for body in cut.joint.bodies]
     touched += [body for held in tree.rods for body in (held.anchor_body, held.body)]
     return [body for body in dict.fromkeys(touched) if body not in tree.bodies]
 
 
-def _base(geometry: Geometry, body: str) -> Frame:
-    """Return the frame of a placed body."""
-    x, y, z = (geometry[f"{body}_{axis}"] for axis in "xyz")
-    return Frame((x, y, z), geometry[f"{body}_origin"], geometry[f"{body}_start"])
-
-
 def _turned(
     program: Program, name: str, axes: Axes, axis: Vector, local: Vector, angle: sp.Expr
 ) -> Axes:
-    """Append axes after a turn about an axis, whose components along them are given, too."""
+    """Append axes after a turn about an axis, whose components along them are `local`."""
     cosine = program.define(f"{name}_cos", sp.cos(angle))
     sine = program.define(f"{name}_sin", sp.sin(angle))
     kept = program.vector(f"{name}_kept", axis * (1 - cosine))
@@ -241,7 +236,7 @@ def _at_cut(
     frames: Mapping[str, Frame],
     plane: Frame,
 ) -> list[Closure]:
-    """Return the equations of a joint that closes a loop; a plane is that of a placed body."""
+    """Return the equations of a joint that closes a loop; the plane is that of a placed body."""
     name, bodies = cut.joint.name, cut.joint.bodies
     scale, at = geometry["scale"].x, geometry[f"{name}_at"]
     one, two = (frames[body] for body in bodies)
@@ -268,7 +263,7 @@ def _at_cut(
 
 _WORK: Axes = (UNIT_X, UNIT_Y, UNIT_Z)
 
-# Which directions of the two bodies stay square, by their names in the geometry.
+# Directions of the two bodies that stay perpendicular, by their names in the geometry.
 _ACROSS = [("axis", "side"), ("axis", "top")]
 _SQUARE = {
     Revolute.kind: _ACROSS,
@@ -293,9 +288,9 @@ def block(
     Parameters
     ----------
     program
-        From which the iteration is called.
+        Of the caller.
     tree, geometry
-        The loops, and what their equations read.
+        The loops, and the inputs of their equations.
     driven
         The coordinates along which the solution is followed.
     """

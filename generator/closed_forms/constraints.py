@@ -1,16 +1,16 @@
-"""What joints and rods demand of two bodies, as equations of their positions and motions.
+"""Constraints of joints and rods between two bodies, as equations of their positions and motions.
 
-Every joint that closes a loop gives what it leaves in common, every rod its length:
+Every joint that closes a loop has the equations of its constraint, every rod that of its length:
 
     Coincident      d . (p2 - p1) / c = 0                 hinge, cross, ball joint (in a plane too)
     Guided          d1 . (p2 - p1) / c = 0                guide: across it; d1 turns with the first
     Perpendicular   a1 . b2 = 0                           hinge, cross, guide: a right angle
     FixedDistance   (|p2 - p1|^2 - l^2) / (2 l c) = 0     rod
 
-Both bodies are seen from the same axes, which may be any. The rate of an equation is linear in
+Both bodies are described in the same axes, which may be any. The rate of an equation is linear in
 the motions of its two bodies: with a unit rate of an unknown as that motion it is an element of the
-Jacobian, with what else moves it is the right side. A factor like 1 / c is named ``scale``; it is
-one where nothing is made free of units.
+Jacobian, with the other motions it is the right side. A factor like 1 / c is named ``scale``; it is
+one where equations keep their units.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Moving:
-    """Velocities of a body, and accelerations where they are asked for."""
+    """Velocities of a body, and accelerations where they are needed."""
 
     at: Vector = ZERO
     omega: Vector = ZERO
@@ -43,11 +43,11 @@ class Moving:
         return cls(ZERO, twist.angular, twist.linear)
 
     def velocity_of(self, point: Vector) -> Vector:
-        """Return the velocity of what of the body is at a point."""
+        """Return the velocity of the body at a point."""
         return self.velocity + self.omega.cross(point - self.at)
 
     def acceleration_of(self, point: Vector) -> Vector:
-        """Return the acceleration of what of the body is at a point."""
+        """Return the acceleration of the body at a point."""
         arm = point - self.at
         centripetal = self.omega.cross(self.omega.cross(arm))
         return self.acceleration + self.alpha.cross(arm) + centripetal
@@ -61,32 +61,20 @@ class Constraint(ABC):
 
     @abstractmethod
     def residual(self) -> sp.Expr:
-        """Return what the position leaves of the equation."""
+        """Return the residual at the position."""
 
     @abstractmethod
     def rate(self, one: Moving, two: Moving) -> sp.Expr:
-        """Return how fast the residual changes with the motions of both bodies.
-
-        Parameters
-        ----------
-        one, two
-            Velocities of the first and the second body.
-        """
+        """Return the rate of the residual with the velocities of both bodies."""
 
     @abstractmethod
     def acceleration(self, one: Moving, two: Moving) -> sp.Expr:
-        """Return the second derivative of the residual, where residual and rate are zero.
-
-        Parameters
-        ----------
-        one, two
-            Velocities and accelerations of the first and the second body.
-        """
+        """Return the second derivative of the residual, where residual and rate are zero."""
 
 
 @dataclass(frozen=True)
 class Coincident(Constraint):
-    """Two points meet, along a direction."""
+    """Two points coincide, along a direction."""
 
     p1: Vector
     p2: Vector
@@ -94,15 +82,15 @@ class Coincident(Constraint):
     scale: sp.Expr = sp.S.One
 
     def residual(self) -> sp.Expr:
-        """Return how far they are apart, along the direction."""
+        """Return their distance along the direction, times the scale."""
         return self.along.dot(self.p2 - self.p1) * self.scale
 
     def rate(self, one: Moving, two: Moving) -> sp.Expr:
-        """Return the velocity of the second point as seen from the first, along the direction."""
+        """Return the velocity of the second point relative to the first, along the direction."""
         return self.along.dot(two.velocity_of(self.p2) - one.velocity_of(self.p1)) * self.scale
 
     def acceleration(self, one: Moving, two: Moving) -> sp.Expr:
-        """Return the same of the accelerations."""
+        """Return the relative acceleration, along the direction."""
         pull = two.acceleration_of(self.p2) - one.acceleration_of(self.p1)
         return self.along.dot(pull) * self.scale
 
@@ -111,23 +99,23 @@ class Coincident(Constraint):
 class Guided(Coincident):
     """A point stays on the guide of another body, along a direction of that body across it.
 
-    The direction turns with the first body, and the second one slides as that sees it.
+    The direction turns with the first body, relative to which the second one slides.
 
     Attributes
     ----------
     guide
-        The direction of the guide where that is one of the axes: the point slides along it alone,
-        which the zeros of the others make a shorter formula.
+        The direction of the guide where that is one of the axes: the formula is shorter by the
+        zeros of the others.
     """
 
     guide: Vector | None = None
 
     def rate(self, one: Moving, two: Moving) -> sp.Expr:
-        """Return how fast the point leaves the guide, along the direction."""
+        """Return the velocity of the point relative to the guide, along the direction."""
         return self.along.dot(self._slip(one, two)) * self.scale
 
     def acceleration(self, one: Moving, two: Moving) -> sp.Expr:
-        """Return the same of its acceleration as the first body sees it."""
+        """Return its acceleration relative to the first body, along the direction."""
         pull = two.acceleration_of(self.p2) - one.acceleration_of(self.p2)
         slip = self._slip(one, two)
         if self.guide is not None:
@@ -135,7 +123,7 @@ class Guided(Coincident):
         return self.along.dot(pull - one.omega.cross(slip) * 2) * self.scale
 
     def _slip(self, one: Moving, two: Moving) -> Vector:
-        """Return the velocity of the point as the first body sees it."""
+        """Return the velocity of the point relative to the first body."""
         return two.velocity_of(self.p2) - one.velocity_of(self.p2)
 
 
@@ -151,11 +139,11 @@ class Perpendicular(Constraint):
         return self.a1.dot(self.b2)
 
     def rate(self, one: Moving, two: Moving) -> sp.Expr:
-        """Return the rate of that."""
+        """Return the rate of the cosine."""
         return (two.omega - one.omega).dot(self.b2.cross(self.a1))
 
     def acceleration(self, one: Moving, two: Moving) -> sp.Expr:
-        """Return the second derivative of that."""
+        """Return the second derivative of the cosine."""
         a_rate, b_rate = one.omega.cross(self.a1), two.omega.cross(self.b2)
         changing = b_rate.cross(self.a1) + self.b2.cross(a_rate)
         relative = (two.omega - one.omega).dot(changing)
@@ -177,11 +165,11 @@ class FixedDistance(Constraint):
         return (self.rod_vector.dot(self.rod_vector) - self.squared) * (self.scale / 2)
 
     def rate(self, one: Moving, two: Moving) -> sp.Expr:
-        """Return the rate of that."""
+        """Return the rate of the residual."""
         return self.rod_vector.dot(self._rate(one, two)) * self.scale
 
     def acceleration(self, one: Moving, two: Moving) -> sp.Expr:
-        """Return the second derivative of that."""
+        """Return the second derivative of the residual."""
         rate = self._rate(one, two)
         pull = two.acceleration_of(self.p2) - one.acceleration_of(self.p1)
         return (self.rod_vector.dot(pull) + rate.dot(rate)) * self.scale

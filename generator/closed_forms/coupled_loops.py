@@ -1,14 +1,14 @@
 """Loops of hinges and guides that close together, by iteration. No closed form.
 
 The equations, and the iteration that solves them from the design position on, are those of
-`closure_equations`. Here is what surrounds them, in straight-line code.
+`closure_equations`. The straight-line code around them is here.
 
-*Position.* What the iteration has found is corrected once more. That changes nothing but the last
+*Position.* The result of the iteration is corrected once more. That changes nothing but the last
 digits, and carries all derivatives: by the implicit function theorem they are ``-J^-1 g_v``.
 
-*Velocities.* With the unknowns at rest, what the placed bodies do changes the equations at rates
--b; ``J x = b`` gives the rates of the unknowns. *Accelerations* fulfil the same equations, with the
-second derivatives that remain when the unknowns have no acceleration (`inverse`).
+*Velocities.* With the unknowns at rest, the motion of the placed bodies changes the equations at
+rates -b; ``J x = b`` gives the rates of the unknowns. *Accelerations* fulfil the same equations,
+with the second derivatives that remain when the unknowns have no acceleration (`inverse`).
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ class CoupledLoops(Tree, Iteration):
     ) -> Attempt | None:
         """Return the fewest loops that determine as many coordinates as they have unknown.
 
-        The first ones without an obstacle, or else the first ones.
+        These are the first ones without an obstacle, or else the first ones.
         """
         mobility = Mobility(known.topology, driven)
         found = []
@@ -78,18 +78,16 @@ class CoupledLoops(Tree, Iteration):
                 tree = Coupling(known, cycles).tree()
                 if tree is None or len(tree.unknowns) > tree.equations:
                     continue
+                problem = (
+                    f"Closed at {tree.closing_names}, {count} loop(s) leave {tree.equations} "
+                    f"equations for the {len(tree.unknowns)} unknown coordinates of "
+                    f"{tree.joint_names}"
+                )
                 step = cls(**vars(tree))
-                found.append(step._attempt(cycles, mobility))
+                found.append(Attempt(step, cycles, problem, obstacle(step, mobility)))
                 if not found[-1].obstacle:
                     return found[-1]
         return found[0] if found else None
-
-    def _attempt(self, cycles: tuple[Cycle, ...], mobility: Mobility) -> Attempt:
-        problem = (
-            f"Closed at {self.closing_names}, {len(cycles)} loop(s) leave {self.equations} "
-            f"equations for the {len(self.unknowns)} unknown coordinates of {self.joint_names}"
-        )
-        return Attempt(self, cycles, problem, obstacle(self, mobility))
 
     @property
     def about(self) -> str:
@@ -98,12 +96,12 @@ class CoupledLoops(Tree, Iteration):
 
     @property
     def title(self) -> str:
-        """What the derivation calls this step."""
+        """Its title in the derivation."""
         return f"transformers with iteration: {self.joint_names}"
 
     @property
     def closing(self) -> Sequence[Closing]:
-        """What closes the loops: one of each."""
+        """The joints and rods that close the loops, one each."""
         return *self.cuts, *self.rods
 
     def accept(self, known: Known) -> set[Coordinate]:
@@ -138,20 +136,12 @@ class CoupledLoops(Tree, Iteration):
 
 
 def obstacle(step: CoupledLoops, mobility: Mobility) -> str:
-    """Say why an iteration would not help.
-
-    Parameters
-    ----------
-    step
-        The loops.
-    mobility
-        How the mechanism can move from its design position.
-    """
+    """Return the reason why an iteration would not help; empty: there is none."""
     unknowns, joints = len(step.unknowns), [branch.joint for branch in step.unknowns]
     if unknowns > MOST_UNKNOWNS:
         return f"{unknowns} unknowns are more than the {MOST_UNKNOWNS} of an iteration"
     if not mobility.is_known:
-        return ""  # what is not declared is refused later, by its name
+        return ""  # an undeclared parameter is refused later, by its name
     if not mobility.determines(coordinates_of(joints)):
         return (
             "with the default parameters they do not determine these at the design position: it is "
@@ -169,13 +159,16 @@ def obstacle(step: CoupledLoops, mobility: Mobility) -> str:
 
 
 def _geometry(kin: Kinematics, step: CoupledLoops) -> Geometry:
-    """Return all that the equations read."""
+    """Return the inputs of the equations."""
     geometry: Geometry = {}
     for body in bases(step):
         geometry |= _of_base(kin, body)
     for branch in step.tree:
         joint = branch.joint
-        axis = _driven_axis(kin, joint) if branch.driven else _axis(kin, joint)
+        if branch.driven and isinstance(joint, Revolute):  # in the sense of its given angle
+            axis = positive_axis_at_design(kin, joint)
+        else:
+            axis = _axis(kin, joint)
         geometry[f"{joint.name}_axis"] = axis * branch.sense
         if isinstance(joint, Revolute):
             geometry[f"{joint.name}_at"] = kin.design(joint.axis.through)
@@ -198,7 +191,7 @@ def _geometry(kin: Kinematics, step: CoupledLoops) -> Geometry:
     return geometry
 
 
-# Names of what is a place, by their ends.
+# Ends of the names of positions.
 _PLACES = ("_at", "_anchor", "_end")
 
 
@@ -210,7 +203,7 @@ def _size(kin: Kinematics, name: str, places: Sequence[Vector]) -> sp.Expr:
     """Return the root mean square of the distances of some places from the first one."""
     squares = [(place - places[0]).dot(place - places[0]) for place in places[1:]]
     total = sum(squares, sp.Integer(0))
-    if total == 0:  # all axes meet in a point, and its equations have neither length nor content
+    if total == 0:  # all axes meet in a point: its equations have no length, and vanish
         return sp.Integer(1)
     return kin.program.define(f"{name}_size", sp.sqrt(total / len(squares)))
 
@@ -233,21 +226,14 @@ _UNITS = (UNIT_X, UNIT_Y, UNIT_Z)
 
 
 def _axis(kin: Kinematics, joint: Revolute | Prismatic) -> Vector:
-    """Return the unit vector along which a coordinate counts, at design, in work axes."""
+    """Return the unit vector along a joint as declared, at design, in work axes."""
     if isinstance(joint, Revolute):
         return axis_at_design(kin, joint)
     return kin.unit(f"{joint.name}_axis_design", kin.to_work(joint.direction.components))
 
 
-def _driven_axis(kin: Kinematics, joint: Revolute | Prismatic) -> Vector:
-    """Return the same of a driven joint, in the sense in which its coordinate is positive."""
-    if isinstance(joint, Revolute):
-        return positive_axis_at_design(kin, joint)
-    return _axis(kin, joint)
-
-
 def _given(kin: Kinematics, joint: Revolute | Prismatic, size: sp.Expr) -> sp.Expr:
-    """Return how far a driven coordinate is from its design position; a slide in units of c."""
+    """Return the displacement of a driven coordinate from design; a slide in units of c."""
     coordinate = kin.given(joint)
     if isinstance(joint, Prismatic):
         return kin.program.define(f"{joint.name}_given", coordinate / size)
@@ -258,14 +244,14 @@ def _given(kin: Kinematics, joint: Revolute | Prismatic, size: sp.Expr) -> sp.Ex
 
 
 def _place_of(kin: Kinematics, joint: Joint) -> Vector:
-    """Return where a joint is; of a guide, which is nowhere, a point of its second body."""
+    """Return the position of a joint; of a guide, that of a point of its second body."""
     if isinstance(joint, Revolute):
         return kin.design(joint.axis.through)
     return kin.design(joint.center or joint.second.center)
 
 
 def _of_cut(kin: Kinematics, cut: CutJoint) -> Geometry:
-    """Return where a joint is that closes a loop, and directions along its axis and across it."""
+    """Return the position of a joint that closes a loop, directions along and across its axis."""
     if cut.normal is not None:
         return _of_plane(kin, cut.joint, cut.normal)
     joint, name = cut.joint, cut.joint.name
@@ -283,7 +269,7 @@ def _of_cut(kin: Kinematics, cut: CutJoint) -> Geometry:
 
 
 def _of_plane(kin: Kinematics, joint: Joint, normal: Direction) -> Geometry:
-    """Return the same of a loop in a plane; both directions of a hinge are across it."""
+    """Return the same for a planar loop; both directions of a hinge are across it."""
     name, at = joint.name, {f"{joint.name}_at": _place_of(kin, joint)}
     n = kin.unit(f"{name}_normal_design", kin.to_work(normal.components))
     if isinstance(joint, Prismatic):
@@ -313,18 +299,18 @@ class _Solved:
         return list(zip(self.position.tree.tree, self.position.screws, strict=True))
 
     def filled(self, driven: Sequence[sp.Expr], unknown: Sequence[sp.Expr]) -> list[sp.Expr]:
-        """Return what is given of driven joints and what is found of the others, in one list."""
+        """Return values of all joints: given ones of driven joints, solved ones of the others."""
         rest = iter(unknown)
         tree = self.position.tree.tree
         return [x if b.driven else next(rest) for b, x in zip(tree, driven, strict=True)]
 
     def solve(self, kin: Kinematics, name: str, residual_rates: Sequence[sp.Expr]) -> list[sp.Expr]:
-        """Append the rates, or accelerations, of the unknowns that make up for residual rates."""
+        """Append the rates, or accelerations, of the unknowns that cancel residual rates."""
         return self.inverse.solve(kin, name, self.rows, [-rate for rate in residual_rates])
 
 
 def _corrected(kin: Kinematics, step: CoupledLoops, geometry: Geometry) -> _Solved:
-    """Call the iteration, and correct what it has found."""
+    """Call the iteration, and correct its result."""
     program, name = kin.program, step.body
     results = program.iterated(
         f"{name}_loops", block(program, step, geometry, driven_coordinates(kin))
@@ -392,8 +378,9 @@ def _add_motion(kin: Kinematics, step: CoupledLoops, solved: _Solved) -> None:
         x = solved.filled(driven, x)
         for body, moving in _velocities(kin, solved, k, given, x).items():
             if body in step.bodies:
-                child = kin.placed[body]
-                child.motion[k] = kin.define_twist(body, k, _twist(child, moving))
+                axes = kin.placed[body].axes
+                twist = Twist(to_axes(axes, moving.omega), to_axes(axes, moving.velocity))
+                kin.placed[body].motion[k] = kin.define_twist(body, k, twist)
         rates = [
             rate + value * kin.coordinates.rate(k) for rate, value in zip(rates, x, strict=True)
         ]
@@ -455,7 +442,7 @@ def _driven_rate(kin: Kinematics, solved: _Solved, branch: JointOfTree, k: str) 
 
 
 def _driven_acceleration(kin: Kinematics, solved: _Solved, branch: JointOfTree) -> sp.Expr:
-    """Return the acceleration of a joint that an input gives."""
+    """Return the given acceleration of a joint: that of an input."""
     if not branch.driven:
         return sp.Integer(0)
     given = kin.coordinates.given_acceleration(branch.joint)
@@ -468,11 +455,6 @@ def _in_motion(placed: BodyMotion, twist: Twist) -> Moving:
     return Moving(placed.origin, omega, velocity)
 
 
-def _twist(placed: BodyMotion, moving: Moving) -> Twist:
-    """Return a motion in body axes."""
-    return Twist(to_axes(placed.axes, moving.omega), to_axes(placed.axes, moving.velocity))
-
-
 def _velocities(
     kin: Kinematics,
     solved: _Solved,
@@ -480,7 +462,7 @@ def _velocities(
     given: Mapping[str, Moving],
     rates: Sequence[sp.Expr],
 ) -> dict[str, Moving]:
-    """Append the velocities of the tree from those of placed bodies and the rates of unknowns."""
+    """Append the velocities of the tree, from those of placed bodies and the joints' rates."""
     found = dict(given)
     for (branch, screw), rate in zip(solved.joints, rates, strict=True):
         name, parent, turn, sliding = branch.child, found[branch.parent], *screw.at_rate(rate)
@@ -499,7 +481,7 @@ def _accelerations(
     rates: Sequence[sp.Expr],
     accelerations: Sequence[sp.Expr],
 ) -> dict[str, Moving]:
-    """Append the same for accelerations; velocities are given for all bodies."""
+    """Append the accelerations of the tree; velocities are given for all bodies."""
     found = dict(now)
     for (branch, screw), rate, change in zip(solved.joints, rates, accelerations, strict=True):
         name, parent, turn, sliding = branch.child, found[branch.parent], *screw.at_rate(rate)

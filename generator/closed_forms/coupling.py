@@ -1,14 +1,13 @@
-"""Loops of hinges and guides that no closed form solves: which of them to solve together, and how.
+"""Selection of loops of hinges and guides to solve together, where none has a closed form.
 
-Of some loops that wait, the joints make a graph, in which all that is placed is one vertex. Hinges
-and guides of a spanning tree carry the bodies; their coordinates are the unknowns, unless they are
-driven. Every joint that
-is left out closes a loop. It is the one with the most degrees of freedom, since that leaves the
-fewest unknowns and equations: what the characteristic pair is to a closed form. A link that has two
-joints with a point in common each is a rod, and one equation.
+The joints of some waiting loops make a graph, in which all placed bodies are one vertex. Hinges and
+guides of a spanning tree carry the bodies; their coordinates are the unknowns, unless they are
+driven. Every other joint closes a loop. It is the one with the most degrees of freedom, since that
+leaves the fewest unknowns and equations, as the characteristic pair does in a closed form. A link
+of two joints with a common point each is a rod, and one equation.
 
-As few loops as possible are taken. What they leave is solved after them, as far as it can be in
-closed form.
+As few loops as possible are taken. The other ones are solved after them, in closed form where
+possible.
 """
 
 from __future__ import annotations
@@ -29,11 +28,11 @@ if TYPE_CHECKING:
     from ..loops.graph import Cycle
     from ..loops.known import Known
 
-_PLACED = ""  # the vertex of all that is placed; no body has this name
+_PLACED = ""  # the vertex of all placed bodies; no body has this name
 
 
 class Coupling:
-    """Some loops as a graph of joints, in which all that is placed is one vertex."""
+    """Some loops as a graph of joints, in which all placed bodies are one vertex."""
 
     def __init__(self, known: Known, cycles: Sequence[Cycle]) -> None:
         self._known, self._cycles = known, cycles
@@ -45,12 +44,12 @@ class Coupling:
         self._rods = {b: ends for b in self._bodies if (ends := self._ends(b))}
 
     def tree(self) -> Tree | None:
-        """Return the tree of the loops; None if what is in them is not provided for."""
+        """Return the tree of the loops; None if they contain a joint that no iteration has."""
         if not all(self._is_provided_for(joint) for joint in self._joints):
             return None
         tree = self._spanning_tree()
         while rods := [rod for *_, rod in tree.edges(data="rod") if rod]:
-            del self._rods[rods[0]]  # it carries: a body like others
+            del self._rods[rods[0]]  # it carries another body, and is a body like others
             tree = self._spanning_tree()
         branches = self._branches(tree)
         if branches is None:
@@ -92,7 +91,7 @@ class Coupling:
         return _PLACED if body in self._known.placed else body
 
     def _branches(self, tree: nx.MultiGraph) -> tuple[JointOfTree, ...] | None:
-        """Return the joints of a tree from what is placed outward, if an iteration has them."""
+        """Return the joints of a tree, placed bodies first; None if one cannot be unknown."""
         if not nx.is_connected(tree) or not tree.edges:
             return None
         branches = []
@@ -108,7 +107,7 @@ class Coupling:
     # -- rods -----------------------------------------------------------------------------------
 
     def _ends(self, body: str) -> tuple[Joint, Joint] | None:
-        """Return the two joints of a link that keeps two points at their distance, and no more."""
+        """Return the two joints of a link that only keeps two points at their distance."""
         joints = self._known.mechanism.joints_of(body)
         if len(joints) != 2 or not set(joints) <= set(self._joints):
             return None
@@ -128,7 +127,7 @@ class Coupling:
     # -- planes ---------------------------------------------------------------------------------
 
     def _normal(self, joint: Joint, carrying: Collection[Joint]) -> Direction | None:
-        """Return the direction of the hinges, if the loop that a joint closes moves in a plane."""
+        """Return the direction of the hinges, if the loop that a joint closes is planar."""
         topology, placed = self._known.topology, self._known.placed
         graph = nx.Graph([branch.bodies for branch in carrying])
         graph.add_edges_from(topology.graph.subgraph(placed).edges)
@@ -137,7 +136,7 @@ class Coupling:
 
 
 def _point(joint: Joint) -> Point:
-    """Return the point that a joint of a rod keeps in common."""
+    """Return the common point of a joint of a rod."""
     point = joint.axis.through if isinstance(joint, Revolute) else joint.center
     assert point is not None
     return point

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class PlaceByJoint(Follower):
-    """A body follows from its placed neighbour, because the joint's coordinate is known."""
+    """A body on a placed one, by a joint of known coordinate."""
 
     joint: Revolute | Prismatic
     parent: str
@@ -37,7 +37,7 @@ class PlaceByJoint(Follower):
 
     @classmethod
     def follow(cls, known: Known, joint: Joint, parent: str, child: str) -> Self | None:
-        """Return the step for a driven hinge or guide, unless something else waits for it."""
+        """Return the step for a driven hinge or guide, unless another step waits for it."""
         if not isinstance(joint, Revolute | Prismatic) or joint.name in known.guided:
             return None
         if known.unknowns_of(joint) > 0:
@@ -52,7 +52,7 @@ class PlaceByJoint(Follower):
 
     @property
     def title(self) -> str:
-        """What the derivation calls this step."""
+        """Its title in the derivation."""
         return f"{self.body}: {self.joint.kind} joint"
 
     def carry_out(self, kin: Kinematics) -> None:
@@ -83,7 +83,7 @@ def _place_revolute(kin: Kinematics, joint: Revolute, parent_name: str, child: s
     sine = kin.program.define(f"sin_{angle}", sp.sin(angle))
 
     def turn(v: Vector) -> Vector:
-        """From the parent's body axes to the child's."""
+        """Return child components of a vector in the parent's axes."""
         x, y, z = to_axes(frame.parent_axes, v)
         return Vector(x, cosine * y + sine * z, cosine * z - sine * y)
 
@@ -105,7 +105,7 @@ def _place_revolute(kin: Kinematics, joint: Revolute, parent_name: str, child: s
     for k, twist in parent.motion.items():
         velocity = twist.linear + twist.angular.cross(frame.origin)
         placed.motion[k] = kin.define_twist(child, k, Twist(turn(twist.angular), turn(velocity)))
-    if kin.coordinates.moves(joint):  # where a closed form reads the angle, it moves the parent too
+    if kin.coordinates.moves(joint):  # an angle that a closed form reads moves the parent, too
         carried = placed.motion.get(coordinate, NO_TWIST)
         own = UNIT_X * kin.coordinates.ratio(joint)
         placed.motion[coordinate] = carried + Twist(own, ZERO)
@@ -173,11 +173,11 @@ def _revolute_frame(
 
 
 def _beside(kin: Kinematics, joint: Revolute, child: str, axis: Vector) -> Vector:
-    """Return any unit vector across a hinge whose angle counts from the design position.
+    """Return a unit vector across a hinge whose angle counts from the design position.
 
-    An axis of the ground where that makes the shortest equations; it is far enough from the hinge
-    with the default parameters, and no more is asked of it. Otherwise one without a singular
-    direction of the hinge.
+    It is along an axis of the ground where that makes the shortest equations; the default
+    parameters show that it is far enough from the hinge. Otherwise it has no singular direction of
+    the hinge.
     """
     n = [kin.at_defaults(component) for component in joint.axis.vector]
     size = math.hypot(*n)

@@ -1,8 +1,8 @@
 r"""Two links in a plane with a hinge of known angle between them, as a leg: a driven elbow.
 
 A four-bar linkage that is driven at the pin of its coupler has one: crank and coupler keep the
-crank's bearing and the rocker's pin at a distance that their angle gives. The rocker then is a body
-on a hinge that a leg of known variable length holds (`revolute`).
+crank's bearing and the rocker's pin at a distance that depends on their angle. The rocker then is a
+body on a hinge that a leg of known variable length holds (`revolute`).
 
 The *first link* is that of the first body of the known hinge, *u* leads from its own end E to the
 hinge, and *v* from there to the end F of the second link. With q the angle from the design
@@ -12,7 +12,7 @@ the parts across n at the design position,
     l^2 = |u|^2 + |v|^2 + 2 (u_n v_n + C cos q + S sin q),
     l l' = (S cos q - C sin q) q',    (l l')' = (S cos q - C sin q) q'' - (C cos q + S sin q) q'^2.
 
-Nothing is to be chosen. Singular set: the two ends meet, l = 0 across n.
+There is one branch. Singular set: the two ends meet, l = 0 across n.
 
 When the loop has closed, the first link follows: s = u + R v is known in its axes (n, t, n x t),
 t along u, and so is F - E in space; with w the part of F - E across n,
@@ -94,7 +94,7 @@ class Elbow(Leg):
 
     @classmethod
     def match(cls, known: Known, cut: CutLoop) -> Self | None:
-        """Return the two links that one arc of a loop is, if their hinge is driven."""
+        """Return the two links of one arc of a loop, if their hinge is driven."""
         if len(cut.joints) != 1 or known.placed.intersection(cut.bodies):
             return None
         joint, (near, far) = cut.joints[0], cut.bodies
@@ -123,14 +123,14 @@ class Elbow(Leg):
 
     @property
     def measure(self) -> str:
-        """What its length is, for the report."""
+        """Its length, for the report."""
         return f"{' and '.join(self.links)} at {self.pair.joint.name}.angle"
 
     def stretched(self, kin: Kinematics, design: Vector, extent: sp.Expr) -> RodLeg:
-        """Append its length, of known angle."""
+        """Append its length, for the known angle."""
         program, name = kin.program, self.rod
         bend = _Bend.of(kin, self.pair)
-        reach = _dot_across(bend.u, bend.v, bend.axis)
+        reach = bend.u.dot(bend.v) - bend.u.dot(bend.axis) * bend.v.dot(bend.axis)
         along = design.dot(design) - 2 * reach
         near = program.define(f"{name}_bend", reach * bend.cosine + bend.skew * bend.sine)
         squared = program.guarded(
@@ -169,17 +169,17 @@ class PlaceElbow(PlannedStep):
 
     @property
     def title(self) -> str:
-        """What the derivation calls this step."""
+        """Its title in the derivation."""
         return f"{self.pair.first}: bent at {self.pair.joint.name}"
 
     def accept(self, known: Known) -> set[Coordinate]:
         """Record the link and the hinges at both ends; the second link follows by its own."""
         known.place(self.pair.first)
-        known.guided[self.pair.far_hinge.name] = self  # no way to the second link, though known
+        known.guided[self.pair.far_hinge.name] = self  # known, but not to place the second link
         return known.add_all([self.pair.hinge, self.pair.far_hinge])
 
     def carry_out(self, kin: Kinematics) -> None:
-        """Turn the first link until the end of the second one is where it has to be."""
+        """Turn the first link until the end of the second one meets its target."""
         program, pair, body = kin.program, self.pair, self.pair.first
         extent = extent_squared(kin, self)
         hinge = Hinge.of(kin, body, pair.hinge, pair.base, pair.middle, extent)
@@ -216,7 +216,8 @@ class _Bend:
     axis
         About which the known angle is positive, at design.
     u, v
-        From the end of the first link to the hinge, and on to the end of the second one, at design.
+        From the end of the first link to the hinge, and from there to the end of the second one,
+        at design.
     skew
         S.
     """
@@ -230,7 +231,7 @@ class _Bend:
 
     @classmethod
     def of(cls, kin: Kinematics, pair: TwoLinks) -> _Bend:
-        """Describe the bend."""
+        """Return the bend of a pair of links."""
         program, joint = kin.program, pair.joint
         n = positive_axis_at_design(kin, joint)
         u = program.vector(
@@ -255,14 +256,14 @@ class _Bend:
 
 @dataclass(frozen=True)
 class _Reach:
-    """The end of the second link as the first one sees it, in the axes of that.
+    """The end of the second link relative to the first one, in the axes of that.
 
     Attributes
     ----------
     end
         s.
     swing, curl
-        Its first and second derivative by the angle: n x R v, and less R v across n.
+        Its first and second derivative with respect to the angle: n x R v, and -R v across n.
     """
 
     end: Vector
@@ -271,7 +272,7 @@ class _Reach:
 
     @classmethod
     def of(cls, kin: Kinematics, bend: _Bend, hinge: Hinge) -> _Reach:
-        """Append what the first link sees."""
+        """Append the reach of a bend."""
         program, body, axes = kin.program, hinge.body, hinge.arm.design_axes
         v = program.vector(f"{body}_second_link", to_axes(axes, bend.v), "123")
         sense = program.define(f"{body}_bend_sense", SignOf(bend.axis.dot(axes[0])))
@@ -286,16 +287,11 @@ class _Reach:
         )
 
 
-def _dot_across(one: Vector, two: Vector, axis: Vector) -> sp.Expr:
-    """Return the scalar product of the parts of two vectors across an axis."""
-    return one.dot(two) - one.dot(axis) * two.dot(axis)
-
-
 @dataclass(frozen=True, kw_only=True)
 class _BentEnd(TargetPoint):
-    """The target of the second link, as the first one sees it without what the bend does.
+    """The target of the second link relative to the first one, without the motion of the bend.
 
-    That is where the target would have to be if the second link did not turn on the first one.
+    It is the target's motion if the second link did not turn on the first one.
 
     Attributes
     ----------
@@ -308,7 +304,7 @@ class _BentEnd(TargetPoint):
 
     @property
     def coordinates(self) -> Iterable[str]:
-        """Those that move the target, and that of the bend."""
+        """The coordinates that move the target, and that of the bend."""
         coordinates = self.kin.coordinates
         moves = coordinates.moves(self.bend)
         return [*super().coordinates, *([coordinates.of(self.bend)] if moves else ())]
@@ -323,7 +319,7 @@ class _BentEnd(TargetPoint):
         )
 
     def biases(self) -> Moving:
-        """Return the acceleration less that of the bend, with what Coriolis adds."""
+        """Return the acceleration less that of the bend and its Coriolis acceleration."""
         seen, coordinates = super().biases(), self.kin.coordinates
         omega, rate = self.kin.total(self.placed).angular, coordinates.speed(self.bend)
         bending = self.reach.swing * coordinates.given_acceleration(self.bend)

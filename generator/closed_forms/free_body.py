@@ -1,4 +1,4 @@
-"""A body that moves freely in the world: the base of what hangs on it (`kinematics.base`)."""
+"""A body that moves freely in the world: the base of bodies that hang on it (`kinematics.base`)."""
 
 from __future__ import annotations
 
@@ -38,8 +38,8 @@ class PlaceFree(Follower):
 
     @property
     def title(self) -> str:
-        """What the derivation calls this step."""
+        """Its title in the derivation."""
         return f"{self.about}: free in the world"
 
     def carry_out(self, kin: Kinematics) -> None:
-        """Leave it where it is: in the axes in which what hangs on it is solved, it rests."""
+        """Do nothing: bodies that hang on it are solved in its own axes, in which it rests."""

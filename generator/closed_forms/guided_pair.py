@@ -1,4 +1,4 @@
-"""Two links on a common guide: what may be a strut, or a cylinder with its piston rod."""
+"""Two links on a common guide: a candidate for a strut, or a cylinder with its piston rod."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class GuidedPair:
 
     @classmethod
     def match(cls, cut: CutLoop) -> Self | None:
-        """Return the two links that one arc of a loop is."""
+        """Return the two links of one arc of a loop."""
         if len(cut.joints) != 1 or not isinstance(cut.joints[0], Prismatic):
             return None
         near, far = cut.bodies
@@ -47,7 +47,7 @@ class GuidedPair:
 
     @property
     def sense(self) -> int:
-        """Return 1 if the far link moves along the direction of the guide with the slide."""
+        """1 if the far link moves along the direction of the guide with the slide, else -1."""
         return 1 if self.joint.second.name == self.far else -1
 
     @property
@@ -77,7 +77,7 @@ class GuidedPair:
         return self.anchor, self.end
 
     def joints_at_ends(self, joints: tuple[Joint, ...]) -> tuple[Joint, Joint]:
-        """Return, of the joints of a mechanism, those that hold the two links."""
+        """Return the joints, among those of a mechanism, that hold the two links."""
         first, second = (self.anchor_body, self.near), (self.end_body, self.far)
         near, far = (
             next(j for j in joints if set(j.bodies) == set(ends)) for ends in (first, second)

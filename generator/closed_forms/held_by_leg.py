@@ -1,4 +1,4 @@
-"""A body with one degree of freedom left, held by a leg: what the forms that solve it share."""
+"""Closed forms of a body with one degree of freedom left that a leg holds."""
 
 from __future__ import annotations
 
@@ -24,12 +24,7 @@ if TYPE_CHECKING:
 
 
 class HeldByLeg(ClosedForm):
-    """A body that a leg holds.
-
-    Attributes
-    ----------
-    leg
-    """
+    """A body that a leg holds."""
 
     leg: Leg
 
@@ -40,7 +35,7 @@ class HeldByLeg(ClosedForm):
 
     @property
     def title(self) -> str:
-        """What the derivation calls this step."""
+        """Its title in the derivation."""
         return f"transformer: {self.leg.body} held by {self.leg.rod}"
 
     @property
@@ -59,7 +54,7 @@ class HeldByLeg(ClosedForm):
 
     @property
     def solution(self) -> str:
-        """How the equation is solved, for the report."""
+        """Solution of the equation, for the report."""
         about = self.leg.body
         return f"a cos x + b sin x = c for the turn of {about} about its line, branch as at design"
 
@@ -73,7 +68,7 @@ class HeldOnJoint(HeldByLeg):
     joint, parent
         The joint, and the placed body that carries it.
     kind
-        The class of such a joint.
+        The class of the joint.
     """
 
     joint: Joint
@@ -94,7 +89,7 @@ class HeldOnJoint(HeldByLeg):
         return self.leg.record(known, self.joint)
 
     def meet(self, kin: Kinematics) -> None:
-        """Record which points the leg keeps apart, for the residual."""
+        """Record the points that the leg keeps apart, for the residual."""
         leg = self.leg
         kin.meetings.setdefault(
             self.joint.name,

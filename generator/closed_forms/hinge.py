@@ -1,4 +1,4 @@
-"""A body on a hinge, and the arm to the point of it that determines its angle."""
+"""A body on a hinge, and the arm to its point that determines the angle."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class Hinge:
         point: Point,
         extent: sp.Expr,
     ) -> Hinge:
-        """Describe a hinge, from the design position.
+        """Return a hinge, from the design position.
 
         Parameters
         ----------
@@ -88,15 +88,7 @@ class Hinge:
 
 
 def place_on_hinge(kin: Kinematics, hinge: Hinge, axes: Axes) -> TurnOnHinge:
-    """Record the pose of a body on a hinge; return it, with its motion yet to be added.
-
-    Parameters
-    ----------
-    kin, hinge
-        The kinematics so far, and the hinge.
-    axes
-        Of the body: the hinge is along the first one.
-    """
+    """Record the pose of a body on a hinge; return it, with its motion yet to be added."""
     arm, at = hinge.arm, (hinge.parent.body, hinge.through)
     local, first = {hinge.point: arm.local}, hinge.first_axis_of
     placed = place_at(kin, hinge.body, at, axes, arm.design_axes, local=local, hinge=first)
@@ -104,15 +96,7 @@ def place_on_hinge(kin: Kinematics, hinge: Hinge, axes: Axes) -> TurnOnHinge:
 
 
 def report_angle(kin: Kinematics, hinge: Hinge, axes: Axes) -> None:
-    """Give the angle of a solved hinge: zero at design, positive as its second body turns.
-
-    Parameters
-    ----------
-    kin, hinge
-        The kinematics so far, and the hinge.
-    axes
-        Of the body.
-    """
+    """Record the angle of a solved hinge: zero at design, positive as its second body turns."""
     joint, parent, program, name = hinge.joint, hinge.parent, kin.program, hinge.body
     start = program.vector(
         f"{name}_arm_on_parent", to_axes(parent.design_axes, hinge.arm.design_axes[1]), "123"

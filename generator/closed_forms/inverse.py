@@ -2,10 +2,9 @@
 
 Velocities and accelerations fulfil ``J x = b``. An inverse K of J that comes from an iteration has
 no derivative; the equations are solved with it twice: ``x = x0 + K (b - J x0)``, where x0 = K b is
-frozen. The derivative of that is the exact one, ``K (b' - J' x)``; no inverse is differentiated.
-
-K may have more columns than rows: of equations that are more than the unknowns but contradict each
-other nowhere, K = (J^T J)^-1 J^T gives the solution.
+frozen. The derivative of that is the exact one, ``K (b' - J' x)``; no inverse is differentiated. K
+may have more columns than rows: of more equations than unknowns, without a contradiction, K = (J^T
+J)^-1 J^T gives the solution.
 """
 
 from __future__ import annotations
@@ -25,14 +24,14 @@ if TYPE_CHECKING:
 
     from ..kinematics.kinematics import Kinematics
 
-# What the iteration may leave of g: the correction behind it makes about the square of that, 1e-12.
-# Of what converges, less than 1e-13 is left, so that it does not show in the determinant.
+# Largest residual of the iteration: the correction behind it leaves about its square, 1e-12. A
+# converged iteration leaves less than 1e-13, which does not change the determinant.
 _TOLERANCE = sp.Rational(1, 10**6)
 
 
 @dataclass(frozen=True)
 class Inverse:
-    """The matrix K of a position that is found: the product of a matrix and a factor.
+    """The matrix K of a solved position: the product of a matrix and a factor.
 
     Both come from the iteration, their derivatives are zero.
     """
@@ -51,22 +50,22 @@ class Inverse:
     ) -> Inverse:
         """Append the reciprocal of the determinant that an iteration has found, guarded.
 
-        With e the square of what the iteration has left of g, over that of `_TOLERANCE`, and d the
-        determinant with the sign that it has at the design position, the guard is
-        ``(d - e) / (1 + e)``. It is not positive where a loop cannot close, where J is singular,
-        and where the iteration has not come through from the design position: that counts to e.
-        Else it is d to the last digit.
+        With e the square of the remaining g, over that of `_TOLERANCE`, and d the determinant with
+        the sign that it has at the design position, the guard is ``(d - e) / (1 + e)``. It is not
+        positive where a loop cannot close, where J is singular, and where the iteration has lost
+        the solution on the path from the design position, which counts to e. Else it is d to the
+        last digit.
 
         Parameters
         ----------
         kin, name
-            The kinematics so far, and what begins the names of the steps.
+            The kinematics so far, and the beginning of the names of the steps.
         results
             Of the iteration, by name.
         left
-            What it has left of g.
+            The remaining g.
         meaning
-            What it means that the guard acts; ``{iterations}`` is how many there were at most.
+            Cause of a guard that acts, with ``{iterations}`` for their largest number.
         """
         program, lost = kin.program, results[LOST]
         squares = sum((g * g for g in left), sp.Integer(0))
@@ -74,7 +73,7 @@ class Inverse:
         closure = (results["determinant"] - excess) / (1 + excess)
         meaning = meaning.format(iterations=ITERATIONS)
         arrived = program.guarded(f"{name}_closure", closure, meaning, "1")
-        held = IsPositive(arrived.args[0])  # else no correction: what was found last stays finite
+        held = IsPositive(arrived.args[0])  # else no correction: the last estimate stays finite
         places = range(1, len(left) + 1)
         rows = [i for i in places if f"inverse_{i}1" in results]
         return cls(
@@ -83,21 +82,13 @@ class Inverse:
         )
 
     def step(self, left: Sequence[sp.Expr]) -> list[sp.Expr]:
-        """Return the correction for what is left of the equations."""
+        """Return the correction for remaining residuals."""
         return [-self.factor * value for value in times(self.matrix, left)]
 
     def solve(
         self, kin: Kinematics, name: str, rows: Matrix, b: Sequence[sp.Expr]
     ) -> list[sp.Expr]:
-        """Append the solution of ``rows x = b``, with its exact derivative.
-
-        Parameters
-        ----------
-        kin, name
-            The kinematics so far, and what begins the names of the steps.
-        rows, b
-            J, and the right side.
-        """
+        """Append the solution of ``rows x = b``, with its exact derivative."""
         program = kin.program
         b = [program.define(f"{name}_given_{i}", value) for i, value in enumerate(b, 1)]
         first = [

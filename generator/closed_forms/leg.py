@@ -1,9 +1,9 @@
 """Legs: links that keep two points of two bodies at a known distance.
 
 A leg is a link of constant length, or several links with a joint of known coordinate between them:
-then it is a rod of known variable length. All that a closed form reads of it is its length at
-position level, l l' at velocity level, and (l l')' at acceleration level (`RodLeg`). The kinds of
-legs are in files of their own; one that is defined is tried wherever a leg may be.
+then it is a rod of known variable length. A closed form reads its length at position level, l l' at
+velocity level, and (l l')' at acceleration level (`RodLeg`). The kinds of legs are in files of
+their own; each is tried wherever a leg may be.
 """
 
 from __future__ import annotations
@@ -39,15 +39,15 @@ class RodLeg:
     Attributes
     ----------
     name
-        What it is and its name, for messages.
+        Its kind and its name, for messages.
     design
-        The way from the anchor to the end at the design position (work axes).
+        The vector from the anchor to the end at the design position (work axes).
     length, squared
         Length and its square.
     stretch
         Length times its rate, per unit rate of each coordinate that changes it.
     stretch_bias
-        What the second derivative of half the square is without accelerations of the independent
+        Second derivative of half the squared length, without accelerations of the independent
         coordinates.
     """
 
@@ -68,7 +68,8 @@ class RodLeg:
         coordinates, joint
             Those of the model, and the joint of known coordinate.
         slope, curvature
-            First and second derivative of half the square of the length by that.
+            First and second derivative of half the square of the length with respect to that
+            coordinate.
         """
         if not coordinates.moves(joint):
             return self
@@ -108,15 +109,7 @@ class Leg(ABC):
     @classmethod
     @abstractmethod
     def match(cls, known: Known, cut: CutLoop) -> Self | None:
-        """Return the leg that the first arc of a cut loop is, if it is of this kind.
-
-        Parameters
-        ----------
-        known
-            The known motions.
-        cut
-            The loop as two arcs.
-        """
+        """Return the leg of the first arc of a cut loop, if it is of this kind."""
 
     @property
     @abstractmethod
@@ -125,7 +118,7 @@ class Leg(ABC):
 
     @property
     def placing(self) -> PlannedStep | None:
-        """The step that places its links by their pins; none: they are left on their line."""
+        """The step that places its links by their pins; None: they are left on their line."""
         return None
 
     @property
@@ -134,31 +127,25 @@ class Leg(ABC):
         return self.placing is not None
 
     def record(self, known: Known, joint: Joint) -> set[Coordinate]:
-        """Record that it holds a body on a joint; return the coordinates that were not known.
-
-        Parameters
-        ----------
-        known, joint
-            The known motions, and the joint whose coordinate is determined.
-        """
+        """Record that it holds a body on a joint; return the coordinates that were not known."""
         assert self.placing is not None
         known.steps.append(self.placing)
         return known.add_all([joint]) | self.placing.accept(known)
 
     @property
     def points(self) -> tuple[Point, ...]:
-        """The points between which it reaches."""
+        """Its two ends."""
         return self.anchor, self.end
 
-    # -- what closes a loop ---------------------------------------------------------------------
+    # -- closing a loop -------------------------------------------------------------------------
 
     @property
     def between(self) -> tuple[str, ...]:
-        """Its links, as what closes a loop."""
+        """Its links, where it closes a loop."""
         return self.links
 
     def closes(self, cycle: Cycle) -> bool:
-        """Return whether it could close a loop."""
+        """Return whether it can close a loop."""
         return set(self.links) <= set(cycle.bodies)
 
     @property
@@ -173,7 +160,7 @@ class Leg(ABC):
 
     @property
     def measure(self) -> str:
-        """What its length is, for the report."""
+        """Its length, for the report."""
         return self.rod
 
     # -- algebra --------------------------------------------------------------------------------
@@ -184,20 +171,16 @@ class Leg(ABC):
 
         Parameters
         ----------
+        kin
+            The kinematics so far.
         design
-            The way from the anchor to the end at the design position.
+            The vector from the anchor to the end at the design position.
         extent
             The square of the extent of the loop that it closes.
         """
 
     def rod_of(self, kin: Kinematics, step: Spanning) -> RodLeg:
-        """Append the leg as a rod, in the loop that a step closes.
-
-        Parameters
-        ----------
-        kin, step
-            The kinematics so far, and the step.
-        """
+        """Append the leg as a rod, in the loop that a step closes."""
         design = kin.design(self.end) - kin.design(self.anchor)
         design = kin.program.vector(f"{self.rod}_design", design)
         rod = self.stretched(kin, design, extent_squared(kin, step))
@@ -210,13 +193,7 @@ class Leg(ABC):
 
 
 def leg_of(known: Known, cut: CutLoop) -> Leg | None:
-    """Return the leg that the first arc of a cut loop is.
-
-    Parameters
-    ----------
-    known, cut
-        The known motions, and the loop.
-    """
+    """Return the leg of the first arc of a cut loop, or None."""
     tried = (kind.match(known, cut) for kind in Leg.kinds)
     return next((leg for leg in tried if leg), None)
 
@@ -224,13 +201,8 @@ def leg_of(known: Known, cut: CutLoop) -> Leg | None:
 def held_on(known: Known, cut: CutLoop) -> tuple[Joint, str, Leg] | None:
     """Return the joint on which a leg holds a body, the placed body that carries it, and the leg.
 
-    The other arc of the loop ends with that body; none if it is placed already, or if there is no
+    The other arc of the loop ends with that body; None if it is placed already, or if there is no
     such leg.
-
-    Parameters
-    ----------
-    known, cut
-        The known motions, and the loop.
     """
     leg = leg_of(known, cut)
     if leg is None or not cut.other_joints:

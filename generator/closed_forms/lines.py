@@ -1,4 +1,4 @@
-"""What the closed forms share: lines between points of known motion, and bodies about them."""
+"""Lines between points of known motion, and bodies about them: helpers of the closed forms."""
 
 from __future__ import annotations
 
@@ -23,18 +23,18 @@ if TYPE_CHECKING:
 
 
 def line_of_ends(kin: Kinematics, step: Spanning, name: str, ends: Ends, what: str) -> OnLine:
-    """Append the line between the two placed ends of what can change its length.
+    """Append the line between two placed ends whose distance varies.
 
     Parameters
     ----------
-    step
-        In whose loop it is.
+    kin, step
+        The kinematics so far, and the step that closes its loop.
     name
         Ends the names of the steps.
     ends
         Body and point at either end.
     what
-        What has these ends, for the message that they coincide.
+        The links between the ends, for the message that these coincide.
     """
     (_, first), (_, second) = ends
     span, extent = _span(kin, name, ends), extent_squared(kin, step)
@@ -58,10 +58,10 @@ def _line(
     *,
     rigid: bool = False,
 ) -> OnLine:
-    """Describe the line between two points of placed bodies, whose distance may be constant.
+    """Return the line between two points of placed bodies, whose distance may be constant.
 
-    Given the square of the length, the reciprocals come from that: a division that need not wait
-    for the root.
+    If the square of the length is given, the reciprocals come from that: a division that need not
+    wait for the root.
     """
     program, ((anchor_body, anchor), (end_body, end)) = kin.program, ends
     if squared is None:
@@ -92,14 +92,14 @@ def _span(kin: Kinematics, name: str, ends: Ends) -> Vector:
 def require_length(
     kin: Kinematics, name: str, ends: tuple[Point, Point], what: str, extent: sp.Expr
 ) -> None:
-    """Have `prepare` see that two points are apart at the design position.
+    """Have `prepare` check that two points are apart at the design position.
 
     Parameters
     ----------
     kin, name
-        The kinematics so far, and what begins the names of the constants.
+        The kinematics so far, and the beginning of the names of the constants.
     ends, what
-        The points, and what has these ends, for the message.
+        The points, and the links between them, for the message.
     extent
         The square of the extent of the loop.
     """
@@ -123,19 +123,12 @@ def place_rod(kin: Kinematics, leg: Leg) -> None:
 
 
 def axes_about(kin: Kinematics, name: str, line: Vector, way: Vector) -> tuple[Axes, Vector]:
-    """Append axes along a line, along what of a way is across it, and across both (constants).
-
-    Parameters
-    ----------
-    kin, name
-        The kinematics so far, and what begins the names of the steps.
-    line, way
-        A unit vector, and a vector at some angle to it.
+    """Append axes along a line, along the part of a vector across it, and across both (constants).
 
     Returns
     -------
     axes, parts
-        The axes, and the way along these: along the line, and across it.
+        The axes, and the components of the vector along these: along the line, and across it.
     """
     program = kin.program
     along = program.define(f"{name}_along", way.dot(line))

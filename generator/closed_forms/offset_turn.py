@@ -50,13 +50,6 @@ def solve_offset_turn(kin: Kinematics, step: Spanning, leg: Leg) -> None:
 
     and the turn omega1 follows from ``(D - E) . (v_D - v_E) = 0``, whose factor is c |N|^2 / h.
     With offset zero this is `turn`, at a higher price.
-
-    Parameters
-    ----------
-    kin, step
-        The kinematics so far, and the step.
-    leg
-        The rod that holds the body.
     """
     record = kin.off_line[leg.body]
     rod_anchor = leg.anchor_motion(kin)
@@ -108,7 +101,7 @@ class _OffsetTurn:
         self.design_axes = (e1, e2, e3)
 
     def _require(self, arm: Vector, span: Vector, reach: Vector) -> None:
-        """Have `prepare` see that the design position is away from all singular sets."""
+        """Have `prepare` check that the design position is away from all singular sets."""
         kin, body, leg = self.kin, self.body, self.leg
         size = sp.sqrt(self.extent)
         line = f"the line of {self.base.name} and {self.record.ends.anchor.name}"
@@ -238,7 +231,7 @@ class _OffsetTurn:
 
 
 def _aim(kin: Kinematics, record: OffLine, placed: BodyMotion) -> None:
-    """Give the telescope the direction that its body has found."""
+    """Record the direction of the telescope, from the pose of its body."""
     ends = record.ends
     end = kin.point_motion(placed.body, ends.axis_point)
     inverse = kin.program.define(f"inverse_length_{ends.joint.name}", 1 / record.length)

@@ -1,11 +1,11 @@
-"""Three links or more that are parallel and equally long, between the same two bodies.
+"""Three or more parallel and equally long links between the same two bodies.
 
-The body that they carry does not turn as the other one sees it, and each link turns as the first
-one does: ``x(B) = x(pin of the first link)`` with the axes of A, and nothing is to be solved. There
-is one equation more than it takes, which is fulfilled if the links are parallel and equally long:
-`prepare` sees to that. A body that something else has placed must not turn either, for this; or
-else a link follows one that has the same pins. Branch: the parallelogram, also behind the position
-in which all pins lie on a line. Singular set: none.
+The body that they carry does not turn relative to the other one, and each link turns like the first
+one: ``x(B) = x(pin of the first link)`` with the axes of A, without an equation to solve. There is
+one equation more than necessary, which is fulfilled if the links are parallel and equally long:
+`prepare` checks that. A body that other links have placed must not turn either, for this; or else a
+link follows one that has the same pins. Branch: the parallelogram, also behind the position in
+which all pins lie on a line. Singular set: none.
 """
 
 from __future__ import annotations
@@ -44,16 +44,16 @@ class _Link:
 
     @property
     def design(self) -> Vector:
-        """The way from hinge to hinge at the design position."""
+        """The vector from hinge to hinge at the design position."""
         return self.far.axis.through.position - self.near.axis.through.position
 
     def waits(self, known: Known) -> bool:
-        """Return whether nothing says yet how it turns."""
+        """Return whether nothing determines its turn yet."""
         hinges = (self.near, self.far)
         return self.name not in known.placed and all(map(known.unknowns_of, hinges))
 
     def off(self, other: _Link) -> Iterator[Vector]:
-        """Yield how far the hinges of another link are from those of this one."""
+        """Yield the distances of the hinges of another link from those of this one, as vectors."""
         for own, its in ((self.near, other.near), (self.far, other.far)):
             yield its.axis.through.position - own.axis.through.position
 
@@ -65,12 +65,12 @@ class _Link:
 
 @dataclass(frozen=True)
 class ParallelLinks(ClosedForm):
-    """Links of which one is placed carry a body: neither that nor the others turn by themselves.
+    """Links carry a body without turning it, of which one is placed; the others follow.
 
     Attributes
     ----------
     on_its_pins
-        Whether the body may turn, so that the link has to have the pins of the leader.
+        Whether the body may turn, so that the link must have the pins of the leader.
     """
 
     base: str
@@ -80,11 +80,11 @@ class ParallelLinks(ClosedForm):
     on_its_pins: bool
 
     rank: ClassVar[int] = 0
-    """Before any other, since these can do without the third link only."""
+    """Before any other form, none of which can use the third link."""
 
     @classmethod
     def match(cls, known: Known, cut: CutLoop) -> Self | None:
-        """Return the link of a loop that follows one of its kind, if that has its place."""
+        """Return the link of a loop that follows a parallel one, if that is placed."""
         loop = {*cut.bodies, *cut.others}
         for pair, links in known.topology.parallel_links.items():
             base = next((body for body in sorted(pair) if body in known.placed), None)
@@ -111,7 +111,7 @@ class ParallelLinks(ClosedForm):
 
     @property
     def title(self) -> str:
-        """What the derivation calls this step."""
+        """Its title in the derivation."""
         return f"{self.link.name}: parallel to {self.leader.name}"
 
     def words(self, closing: Closing | None) -> tuple[str, str]:
@@ -137,7 +137,7 @@ class ParallelLinks(ClosedForm):
         return known.add_all([self.leader.near, self.leader.far, self.link.near, self.link.far])
 
     def assumptions(self) -> Iterator[Assumption]:
-        """Yield what makes the links equal."""
+        """Yield the conditions that make the links equal."""
         n, leader = self.leader.near.axis.vector, self.leader.design
         size = sp.sqrt(leader.dot(leader))
         between = f"{self.link.name} and {self.leader.name} hold {self.body} on {self.base}"
@@ -172,6 +172,6 @@ class ParallelLinks(ClosedForm):
 
 
 def _across(n: Vector, way: Vector) -> sp.Expr:
-    """Return how long a way is across a direction."""
+    """Return the length of the part of a vector across a direction."""
     off = n.cross(way)
     return sp.sqrt(off.dot(off) / n.dot(n))

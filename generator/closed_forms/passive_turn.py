@@ -1,7 +1,7 @@
-"""A link whose turn about its line nothing holds.
+"""Links whose turn about their own line is free.
 
-It has no mass, so its turn has no effect. It gets that of a cross at its first end, with an
-axis across the line at the design position.
+They have no mass, so that the turn has no effect. A link turns like one on a cross at its first
+end, with an axis across the line at the design position.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class PlacePassive(Leftover):
-    """A link of known line, without mass, that may turn about that line: it gets some turn."""
+    """A link of known line, without mass, that is free to turn about that line."""
 
     body: str
 
@@ -36,11 +36,11 @@ class PlacePassive(Leftover):
 
     @property
     def title(self) -> str:
-        """What the derivation calls this step."""
+        """Its title in the derivation."""
         return f"{self.body}: passive turn about its line"
 
     def carry_out(self, kin: Kinematics) -> None:
-        """Turn the link about its line, somehow."""
+        """Turn the link about its line by an arbitrary rule."""
         body, record = self.body, line_from_own_end(kin, self.body)
         parent = kin.placed[record.anchor_body]
         n = kin.unit(f"{body}_line_design", kin.design(record.end) - kin.design(record.anchor))

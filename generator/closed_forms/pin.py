@@ -1,10 +1,9 @@
 """A body on a hinge, pinned to a body that is placed already.
 
-Turn a body about its hinge until a point of it meets a placed pin.
-
-With O the hinge, n its axis and ``radius`` the distance of the point from it, the direction to
-the point is t = (pin - O) across n, divided by the radius. That the points meet along n x t gives
-the rate of the turn. Nothing is left to choose, nothing is singular: the loop has closed before.
+The body turns about its hinge until its point meets the placed pin. With O the hinge, n its axis
+and ``radius`` the distance of the point from it, the direction to the point is t = (pin - O) across
+n, divided by the radius. That the points meet along n x t gives the rate of the turn. There is one
+branch and no singular set: the loop has closed before.
 """
 
 from __future__ import annotations
@@ -38,7 +37,7 @@ class PlaceByPin(Placement):
 
     @property
     def title(self) -> str:
-        """What the derivation calls this step."""
+        """Its title in the derivation."""
         return f"{self.body}: pinned to {self.pin_body}"
 
     def carry_out(self, kin: Kinematics) -> None:

@@ -44,7 +44,7 @@ class PrismaticByLength(HeldOnJoint):
 
     @property
     def solution(self) -> str:
-        """How the equation is solved, for the report."""
+        """Solution of the equation, for the report."""
         return f"quadratic in the slide of {self.joint.name}, branch as at design"
 
     def carry_out(self, kin: Kinematics) -> None:
@@ -93,7 +93,7 @@ class PrismaticByLength(HeldOnJoint):
             place_rod(kin, leg)
 
     def _branch(self, kin: Kinematics, rod: RodLeg, extent: sp.Expr) -> sp.Expr:
-        """Return on which side of its foot on the guide the leg is at the design position."""
+        """Return the sign of the side of its foot on which the leg is at the design position."""
         leg, body = self.leg, self.leg.body
         along = rod.design.dot(kin.design_direction(self.joint.direction))
         drawn = kin.program.define(f"{body}_rod_along_design", along)

@@ -39,7 +39,7 @@ class RigidRod(Leg):
 
     @classmethod
     def match(cls, known: Known, cut: CutLoop) -> Self | None:
-        """Return the link that one arc of a loop is."""
+        """Return the link of one arc of a loop."""
         if len(cut.bodies) != 1:
             return None
         rod, anchor_body = cut.bodies[0], cut.others[0]
@@ -54,7 +54,7 @@ class RigidRod(Leg):
 
     @property
     def placing(self) -> PlaceByPin | None:
-        """In a plane, the step that places it by its pins; others may turn about their line."""
+        """The step that places it by its pins, in a plane; other rods may turn about their line."""
         if self.hinge is None:
             return None
         return PlaceByPin(self.rod, self.hinge, self.anchor_body, self.end, self.body)
@@ -65,11 +65,11 @@ class RigidRod(Leg):
         self.settle(known)
         if self.pinned:
             return known.add_all(filter(known.joins, [joint, *at_rod]))
-        # its turn about the line is still open
+        # its turn about the line is not determined yet
         return known.add(coordinates_of([joint]) - coordinates_of(at_rod))
 
     def settle(self, known: Known) -> None:
-        """Record that both of its ends are placed."""
+        """Record the rod between two placed ends."""
         if self.placing is None:
             known.on_line.add(self.rod)
         else:

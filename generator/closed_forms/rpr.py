@@ -2,8 +2,8 @@ r"""A telescope in a plane between two placed pins: barrel and piston rod of a c
 
 Two links on a common guide are pinned to bodies that are placed, at A and at D; the dyad of hinge,
 guide and hinge. With S the part of D - A across the hinges, n the direction of the hinges, d that
-of the guide, e the constant offset of D from the guide through A, u the way along the guide, and h
-the constant part of D - A along n,
+of the guide, e the constant offset of D from the guide through A, u the extension along the guide,
+and h the constant part of D - A along n,
 
     S = u d + e n x d,    d = (u S - e n x S) / |S|^2,    |S|^2 = u^2 + e^2.
 
@@ -15,7 +15,7 @@ has closed before: the telescope then is a leg. That d is across n is one of the
 Both links have the body axes (n, d, n x d), in which D - A = (h, u, e). That D stays on the guide,
 along n x d, gives the rate of the turn.
 
-A telescope whose slide x is known is a rod of known variable length. With (h, c, e) the way from
+A telescope whose slide x is known is a rod of known variable length. With (h, c, e) the vector from
 pin to pin at the design position, along n, along d and along n x d,
 
     l^2 = (c + x)^2 + e^2 + h^2,    l l' = (c + x) x',    (l l')' = x'^2 + (c + x) x''.
@@ -88,7 +88,7 @@ class RPR(_OnPins, ClosedForm):
 
     @classmethod
     def match(cls, known: Known, cut: CutLoop) -> Self | None:
-        """Return the telescope that one arc of a loop is, both pins on placed bodies."""
+        """Return the telescope of one arc of a loop, with both pins on placed bodies."""
         telescope = _pinned(known, cut)
         placed = {cut.others[0], cut.others[-1]} <= known.placed
         if telescope is None or not placed or known.unknowns_of(telescope.joint) == 0:
@@ -97,7 +97,7 @@ class RPR(_OnPins, ClosedForm):
 
     @property
     def title(self) -> str:
-        """What the derivation calls this step."""
+        """Its title in the derivation."""
         return f"transformer: telescope of {self.telescope.links}"
 
     def words(self, closing: Closing | None) -> tuple[str, str]:
@@ -138,7 +138,7 @@ class PlaceTelescope(_OnPins):
 
     @property
     def title(self) -> str:
-        """What the derivation calls this step."""
+        """Its title in the derivation."""
         return f"{self.telescope.links}: telescope"
 
     def carry_out(self, kin: Kinematics) -> None:
@@ -155,7 +155,7 @@ class PinnedTelescope(Leg):
 
     @classmethod
     def match(cls, known: Known, cut: CutLoop) -> Self | None:
-        """Return the telescope that one arc of a loop is."""
+        """Return the telescope of one arc of a loop."""
         pair = _pinned(known, cut)
         if pair is None or known.unknowns_of(pair.joint) > 0:
             return None
@@ -173,11 +173,11 @@ class PinnedTelescope(Leg):
 
     @property
     def measure(self) -> str:
-        """What its length is, for the report."""
+        """Its length, for the report."""
         return f"{self.telescope.links} at {self.telescope.joint.name}.slide"
 
     def stretched(self, kin: Kinematics, design: Vector, extent: sp.Expr) -> RodLeg:
-        """Append its length, of known slide."""
+        """Append its length, for the known slide."""
         telescope, near = self.telescope, self.rod
         guide = _Guide.of(kin, telescope, extent)
         extension = guide.known_extension(kin, extent)
@@ -192,7 +192,7 @@ class PinnedTelescope(Leg):
 
 
 def _pinned(known: Known, cut: CutLoop) -> GuidedPair | None:
-    """Return the telescope in a plane that one arc of a loop is: a hinge at either end."""
+    """Return the planar telescope of one arc of a loop: a hinge at either end."""
     pair = GuidedPair.match(cut)
     if pair is None:
         return None
@@ -200,14 +200,6 @@ def _pinned(known: Known, cut: CutLoop) -> GuidedPair | None:
     if not all(isinstance(hinge, Revolute) for hinge in hinges):
         return None
     return None if {pair.near, pair.far} & known.placed else pair
-
-
-def _hinges(kin: Kinematics, telescope: GuidedPair) -> tuple[Revolute, Revolute]:
-    """Return the hinges at both ends."""
-    near, far = telescope.joints_at_ends(kin.mechanism.joints)
-    assert isinstance(near, Revolute)
-    assert isinstance(far, Revolute)
-    return near, far
 
 
 # -- algebra --------------------------------------------------------------------------------------
@@ -222,7 +214,7 @@ class _Guide:
     axes
         Axes of both links: hinge n, guide d, and n x d; in work axes.
     start
-        The way from pin to pin along these axes, (h, c, e).
+        The vector from pin to pin along these axes, (h, c, e).
     branch
         Sign of c.
     """
@@ -234,9 +226,11 @@ class _Guide:
 
     @classmethod
     def of(cls, kin: Kinematics, telescope: GuidedPair, extent: sp.Expr) -> _Guide:
-        """Describe the guide of a telescope."""
+        """Return the guide of a telescope."""
         program, near = kin.program, telescope.near
-        n = kin.unit(f"{near}_hinge_design", kin.to_work(_hinges(kin, telescope)[0].axis.vector))
+        hinge, _ = telescope.joints_at_ends(kin.mechanism.joints)
+        assert isinstance(hinge, Revolute)
+        n = kin.unit(f"{near}_hinge_design", kin.to_work(hinge.axis.vector))
         span = kin.design(telescope.end) - kin.design(telescope.anchor)
         span = program.vector(f"{near}_span_design", span)
         if telescope.along_ends:
@@ -282,7 +276,7 @@ class _Guide:
 
 @dataclass(frozen=True)
 class _Pins:
-    """The pins of a telescope and what lies between them.
+    """The pins of a telescope and the vector between them.
 
     Attributes
     ----------
@@ -301,7 +295,7 @@ class _Pins:
 
     @classmethod
     def of(cls, kin: Kinematics, step: Spanning, telescope: GuidedPair) -> _Pins:
-        """Describe the pins of a telescope, in the loop that a step closes."""
+        """Return the pins of a telescope, in the loop that a step closes."""
         program, near = kin.program, telescope.near
         guide = _Guide.of(kin, telescope, extent_squared(kin, step))
         parent = kin.placed[telescope.anchor_body]
@@ -315,7 +309,7 @@ class _Pins:
 
 
 def _place(kin: Kinematics, pins: _Pins, extension: sp.Expr) -> None:
-    """Place both links, given the way along the guide."""
+    """Place both links, for an extension along the guide."""
     telescope, start = pins.telescope, pins.guide.start
     near, arm = telescope.near, Vector(start.x, extension, start.z)
     axes = _axes(kin, pins, extension)

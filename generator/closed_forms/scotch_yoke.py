@@ -7,8 +7,8 @@ both guides,
 
     w = x1 d1 + x2 d2,    x1 = n . (w x d2) / n . (d1 x d2),    x2 = n . (d1 x w) / n . (d1 x d2).
 
-That is explicit, and linear: the same factors give the speeds from the velocity of Q as the base
-sees it, and the accelerations from what is left of its acceleration. There is no branch. Singular
+That is explicit, and linear: the same factors give the speeds from the velocity of Q relative to
+the base, and the accelerations from the rest of its acceleration. There is one branch. Singular
 set: the slot is along the guide, for all positions or for none; `prepare` refuses it.
 """
 
@@ -67,7 +67,7 @@ class ScotchYoke(ClosedForm):
 
     @classmethod
     def match(cls, known: Known, cut: CutLoop) -> Self | None:
-        """Return the block and the yoke that one arc of a loop begins with, from the pin on."""
+        """Return the block and the yoke at the beginning of an arc of a loop, from the pin on."""
         if len(cut.joints) < 2:
             return None
         (slot, guide), (block, yoke, base) = cut.joints[:2], cut.bodies[:3]
@@ -88,7 +88,7 @@ class ScotchYoke(ClosedForm):
 
     @property
     def title(self) -> str:
-        """What the derivation calls this step."""
+        """Its title in the derivation."""
         return f"transformer: {self.block} in the slot of {self.yoke}"
 
     @property
@@ -110,7 +110,7 @@ class ScotchYoke(ClosedForm):
         )
 
     def carry_out(self, kin: Kinematics) -> None:
-        """Find both slides, and place what they move."""
+        """Find both slides, and place block and yoke."""
         base = kin.placed[self.base]
         axes, pin = _Oblique.of(kin, self, base), kin.point_motion(self.pin_body, self.pin)
         q = projector(kin, base)(f"{self.block}_pin", pin.position - base.origin)
@@ -131,7 +131,7 @@ class ScotchYoke(ClosedForm):
     ) -> None:
         """Record velocities and biases: the base carries both, and they slide on it.
 
-        By hand: block and yoke have the same two unknowns, and need no division.
+        Written by hand: block and yoke have the same two unknowns, and need no division.
         """
         base = kin.placed[self.base]
         to_base, speeds = projector(kin, base), (_NONE, _NONE)
@@ -166,7 +166,7 @@ class ScotchYoke(ClosedForm):
 
 @dataclass(frozen=True)
 class _Oblique:
-    """The directions of slot and guide, and what takes a way apart along them (base axes)."""
+    """Directions of slot and guide, and factors of a vector's parts along them (base axes)."""
 
     slot: Vector
     guide: Vector
@@ -175,7 +175,7 @@ class _Oblique:
 
     @classmethod
     def of(cls, kin: Kinematics, step: ScotchYoke, base: BodyMotion) -> _Oblique:
-        """Describe slot and guide, constants."""
+        """Return slot and guide, constants."""
         program, name = kin.program, step.yoke
         d1 = kin.local_direction(base, step.slot.direction)
         d2 = kin.local_direction(base, step.guide.direction)
@@ -199,12 +199,12 @@ class _Oblique:
         )
 
     def along(self, slide: sp.Expr, lift: sp.Expr) -> Vector:
-        """Return the way of two slides."""
+        """Return the displacement by two slides."""
         way: Vector = self.slot * slide + self.guide * lift
         return way
 
     def parts(self, kin: Kinematics, name: str, way: Vector) -> tuple[sp.Expr, sp.Expr]:
-        """Append the parts of a way along slot and guide."""
+        """Append the parts of a vector along slot and guide."""
         return (
             kin.program.define(f"{name}_in_slot", self.of_slot.dot(way)),
             kin.program.define(f"{name}_on_guide", self.of_guide.dot(way)),

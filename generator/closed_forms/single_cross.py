@@ -2,7 +2,7 @@
 
 The axes of all hinges of the loop meet in the centre of the cross, so that it turns about this
 point and closes with three equations, for two angles of the cross and that of the hinge. `yoke` has
-the solution, its branch and what is singular.
+the solution, its branch and its singular set.
 """
 
 from __future__ import annotations
@@ -41,11 +41,11 @@ class SingleCross(ClosedForm):
 
     rank: ClassVar[int] = 8
     equations: ClassVar[tuple[int, ...]] = (0,)
-    """About the centre, cut there: nothing remains."""
+    """About the centre, cut there: none remains."""
 
     @classmethod
     def match(cls, known: Known, cut: CutLoop) -> Self | None:
-        """Return the body that one arc of a loop is, between the cross and its hinge."""
+        """Return the body of one arc of a loop, between the cross and its hinge."""
         if len(cut.bodies) != 1:
             return None
         (body,), (first, last) = cut.bodies, (cut.others[0], cut.others[-1])
@@ -65,7 +65,7 @@ class SingleCross(ClosedForm):
 
     @property
     def title(self) -> str:
-        """What the derivation calls this step."""
+        """Its title in the derivation."""
         return f"transformer: {self.about} turned through {self.yoke.cross.name}"
 
     def accept(self, known: Known) -> set[Coordinate]:
@@ -74,7 +74,7 @@ class SingleCross(ClosedForm):
         return known.add_all([self.yoke.cross, self.yoke.hinge])
 
     def assumptions(self) -> Iterator[Assumption]:
-        """Yield what keeps all axes in the centre of the cross."""
+        """Yield the conditions that all axes meet in the centre of the cross."""
         cross = self.yoke.cross
         for hinge in (self.yoke.hinge, *self.others):
             scale = norm(cross.at.position - hinge.axis.through.position)

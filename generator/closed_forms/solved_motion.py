@@ -1,10 +1,10 @@
 """Velocities and biases of a body whose unknown parts are determined by constraints.
 
-An *unsolved* body moves with others while its unknown rates are zero; what a unit of each adds to
-that is a screw. As many *conditions* say what the body has to do with what is placed. The rates
-of their constraints with the unknowns at rest, and the screws, make a system of linear equations
-for each coordinate; the second derivatives without accelerations of the unknowns make that of the
-bias, with the same matrix. All is in axes of the body, at its origin.
+An *unsolved* body moves with others while its unknown rates are zero; a unit of each unknown adds a
+screw. As many *conditions* relate the body to placed ones. The rates of their constraints with the
+unknowns at rest, and the screws, make a system of linear equations for each coordinate; the second
+derivatives without accelerations of the unknowns make that of the bias, with the same matrix. All
+is in axes of the body, at its origin.
 """
 
 from __future__ import annotations
@@ -30,20 +30,20 @@ if TYPE_CHECKING:
     from .leg import RodLeg
 
     Solve = Callable[[str, Sequence[sp.Expr]], Sequence[sp.Expr]]
-    """Appends the unknowns that make up for the rates of residuals, with a name for the steps."""
+    """Appends the unknowns that cancel the rates of residuals, with a name for the steps."""
 
 
-# -- what is placed -------------------------------------------------------------------------------
+# -- placed bodies --------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class PlacedBody(ABC):
-    """A placed body, in its own axes.
+    """A placed body, in the axes of another one.
 
     Attributes
     ----------
     placed
-        The body in whose axes it is seen.
+        The body whose axes are used.
     of
         Its motion.
     label
@@ -104,24 +104,24 @@ class TargetBody(PlacedBody):
         return self._seen(label, from_axes(self.of.axes, twist.angular))
 
 
-# -- what is unknown ------------------------------------------------------------------------------
+# -- unsolved bodies ------------------------------------------------------------------------------
 
 
 class Unsolved(ABC):
-    """A body whose pose is known, and whose motion has something unknown.
+    """A body whose pose is known, and whose motion has unknown parts.
 
     Parameters
     ----------
     kin, placed
         The kinematics so far, and the body.
     carriers
-        What moves it while the unknowns are at rest.
+        Bodies and points that move it while the unknowns are at rest.
     screws
-        What a unit rate of each unknown adds to its twist.
+        The twist that a unit rate of each unknown adds.
     """
 
     unknown: ClassVar[str] = "turn"
-    """What an unknown is, for the names of steps."""
+    """Kind of its unknowns, for the names of steps."""
 
     def __init__(
         self,
@@ -138,18 +138,10 @@ class Unsolved(ABC):
 
     @abstractmethod
     def coasting(self) -> Twist:
-        """Return its bias without accelerations of the unknowns, at the rates that they have."""
+        """Return its bias at the present rates, without accelerations of the unknowns."""
 
     def with_unknowns(self, twist: Twist, values: Sequence[sp.Expr]) -> Twist:
-        """Return a twist, or a bias, with what the unknowns add.
-
-        Parameters
-        ----------
-        twist
-            That with the unknowns at rest.
-        values
-            Rates, or accelerations, of the unknowns.
-        """
+        """Return a twist (or bias) at rest plus that of the unknowns' rates (or accelerations)."""
         for screw, value in zip(self.screws, values, strict=True):
             twist += screw * value
         return twist
@@ -175,11 +167,11 @@ class TurnOnHinge(Unsolved):
         super().__init__(kin, placed, (self._origin, self._parent), (Twist(UNIT_X, ZERO),))
 
     def at_rest(self, k: str) -> Twist:
-        """Return the twist with which the axis carries it."""
+        """Return its twist as carried by the axis."""
         return Twist(self._parent.rates(k).omega, self._origin.rates(k).velocity)
 
     def coasting(self) -> Twist:
-        """Return the bias with which the axis carries it."""
+        """Return its bias as carried by the axis."""
         parent, omega = self._parent.biases(), self.kin.total(self.placed).angular
         spin = UNIT_X * (omega.x - parent.omega.x)
         alpha = self._named("alpha_carried", parent.alpha + parent.omega.cross(spin))
@@ -189,7 +181,7 @@ class TurnOnHinge(Unsolved):
 class TurnOnLine(Unsolved):
     """A body that turns about the line of two points, along the first of its axes.
 
-    Seen from the body, one point moves along that axis, and the other one is fixed, at a constant
+    In the body's axes, one point moves along that axis, and the other one is fixed, at a constant
     offset o from it. The span S = (h, o2, o3) and the relative velocity v of the points give
 
         omega = (0, -v3, v2) / h + omega1 (1, o2 / h, o3 / h),
@@ -225,13 +217,13 @@ class TurnOnLine(Unsolved):
         super().__init__(kin, placed, (self._base, self._swing), (Twist(sway, ZERO),))
 
     def at_rest(self, k: str) -> Twist:
-        """Return the twist with which the points carry it."""
+        """Return its twist as carried by the points."""
         swing = self._swing.rates(k).velocity
         across = Vector(ZERO.x, -swing.z * self._inverse, swing.y * self._inverse)
         return Twist(self._named(f"across_{k}", across), self._base.rates(k).velocity)
 
     def coasting(self) -> Twist:
-        """Return the bias with which the points carry it."""
+        """Return its bias as carried by the points."""
         omega, sway = self.kin.total(self.placed).angular, self._sway
         swing, motion = self._swing.biases().acceleration, self._line.length_motion
         twice = 2 * sum((v * self.kin.coordinates.rate(k) for k, v in motion.items()), ZERO.x)
@@ -246,7 +238,7 @@ class TurnOnLine(Unsolved):
 
 
 class SlideOnGuide(Unsolved):
-    """A body that slides on another one along constant directions, and turns as that does.
+    """A body that slides on another one along constant directions, and turns with it.
 
     Its pose is recorded.
 
@@ -257,7 +249,7 @@ class SlideOnGuide(Unsolved):
     parent
         The placed body on which it slides.
     offset
-        How far it has come from its design position.
+        Its displacement from the design position.
     directions
         Of the slides that are unknown.
     """
@@ -285,16 +277,16 @@ class SlideOnGuide(Unsolved):
         super().__init__(kin, placed, carriers, [Twist(ZERO, d) for d in directions])
 
     def at_rest(self, k: str) -> Twist:
-        """Return the twist with which the parent carries it."""
+        """Return its twist as carried by the parent."""
         return self._carried(self._parent.motion.get(k, NO_TWIST))
 
     def coasting(self) -> Twist:
-        """Return the bias with which the parent carries it."""
+        """Return its bias as carried by the parent."""
         carried = self._carried(self.kin.total(self._parent))
         return self.carried_bias(self.kin.total(self.placed).linear - carried.linear)
 
     def carried_bias(self, sliding: Vector) -> Twist:
-        """Return the same, given its velocity on the parent."""
+        """Return its bias as carried by the parent, for its velocity relative to that."""
         parent, omega = self._parent, self.kin.total(self._parent).angular
         linear = self.kin.point_bias(parent, self._offset) + omega.cross(sliding) * 2
         return Twist(parent.bias().angular, linear)
@@ -308,20 +300,20 @@ class SlideOnGuide(Unsolved):
 
 @dataclass(frozen=True)
 class ClosureCondition:
-    """What determines an unknown.
+    """A condition that determines an unknown.
 
     Attributes
     ----------
     constraint
-        With the target as its first body, and the one that moves as its second.
+        With the target as its first body, and the moving one as its second.
     target
-        What it holds the body to.
+        The point or body that it relates the moving body to.
     at
-        The point of the body that it is about.
+        The point of the moving body.
     rod
-        The leg whose length a `Distance` is, where that changes.
+        The leg whose length a `FixedDistance` has, if that varies.
     is_first
-        Whether the body that moves is the first one of the constraint.
+        Whether the moving body is the first one of the constraint.
     """
 
     constraint: Constraint
@@ -336,20 +328,14 @@ class ClosureCondition:
         return [*self.target.coordinates, *(self.rod.stretch if self.rod else ())]
 
     def pivot(self, screw: Twist) -> sp.Expr:
-        """Return how fast the residual changes with a unit rate of an unknown."""
+        """Return the rate of the residual per unit rate of an unknown."""
         return self.constraint.rate(*self._ordered(STILL, Moving.of(screw)))
 
     def rate(self, k: str, rest: Twist) -> sp.Expr:
-        """Return how fast the residual changes per unit rate of a coordinate.
+        """Return the rate of the residual per unit rate of a coordinate, with the unknowns at rest.
 
-        Both bodies are seen from axes that move along with the target.
-
-        Parameters
-        ----------
-        k
-            The coordinate.
-        rest
-            Twist of the body for a unit rate of it, with the unknowns at rest.
+        Both bodies are described in axes that move with the target; `rest` is the twist of the
+        body.
         """
         target = self.target.rates(k)
         velocity = rest.linear - target.velocity + rest.angular.cross(self.at)
@@ -396,10 +382,9 @@ def add_turn(
     kin
         The kinematics so far.
     unsolved, condition
-        The body, and what determines its unknown.
+        The body, and the condition of its unknown.
     inverse_lever
-        ``-1 / condition.pivot`` where the solution for the position has a shorter expression for it
-        than the constraint.
+        ``-1 / condition.pivot``, if the solution of the position has a shorter expression for it.
     """
     if inverse_lever is None:
         lever = condition.pivot(unsolved.screws[0])
@@ -414,21 +399,19 @@ def add_turn(
 def add_motion(
     kin: Kinematics, unsolved: Unsolved, conditions: Sequence[ClosureCondition], solve: Solve
 ) -> None:
-    """Record velocities and bias of a body.
+    """Record velocities and bias of a body with as many conditions as unknowns.
 
     Parameters
     ----------
     kin
         The kinematics so far.
-    unsolved
-        The body.
-    conditions
-        As many as there are unknowns.
+    unsolved, conditions
+        The body, and the conditions of its unknowns.
     solve
-        How their linear equations are solved.
+        Solves their linear equations.
     """
     placed = unsolved.placed
-    relative = [ZERO for _ in conditions]  # velocity of the origin, as seen from each target
+    relative = [ZERO for _ in conditions]  # velocity of the origin relative to each target
     names = [k for carrier in unsolved.carriers for k in carrier.coordinates]
     names += [k for condition in conditions for k in condition.coordinates]
     for k in dict.fromkeys(names):
@@ -499,13 +482,7 @@ def place_at(
 
 
 def projector(kin: Kinematics, placed: BodyMotion) -> Callable[[str, Vector], Vector]:
-    """Return a function that appends the body components of a work vector.
-
-    Parameters
-    ----------
-    kin, placed
-        The kinematics so far, and the body.
-    """
+    """Return a function that appends the body components of a work vector."""
 
     def to_body(label: str, v: Vector) -> Vector:
         return kin.program.vector(f"{placed.body}_{label}", to_axes(placed.axes, v), "123")

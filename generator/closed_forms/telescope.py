@@ -4,7 +4,7 @@ Equation: ``|P_end - P_anchor| = length``, explicit in the slide, ``slide = p - 
 8 of the paper. Branch: the positive length. Singular set: the two points coincide.
 
 Its length follows, and its direction too, unless the axis misses the end: then the rod that holds
-the body at the end decides (`offset_turn`).
+the body at the end determines it (`offset_turn`).
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class Telescope(ClosedForm):
 
     @classmethod
     def match(cls, known: Known, cut: CutLoop) -> Self | None:
-        """Return the two links on a common axis that one arc is, both ends on placed bodies."""
+        """Return the two links of one arc on a common axis, with both ends on placed bodies."""
         if len(cut.joints) != 1 or not isinstance(cut.joints[0], Cylindrical):
             return None
         joint, (anchor_link, end_link) = cut.joints[0], cut.bodies
@@ -67,12 +67,12 @@ class Telescope(ClosedForm):
 
     @property
     def title(self) -> str:
-        """What the derivation calls this step."""
+        """Its title in the derivation."""
         return f"transformer: telescope {self.ends.joint.name}"
 
     @property
     def points(self) -> tuple[Point, ...]:
-        """Both ends, and where the axis passes the far one."""
+        """Both ends, and the point where the axis passes the far one."""
         return self.ends.anchor, self.ends.end, self.ends.axis_point
 
     def origin_on(self, ground: str) -> Point | None:
@@ -87,7 +87,7 @@ class Telescope(ClosedForm):
         return slide | known.add_all(joints)
 
     def aim(self, known: Known) -> list[Joint]:
-        """Record that the direction is known; return what that settles."""
+        """Record that the direction is known; return the joints whose coordinates follow."""
         known.on_line.add(self.ends.anchor_link)
         universal = known.mechanism.universal_at(self.ends.anchor_link, self.ends.anchor)
         return [universal] if universal else []
@@ -132,7 +132,7 @@ def _solve_offset(kin: Kinematics, step: Telescope) -> None:
 
         slide = p - (h + lead),    h = sqrt(\|S\|^2 - d^2),
 
-    where `lead` is how far the point that gives the telescope its length lies beyond the end.
+    where `lead` is the distance beyond the end of the point that defines the telescope's length.
     Branch: h > 0. Singular set: \|S\| = d. The direction of the axis is known only when the body
     at the end has found its orientation, see `offset_turn`.
     """
@@ -173,7 +173,7 @@ def _solve_offset(kin: Kinematics, step: Telescope) -> None:
     )
     reach = program.define(f"reach_{name}", sp.sqrt(squared))
     inverse = program.define(f"inverse_reach_{name}", 1 / reach)
-    # the length is the reach and a constant, so that nothing has to be added for its guard
+    # the length is the reach and a constant, so that its guard needs no further step
     drawn = program.guarded(
         f"length_{name}",
         reach,

@@ -1,4 +1,4 @@
-"""Loops of hinges and guides as a tree that carries the bodies, and what closes its loops."""
+"""Loops of hinges and guides as a tree that carries the bodies, cut at joints and rods."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class JointOfTree:
-    """A hinge or guide, from a body that is nearer to what is placed.
+    """A hinge or guide, from the body nearer to the placed ones.
 
     Attributes
     ----------
     driven
-        Whether its coordinate is given; of others it is an unknown.
+        Whether its coordinate is given; otherwise it is an unknown.
     """
 
     joint: Revolute | Prismatic
@@ -29,19 +29,19 @@ class JointOfTree:
 
     @property
     def sense(self) -> int:
-        """Return 1 if the coordinate is that of the child as seen from the parent, else -1."""
+        """1 if the coordinate is that of the child relative to the parent, else -1."""
         return 1 if self.joint.second.name == self.child else -1
 
 
 @dataclass(frozen=True)
 class CutJoint:
-    """A joint at which a loop is cut: what it leaves in common makes the closure equations.
+    """A joint at which a loop is cut: its constraint is the closure equations.
 
     Attributes
     ----------
     normal
-        Of a loop that moves in a plane: the direction of its hinges. It closes with three equations
-        less the degrees of freedom, a loop in space with six.
+        Direction of the hinges of a planar loop, which closes with three equations less the degrees
+        of freedom; a spatial loop has six.
     """
 
     joint: Joint
@@ -64,7 +64,7 @@ class CutJoint:
 
     @property
     def closure(self) -> str:
-        """What the two bodies have in common, for the report."""
+        """Its constraint, for the report."""
         joint = self.joint
         return (
             f"{' and '.join(joint.bodies)} have {joint.common} in common at {joint.name}: "
@@ -72,7 +72,7 @@ class CutJoint:
         )
 
     def closes(self, cycle: Cycle) -> bool:
-        """Return whether it could close a loop."""
+        """Return whether it can close a loop."""
         return self.joint in cycle.joints
 
 
@@ -83,10 +83,10 @@ class Tree:
     Attributes
     ----------
     body
-        The first body that is placed.
+        The first body to place.
     tree
-        What carries the bodies, in the order from placed ones outward; their coordinates are the
-        unknowns, but for those that are driven.
+        Joints that carry the bodies, from placed ones outward; their coordinates are the unknowns,
+        but for the driven ones.
     cuts, rods
         Joints and rods that close a loop each. A rod is one equation.
     """
@@ -98,7 +98,7 @@ class Tree:
 
     @property
     def bodies(self) -> list[str]:
-        """The bodies that are placed, rods apart."""
+        """The bodies to place, without rods."""
         return [branch.child for branch in self.tree]
 
     @property
@@ -107,7 +107,7 @@ class Tree:
         return [branch for branch in self.tree if not branch.driven]
 
     def base_of(self, body: str) -> str:
-        """Return the placed body at which the way from a body through the tree ends."""
+        """Return the placed body at the inner end of the tree's path to a body."""
         parents = {branch.child: branch.parent for branch in self.tree}
         while body in parents:
             body = parents[body]

@@ -1,7 +1,7 @@
 """A body held by a rod: its turn about a line that is known (Eqs. 13 to 16 of the paper).
 
 The equation ``a1 cos + a2 sin = a3`` of the paper is that of `arm`, about a line between two points
-that both move. Where a telescope misses the known point of the body, `offset_turn` takes over.
+that both move. Where a telescope misses the known point of the body, `offset_turn` solves it.
 """
 
 from __future__ import annotations
@@ -84,7 +84,7 @@ class TurnByLength(HeldByLeg):
 
 @dataclass(frozen=True)
 class _Base:
-    """The point of the line that is fixed in the body, and where it lies along the line."""
+    """The point of the line that is fixed in the body, and its distance from the anchor."""
 
     point: Point
     motion: PointMotion
@@ -107,9 +107,9 @@ def _reach(
     arm: Arm,
     rod_anchor: PointMotion,
 ) -> Reach:
-    """Return the rod's anchor as seen from the line.
+    """Return the position of the rod's anchor relative to the line.
 
-    From the span and not from its direction, so that nothing waits for the root of the length.
+    From the span and not from its direction, so that no step waits for the root of the length.
     """
     program = kin.program
     e = program.vector(f"{body}_reach", rod_anchor.position - record.anchor_motion.position)

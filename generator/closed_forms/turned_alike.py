@@ -1,4 +1,4 @@
-"""A body that turns like another one and moves with a point of a third."""
+"""Bodies that turn like another one and move with a point of a third."""
 
 from __future__ import annotations
 
@@ -15,17 +15,7 @@ if TYPE_CHECKING:
 
 
 def place_turned_alike(kin: Kinematics, body: str, like: BodyMotion, on: str, point: Point) -> None:
-    """Place a body that turns like another one and moves with a point of a third.
-
-    Parameters
-    ----------
-    kin, body
-        The kinematics so far, and the body.
-    like
-        The one that turns as it does; both have the same axes.
-    on, point
-        The placed body whose point is its origin, and that point.
-    """
+    """Place a body with the axes of a body like it, and the origin at a point on a placed body."""
     moved = kin.point_motion(on, point)
     placed = place_at(kin, body, (on, point), like.axes, like.design_axes)
     to_body = projector(kin, placed)

@@ -1,11 +1,9 @@
-"""A shaft turned by its universal joint.
+"""Orientation of a shaft of known direction n, from the cross of its universal joint.
 
-Orientation of a shaft of known direction n from the cross of its universal joint.
-
-The second axis b of the cross is fixed in the shaft and perpendicular to n and to the first
-axis f. Both ``f x n`` and its opposite are that: two poses of the shaft, half a turn about its
-line apart. Branch: b = unit(f x n) at the design position, and so everywhere, since the two
-could change places only where f x n vanishes. Singular set: the shaft along the first axis.
+The second axis b of the cross is fixed in the shaft and perpendicular to n and to the first axis f.
+Both ``f x n`` and its opposite fulfil that: two poses of the shaft, half a turn about its line
+apart. Branch: b = unit(f x n) at the design position, and so everywhere, since the two could change
+places only where f x n vanishes. Singular set: the shaft along the first axis.
 
 The body axes are (n, b, n x b), in which f = (f . n, 0, |f x n|). That b stays perpendicular to f
 gives the rate of the turn.
@@ -55,7 +53,7 @@ class PlaceByUniversalJoint(Follower):
 
     @property
     def title(self) -> str:
-        """What the derivation calls this step."""
+        """Its title in the derivation."""
         return f"{self.body}: cross of the universal joint"
 
     def carry_out(self, kin: Kinematics) -> None:
@@ -64,15 +62,7 @@ class PlaceByUniversalJoint(Follower):
 
 
 def turn_with(kin: Kinematics, body: str, on: str, joint: Universal) -> None:
-    """Turn a shaft of known line with its universal joint.
-
-    Parameters
-    ----------
-    kin, body
-        The kinematics so far, and the shaft.
-    on, joint
-        The placed body at the other side of the joint, and the joint.
-    """
+    """Turn a shaft of known line with its universal joint on a placed body."""
     parent, first = kin.placed[on], joint.first_axis
     meaning = f"the shaft {body} lies along the first axis of universal joint {joint.name}"
     local, design = kin.local_direction(parent, first), kin.design_direction(first)
@@ -91,10 +81,14 @@ def turn_on_cross(
 
     Parameters
     ----------
+    kin, body
+        The kinematics so far, and the shaft.
+    parent
+        The placed body at the other side of the cross.
     local_axis, at_design
-        The first axis: in the axes of its body, and at the design position.
+        The first axis: in the axes of the parent, and at the design position.
     meaning
-        What it means that the shaft lies along that axis.
+        Message where the shaft lies along that axis.
     """
     program, record = kin.program, line_from_own_end(kin, body)
     axis = program.vector(f"{body}_first_axis", from_axes(parent.axes, local_axis))
@@ -117,13 +111,7 @@ def turn_on_cross(
 
 
 def line_from_own_end(kin: Kinematics, body: str) -> OnLine:
-    """Return the line of a link, from a point of the link on.
-
-    Parameters
-    ----------
-    kin, body
-        The kinematics so far, and the link.
-    """
+    """Return the line of a link, beginning at a point of the link."""
     record = kin.on_line[body]
     own = [joint.center for joint in kin.mechanism.joints_of(body)]
     return record if record.anchor in own else record.reversed()
@@ -134,14 +122,8 @@ def second_of_cross(
 ) -> Vector:
     """Return the axis of a cross in its second body at the design position.
 
-    Parameters
-    ----------
-    kin, body
-        The kinematics so far, and that body.
-    first, line
-        The other axis, and the line of the body, both at the design position.
-    meaning
-        What it means that the line lies along the other axis.
+    It is across the first axis and the line of the body; `meaning` is the message where these
+    coincide.
     """
     across = kin.program.vector(f"{body}_cross_design", first.cross(line))
     require(

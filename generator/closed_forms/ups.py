@@ -45,7 +45,7 @@ class UPS(ClosedForm):
 
     @classmethod
     def match(cls, known: Known, cut: CutLoop) -> Self | None:
-        """Return the strut that one arc of a loop is, both ends on placed bodies."""
+        """Return the strut of one arc of a loop, with both ends on placed bodies."""
         strut = _strut(known, cut)
         placed = {cut.others[0], cut.others[-1]} <= known.placed
         if strut is None or not placed or known.unknowns_of(strut.joint) == 0:
@@ -59,7 +59,7 @@ class UPS(ClosedForm):
 
     @property
     def title(self) -> str:
-        """What the derivation calls this step."""
+        """Its title in the derivation."""
         return f"transformer: strut of {self.strut.links}"
 
     @property
@@ -115,11 +115,11 @@ class PlaceByGuide(Follower):
 
     @property
     def title(self) -> str:
-        """What the derivation calls this step."""
+        """Its title in the derivation."""
         return f"{self.body}: on the guide of {self.strut.near}"
 
     def carry_out(self, kin: Kinematics) -> None:
-        """Place the link: it turns like the first one, and its end is where it is."""
+        """Place the link: it turns like the first one, with its end at a placed point."""
         strut = self.strut
         place_turned_alike(kin, self.body, kin.placed[strut.near], strut.end_body, strut.end)
 
@@ -132,7 +132,7 @@ class StrutLeg(Leg):
 
     @classmethod
     def match(cls, known: Known, cut: CutLoop) -> Self | None:
-        """Return the strut that one arc of a loop is."""
+        """Return the strut of one arc of a loop."""
         strut = _strut(known, cut)
         if strut is None or known.unknowns_of(strut.joint) > 0:
             return None
@@ -140,7 +140,7 @@ class StrutLeg(Leg):
 
     @classmethod
     def of(cls, strut: GuidedPair) -> Self:
-        """Return the leg that two links on a guide are."""
+        """Return the leg of two links on a guide."""
         return cls(strut.end_body, strut.near, strut.end, strut.anchor, strut.anchor_body, strut)
 
     @property
@@ -150,7 +150,7 @@ class StrutLeg(Leg):
 
     @property
     def measure(self) -> str:
-        """What its length is, for the report."""
+        """Its length, for the report."""
         return f"{self.strut.links} at {self.strut.joint.name}.slide"
 
     def record(self, known: Known, joint: Joint) -> set[Coordinate]:
@@ -174,21 +174,13 @@ class StrutLeg(Leg):
 
 
 def is_strut(pair: GuidedPair, cross: Joint, ball: Joint) -> bool:
-    """Return whether two links are a strut: a cross holds the first one, a ball joint the other.
-
-    Parameters
-    ----------
-    pair
-        The two links.
-    cross, ball
-        What holds the first one, and the second one.
-    """
+    """Return whether a cross holds the first one of two links, and a ball joint the other."""
     crossed = isinstance(cross, Universal) and cross.second.name == pair.near
     return crossed and isinstance(ball, Spherical) and pair.along_ends
 
 
 def _strut(known: Known, cut: CutLoop) -> GuidedPair | None:
-    """Return the strut in space that one arc of a loop is."""
+    """Return the spatial strut of one arc of a loop."""
     pair = GuidedPair.match(cut)
     if pair is None or not is_strut(pair, *pair.joints_at_ends(known.mechanism.joints)):
         return None

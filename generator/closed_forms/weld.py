@@ -1,4 +1,4 @@
-"""A body that is welded to another one: it moves as that does."""
+"""Bodies that are welded to another one, and move with it."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class PlaceWelded(Follower):
-    """A body has the pose of the one that it is welded to."""
+    """A body with the pose of the one that it is welded to."""
 
     body: str
     parent: str
@@ -33,7 +33,7 @@ class PlaceWelded(Follower):
 
     @property
     def title(self) -> str:
-        """What the derivation calls this step."""
+        """Its title in the derivation."""
         return f"{self.body}: welded to {self.parent}"
 
     def carry_out(self, kin: Kinematics) -> None:

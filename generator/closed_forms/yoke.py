@@ -1,7 +1,7 @@
 r"""The side of a cross on a body that is turned through it, on a hinge through the centre.
 
 Let e be the axis of the hinge and f the axis of the cross on the driven body, fixed in that,
-``f = h e + r t`` with t across e; and b the other one, fixed in what drives. The cross keeps
+``f = h e + r t`` with t across e; and b the other one, fixed in the driving body. The cross keeps
 ``b . f = 0``, which is ``a cos + b sin = c`` for the turn of t about e. With beta the part of b
 across e,
 
@@ -9,7 +9,7 @@ across e,
 
 Branch: s is the sign of b . (e x t), which is w, at the design position. The first axis of a common
 yoke is across its bearing: h = k = 0, and this is Hooke's ``tan x = cos(bend) tan y``. Valid while
-``|beta|^2 > k^2``, which at h = 0 is lost only where what drives is at a right angle to the hinge.
+``|beta|^2 > k^2``; at h = 0, everywhere but where the driving shaft is perpendicular to the hinge.
 
 That b and f stay perpendicular gives the rate of the turn, whose factor is ``e . (f x b) = r w``.
 """
@@ -53,7 +53,7 @@ class DrivenYoke:
     driving
         The placed body at the other side of the cross.
     named
-        What drives, for messages.
+        The driving part, for messages.
     """
 
     cross: Universal
@@ -69,20 +69,12 @@ class DrivenYoke:
 
     @property
     def solution(self) -> str:
-        """How the equation is solved, for the report."""
+        """Solution of the equation, for the report."""
         return f"a cos x + b sin x = c for the angle of {self.hinge.name}, branch as at design"
 
 
 def through_center(hinge: Revolute, cross: Universal, scale: sp.Expr) -> Iterator[Assumption]:
-    """Yield what keeps a hinge in the centre of a cross.
-
-    Parameters
-    ----------
-    hinge, cross
-        The two joints.
-    scale
-        A length of the mechanism.
-    """
+    """Yield the condition that a hinge goes through the centre of a cross, for a length scale."""
     center, axis = cross.at, hinge.axis
     if not axis.contains(center):
         beside = (center.position - axis.through.position).cross(axis.vector)
@@ -99,22 +91,14 @@ def through_center(hinge: Revolute, cross: Universal, scale: sp.Expr) -> Iterato
 
 @dataclass(frozen=True)
 class GivenAxis:
-    """The axis of a cross that is fixed in what drives: now, and at the design position."""
+    """The axis of a cross that is fixed in the driving body: now, and at the design position."""
 
     now: Vector
     design: Vector
 
 
 def second_axis(kin: Kinematics, cross: Universal, line: Vector) -> Vector:
-    """Return the axis of a cross in its second body at the design position, across its line.
-
-    Parameters
-    ----------
-    kin, cross
-        The kinematics so far, and the joint.
-    line
-        That of the second body, at the design position.
-    """
+    """Return the axis of a cross in its second body at design, across the line of that body."""
     body, first = cross.second.name, kin.design_direction(cross.first_axis)
     meaning = f"the shaft {body} lies along the first axis of universal joint {cross.name}"
     return second_of_cross(kin, body, first, line, meaning)
@@ -132,7 +116,7 @@ def turn_through_cross(
     yoke
         The body.
     own, given
-        The axes of the cross: on the body, at the design position, and on what drives.
+        The axes of the cross: on the body, at the design position, and on the driving one.
     """
     design_axes, f = _own_axis(kin, yoke, own)
     axes, b = _fitted(kin, step, yoke, design_axes, f, given)
@@ -199,7 +183,7 @@ def _own_axis(kin: Kinematics, yoke: DrivenYoke, f: Vector) -> tuple[Axes, Vecto
 
 
 def _branch(kin: Kinematics, yoke: DrivenYoke, b: Vector, design_axes: Axes) -> sp.Expr:
-    """Return on which side of the driven yoke the other axis is at the design position."""
+    """Return the sign of the side of the driven yoke on which the other axis is at design."""
     height = kin.program.define(f"{yoke.body}_second_height_design", b.dot(design_axes[2]))
     require(
         kin,
