@@ -1,7 +1,7 @@
-"""What a force does, seen through: it is complete, it can be emitted, and nothing of it is lost.
+"""Checks of the actions of forces: complete, emittable, and without lost values.
 
-The forces of the generator are right by their tests. One of a user may name what is not
-there, return something else, or have a formula without a spelling; each is refused, with the line
+The forces of the generator are right by their tests. A force of a user may use unknown names,
+return something else, or have a formula without emitted operations; each is refused, with the line
 of the code where that is known.
 """
 
@@ -28,21 +28,16 @@ if TYPE_CHECKING:
 
 
 def acted(force: Force, at: Seen) -> Action:
-    """Return what a force does.
+    """Return the action of a force.
 
     Raises
     ------
     DeclarationError
-        If its `act` fails, or returns what is no action on the coordinates.
-
-    Parameters
-    ----------
-    force, at
-        The force, and what surrounds it.
+        If its `act` fails, or does not return an action on the coordinates.
     """
     if not _has_own_code(force):
         return force.act(at)
-    with _told(force, at, "act"):
+    with _reported(force, at, "act"):
         action = force.act(at)
         problem = _problem(force, at, action)
         if problem:
@@ -55,24 +50,17 @@ def acted(force: Force, at: Seen) -> Action:
 
 
 def shown_by(force: Force, at: Seen, action: Action) -> Iterator[Shown]:
-    """Yield the signals of a force.
+    """Yield the signals of a force with a given action.
 
     Raises
     ------
     DeclarationError
-        If its `signals` fails, or yields what is no signal.
-
-    Parameters
-    ----------
-    force, at
-        The force, and what surrounds it.
-    action
-        What it does.
+        If its `signals` fails, or yields anything but signals.
     """
     if not _has_own_code(force):
         yield from force.signals(at, action)
         return
-    with _told(force, at, "signals"):
+    with _reported(force, at, "signals"):
         found: list[Any] = list(force.signals(at, action))
         for shown in found:
             if not isinstance(shown, Shown):
@@ -101,8 +89,8 @@ def _all_spelled(at: Seen, values: Mapping[str, Any], what: str) -> dict[str, sp
 
 
 @contextmanager
-def _told(force: Force, at: Seen, method: str) -> Iterator[None]:
-    """Let formulas be written in any form, and name the force of an error."""
+def _reported(force: Force, at: Seen, method: str) -> Iterator[None]:
+    """Accept formulas in any form, and name the force of an error."""
     try:
         with at.program.spelling():
             yield
@@ -125,7 +113,7 @@ def _line(force: Force, method: str, error: Exception) -> str:
 
 
 def _problem(force: Force, at: Seen, action: Any) -> str:
-    """Say what of an action is lost; nothing where nothing is."""
+    """Return the reason why an action is incomplete; empty without one."""
     if not isinstance(action, Action):
         return f"it returns {action!r}; an Action(forces) is needed"
     for what in ("forces", "values", "rates"):
@@ -145,7 +133,7 @@ def _problem(force: Force, at: Seen, action: Any) -> str:
 
 
 def _shown(name: Any, at: Seen) -> str:
-    """Say of what is no coordinate what it is."""
+    """Return a name that is not a coordinate, with its kind and the coordinates."""
     coordinates = ", ".join(at.driven)
     joints = [joint.name for joint in at.mechanism.joints]
     if name in joints:

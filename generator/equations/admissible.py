@@ -1,6 +1,6 @@
 """Speeds that constraints admit: the eliminated ones in terms of the others.
 
-With the constraints ``A v + a = 0``, where a is what prescribed motions add, and v split into the
+With the constraints ``A v + a = 0``, where a is due to prescribed motions, and v split into the
 eliminated speeds d and the others i,
 
     v_d = P v_i + p,    v_d' = P v_i' + g,
@@ -35,7 +35,7 @@ Rows = dict[str, dict[str, sp.Expr]]
 
 @dataclass(frozen=True)
 class Admissible:
-    """What of the speeds is free.
+    """The admissible speeds.
 
     Attributes
     ----------
@@ -107,14 +107,14 @@ class Admissible:
         }
 
     def projected(self, values: Mapping[str, sp.Expr]) -> dict[str, sp.Expr]:
-        """Return T^T of something that acts on all coordinates."""
+        """Return T^T of generalised forces on all coordinates."""
         return {
             k: values[k] + sum((p[k] * values[d] for d, p in self.shares.items()), NONE)
             for k in self.independent
         }
 
     def carried_along(self, matrix: Mapping[tuple[str, str], sp.Expr]) -> dict[str, sp.Expr]:
-        """Return M g: the inertia of what the eliminated speeds change by themselves."""
+        """Return M g: the inertia forces of the eliminated speeds at constant independent ones."""
         return {
             row: sum((matrix[row, d] * g for d, g in self.leftover.items()), NONE)
             for row in (*self.independent, *self.shares)
@@ -130,7 +130,7 @@ class Admissible:
 
 
 def _changes(moving: InMotion, rows: Sequence[Mapping[str, sp.Expr]]) -> list[sp.Expr]:
-    """Return how fast the constraints change at constant speeds: ``A' v``."""
+    """Return the rate of the constraints at constant speeds: ``A' v``."""
     coordinates, program = moving.coordinates, moving.program
     direction = {sp.Symbol(name): rate for name, rate in moving.rates().items()}
     direction |= {

@@ -1,9 +1,10 @@
-"""What the equations take for granted of the geometry: quantities that must be zero.
+"""Assumptions of the equations about the geometry: quantities that must be zero.
 
 A closed form may hold for a plane, or for a rod that lies along its shaft. Whether the geometry is
 of that kind follows from parameters, which change at run time. So each such quantity is a constant
 of the parameter set, and `prepare` refuses a set for which it is not zero. The equations themselves
-do not read it. What is zero by declaration, as in a plane of flat points, needs no check.
+do not read it. A quantity that is zero by declaration, as in a plane of flat points, is not
+checked.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
 
 
 def find_assumptions(plan: Plan) -> list[Assumption]:
-    """Return what must be zero and is not zero by declaration.
+    """Return the quantities that must be zero and are not zero by declaration.
 
     Raises
     ------
@@ -46,15 +47,7 @@ def find_assumptions(plan: Plan) -> list[Assumption]:
 
 
 def define_assumptions(program: Program, assumed: Iterable[Assumption]) -> tuple[Assumption, ...]:
-    """Append what must be zero as constants, and return it in their names.
-
-    Parameters
-    ----------
-    program
-        Receives the constants.
-    assumed
-        What must be zero.
-    """
+    """Append assumed quantities as constants, and return the assumptions in their names."""
     program.section("what must be zero")
     named: dict[sp.Expr, Assumption] = {}
     for assumption in assumed:
@@ -80,7 +73,7 @@ def _check_defaults(formulation: Formulation, found: list[Assumption]) -> None:
 
 
 def _amount(value: float, unit: str) -> str:
-    """Return how far off something is, for a person."""
+    """Return a deviation, for a message."""
     if unit == "m":
         return f"{1e3 * abs(value):.3g} mm"
     return f"{math.degrees(math.asin(min(abs(value), 1.0))):.3g} degrees"
@@ -103,7 +96,7 @@ def _assumptions(plan: Plan) -> Iterator[Assumption]:
 
 
 def _of_plane(cycle: Cycle) -> Iterator[Assumption]:
-    """Yield what keeps a loop in its plane: hinges along each other, guides across them."""
+    """Yield the conditions of a planar loop: hinges along each other, guides across them."""
     hinge, *others = (j for j in cycle.joints if isinstance(j, Revolute))
     loop, n = " - ".join(cycle.bodies), hinge.axis.vector
     for other in others:
@@ -145,7 +138,7 @@ def _into_plane(guide: Prismatic) -> str:
 
 
 def _of_shaft(joint: Universal, ends: Sequence[Point]) -> Iterator[Assumption]:
-    """Yield what keeps the shaft of a cross on the line of its rod."""
+    """Yield the conditions that the shaft of a universal joint is along the line of its rod."""
     first, second = ends
     length = _norm(second.position - first.position)
     start, end = sorted(ends, key=lambda point: point != joint.at)
@@ -166,7 +159,7 @@ def _of_shaft(joint: Universal, ends: Sequence[Point]) -> Iterator[Assumption]:
 
 
 def _of_rotors(formulation: Formulation) -> Iterator[Assumption]:
-    """Yield what leaves the inertia of a rotor unchanged by its spin."""
+    """Yield the conditions under which the inertia of a rotor does not change with its spin."""
     for joint in _bearings(formulation):
         body, axis = joint.second, joint.axis.vector
         assert body.rotor_axis is not None
@@ -184,7 +177,7 @@ def _of_rotors(formulation: Formulation) -> Iterator[Assumption]:
             remedy,
         )
         if not joint.axis.contains(body.center):
-            # a distance that should vanish: what it is compared with must not vanish with it
+            # a distance that should vanish: its scale must not vanish with it
             scale = _norm(body.center.position) + _norm(joint.axis.through.position)
             yield Assumption(
                 f"{body.name}_rotor_unbalance",
@@ -197,7 +190,7 @@ def _of_rotors(formulation: Formulation) -> Iterator[Assumption]:
 
 
 def _bearings(formulation: Formulation) -> Iterator[Revolute]:
-    """Yield the hinges of known angle that carry a rotor and nothing behind it."""
+    """Yield the hinges of known angle with a rotor at the end of the chain."""
     mechanism: Mechanism = formulation.mechanism
     for joint in formulation.driven:
         rotor = joint.second.rotor_axis is not None

@@ -32,13 +32,7 @@ NONE = sp.Integer(0)
 
 
 def signals_of(dynamics: Dynamics, output: Output) -> Iterator[Shown]:
-    """Yield the signals of an output.
-
-    Parameters
-    ----------
-    dynamics, output
-        The equations of motion, and the output.
-    """
+    """Yield the signals of a declared output."""
     if isinstance(output, PositionOf):
         yield from _components(output, _position(dynamics, output), "m", "position of the ")
     elif isinstance(output, VelocityOf):
@@ -109,7 +103,7 @@ def _angle(dynamics: Dynamics, output: AngleBetween) -> sp.Expr:
 
 
 def _now(dynamics: Dynamics, body: Body, direction: Direction) -> Vector:
-    """Return where a body has carried a unit direction, in the axes of the world."""
+    """Return a unit direction that a body has carried from design, in the axes of the world."""
     part, placed = dynamics.part_of[body.name], dynamics.placed[body.name]
     work = from_axes(placed.axes, part.local_direction(placed, direction))
     return dynamics.program.vector(f"{body.name}_{direction.name}_now", part.in_world(work))

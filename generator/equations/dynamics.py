@@ -8,10 +8,10 @@ the model:
   momentum about the spin axis remains;
 * for a body moved by a single coordinate, ``twist . (twist x* momentum)`` vanishes identically.
 
-What hangs on a base is summed up, about its centre of mass and in its axes (`on_base`). So the mass
-matrix of the base is the inertia of all that it carries, each other coordinate meets it in six
-numbers, and the mass matrix of all is an arrow: parts of which neither moves the other meet in
-the rows of the base alone, which are eliminated last.
+The bodies on a base are summed, about its centre of mass and in its axes (`on_base`). So the mass
+matrix of the base is the inertia of all bodies on it, each other coordinate couples with it by six
+numbers, and the whole mass matrix is an arrow: parts that do not move each other couple in the rows
+of the base alone, which are eliminated last.
 """
 
 from __future__ import annotations
@@ -52,15 +52,17 @@ if TYPE_CHECKING:
 NONE = sp.Integer(0)
 
 MANY = 4
-"""From how many coordinates of a body on, spins of rotors apart, q'' is differentiated without
-derivatives of the mass matrix, whose elements are as many as pairs of coordinates. That saves a
-twelfth of the operations of an open chain's Jacobian with four coordinates and a sixth with six,
-and a quarter of those of a Stewart platform's; with two it takes more."""
+"""Least number of coordinates of a body, without spins of rotors, for q'' to be differentiated
+without derivatives of the mass matrix, whose elements are as many as pairs of coordinates.
+
+That saves a twelfth of the operations of an open chain's Jacobian with four coordinates and a sixth
+with six, and a quarter of those of a Stewart platform's; with two it takes more.
+"""
 
 
 @dataclass(frozen=True)
 class ReducedRotor:
-    """What remains of a body of revolution once its carrier has taken over the rest."""
+    """The rest of a body of revolution without the inertia that its carrier has taken over."""
 
     coordinate: str
     body: Body
@@ -84,7 +86,7 @@ class Dynamics:
         self.program, self.mechanism = moving.program, moving.mechanism
         self.moving, self.placed, self.part_of = moving, moving.placed, moving.part_of
         self.coordinates, self.names = moving.coordinates, moving.coordinates.unconstrained
-        self.admissible = Admissible.of(moving)  # speeds that are not free have theirs by this
+        self.admissible = Admissible.of(moving)  # defines the eliminated speeds
         self._of_base = {k: base.body for base in moving.bases for k in base.coordinates}
         self.inertia: dict[str, SpatialInertia] = {}
         self.rotors: list[ReducedRotor] = []
@@ -106,7 +108,7 @@ class Dynamics:
     # -- inertia --------------------------------------------------------------------------------
 
     def _gather_inertia(self) -> None:
-        """Sum up inertia from the last placed body to the first, moving what can be moved."""
+        """Sum the inertia from the last body to the first, and move point masses to carriers."""
         for name in reversed(self.placed):
             self.inertia.setdefault(name, SpatialInertia.none())
         rotors = {body.name: k for k, body in self.coordinates.rotors.items()}
@@ -124,7 +126,7 @@ class Dynamics:
         self.inertia = {name: self._name_inertia(name, i) for name, i in self.inertia.items()}
 
     def _is_centred(self, body: str) -> bool:
-        """Return whether a body on a base is seen about its centre of mass, so that it keeps it."""
+        """Return whether the equations of a body on a base are about its centre of mass."""
         carried = self.moving.carried.get(body)
         return carried is not None and body not in self._loaded and kind_of(carried) is MovingBody
 
@@ -166,7 +168,7 @@ class Dynamics:
         return x, y, z
 
     def _fold_rotor(self, coordinate: str, body: Body) -> None:
-        """Give the carrier all but the momentum of a rotor about its own axis."""
+        """Add all of a rotor to its carrier but the momentum about its own axis."""
         joint = self.mechanism.joints_of(body.name)[0]
         carrier = self.placed[joint.other(body.name)]
         spin, across = self._rotor_moments(body)
@@ -265,24 +267,24 @@ class Dynamics:
         return [k for k in self.names if k in placed.motion]
 
     def _base_of(self, body: str) -> Loaded | None:
-        """Return what carries a body, with all that it carries; None where it is on the ground."""
+        """Return the base of a body with all bodies on it; None on the ground."""
         carried = self.moving.carried.get(body)
         return self._loaded[carried.base.body] if carried else None
 
     def _project(self, placed: BodyMotion, wrench: Twist, total: dict[str, sp.Expr]) -> None:
-        """Add what a wrench on a body does along every coordinate that moves it."""
+        """Add the power of a wrench on a body per unit rate of every coordinate that moves it."""
         for k in self._own(placed):
             twist = placed.motion[k]
             total[k] += twist.angular.dot(wrench.angular) + twist.linear.dot(wrench.linear)
 
     def _add_single_bias(self, placed: BodyMotion, k: str, angular: Vector) -> None:
-        """B = momentum . (d twist/dq) q'^2; the convective part vanishes identically."""
+        """Add B = momentum . (d twist/dq) q'^2; the convective part vanishes identically."""
         bias, twist = placed.bias(), placed.motion[k]
         linear = bias.linear - twist.angular.cross(twist.linear)
         self._bias[k] += angular.dot(bias.angular) + self._momentum[placed.body, k].dot(linear)
 
     def _add_full_bias(self, placed: BodyMotion, inertia: SpatialInertia) -> None:
-        """Newton-Euler at the bias acceleration, projected on each column."""
+        """Add Newton-Euler at the bias acceleration, projected on each column."""
         body, program = placed.body, self.program
         bias, omega = placed.bias(), self.part_of[placed.body].total(placed).angular
         whirl = program.vector(f"{body}_whirl_moment", omega.cross(inertia.moment), "123")
@@ -302,7 +304,7 @@ class Dynamics:
         self._project(placed, wrench, self._bias)
 
     def _add_rotor(self, rotor: ReducedRotor) -> None:
-        """Gyroscopic part of a rotor on its carrier; the rest is in `_solve` and `full`."""
+        """Add the gyroscopic part of a rotor on its carrier; the rest is in `_solve` and `full`."""
         if self.coordinates.rate_scale_of(self._relative(rotor)) != 1 and not self._is_turned(
             rotor
         ):
@@ -323,10 +325,10 @@ class Dynamics:
             self._bias[k] += along.dot(couple)
 
     def _seen(self, rotor: ReducedRotor) -> tuple[Vector, dict[str, Vector], Vector]:
-        """Return the axis of a rotor, and how its carrier turns: with coordinates, and in all.
+        """Return the axis of a rotor, and its carrier's angular velocity: per rate, and in total.
 
-        In the axes of its base, without the coordinates of that; in those of the carrier where it
-        is on the ground.
+        In the axes of its base, without the coordinates of that; in those of the carrier on the
+        ground.
         """
         body, placed = rotor.carrier.body, self._relative(rotor)
         if not self._is_turned(rotor):
@@ -400,7 +402,7 @@ class Dynamics:
         return {name: self.program.define(f"{name}_rate", rates[name]) for name in names}
 
     def signals(self) -> Iterator[Shown]:
-        """Yield what the forces show, force by force, and then the constraints."""
+        """Yield the signals of all forces in their order, and then those of the constraints."""
         at = Seen(self.moving, self._momentum, self.accelerations)
         for force, action in zip(self.mechanism.forces, self._actions, strict=True):
             yield from shown_by(force, at, action)
@@ -408,15 +410,17 @@ class Dynamics:
             yield from constraint.signals(at)
 
     def total(self, force: Force) -> sp.Expr:
-        """Return with how much a force pushes two ends apart."""
+        """Return the force by which an element pushes two ends apart [N or N m]."""
         found = self._actions[self.mechanism.forces.index(force)].total
         if found is None:
-            problem = "its Action has no total, which an output shows: give it what pushes the ends"
+            problem = (
+                "its Action has no total, which an output shows: give it the force on the ends"
+            )
             raise DeclarationError(" ".join(force.identity), [problem])
         return found
 
     def _scale(self, k: str) -> sp.Expr:
-        """Return by whose square a bias is scaled: on a base it is one at the true rates."""
+        """Return the factor whose square scales a bias: on a base it is one at the true rates."""
         on_base = any(k in loaded.coordinates for loaded in self._loaded.values())
         return sp.Integer(1) if on_base else self.coordinates.rate_scale(k)
 
@@ -427,11 +431,11 @@ class Dynamics:
         return self._matrix.get(pair, NONE)
 
     def _solve(self) -> dict[str, sp.Expr]:
-        """Forward dynamics: rotors are eliminated first, the rest is a small symmetric system.
+        """Solve the forward dynamics: rotors are eliminated first, the rest is a small system.
 
         The spin equation ``inertia (axis . omega' + spin') = torque`` leaves only the torque's
-        reaction in the others: what a rotor adds to M and B there cancels when its coordinate is
-        eliminated.
+        reaction in the others: the contributions of a rotor to M and B there cancel when its
+        coordinate is eliminated.
         """
         program = self.program
         if self.admissible is not None:
@@ -451,7 +455,7 @@ class Dynamics:
         return self._with_spins(self._cholesky(rest, matrix, right), "acceleration")
 
     def _solve_admissible(self, admissible: Admissible) -> dict[str, sp.Expr]:
-        """Forward dynamics of what constraints leave free, rotors as everything else."""
+        """Solve the forward dynamics of the admissible speeds, rotors like all other bodies."""
         program = self.program
         matrix = {
             (k, other): program.define(f"mass_{k}_{other}", element)
@@ -501,8 +505,10 @@ class Dynamics:
         return self._force[k] - inertial - self._back(k)
 
     def _back(self, k: str) -> sp.Expr:
-        """Return what the torques on bearings do along a coordinate of their carriers."""
-        rotors = self._driven_on(k)
+        """Return the torques on bearings, reduced to a coordinate of their carriers."""
+        rotors = [
+            r for r in self.rotors if self._force[r.coordinate] != 0 and k in self._carried(r)
+        ]
         if k not in self._of_base:
             return sum((self._rotor_share(r, k) * self._force[r.coordinate] for r in rotors), NONE)
         base = self._loaded[self._of_base[k]].base
@@ -511,11 +517,6 @@ class Dynamics:
             total += self._seen(rotor)[0] * self._force[rotor.coordinate]
         total = self.program.vector(f"{base.body}_bearings", total)
         return base.twists[k].angular.dot(total)
-
-    def _driven_on(self, k: str) -> list[ReducedRotor]:
-        """Return the rotors with a torque on their bearing whose carrier a coordinate moves."""
-        rotors = [r for r in self.rotors if self._force[r.coordinate] != 0]
-        return [r for r in rotors if k in self._carried(r)]
 
     def _spin_bias(self, rotor: ReducedRotor, accelerations: dict[str, sp.Expr]) -> sp.Expr:
         """Return the rate of ``axis . omega`` of the carrier."""
@@ -529,7 +530,7 @@ class Dynamics:
             return total
         axis, _, omega = self._seen(rotor)
         base = loaded.acceleration("_of_all" if accelerations else "_left", accelerations)
-        # a . (w x omega), where omega x a is what the gyroscopic couple has
+        # a . (w x omega), where omega x a is a factor of the gyroscopic couple
         swing = self.program.vector(f"{rotor.body.name}_swing", omega.cross(axis))
         return total + axis.dot(base.angular) + loaded.base.omega.dot(swing)
 
@@ -567,9 +568,9 @@ class Dynamics:
         return solution
 
     def _pivot(self, k: str, left: sp.Expr, whole: sp.Expr) -> sp.Expr:
-        """Return what of the mass that a coordinate moves is left when those before it are gone.
+        """Return the rest of a coordinate's mass after elimination of those before it.
 
-        Where it alone moves no mass, rounding leaves something of the whole, of any sign.
+        Where it alone moves no mass, rounding leaves a fraction of the whole, of any sign.
         """
         program, unit = self.program, "kg m^2 or kg"
         rounding = NONE
@@ -587,18 +588,18 @@ class Dynamics:
 
     @cached_property
     def differentiated(self) -> dict[sp.Symbol, sp.Expr]:
-        """Expressions that are differentiated in place of the steps of q'', if any."""
+        """Expressions to differentiate instead of the steps of q'', if any."""
         again = self.to_differentiate()
         pairs = ((self.accelerations[k], value) for k, value in again.items())
         return {step: value for step, value in pairs if step != value and step.is_Symbol}
 
     def to_differentiate(self) -> dict[str, sp.Expr]:
-        """Return q'' once more, of few operations when it is differentiated.
+        """Return q'' in an expression with few operations of its derivatives.
 
         With a for the values of q'', ``q'' = a + M^-1 (Q - B - M a)``, in which a and M^-1 are
         frozen: the bracket vanishes, and by the implicit function theorem its derivative at a
-        constant a is M times that of q''. ``B + M a`` is projected from what moves every body at
-        these accelerations (d'Alembert), so that no element of M is differentiated.
+        constant a is M times that of q''. ``B + M a`` is projected from the inertia forces of every
+        body at these accelerations (d'Alembert), so that no element of M is differentiated.
         """
         rest = self._rest
         most = max((len(placed.motion.keys() & rest) for placed, *_ in self._wrenches), default=0)
@@ -612,7 +613,7 @@ class Dynamics:
         return self._with_spins({k: values[k] + more[k] for k in rest}, "acceleration_again")
 
     def _inertial(self, accelerations: dict[str, sp.Expr]) -> dict[str, sp.Expr]:
-        """Return ``B + M a``: what moves the bodies at some accelerations, on each column."""
+        """Return ``B + M a``: inertia forces of the bodies at accelerations a, on each column."""
         total = dict.fromkeys(self.names, NONE)
         for placed, inertia, wrench in self._wrenches:
             columns = [k for k in self.names if k in placed.motion]
@@ -649,7 +650,7 @@ class Dynamics:
             solution[k] = self.program.define(f"{k}_more", right[k] * factors[k, k] - known)
         return solution
 
-    # -- M, B and Q as the paper writes them ----------------------------------------------------
+    # -- M, B and Q of the paper ----------------------------------------------------------------
 
     def mass_matrix(self) -> list[list[sp.Expr]]:
         """Return M of the independent coordinates."""
@@ -669,7 +670,7 @@ class Dynamics:
         )
 
     def directions(self) -> dict[str, dict[sp.Symbol, sp.Expr]]:
-        """Return how positions change per unit of each independent speed."""
+        """Return the rates of the positions per unit of each independent speed."""
         columns = self.moving.directions()
         if self.admissible is None:
             return columns
@@ -683,13 +684,13 @@ class Dynamics:
         return found
 
     def along(self, k: str) -> dict[str, sp.Expr]:
-        """Return by how much each coordinate moves for a unit of an independent one."""
+        """Return the rate of each coordinate per unit rate of an independent one."""
         if self.admissible is None:
             return {k: sp.Integer(1)}
         return {k: sp.Integer(1)} | {d: p[k] for d, p in self.admissible.shares.items()}
 
     def full_mass_matrix(self) -> list[list[sp.Expr]]:
-        """Return M of all coordinates, rotors included, as if no constraint gave any speed."""
+        """Return M of all coordinates, rotors included, without the constraints on speeds."""
         self.program.section("mass matrix")
         matrix = [[self._carried_matrix(k, other) for other in self.names] for k in self.names]
         for rotor in self.rotors:

@@ -1,11 +1,11 @@
-"""A mechanism in motion: its parts that hang together through what they are based on alone.
+"""A mechanism in motion: parts that are connected through their base alone.
 
 A base is the ground, a body that moves freely, or one to which joints lead from the ground while
-all else hangs on it, as a car's body. Two sides of a machine are parts of it: no
-closure equation has bodies of both. Each part is solved by a `Kinematics` of its own, whose axes
-are chosen for it, so that it costs what it would cost alone, and what is alike in the parts is one
-constant. Bodies whose motion is prescribed from the base on, like a rod that both sides share, are
-part of the base here: every part places them for itself. Each free body is a part by itself, too.
+all other bodies hang on it, as a car's body. Two sides of a machine are parts: no closure equation
+has bodies of both. Each part is solved by a `Kinematics` of its own, in axes chosen for it, so that
+it costs the same as alone, and equal constants of the parts are one constant. Bodies whose motion
+relative to the base is prescribed, like a rod that both sides share, are part of the base here:
+every part places them. Each free body is a part of its own, too.
 """
 
 from __future__ import annotations
@@ -45,16 +45,15 @@ class InMotion:
     program
         Has the steps.
     coordinates
-        Those that are driven.
+        The driven ones.
     bases
         The bodies that move and carry others: those that move freely, and one on joints.
     parts
         The kinematics of each part.
     placed, part_of
-        Every body with its motion in the world, and the part that it is in; of what all parts have
-        in common, the first.
+        Every body with its motion in the world, and its part; for common bodies, the first part.
     carried
-        What a free body carries, and that body itself, by name.
+        The bodies on a moving base, and the base itself, by name.
     """
 
     program: Program
@@ -67,13 +66,7 @@ class InMotion:
 
     @classmethod
     def of(cls, program: Program, plan: Plan, held: Iterable[str] = ()) -> InMotion:
-        """Carry out the steps of a plan.
-
-        Parameters
-        ----------
-        held
-            Prescribed joints that do not move in this variant.
-        """
+        """Return the bodies in motion by the steps of a plan, with some held joints at rest."""
         coordinates = Coordinates(plan.formulation, held)
         joints = (part.joint for part in coordinates.states.free)
         bases: dict[str, Base] = {
@@ -116,16 +109,16 @@ class InMotion:
 
     @property
     def formulation(self) -> Formulation:
-        """Whose bodies they are."""
+        """The model."""
         return self.coordinates.formulation
 
     @property
     def mechanism(self) -> Mechanism:
-        """Whose bodies they are."""
+        """The mechanism."""
         return self.formulation.mechanism
 
     def part_with(self, *bodies: str) -> Kinematics | None:
-        """Return the part that has some bodies, and their motion in equal axes, if there is one."""
+        """Return the part with some bodies, whose motion it has in equal axes; None without one."""
         return next((part for part in self.parts if part.bodies.issuperset(bodies)), None)
 
     def directions(self) -> dict[str, dict[sp.Symbol, sp.Expr]]:
@@ -152,8 +145,8 @@ class InMotion:
     def relative_motion(self, first: tuple[str, Point], second: tuple[str, Point]) -> PointMotion:
         """Return the motion of a point of one body relative to one of another.
 
-        It is in the work axes of their part, in the axes of their base between two parts of one,
-        or in those of the world. What the base of both does is left out: it changes no distance.
+        It is in the work axes of their part, in the axes of their base between two parts of one, or
+        in those of the world. The motion of a common base is left out: it changes no distance.
         """
         ends = first, second
         part = self.part_with(*(body for body, _ in ends))
@@ -166,7 +159,7 @@ class InMotion:
         return other.minus(one)
 
     def _in_axes(self, body: str, point: Point, whole: bool) -> PointMotion:
-        """Return the motion of a point in the axes of its base, or the whole of it in the world."""
+        """Return the motion of a point relative to its base, or the whole motion in the world."""
         part = self.part_of[body]
         motion = self.point_motion(body, point) if whole else part.point_motion(body, point)
         turned = part.in_world if whole else part.to_ground
@@ -186,9 +179,9 @@ def _moved(
     base: str,
     free: Base | None,
 ) -> Kinematics:
-    """Carry out the steps of a plan that are about some bodies.
+    """Carry out the steps of a plan that place some bodies.
 
-    What else takes part in them is of this part too, since nothing closes between two parts.
+    Other bodies of these steps are of the same part, since no loop closes between two parts.
     """
     own = bodies if free is None else bodies - {base}
     steps = [step for step in plan.steps if step.about in own]
@@ -208,9 +201,9 @@ class Group:
     Attributes
     ----------
     base
-        The ground, or a body that moves freely.
+        The ground, or a moving body.
     bodies
-        What prescribed joints tie to the base, itself among it, and the others.
+        The bodies that prescribed joints tie to the base, itself included, and the others.
     """
 
     base: str
@@ -218,10 +211,10 @@ class Group:
 
 
 def groups_of(plan: Plan, jointed: tuple[list[str], str] | None = None) -> list[Group]:
-    """Return the parts of a mechanism in which it is solved, those on the ground first.
+    """Return the parts in which a mechanism is solved, those on the ground first.
 
-    A free body is one by itself. Where all that hangs on a base is tied to it there is one group,
-    of no others.
+    A free body is one of its own. Where all bodies on a base are tied to it, they are one group,
+    without others.
 
     Raises
     ------
@@ -256,7 +249,7 @@ def groups_of(plan: Plan, jointed: tuple[list[str], str] | None = None) -> list[
 
 
 def _refuse_loop(plan: Plan, bases: set[str], group: set[str]) -> NoReturn:
-    """Refuse bodies that hang on two bases: what is free there is not free."""
+    """Raise an error for bodies that hang on two bases: one of these is not free."""
     names, hung = (", ".join(map(repr, sorted(n))) for n in (bases, group))
     problem = (
         f"{hung} hang on several of the bodies {names}; one of these rests or moves freely, so "

@@ -35,13 +35,7 @@ class SpatialInertia:
         )
 
     def add_point(self, mass: sp.Expr, at: Vector) -> None:
-        """Add a point mass.
-
-        Parameters
-        ----------
-        mass, at
-            The mass, and where it is from the origin.
-        """
+        """Add a point mass at a position relative to the origin."""
         self.mass += mass
         self.moment += at * mass
         self.tensor += SymmetricTensor.of_point_mass(mass, at)
@@ -57,13 +51,7 @@ class SpatialInertia:
         return self.mass == 0 and self.moment.is_zero and all(e == 0 for e in self.tensor)
 
     def centred(self, program: Program, body: str) -> tuple[Vector, SymmetricTensor]:
-        """Append the centre of mass and the tensor about it; the origin, where there is no mass.
-
-        Parameters
-        ----------
-        program, body
-            What receives the steps, and the name that they begin with.
-        """
+        """Append the centre of mass and the tensor about it; the origin for a massless body."""
         # 1 / m, and zero where m is
         inverse = program.define(f"{body}_inverse_mass", self.mass / (self.mass**2 + POSITIVE))
         center = program.vector(f"{body}_center", self.moment * inverse, "123")

@@ -1,8 +1,8 @@
-"""Where the right-hand side has a kink, or jumps: a function that is emitted with its derivatives.
+"""Kinks and jumps of the right-hand side: a function that is emitted with its derivatives.
 
 A stop that is touched, a tyre that leaves the road, a knot of a curve: each is where the argument
-of a `Positive` or an `IsPositive` passes zero. What follows derivatives along a motion ends its
-steps there.
+of a `Positive` or an `IsPositive` passes zero. An integration of derivatives along a motion ends
+its steps there.
 """
 
 from __future__ import annotations
@@ -26,14 +26,14 @@ KINKS = "kinks"
 
 
 def kinks_of(rhs: Function, moving: Collection[str]) -> Function | None:
-    """Return what passes zero where the right-hand side has a kink; None where it has none.
+    """Return the quantities that pass zero at kinks of the right-hand side; None without any.
 
     Parameters
     ----------
     rhs
         The right-hand side.
     moving
-        Names of the elements of the state: what depends on none of them passes nothing.
+        Names of the elements of the state: quantities that depend on none of them are left out.
     """
     expressions = [*(step.expression for step in rhs.steps), *rhs.results]
     found = dict.fromkeys(chain.from_iterable(_arguments(e) for e in expressions))
@@ -44,7 +44,7 @@ def kinks_of(rhs: Function, moving: Collection[str]) -> Function | None:
     unguarded = replace(
         rhs,
         name=KINKS,
-        doc="What passes zero where the right-hand side has a kink, or jumps.",
+        doc="Quantities that pass zero where the right-hand side has a kink, or jumps.",
         labels=tuple(f"{KINKS}_{i}" for i in range(len(passed))),
         shape=(len(passed),),
         guards=(),
@@ -53,13 +53,13 @@ def kinks_of(rhs: Function, moving: Collection[str]) -> Function | None:
 
 
 def _arguments(expression: sp.Expr) -> list[sp.Expr]:
-    """Return what is compared with zero, in an order that is the same everywhere."""
+    """Return the arguments that are compared with zero, in an order that is the same everywhere."""
     functions = expression.atoms(Positive, IsPositive)
     return sorted((function.args[0] for function in functions), key=sp.default_sort_key)
 
 
 def _moved(rhs: Function, moving: Collection[str]) -> set[sp.Symbol]:
-    """Return all that depends on the state."""
+    """Return all symbols that depend on the state."""
     moved = set(map(sp.Symbol, moving))
     for step in rhs.steps:
         if not moved.isdisjoint(symbols_of(step.expression)):

@@ -34,7 +34,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
 
     from ..declare.formulation import Formulation
-    from ..declare.joints import Joint
     from ..declare.mechanism import Mechanism
     from ..declare.shown import Shown
     from ..declare.states import DeclaredStates
@@ -46,10 +45,10 @@ if TYPE_CHECKING:
 AXES = ("x", "y", "z")
 
 DERIVATIVES = "derivatives"
-"""Part of the emitted code that holds derivatives by state and inputs, as long as all the rest."""
+"""Part of the emitted code with derivatives with respect to state and inputs: half of it."""
 
 BOUNDED = "bounded"
-"""Of the signals, those that have ranges."""
+"""Function of the signals that have ranges."""
 
 
 TOGETHER = {
@@ -67,11 +66,11 @@ TOGETHER = {
         ("rhs_input_jacobian", "signals_jacobian", "signals_input_jacobian"),
     ),
 }
-"""What is computed together, as far as a model has it: name, one line that says it, functions."""
+"""Functions that are computed together, where a model has them: name, docstring, functions."""
 
 
 def staged(functions: dict[str, Function], cites: Mapping[str, str]) -> dict[str, Function | Stage]:
-    """Return what is emitted: functions by themselves, and stages of those that share steps."""
+    """Return all that is emitted: single functions, and stages of those that share steps."""
     stages: dict[str, Function | Stage] = {}
     taken = set()
     for name, (doc, names) in TOGETHER.items():
@@ -83,40 +82,40 @@ def staged(functions: dict[str, Function], cites: Mapping[str, str]) -> dict[str
 
 
 def _cited(doc: str, place: str | None) -> str:
-    """Return a line that says what a function is, with where a publication has it."""
+    """Return the docstring of a function, with its place in a publication."""
     return f"{doc.removesuffix('.')} ({place})." if place else doc
 
 
 @dataclass(eq=False)
 class Derivation:
-    """Everything that the emitters need.
+    """All inputs of the emitters.
 
     Attributes
     ----------
     states, inputs, parameters
-        What the functions read, in order.
+        The arguments of the functions, in order.
     relative
         The relative coordinates, in order.
     functions
         All functions by name; `prepare` computes the constants that the others read.
     emitted
-        What is compiled: functions, and stages of several.
+        Compiled code: functions, and stages of several.
     design
         From the parameters to the state at the design position.
     guards
         All guards of the model; the bit of a guard in a status word is its position here.
     assumptions, conditions
-        What the constants of a parameter set must fulfil: which must be zero, which must not.
+        Constants of a parameter set that must be zero, or must not.
     moving_bodies, massive_bodies
         Names in the order of the arrays of poses and of Jacobians.
     signals
         The elements of the ``signals`` function, with their ranges and events.
     held_inputs
-        By variants in which joints are held: the rates of these, which are zero then.
+        By variants in which joints are held: their rates, which are zero in these.
     order
-        Places of all steps by their names: the order of the derivation.
+        Positions of all steps in the derivation, by their names.
     by_parameters
-        Derivatives by parameters, where they were asked for.
+        Derivatives with respect to parameters, on request.
     """
 
     formulation: Formulation
@@ -146,9 +145,9 @@ class Derivation:
 
     @property
     def bounded(self) -> Function | None:
-        """The signals that have ranges, which every motion is watched for; None where none has.
+        """The signals with ranges, which every motion is checked for; None without any.
 
-        They are far fewer operations than all signals.
+        They take far fewer operations than all signals.
         """
         names = [shown.name for shown in self.signals if shown.ranges]
         if not names:
@@ -171,18 +170,18 @@ def generate(
     formulation
         Declaration.
     derivatives
-        Also those of the right-hand side and of the signals by state and inputs, which take half
-        of the time. A linearisation needs them, and a solver of stiff equations; no simulation
-        with an explicit method does.
+        Also those of the right-hand side and of the signals with respect to state and inputs, which
+        take half of the time. A linearisation needs them, and a solver of stiff equations; no
+        simulation with an explicit method does.
     parameter_derivatives
-        Also those by parameters: along a direction, and of weighted sums.
-    show
+        Also those with respect to parameters: along a direction, and of weighted sums.
+    progress
         Called with a short description of the present step.
     """
     progress("finding the loops and how they close")
     derivation = _Builder(formulation, derivatives=derivatives, notify=progress).build()
     if parameter_derivatives:
-        progress("differentiating all functions by the parameters")
+        progress("differentiating all functions with respect to the parameters")
         return _with_parameter_derivatives(derivation)
     return derivation
 
@@ -245,7 +244,7 @@ class _Builder:
         self.signals: list[Shown] = []
 
     def _check_masses(self) -> None:
-        """See that every independent coordinate moves some mass: else it has no acceleration."""
+        """Raise an error for an independent coordinate that moves no mass."""
         moved = {k for body in self.massive for k in self.motion.placed[body].motion}
         idle = [
             f"independent joint {part.joint.name!r} moves no body in massive; add one that it moves"
@@ -266,15 +265,17 @@ class _Builder:
         self._add_relative()
         self._add_poses()
         self._add_signals()
-        guards = self._acting_guards()
+        # variants have the same guards under the same names
+        acting = {g.name for f in self.functions.values() for g in f.guards}
+        guards = tuple(g for g in self.program.guards.values() if g.name in acting)
         margins = self.program.pruned(
             "margins",
             "Quantities that are positive where the model is valid; if one is not, those "
             "after it are meaningless.",
             {g.name: g.margin for g in guards},
         )
-        self.functions["margins"] = replace(margins, guards=())  # it reports, and does not refuse
-        self._notify(f"finding what {len(self.program.steps):,} steps have in common")
+        self.functions["margins"] = replace(margins, guards=())  # it reports, without an error
+        self._notify(f"finding common subexpressions of {len(self.program.steps):,} steps")
         order = self._share()
         assumed = define_assumptions(self.program, self.assumed)
         prepare = self.constants.function(self.functions.values(), assumed)
@@ -296,12 +297,15 @@ class _Builder:
             moving_bodies=self.moving,
             massive_bodies=self.massive,
             signals=tuple(self.signals),
-            held_inputs={v: self._rate_inputs(j) for v, j in self.formulation.held.items()},
+            held_inputs={
+                variant: tuple(n for j in joints for n in self.formulation.prescribed[j].rates)
+                for variant, joints in self.formulation.held.items()
+            },
             order={name: place for place, name in enumerate(order)},
         )
 
     def _share(self) -> list[str]:
-        """Write what the functions have in common in one way; return their steps in order."""
+        """Share the common subexpressions of the functions; return their steps in order."""
         variants: dict[str, list[Function]] = {name: [] for name in ("", *self.formulation.held)}
         for name, function in self.functions.items():
             variants[self.variant_of.get(name, "")].append(function)
@@ -310,7 +314,7 @@ class _Builder:
         return order
 
     def _check_symbols(self, prepare: Function) -> None:
-        """See that the equations read nothing but what is declared."""
+        """Raise an error if the equations read undeclared symbols."""
         check_symbols(
             self.mechanism.name,
             {s.name for s in prepare.free_symbols},
@@ -339,7 +343,7 @@ class _Builder:
     # -- arrays ---------------------------------------------------------------------------------
 
     def _inputs(self) -> Iterator[Input]:
-        """Yield what is given, but for forces along joints whose motion is: they do no work."""
+        """Yield the inputs, without those of forces along prescribed joints, which do no work."""
         acting = tuple(
             f for f in self.mechanism.forces if f.along not in self.formulation.prescribed
         )
@@ -348,17 +352,6 @@ class _Builder:
             entry.name for motion in self.formulation.prescribed.values() for entry in motion.inputs
         }
         yield from (entry for name, entry in self.formulation.inputs.items() if name in read)
-
-    def _rate_inputs(self, joints: Iterable[Joint]) -> tuple[str, ...]:
-        return tuple(rate for joint in joints for rate in self.formulation.prescribed[joint].rates)
-
-    def _acting_guards(self) -> tuple[Guard, ...]:
-        """Return the guards of all functions; variants have the same ones under the same names."""
-        acting = {g.name for f in self.functions.values() for g in f.guards}
-        return tuple(g for g in self.program.guards.values() if g.name in acting)
-
-    def _state_symbols(self) -> list[sp.Symbol]:
-        return [sp.Symbol(entry.name) for entry in self.states.entries]
 
     def _add(self, name: str, doc: str, results: dict[str, sp.Expr], *shape: int) -> None:
         doc = _cited(doc, self.formulation.cites.get(name))
@@ -436,10 +429,9 @@ class _Builder:
             return
         program.section(f"derivatives {what}")
         values = list(values)
-        symbols = (
-            self._state_symbols() if by == "state" else [sp.Symbol(e.name) for e in self._inputs()]
-        )
-        title = f"differentiating {what.removeprefix('of ')} by the {by}"
+        read = self.states.entries if by == "state" else self._inputs()
+        symbols = [sp.Symbol(entry.name) for entry in read]
+        title = f"differentiating {what.removeprefix('of ')} with respect to the {by}"
         columns = {
             s: program.tangents(s, values, str(s), instead)
             for s in counted(self._notify, title, symbols)
@@ -475,10 +467,12 @@ class _Builder:
             len(values),
             len(names),
         )
+        free = {name: sp.Symbol(f"given_{name}") - value for name, value in self._free().items()}
+        residuals = self._in_order([free, *(r.residuals() for r in self.relative.values())])
         self._add(
             "residuals",
             "Closure residuals g(beta, q) for given beta.",
-            {f"g_{name}": left for name, left in self._residuals().items()},
+            {f"g_{name}": left for name, left in residuals.items()},
         )
         in_one_part = len(self.motion.bases) == len(self.motion.free)
         if in_one_part and all(
@@ -486,10 +480,6 @@ class _Builder:
         ):
             self._add_absolute(list(values))
         self._add_global()
-
-    def _residuals(self) -> dict[str, sp.Expr]:
-        free = {name: sp.Symbol(f"given_{name}") - value for name, value in self._free().items()}
-        return self._in_order([free, *(r.residuals() for r in self.relative.values())])
 
     def _free(self) -> dict[str, sp.Expr]:
         """Return the relative coordinates of bodies that move freely."""
@@ -501,7 +491,7 @@ class _Builder:
         }
 
     def _in_order(self, parts: Iterable[dict[str, sp.Expr]]) -> dict[str, sp.Expr]:
-        """Return what the parts have for each relative coordinate, in the order of the report."""
+        """Return the values of all relative coordinates, in the order of the report."""
         found = {name: value for part in parts for name, value in part.items()}
         return {c.name: found[c.name] for c in self.mechanism.coordinates}
 
@@ -542,7 +532,7 @@ class _Builder:
         )
 
     def _twist_along(self, body: str, independent: str) -> list[sp.Expr]:
-        """Return the same with all that moves where one independent coordinate does."""
+        """Return the twist of a body per independent rate, eliminated speeds included."""
         total: list[sp.Expr] = [sp.Integer(0)] * 6
         for coordinate, share in self.dynamics.along(independent).items():
             column = self._ground_twist(body, coordinate)

@@ -1,13 +1,13 @@
-"""Derivatives by parameters, state and inputs: functions that are emitted when asked for.
+"""Derivatives with respect to parameters, state and inputs: functions emitted on request.
 
 Constants are computed from parameters by one function, and everything else from constants by
-others; so it is with their derivatives. Along a direction, `prepare_tangent` gives what constants
-change by, and ``rhs_tangent`` what that does to the right-hand side. Of a weighted sum of results,
-``rhs_adjoint`` gives the derivatives by constants, state and inputs, and `prepare_adjoint` makes
-derivatives by parameters of those by constants.
+others; so are their derivatives. Along a direction, `prepare_tangent` returns the change of the
+constants, and ``rhs_tangent`` the resulting change of the right-hand side. Of a weighted sum of
+results, ``rhs_adjoint`` returns the derivatives with respect to constants, state and inputs, and
+`prepare_adjoint` converts those with respect to constants to those with respect to parameters.
 
-They are called like all other functions. Their further arguments are in the same arrays, after
-the values: `Behind`.
+They are called like all other functions. Their further arguments are in the same arrays, after the
+values: `Behind`.
 """
 
 from __future__ import annotations
@@ -28,12 +28,12 @@ if TYPE_CHECKING:
     from ..program.function import Function
 
 OF = ("rhs", "signals", "relative_coordinates", "positions", "orientations", "velocities")
-"""What is differentiated: all but what is a derivative itself, or a part of the equations."""
+"""Functions to differentiate: all but derivatives, and parts of the equations."""
 
 
 @dataclass(frozen=True)
 class Behind:
-    """What follows the values in an array that a function reads.
+    """Names behind the values in an array that a function reads.
 
     Attributes
     ----------
@@ -49,7 +49,7 @@ class Behind:
 
 @dataclass(frozen=True)
 class ParameterDerivatives:
-    """The functions, and how what they read is called.
+    """The functions, and the names of their arguments.
 
     Attributes
     ----------
@@ -58,7 +58,7 @@ class ParameterDerivatives:
     functions
         Those that read constants, state and inputs.
     behind
-        What follows the values, by array.
+        The names behind the values, by array.
     """
 
     of_parameters: tuple[Function, ...] = ()
@@ -66,11 +66,11 @@ class ParameterDerivatives:
     behind: Mapping[str, Behind] = field(default_factory=dict)
 
     def weights(self, array: str) -> tuple[str, ...]:
-        """Return the names of the weights in an array; how many there are depends on the call."""
+        """Return the names of the weights in an array; their number depends on the call."""
         return self.behind[array].weights if array in self.behind else ()
 
     def places(self, array: str) -> dict[str, int]:
-        """Return the places of what follows the values in an array, by name."""
+        """Return the positions of the names behind the values in an array."""
         if array not in self.behind:
             return {}
         behind = self.behind[array]
@@ -79,7 +79,7 @@ class ParameterDerivatives:
         return {name: start + i for names in groups for i, name in enumerate(names)}
 
     def stages(self, stages: Iterable[Stage]) -> Iterator[Stage]:
-        """Yield tangents of what is computed together: they are computed together, too."""
+        """Yield the tangents of functions that are computed together, also together."""
         own = {function.name: function for function in self.functions}
         for stage in stages:
             names = (f"{member.name}_{TANGENT}" for member in stage.members)
@@ -104,7 +104,7 @@ def derivatives_by_parameters(
     prepare, design
         Its functions of parameters.
     arrays
-        Names of what is in ``parameters``, ``constants``, ``state`` and ``inputs``, in order.
+        Names of the elements of ``parameters``, ``constants``, ``state`` and ``inputs``, in order.
     """
     of = [functions[name] for name in OF if name in functions]
     behind = _behind(arrays, of, {*chain(*map(_names, (prepare, design, *of)))})
@@ -129,7 +129,7 @@ def derivatives_by_parameters(
 def _behind(
     arrays: Mapping[str, Sequence[str]], of: Iterable[Function], taken: Iterable[str]
 ) -> dict[str, Behind]:
-    """Give names to what follows the values in each array."""
+    """Return the names behind the values of each array."""
     known = {*taken, *chain(*arrays.values())}
     along, weight = (_unused(start, known) for start in ("along_", "weight_"))
     weights = {
@@ -149,16 +149,16 @@ def _adjoint(function: Function, by: Sequence[str], behind: Behind, array: str) 
     weights = [sp.Symbol(name) for name in behind.weights[: function.size]]
     what = "parameters" if array == "parameters" else "constants, state and inputs"
     doc = (
-        f"Derivatives of a weighted sum of {function.name} by {what}; the weights follow the "
-        f"{array}."
+        f"Derivatives of a weighted sum of {function.name} with respect to {what}; the weights "
+        f"follow the {array}."
     )
     return adjoint(function, [sp.Symbol(name) for name in by], weights, doc)
 
 
 def _needed_of(prepare: Function, functions: Iterable[Function]) -> Function:
-    """Return the constants that functions read; others, zero.
+    """Return the constants that functions read, and zero for the others.
 
-    Those are checked, and no more: distances that vanish have no derivative.
+    Those are only checked: distances that vanish have no derivative.
     """
     read = {symbol for function in functions for symbol in function.free_symbols}
     results = (
@@ -173,13 +173,13 @@ def _along(name: str) -> str:
 
 
 def _names(function: Function) -> Iterator[str]:
-    """Yield the names of all that is in a function."""
+    """Yield the names of all symbols of a function."""
     yield from (symbol.name for symbol in function.free_symbols)
     yield from (step.symbol.name for step in function.steps)
 
 
 def _unused(start: str, names: Collection[str]) -> str:
-    """Return how no name begins."""
+    """Return a beginning that no name has."""
     while any(name.startswith(start) for name in names):
         start = f"{start}_"
     return start

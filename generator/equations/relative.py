@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class _Shaft:
-    """A shaft seen from its universal joint, in the z-x sequence: x' and z' beside the line."""
+    """A shaft on its universal joint, in the z-x sequence: x' and z' beside the line."""
 
     elevation: sp.Expr
     azimuth: sp.Expr
@@ -48,7 +48,7 @@ class _Shaft:
 
 @dataclass(frozen=True)
 class _Screw:
-    """How a unit rate of one relative coordinate moves what follows in the chain (work axes)."""
+    """Motion of the rest of the chain per unit rate of one relative coordinate (work axes)."""
 
     coordinate: str
     angular: Vector
@@ -57,37 +57,19 @@ class _Screw:
 
 
 def rotate_x(angle: sp.Expr, v: Vector) -> Vector:
-    """Return a vector turned about x.
-
-    Parameters
-    ----------
-    angle, v
-        The angle [rad], right-handed, and the vector.
-    """
+    """Return a vector turned about x by a right-handed angle [rad]."""
     c, s = sp.cos(angle), sp.sin(angle)
     return Vector(v.x, c * v.y - s * v.z, s * v.y + c * v.z)
 
 
 def rotate_y(angle: sp.Expr, v: Vector) -> Vector:
-    """Return a vector turned about y.
-
-    Parameters
-    ----------
-    angle, v
-        The angle [rad], right-handed, and the vector.
-    """
+    """Return a vector turned about y by a right-handed angle [rad]."""
     c, s = sp.cos(angle), sp.sin(angle)
     return Vector(c * v.x + s * v.z, v.y, c * v.z - s * v.x)
 
 
 def rotate_z(angle: sp.Expr, v: Vector) -> Vector:
-    """Return a vector turned about z.
-
-    Parameters
-    ----------
-    angle, v
-        The angle [rad], right-handed, and the vector.
-    """
+    """Return a vector turned about z by a right-handed angle [rad]."""
     c, s = sp.cos(angle), sp.sin(angle)
     return Vector(c * v.x - s * v.y, s * v.x + c * v.y, v.z)
 
@@ -162,7 +144,7 @@ class RelativeCoordinates:
         return self.program.vector(f"shaft_{joint.name}", seen)
 
     def _line(self, joint: Universal) -> Vector:
-        """Return the unit vector along a shaft: that of its ends, or what its body carries."""
+        """Return the unit vector along a shaft: that of its ends, or one that its body carries."""
         body = joint.second.name
         if body in self.kin.on_line:
             return self.kin.on_line[body].direction
@@ -200,15 +182,7 @@ class RelativeCoordinates:
         )
 
     def from_axis(self, placed: BodyMotion, joint: Cylindrical, point: Point) -> Vector:
-        """Return a point of a telescope's second body from where the axis passes through it.
-
-        Parameters
-        ----------
-        placed, joint
-            The second body, and the telescope.
-        point
-            A point of that body.
-        """
+        """Return a point of a telescope's second body, relative to the axis point of that."""
         assert isinstance(joint.axis.through, Point)
         return self.kin.local(placed, point) - self.kin.local(placed, joint.axis.through)
 
@@ -233,11 +207,6 @@ class RelativeCoordinates:
     def absolute_jacobian(self, body: str) -> dict[str, tuple[Vector, Vector]]:
         """Return angular velocity and velocity of the centre of mass per relative rate.
 
-        Parameters
-        ----------
-        body
-            Name of a moving body.
-
         Returns
         -------
         dict
@@ -247,7 +216,9 @@ class RelativeCoordinates:
         placed = self.kin.placed[body]
         center = self.kin.position(placed, self.mechanism.body(body).center)
         columns = {}
-        for screw in self._chain(body):
+        joints = chain_to(self.mechanism, body)
+        assert joints is not None, body
+        for screw in (s for joint in joints for s in self._screws_in(joints, joint)):
             linear = screw.linear + screw.angular.cross(center - screw.through)
             columns[screw.coordinate] = (
                 self.kin.to_ground(screw.angular),
@@ -259,14 +230,8 @@ class RelativeCoordinates:
         """Return whether joints with reported coordinates lead from the ground to a body."""
         return chain_to(self.mechanism, body) is not None
 
-    def _chain(self, body: str) -> list[_Screw]:
-        """Return the screws from the ground to a body, along joints with reported coordinates."""
-        joints = chain_to(self.mechanism, body)
-        assert joints is not None, body
-        return [screw for joint in joints for screw in self._screws_in(joints, joint)]
-
     def _screws_in(self, chain: Sequence[Joint], joint: Joint) -> list[_Screw]:
-        """Return the screws of a joint of a chain: a shaft turns about itself with its cross.
+        """Return the screws of a joint of a chain; the cross of a shaft determines its turn.
 
         The angle of a telescope behind it counts from the z-x sequence.
         """
@@ -276,13 +241,7 @@ class RelativeCoordinates:
         return screws
 
     def reported(self, joint: str, kind: str) -> str | None:
-        """Return the first name under which a joint's coordinate is reported.
-
-        Parameters
-        ----------
-        joint, kind
-            Name of the joint, and which of its coordinates.
-        """
+        """Return the first name under which a kind of coordinate of a joint is reported."""
         return reported(self.mechanism, joint, kind)
 
     def _screws(self, joint: Joint) -> list[_Screw]:
@@ -311,7 +270,7 @@ class RelativeCoordinates:
         ]
 
     def _screw_of_hinge(self, joint: Revolute, name: str) -> _Screw:
-        """Return the screw of a hinge; where it placed its second body, that has it as its axis."""
+        """Return the screw of a hinge; a body that it placed has its axis as the first one."""
         kin = self.kin
         first, second = (kin.placed[body] for body in joint.bodies)
         if is_first_axis(kin, joint):
@@ -321,7 +280,7 @@ class RelativeCoordinates:
         return _Screw(name, axis, kin.position(first, joint.axis.through), ZERO)
 
     def _on_cross(self, joint: Universal, screw: _Screw) -> _Screw:
-        """Let a shaft turn about itself as its cross demands, not as the z-x sequence does."""
+        """Return a screw of a shaft with the turn by its cross, instead of the z-x sequence."""
         n, second, third = self._cross_axes(joint)
         parent = self.kin.placed[joint.first.name]
         axis = from_axes(parent.axes, self.kin.local_direction(parent, joint.first_axis))
@@ -331,9 +290,9 @@ class RelativeCoordinates:
         return _Screw(screw.coordinate, across + n * turn, screw.through, screw.linear)
 
     def _cross_axes(self, joint: Universal) -> Axes:
-        """Return line and second axis of a shaft, and what is across both."""
+        """Return line and second axis of a shaft, and the axis across both."""
         placed, line = self.kin.placed[joint.second.name], self._line(joint)
-        if placed.axes[0] == line:  # the cross placed it, so that its axes are these
+        if placed.axes[0] == line:  # the cross placed the shaft: its axes are these
             return placed.axes
         design = self.kin.unit(f"{joint.name}_line", self.kin.to_work(joint.shaft.vector))
         second = self.kin.unit(
@@ -357,7 +316,7 @@ class RelativeCoordinates:
         return {c.name: closure.residual(c) for c in self.kin.reported}
 
 
-# Which component of the closure at the end of an offset telescope stands for which coordinate.
+# Components of the closure at the end of an offset telescope, by the coordinate they determine.
 _AXIS_OF_CLOSURE = {"azimuth": "x", "slide": "y", "elevation": "z"}
 
 
@@ -371,7 +330,7 @@ class _Closure:
         self.mechanism = relative.mechanism
 
     def residual(self, coordinate: RelativeCoordinate) -> sp.Expr:
-        """Return what the given coordinate leaves of its own equation."""
+        """Return the residual of the equation of a given coordinate."""
         first = self.relative.reported(coordinate.joint.name, coordinate.kind)
         given = self._given(coordinate.name)
         if first is not None and first != coordinate.name:
@@ -395,7 +354,8 @@ class _Closure:
     def _solved_residual(self, joint: Revolute | Prismatic, given: sp.Symbol) -> sp.Expr:
         """Return the closure that a hinge or guide was solved for, at a given coordinate.
 
-        The length of the rod for one that a rod holds, the meeting at the pin for a rod's own.
+        It is the length of a rod that holds the body, or the meeting at the pin for a rod's own
+        hinge.
         """
         if self.kin.coordinates.is_given(joint):
             return given - self.kin.given(joint)
@@ -416,14 +376,14 @@ class _Closure:
         return sp.sqrt(opening.dot(opening)) - self.kin.rod_lengths[meeting.rod]
 
     def _placed_residual(self, joint: Revolute | Prismatic, given: sp.Symbol) -> sp.Expr:
-        """Return how far a given coordinate is from that of the poses; of an angle, the sine."""
+        """Return a given coordinate less that of the poses; of an angle, the sine."""
         if isinstance(joint, Prismatic):
             return given - self._slide_between(joint)
         sine, cosine = turn_between(self.kin, joint)
         return cosine * sp.sin(given) - sine * sp.cos(given)
 
     def _slide_between(self, joint: Prismatic) -> sp.Expr:
-        """Return how far the second body of a guide has come along it, as the first one sees it."""
+        """Return the displacement of a guide's second body along it, relative to the first one."""
         first, second = (self.kin.placed[body] for body in joint.bodies)
         start = to_axes(first.design_axes, second.design_origin - first.design_origin)
         start = self.program.vector(f"{joint.name}_start", start, "123")
@@ -433,7 +393,7 @@ class _Closure:
     def _moved(
         self, joint: Revolute | Prismatic, parent: BodyMotion, local: Vector, given: sp.Expr
     ) -> Vector:
-        """Return where a joint's coordinate takes a point of its second body, in parent axes."""
+        """Return the position of a point that a joint's coordinate moves, in parent axes."""
         if isinstance(joint, Prismatic):
             slid: Vector = local + self.kin.local_direction(parent, joint.direction) * given
             return slid
@@ -447,7 +407,7 @@ class _Closure:
         return turned
 
     def _shaft_residual(self, joint: Universal, kind: str, given: sp.Symbol) -> sp.Expr:
-        """Eqs. 7 and 8: the angles of a shaft against its direction."""
+        """Return Eqs. 7 and 8: the angles of a shaft against its direction."""
         n = self._shaft_direction(joint)
         if kind == "elevation":
             return sp.sin(given) - n.z
@@ -470,10 +430,10 @@ class _Closure:
         return [c.name for c in entries if (c.joint.name, c.kind) == (joint, kind)]
 
     def _driven(self) -> dict[sp.Symbol, sp.Expr]:
-        """Return what replaces the driven coordinates: their given copies."""
+        """Return the given copies of the driven coordinates, to replace these."""
         replaced = {}
         for coordinate in self.mechanism.coordinates:
-            # a body that moves freely has no coordinate that what hangs on it would depend on
+            # bodies on a free one depend on no coordinate of it
             if isinstance(coordinate.joint, Free):
                 continue
             if coordinate.joint in self.kin.coordinates.driven:
@@ -490,13 +450,13 @@ class _Closure:
         return self._from_driven(f"given_span_{joint.name}", line.relative.position)
 
     def _shaft_direction(self, joint: Universal) -> Vector:
-        """Return the unit vector of a shaft, from what holds its far end.
+        """Return the unit vector of a shaft, from the position of its far end.
 
-        That is a chain with a telescope, in terms of given coordinates; where there is none, the
-        poses say where the far end is.
+        A chain with a telescope gives it in terms of given coordinates; without one, the poses do.
         """
-        turn = self._turn_of_rod(joint.second.name)
-        others = self.mechanism.joints_of(joint.second.name)
+        rod = joint.second.name
+        turn = next((ends for ends in self.kin.turned.values() if ends.rod == rod), None)
+        others = self.mechanism.joints_of(rod)
         telescope = next((j for j in others if isinstance(j, Cylindrical)), None)
         if turn is not None and any(t.end_link == turn.body for t in self.kin.spans.values()):
             span = self._rod_span(turn)
@@ -507,11 +467,8 @@ class _Closure:
         length = self.program.define(f"given_length_{joint.name}", sp.sqrt(span.dot(span)))
         return self.program.vector(f"given_shaft_{joint.name}", span * (1 / length))
 
-    def _turn_of_rod(self, rod: str) -> RodEnds | None:
-        return next((ends for ends in self.kin.turned.values() if ends.rod == rod), None)
-
     def _rod_residual(self, joint: Cylindrical) -> sp.Expr:
-        """Eq. 13: the distance of the rod's ends along the chain, less the length of the rod."""
+        """Return Eq. 13: the distance of the rod's ends by the chain, less the rod's length."""
         turn = self.kin.turned[joint.second.name]
         span = self._rod_span(turn)
         return sp.sqrt(span.dot(span)) - self.kin.rod_lengths[turn.rod]
@@ -529,7 +486,7 @@ class _Closure:
     def _by_chain(
         self, telescope: TelescopeEnds, point: Point, copy: Callable[[str, str], sp.Symbol]
     ) -> Vector:
-        """Return where the chain through a telescope puts a point of its second body."""
+        """Return the position of a point of a telescope's second body, by the chain of joints."""
         joint = telescope.joint
         holder = self.relative.holder(joint)
         length = joint.length_at_zero_slide.symbol - copy(joint.name, "slide")
@@ -552,7 +509,7 @@ class _Closure:
         return None
 
     def _opening_at_end(self, telescope: TelescopeEnds) -> Vector:
-        """Return how far the chain through a telescope ends from the point it should reach."""
+        """Return the vector from a telescope's target to the end of its chain."""
         end = self._from_driven(
             f"given_{telescope.end.name}",
             self.kin.point_motion(telescope.end_body, telescope.end).position,

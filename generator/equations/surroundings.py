@@ -1,4 +1,4 @@
-"""What a force sees of the mechanism in motion, in the steps of its kinematics."""
+"""Surroundings of a force: the mechanism in motion, in the steps of its kinematics."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class Seen:
         self._moving, self._placed, self._part_of = moving, moving.placed, moving.part_of
         self._driven = moving.coordinates
         self.program, self.mechanism = moving.program, moving.mechanism
-        # what acts along an eliminated speed acts on the others by the constraints
+        # a force along an eliminated speed acts on the others by the constraints
         self.independent, self.coordinates = self._driven.unconstrained, self._driven.moving
         self.driven = tuple(self._driven.symbols)
         self._momenta, self._accelerations = momenta, accelerations
@@ -109,7 +109,7 @@ class Seen:
     # -- bodies -----------------------------------------------------------------------------------
 
     def local(self, body: str, point: Point) -> Vector:
-        """Return the constant coordinates of a point, in the axes in which a body is seen."""
+        """Return the constant coordinates of a point, in the axes of a body's view."""
         return self._view(body).local(point)
 
     def direction(self, body: str, direction: Direction) -> Vector:
@@ -122,7 +122,7 @@ class Seen:
         return view.direction(direction) if follows else view.from_world(direction)
 
     def up(self, body: str) -> Vector:
-        """Return the upward unit vector of the world, in the axes in which a body is seen."""
+        """Return the upward unit vector of the world, in these axes."""
         return self.line(body, UP, follows=False)
 
     def twists(self, body: str) -> Mapping[str, Twist]:
@@ -130,7 +130,7 @@ class Seen:
         return self._view(body).twists
 
     def momenta(self) -> Iterator[tuple[str, str, Vector]]:
-        """Yield body, coordinate and linear momentum per unit rate, where mass is."""
+        """Yield body, coordinate and linear momentum per unit rate, of massive bodies."""
         yield from ((*key, momentum) for key, momentum in self._momenta.items())
 
     def height(self, body: str, local: Vector) -> sp.Expr:
@@ -142,15 +142,15 @@ class Seen:
         return self._view(body).place(local)
 
     def in_world(self, body: str, vector: Vector) -> Vector:
-        """Return the components in the world of a vector in the axes in which a body is seen."""
+        """Return the components in the world of a vector in these axes."""
         return self._view(body).in_world(vector)
 
     def rising(self, body: str, local: Vector) -> sp.Expr:
-        """Return the upward acceleration of a point that the coordinates' own leave over."""
+        """Return the upward acceleration of a point without accelerations of the coordinates."""
         return self._view(body).rising(local)
 
     def _view(self, body: str) -> InBody | OnBase:
-        """Return a body in the axes in which it is seen."""
+        """Return the view of a body: in its own axes, or in those of its base."""
         if body not in self._views:
             placed = self._body(body)
             carried = self._moving.carried.get(body)
@@ -189,7 +189,7 @@ class Seen:
         return joint
 
     def _with_joint(self, joint: str) -> Kinematics:
-        """Return the part that a joint belongs to: nothing closes between two parts."""
+        """Return the part that a joint belongs to."""
         part = self._moving.part_with(*self.mechanism.joint(joint).bodies)
         assert part is not None
         return part
@@ -197,20 +197,20 @@ class Seen:
     def between(
         self, first: tuple[str, Point], second: tuple[str, Point]
     ) -> tuple[Vector, Mapping[str, Vector]]:
-        """Return the way from one point to another, and its rate per unit rate, in equal axes."""
+        """Return the vector between two points, and its rate per unit rate, in equal axes."""
         for body, _ in (first, second):
             self._body(body)
         relative = self._moving.relative_motion(first, second)
         return relative.position, relative.motion
 
     def extent(self, body: str, point: Point) -> Vector:
-        """Return where a point is at the design position: a measure of size."""
+        """Return the design position of a point: a measure of size."""
         self._body(body)
         return self._part_of[body].design(point)
 
 
 def _known(what: str, name: Any, names: Iterable[str]) -> str:
-    """Return a name that there is."""
+    """Return a name if it is known."""
     names = list(names)
     if isinstance(name, str) and name in names:
         return name

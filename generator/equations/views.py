@@ -1,7 +1,7 @@
-"""A body as forces see it: in its own axes, or in those of a base that turns with it.
+"""Views of a body for forces: in its own axes, or in those of a base that turns with it.
 
-What a force makes of places, directions and twists is the same in any axes. Of a body on a base
-that turns, they are those of the base: there the twists of the base are nearly constant.
+Forces are the same in any axes. For a body on a base that turns, they are those of the base, in
+which its twists are nearly constant.
 """
 
 from __future__ import annotations
@@ -30,14 +30,14 @@ class InBody:
     Parameters
     ----------
     placed, part
-        Its motion in the world, and the bodies that it is solved with.
+        Its motion in the world, and the kinematics that it is part of.
     """
 
     def __init__(self, placed: BodyMotion, part: Kinematics) -> None:
         self._placed, self._part, self._program = placed, part, part.program
 
     def local(self, point: Point) -> Vector:
-        """Return where a point is, from the origin."""
+        """Return the position of a point relative to the origin."""
         return self._part.local(self._placed, point)
 
     def direction(self, direction: Direction) -> Vector:
@@ -56,12 +56,12 @@ class InBody:
         return self._placed.motion
 
     def height(self, local: Vector) -> sp.Expr:
-        """Return how high a point is in the world."""
+        """Return the height of a point in the world."""
         origin = self._placed.origin.dot(self._part.from_world(UP)) + self._part.height_of_origin
         return origin + local.dot(self.from_world(UP))
 
     def place(self, local: Vector) -> Vector:
-        """Return where a point is in the world."""
+        """Return the position of a point in the world."""
         return self._part.place_in_world(self._placed.origin + from_axes(self._placed.axes, local))
 
     def in_world(self, vector: Vector) -> Vector:
@@ -69,7 +69,7 @@ class InBody:
         return self._part.in_world(from_axes(self._placed.axes, vector))
 
     def rising(self, local: Vector) -> sp.Expr:
-        """Return the upward acceleration of a point, those of the coordinates apart."""
+        """Return the upward acceleration of a point without accelerations of the coordinates."""
         own = self.from_world(UP).dot(self._part.point_bias(self._placed, local))
         return own * self._part.coordinates.rate_scale_of(self._placed) ** 2
 
@@ -87,7 +87,7 @@ class OnBase:
         return self._program.vector(f"{body}_on_{base}_{name}", from_axes(axes, v))
 
     def local(self, point: Point) -> Vector:
-        """Return where a point is, from the origin."""
+        """Return the position of a point relative to the origin."""
         return self._turned(f"arm_{point.name}", self._part.local(self._carried.relative, point))
 
     def direction(self, direction: Direction) -> Vector:
@@ -114,14 +114,14 @@ class OnBase:
         return found
 
     def height(self, local: Vector) -> sp.Expr:
-        """Return how high a point is in the world."""
+        """Return the height of a point in the world."""
         way = self._program.vector(
             f"{self._carried.relative.body}_seen_from_{self._base.body}", self._carried.arm + local
         )
         return self._base.position.z + self.from_world(UP).dot(way)
 
     def place(self, local: Vector) -> Vector:
-        """Return where a point is in the world."""
+        """Return the position of a point in the world."""
         return self._base.place(self._carried.arm + local + self._base.center)
 
     def in_world(self, vector: Vector) -> Vector:
@@ -129,7 +129,7 @@ class OnBase:
         return self._base.to_world(vector)
 
     def rising(self, local: Vector) -> sp.Expr:
-        """Return the upward acceleration of a point, those of the coordinates apart."""
+        """Return the upward acceleration of a point without accelerations of the coordinates."""
         carried = self._carried
         own = self._part.point_bias(carried.motion, to_axes(carried.axes, local))
         return self.from_world(UP).dot(from_axes(carried.axes, own))

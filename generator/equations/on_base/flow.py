@@ -1,4 +1,4 @@
-"""How mass flows on a base; tensors in its axes."""
+"""Flow of mass on a base; tensors in its axes."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ HALF = sp.Rational(1, 2)
 
 @dataclass(frozen=True)
 class Flow:
-    """How mass flows with a coordinate, or at all rates.
+    """Flow of mass with a coordinate, or at all rates.
 
     Attributes
     ----------
@@ -40,13 +40,7 @@ class Flow:
         return Flow(self.momentum * factor, self.angular * factor, self.second * factor)
 
     def named(self, program: Program, name: str) -> Flow:
-        """Append a step for each of its numbers.
-
-        Parameters
-        ----------
-        program, name
-            What receives the steps, and what begins their names.
-        """
+        """Append a step for each of its numbers; the name begins theirs."""
         return Flow(
             program.vector(f"{name}_momentum", self.momentum),
             program.vector(f"{name}_angular", self.angular),
@@ -59,29 +53,17 @@ class Flow:
         return Twist(self.angular, self.momentum)
 
     def coriolis(self, omega: Vector) -> Twist:
-        """Return the couple and the force that it takes on a base which turns."""
+        """Return its Coriolis couple and force on a base that turns."""
         couple = self.second.opposite @ omega + omega.cross(self.angular)
         return Twist(couple, omega.cross(self.momentum) * 2)
 
     def centrifugal(self, squares: SymmetricTensor) -> sp.Expr:
-        """Return the generalised force along its coordinate on a base which turns.
-
-        Parameters
-        ----------
-        squares
-            ``w w^T - w^2 1`` of the angular velocity of the base, with half of its diagonal.
-        """
+        """Return its generalised force by `squares_of` the angular velocity of a turning base."""
         return sum((a * b for a, b in zip(self.second, squares, strict=True)), NONE)
 
 
 def squares_of(program: Program, name: str, omega: Vector) -> SymmetricTensor:
-    """Append ``w w^T - w^2 1`` of an angular velocity, with half of its diagonal.
-
-    Parameters
-    ----------
-    program, name, omega
-        What receives the steps, what begins their names, and the angular velocity.
-    """
+    """Append ``w w^T - w^2 1`` of an angular velocity, with half of its diagonal."""
     x, y, z = (
         program.define(f"{name}_{e}_squared", w * w) for e, w in zip("xyz", omega, strict=True)
     )
@@ -104,13 +86,7 @@ def second_moments(inertia: SymmetricTensor) -> SymmetricTensor:
 
 
 def named(program: Program, name: str, tensor: SymmetricTensor) -> SymmetricTensor:
-    """Append a step for each element of a tensor.
-
-    Parameters
-    ----------
-    program, name, tensor
-        What receives the steps, what begins their names, and the tensor.
-    """
+    """Append a step for each element of a tensor; the name begins theirs."""
     return SymmetricTensor(
         *(program.define(f"{name}_{e}", v) for e, v in zip(ELEMENTS, tensor, strict=True))
     )

@@ -1,4 +1,4 @@
-"""A body that turns about a line which rests on a base: the arm of a suspension."""
+"""A body that turns about a line fixed in a base: the arm of a suspension."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Turning:
-    """How fast it turns with a coordinate, or at all rates, and how its mass flows then."""
+    """Turning rate of a body with a coordinate, or at all rates, and the flow of its mass."""
 
     rate: sp.Expr
     flow: Flow
@@ -29,7 +29,7 @@ class Turning:
 
 @dataclass(frozen=True)
 class Slowed:
-    """Its angular acceleration, and the couple about O and the force that it takes."""
+    """Its angular acceleration, and the inertia couple about O and force."""
 
     alpha: sp.Expr
     wrench: Twist
@@ -60,8 +60,9 @@ class Hinged:
         self._line, self._at, self._inertia = carried.axes[0], carried.arm, inertia
         self._seconds = second_moments(inertia.tensor)
         self._take_angle(carried)
-        # constants of all bodies are added to one: these sums are no steps
-        self.first = self._swing + self._first_at_rest
+        # no steps: the constants of all bodies are added to one
+        along = self._at * self._inertia.mass + self._line * self._inertia.moment.x
+        self.first = self._swing + self._vector("first_at_rest", along)
         (one, two), (three, four) = self._harmonics
         turning = one * self._cosine + two * self._sine
         turning += three * self._cosine_2 + four * self._sine_2
@@ -69,7 +70,7 @@ class Hinged:
 
     @staticmethod
     def fits(carried: Carried) -> bool:
-        """Return whether a body is one: its origin and the first of its axes rest on the base."""
+        """Return whether the body's origin and the first of its axes are fixed in the base."""
         contains = carried.part.program.constants.contains
         return all(map(contains, (*carried.arm, *carried.axes[0])))
 
@@ -80,7 +81,7 @@ class Hinged:
         return named(self._program, f"{self._name}_{what}", tensor)
 
     def _take_angle(self, carried: Carried) -> None:
-        """Find the angle, from where it is known or from where it is zero at design."""
+        """Define the angle, from where it is known or from where it is zero at design."""
         define, turn = self._program.define, self._placed.turn
         if turn is None:
             _, y0, z0 = (carried.part.to_ground(axis) for axis in self._placed.design_axes)
@@ -119,11 +120,6 @@ class Hinged:
         return self._vector("swing", u * self._cosine + v * self._sine)
 
     @property
-    def _first_at_rest(self) -> Vector:
-        along = self._at * self._inertia.mass + self._line * self._inertia.moment.x
-        return self._vector("first_at_rest", along)
-
-    @property
     def _second_at_rest(self) -> SymmetricTensor:
         pair, n, at = SymmetricTensor.of_pair, self._line, self._at
         mean = self._program.define(
@@ -155,7 +151,7 @@ class Hinged:
 
     @cached_property
     def _unit(self) -> Flow:
-        """How its mass flows per unit rate of its angle."""
+        """Flow of its mass per unit rate of its angle."""
         c, s = self._cosine, self._sine
         (one, two), (three, four) = self._harmonics
         rate = two * c + one * -s + four * 2 * self._cosine_2 + three * -2 * self._sine_2
@@ -177,18 +173,12 @@ class Hinged:
         )
 
     def column(self, k: str | None) -> Turning:
-        """Return how it moves with a coordinate, or at all rates."""
+        """Return its motion with a coordinate, or at all rates."""
         own = self._part.total(self._placed) if k is None else self._placed.motion[k]
         return Turning(own.angular.x, self._unit * own.angular.x)
 
     def taken(self, now: Turning) -> Slowed:
-        """Return what its own motion takes.
-
-        Parameters
-        ----------
-        now
-            How it moves at all rates.
-        """
+        """Return the inertia forces of its own motion, at all rates."""
         alpha = self._placed.bias().angular.x
         squared = self._program.define(f"{self._name}_rate_squared", now.rate * now.rate)
         p, q = self._turns
@@ -197,33 +187,15 @@ class Hinged:
         return Slowed(alpha, Twist(couple, self._unit.momentum * alpha - self._swing * squared))
 
     def work(self, column: Turning, taken: Slowed) -> sp.Expr:
-        """Return ``∫ r_k' . r'' dm``.
-
-        Parameters
-        ----------
-        column, taken
-            How it moves with the coordinate, and what its own motion takes.
-        """
+        """Return ``∫ r_k' . r'' dm``."""
         return self._inertia.tensor.xx * column.rate * taken.alpha
 
     def energy(self, one: Turning, other: Turning) -> sp.Expr:
-        """Return ``∫ r_k' . r_l' dm``.
-
-        Parameters
-        ----------
-        one, other
-            How it moves with either coordinate.
-        """
+        """Return ``∫ r_k' . r_l' dm``."""
         return self._inertia.tensor.xx * one.rate * other.rate
 
     @staticmethod
     def across(now: Turning, column: Turning) -> Vector:
-        """Return ``∫ r' x r_k' dm``: nothing, since both are about one line.
-
-        Parameters
-        ----------
-        now, column
-            How it moves at all rates, and with the coordinate.
-        """
+        """Return ``∫ r' x r_k' dm``: zero, since both are about one line."""
         del now, column
         return ZERO

@@ -1,4 +1,4 @@
-"""Bodies that move in a plane with their base: the equations have one moment of inertia of each."""
+"""Bodies that move in a plane with their base: one moment of inertia each enters the equations."""
 
 from __future__ import annotations
 
@@ -21,11 +21,6 @@ def in_plane(carried: Carried, inertia: SpatialInertia) -> SpatialInertia:
     If base and body turn about one direction only, the second moments along the plane enter the
     equations only by their sum, which is the moment of inertia about the normal of the plane. Each
     of the two is replaced by half of that moment, and products of inertia by zero.
-
-    Parameters
-    ----------
-    carried, inertia
-        The body, and its inertia about its origin, in its axes.
     """
     normal = _normal(twist.angular for twist in carried.base.twists.values())
     along = None if normal is None else _along(carried.axes, normal)
@@ -43,6 +38,6 @@ def _normal(turning: Iterable[Vector]) -> int | None:
 
 
 def _along(axes: Iterable[Vector], normal: int) -> int | None:
-    """Return the axis of a body that is always along an axis of the base; None if there is none."""
+    """Return the axis of a body that is always along an axis of the base; None without one."""
     found = [i for i, axis in enumerate(axes) if tuple(axis)[normal] != 0]
     return found[0] if len(found) == 1 else None

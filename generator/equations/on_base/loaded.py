@@ -1,4 +1,4 @@
-"""A base with all that hangs on it."""
+"""A base with all bodies that hang on it."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ class Loaded:
     Parameters
     ----------
     program, base
-        What receives the steps, and the base.
+        Receives the steps, and the base.
     names
         The coordinates along which equations are needed.
 
     Attributes
     ----------
     inertia
-        Of all, about the centre of mass of the base and in its axes; once `complete` is called.
+        Of all bodies, about the centre of mass of the base and in its axes, after `complete`.
     matrix
         Elements of the mass matrix.
     momenta
@@ -49,7 +49,7 @@ class Loaded:
 
     @property
     def coordinates(self) -> list[str]:
-        """Those of the base, and those of the bodies on it."""
+        """The coordinates of the base, and those of the bodies on it."""
         return [*self.base.twists, *dict.fromkeys(k for s in self._sums.values() for k in s.flows)]
 
     def add(self, carried: Carried, inertia: SpatialInertia) -> None:
@@ -59,13 +59,7 @@ class Loaded:
         sums.add(carried, inertia, self._names)
 
     def complete(self, own: SpatialInertia) -> None:
-        """Sum up.
-
-        Parameters
-        ----------
-        own
-            The inertia of the base itself.
-        """
+        """Sum the bodies and the inertia of the base itself."""
         program, body = self._program, self.base.body
         mass, first, second = own.mass, own.moment, SymmetricTensor.zero()
         for s in self._sums.values():
@@ -118,26 +112,21 @@ class Loaded:
             self.matrix[own, k] = share
 
     def add_couple(self, along: Mapping[str, Vector], couple: Vector) -> None:
-        """Add a couple that a motion takes on a body, apart from its inertia.
+        """Add a further inertia couple of a body's motion, as of a rotor, in axes of the base.
 
         Parameters
         ----------
         along
             The angular velocity of the body on the base per unit rate of each coordinate.
         couple
-            The couple, in the axes of the base.
+            The couple.
         """
         self._couples.append((dict(along), couple))
 
     def acceleration(self, label: str, accelerations: Mapping[str, sp.Expr]) -> Twist:
         """Return the acceleration of the base and of its centre of mass, in its own axes.
 
-        Parameters
-        ----------
-        label
-            Ends the names of the steps.
-        accelerations
-            Of its coordinates; of those that are not there, zero.
+        The label ends the names of the steps; missing accelerations of coordinates are zero.
         """
         base = self.base
         total = Twist(base.bias.angular, base.bias.linear + base.omega.cross(base.velocity))
@@ -151,12 +140,7 @@ class Loaded:
     def taken(self, label: str, accelerations: Mapping[str, sp.Expr]) -> dict[str, sp.Expr]:
         """Return the generalised force of a motion along each coordinate: ``B + M q''``.
 
-        Parameters
-        ----------
-        label
-            Ends the names of the steps.
-        accelerations
-            Of the coordinates; of those that are not there, zero.
+        The label ends the names of the steps; missing accelerations of coordinates are zero.
         """
         base, program, inertia = self.base, self._program, self.inertia
         w, moved = base.omega, self.acceleration(label, accelerations)

@@ -1,4 +1,4 @@
-"""A body that moves on a base in any way."""
+"""A body with any motion on a base."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class PartialMotion:
-    """How a body moves on its base with a coordinate, or at all rates.
+    """Motion of a body on its base with a coordinate, or at all rates.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class PartialMotion:
 
 @dataclass(frozen=True)
 class InertiaWrench:
-    """What the own motion of a body takes, without accelerations of the coordinates.
+    """Inertia forces of a body's own motion, without accelerations of the coordinates.
 
     Attributes
     ----------
@@ -95,7 +95,7 @@ class MovingBody:
         return self._vector(what, from_axes(self._axes, v))
 
     def column(self, k: str | None) -> PartialMotion:
-        """Return how it moves with a coordinate, or at all rates."""
+        """Return its motion with a coordinate, or at all rates."""
         label = "now" if k is None else k
         own = self._part.total(self._placed) if k is None else self._placed.motion[k]
         omega = self._rotated(f"omega_{label}", own.angular)
@@ -117,13 +117,7 @@ class MovingBody:
         return PartialMotion(velocity, omega, spin, flow)
 
     def taken(self, now: PartialMotion) -> InertiaWrench:
-        """Return what its own motion takes.
-
-        Parameters
-        ----------
-        now
-            How it moves at all rates.
-        """
+        """Return the inertia forces of its own motion, at all rates."""
         own, origin, omega = self._placed.bias(), self._carried.bias_of_origin(), now.omega
         alpha = self._rotated("alpha", own.angular)
         inward = omega.cross(self._vector("swung", omega.cross(self._center)))
@@ -132,56 +126,27 @@ class MovingBody:
         slowed = self._vector("slowed", self._own.opposite @ alpha)
         turn = self._vector("own_turn", slowed + omega.cross(now.spin))
         wrench = Twist(self._at.cross(force) + turn, force)
-        single = len(self._placed.motion) == 1  # what is across omega does no work then
+        single = len(self._placed.motion) == 1  # a couple across omega does no work then
         return InertiaWrench(slowed if single else turn, wrench)
 
     def work(self, column: PartialMotion, taken: InertiaWrench) -> sp.Expr:
-        """Return ``∫ r_k' . r'' dm``.
-
-        Parameters
-        ----------
-        column, taken
-            How it moves with the coordinate, and what its own motion takes.
-        """
+        """Return ``∫ r_k' . r'' dm``."""
         return column.velocity.dot(taken.wrench.linear) + column.omega.dot(taken.turn)
 
     def energy(self, one: PartialMotion, other: PartialMotion) -> sp.Expr:
-        """Return ``∫ r_k' . r_l' dm``.
-
-        Parameters
-        ----------
-        one, other
-            How it moves with either coordinate.
-        """
+        """Return ``∫ r_k' . r_l' dm``."""
         return one.velocity.dot(other.flow.momentum) + one.omega.dot(other.spin)
 
     def across(self, now: PartialMotion, column: PartialMotion) -> Vector:
-        """Return ``∫ r' x r_k' dm``.
-
-        Parameters
-        ----------
-        now, column
-            How it moves at all rates, and with the coordinate.
-        """
+        """Return ``∫ r' x r_k' dm``."""
         swept = self._vector("swept", now.omega.cross(column.omega))
         across: Vector = now.velocity.cross(column.flow.momentum) + self._own @ swept
         return across
 
 
 def turned(program: Program, name: str, tensor: SymmetricTensor, axes: Axes) -> SymmetricTensor:
-    """Append the components of a tensor along other axes.
+    """Append the components of a tensor, given along some axes, in the axes of these.
 
-    Parameters
-    ----------
-    program, name
-        What receives the steps, and what begins their names.
-    tensor
-        Its components along some axes.
-    axes
-        These, along the other ones.
-
-    Notes
-    -----
     Since ``x x^T + y y^T + z z^T = 1``, the tensor is ``zz 1`` and two pairs of vectors.
     """
     x, y, z = axes

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class PartialTwist:
-    """How a body moves with a coordinate, or at all rates: its twist, and its momentum."""
+    """Motion of a body with a coordinate, or at all rates: its twist, and its momentum."""
 
     twist: Twist
     momentum: Twist
@@ -39,7 +39,7 @@ class InertiaForce:
 class Shifted:
     """A body on a base that does not turn.
 
-    Of a base that only slides, no couple is needed and no second moment.
+    If the base only slides, no couple and no second moment are needed.
 
     Parameters
     ----------
@@ -65,12 +65,6 @@ class Shifted:
         """Return whether the base does not turn."""
         return not carried.base.turns
 
-    def _twist(self, what: str, twist: Twist) -> Twist:
-        return Twist(
-            self._program.vector(f"{self._name}_couple_{what}", twist.angular, "123"),
-            self._program.vector(f"{self._name}_force_{what}", twist.linear, "123"),
-        )
-
     def _momentum(self, what: str, twist: Twist) -> Twist:
         inertia = self._inertia
         return Twist(
@@ -81,59 +75,38 @@ class Shifted:
         )
 
     def column(self, k: str | None) -> PartialTwist:
-        """Return how it moves with a coordinate, or at all rates."""
+        """Return its motion with a coordinate, or at all rates."""
         own = self._part.total(self._placed) if k is None else self._placed.motion[k]
         momentum = self._momentum("now" if k is None else k, own)
         return PartialTwist(own, momentum, Flow(from_axes(self._carried.axes, momentum.linear)))
 
     def taken(self, now: PartialTwist) -> InertiaForce:
-        """Return what its own motion takes.
-
-        Parameters
-        ----------
-        now
-            How it moves at all rates.
-        """
+        """Return the inertia forces of its own motion, at all rates."""
         bias, inertia, omega = self._placed.bias(), self._inertia, now.twist.angular
         whirl = self._program.vector(f"{self._name}_whirl", omega.cross(inertia.moment), "123")
         force = inertia.linear_momentum(bias) + omega.cross(whirl)
         couple = inertia.spin_momentum(bias)
-        if len(self._placed.motion) > 1:  # what is across omega does no work otherwise
+        if len(self._placed.motion) > 1:  # otherwise a couple across omega does no work
             spin = self._program.vector(f"{self._name}_turning", inertia.tensor @ omega, "123")
             couple += omega.cross(spin)
-        own = self._twist("own", Twist(couple, force))
+        own = Twist(
+            self._program.vector(f"{self._name}_couple_own", couple, "123"),
+            self._program.vector(f"{self._name}_force_own", force, "123"),
+        )
         return InertiaForce(own, Twist(ZERO, from_axes(self._carried.axes, own.linear)))
 
     @staticmethod
     def work(column: PartialTwist, taken: InertiaForce) -> sp.Expr:
-        """Return ``∫ r_k' . r'' dm``.
-
-        Parameters
-        ----------
-        column, taken
-            How it moves with the coordinate, and what its own motion takes.
-        """
+        """Return ``∫ r_k' . r'' dm``."""
         return column.twist.dot(taken.own)
 
     @staticmethod
     def energy(one: PartialTwist, other: PartialTwist) -> sp.Expr:
-        """Return ``∫ r_k' . r_l' dm``.
-
-        Parameters
-        ----------
-        one, other
-            How it moves with either coordinate.
-        """
+        """Return ``∫ r_k' . r_l' dm``."""
         return one.twist.dot(other.momentum)
 
     @staticmethod
     def across(now: PartialTwist, column: PartialTwist) -> Vector:
-        """Return ``∫ r' x r_k' dm``, which the turning of the base makes use of: nothing here.
-
-        Parameters
-        ----------
-        now, column
-            How it moves at all rates, and with the coordinate.
-        """
+        """Return zero for ``∫ r' x r_k' dm``, which only a base that turns needs."""
         del now, column
         return ZERO

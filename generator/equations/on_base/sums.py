@@ -1,4 +1,4 @@
-"""Sums over the bodies that hang together on a base."""
+"""Sums over the connected bodies on a base."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def kind_of(carried: Carried) -> type[Shifted | Hinged | MovingBody]:
 
 @dataclass
 class Sums:
-    """What the bodies of one part are to their base, about O and in its axes.
+    """Sums over the bodies of one part, about O and in the axes of the base.
 
     Attributes
     ----------
@@ -54,15 +54,7 @@ class Sums:
     across: dict[str, Vector] = field(default_factory=dict)
 
     def add(self, carried: Carried, inertia: SpatialInertia, names: Iterable[str]) -> None:
-        """Add a body.
-
-        Parameters
-        ----------
-        carried, inertia
-            The body, and its inertia about its origin, in its axes.
-        names
-            The coordinates along which equations are needed.
-        """
+        """Add a body, with its inertia about its origin in its axes; `names` need equations."""
         inertia = in_plane(carried, inertia)
         body: Any = kind_of(carried)(carried, inertia)  # each kind has columns of its own
         self.mass += inertia.mass
