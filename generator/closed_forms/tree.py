@@ -40,8 +40,8 @@ class CutJoint:
     Attributes
     ----------
     normal
-        Direction of the hinges of a planar loop, which closes with three equations less the degrees
-        of freedom; a spatial loop has six.
+        Direction of the hinges of a planar loop, which closes with three equations less the joint's
+        degrees of freedom; None for a spatial loop, which has six.
     """
 
     joint: Joint
