@@ -28,6 +28,10 @@ def grid(lowest: float, highest: float, step: float) -> Array:
     step : float
         Distance of the values.
 
+    Returns
+    -------
+    ndarray
+
     Examples
     --------
     >>> grid(-0.025, 0.02, 0.01).tolist()

@@ -4,14 +4,13 @@ from abc import abstractmethod
 from collections.abc import Mapping
 from typing import ClassVar
 
-import numpy as np
 from pydantic import Field
 
 from ...core.columns import greatest, sorted_moments
 from ...core.vectors import Vector, components
 from .hardpoints import Hardpoints
 from .section import NonNegative, Number, Positive, Section, Triple
-from .units import in_metres
+from .units import point_in_metres
 
 _ELEMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 
@@ -63,7 +62,7 @@ class RigidBody(Section):
         """
         if self.com_mm is None:
             return self.default_centre_of_mass(points)
-        return np.array([in_metres(value, "mm") for value in self.com_mm])
+        return point_in_metres(self.com_mm, "mm")
 
     @abstractmethod
     def default_centre_of_mass(self, points: Hardpoints) -> Vector:

@@ -18,7 +18,7 @@ from ...core.vectors import (
     unit_vector,
 )
 from .section import Section
-from .units import LengthUnit, in_metres
+from .units import LengthUnit, point_in_metres
 
 # Closer than this, two points that define a direction or a rod are taken for one, in m.
 SMALLEST_DISTANCE = 0.001
@@ -89,7 +89,7 @@ class Hardpoints(Section):
         point = getattr(self, name)
         if point is None:
             return self.metres(self.STAND_INS[name])
-        return np.array([in_metres(value, self.unit) for value in point])
+        return point_in_metres(point, self.unit)
 
     def at_design(self) -> dict[str, Vector]:
         """Return all hardpoints, those that are left out where their substitutes are [m]."""

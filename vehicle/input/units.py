@@ -1,10 +1,14 @@
-"""Units in input files: each key that carries a unit ends in it, as in ``mass_kg``."""
+"""Units in input files: the key of a quantity ends in its unit, as in ``mass_kg``."""
 
+from collections.abc import Iterable
 from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
 
 LengthUnit = Literal["mm", "m"]
 
-# Ending of a key -> the unit as it is printed. Longer endings stand before those they end in.
+# Printed unit by ending of a key; an ending precedes those that it ends in.
 _UNIT_OF_ENDING = {
     "N_per_mm3": "N/mm^3",
     "N_s_per_m": "N s/m",
@@ -35,17 +39,7 @@ _UNIT_OF_ENDING = {
 
 
 def unit_of(key: str) -> str:
-    """Return the unit in which an input file gives the value of `key`.
-
-    Parameters
-    ----------
-    key : str
-        A key of an input file.
-
-    Returns
-    -------
-    str
-        The unit, as it is printed; empty for a key that carries none.
+    """Return the printed unit of a key of input files; empty for a key without a unit.
 
     Examples
     --------
@@ -61,7 +55,7 @@ def unit_of(key: str) -> str:
 
 
 def without_unit(key: str) -> str:
-    """Return a key without the unit that it ends in.
+    """Return a key without its unit.
 
     Examples
     --------
@@ -73,19 +67,7 @@ def without_unit(key: str) -> str:
 
 
 def in_metres(length: float, unit: LengthUnit) -> float:
-    """Convert a length of an input file to metres.
-
-    Parameters
-    ----------
-    length : float
-        The length in `unit`.
-    unit : {"mm", "m"}
-        Its unit.
-
-    Returns
-    -------
-    float
-        The length in m.
+    """Return a length of an input file in metres.
 
     Examples
     --------
@@ -95,3 +77,8 @@ def in_metres(length: float, unit: LengthUnit) -> float:
     # A division is rounded correctly and yields the double nearest to 0.205. The factor 0.001 is
     # itself rounded, and would give 0.20500000000000002.
     return length / 1000.0 if unit == "mm" else length
+
+
+def point_in_metres(point: Iterable[float], unit: LengthUnit) -> NDArray[np.float64]:
+    """Return the coordinates of a point of an input file in metres."""
+    return np.array([in_metres(value, unit) for value in point])

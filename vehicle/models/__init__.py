@@ -1,9 +1,9 @@
 """Suspensions, axles and rigid axles together with their compiled equations.
 
 `model`      a suspension together with its compiled equations
-`axle`, `rigid_axle`    two suspensions with what joins them; a beam with two wheels
-`points`     where the hardpoints are in a position
-`swing`, `reach`, `positions`    how far the wheel travels, and its positions at rest
-`model_batch`      many suspensions at once
-`plausibility`, `typical`      what no suspension of a car looks like, and where cars usually lie
+`axle`, `rigid_axle`    two suspensions, a rack and an anti-roll bar; a beam with two wheels
+`points`     hardpoints in a position
+`swing`, `reach`, `positions`    the range of wheel travel, and positions at rest
+`model_batch`      a batch of suspensions
+`plausibility`, `typical`      almost certain mistakes of a file, and usual ranges of cars
 """

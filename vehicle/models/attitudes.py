@@ -1,10 +1,10 @@
-"""Attitudes and rotations of bodies along a way, by which two neighbours on it are on one branch.
+"""Attitudes of bodies along a path, which show whether neighbouring positions are on one branch.
 
-Loops that are solved by iteration are followed straight from the design position to each position
-that is asked for (`equations.following`). Two neighbours on another way, as those of an arm that
-swings with the rack displaced, are reached by two straight ways of their own, and these may pass
-on either side of a point at which two branches meet. So each is on a branch to which a way leads,
-and they may be on different ones. Closed forms choose their branch by signs, and are not asked.
+Loops solved by iteration are followed on a straight path from the design position to each requested
+position (`equations.following`). Two neighbours on another path, such as an arm that swings with
+the rack displaced, have two straight paths, which may pass a point where two branches meet on
+different sides: the neighbours may be on different branches. Closed forms choose their branch by
+signs and need no such check.
 """
 
 from types import ModuleType
@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 
 
 class Attitudes(NamedTuple):
-    """Rotation matrices of the bodies at some places, and how they change along a coordinate.
+    """Rotation matrices of the bodies at some positions, and their derivatives along a coordinate.
 
     Attributes
     ----------
@@ -44,23 +44,22 @@ def attitudes(
     states : ndarray, shape (..., elements)
     inputs : ndarray, shape (..., inputs), or None
     closes : ndarray of bool, shape (...)
-        Which states the equations have; of others there is NaN.
+        Whether the loops close; the attitudes of other states are NaN.
     """
-    count = len(model.equations.BODIES) if iterates(model.equations) else 0
-    found = Attitudes(*(np.full((*closes.shape, 9 * count), np.nan) for _ in range(2)))
-    if count and closes.any():
-        held = None if inputs is None else inputs[closes]
-        for whole, part in zip(found, attitudes_at(model, states[closes], held), strict=True):
-            whole[closes] = part
+    held = None if inputs is None else inputs[closes]
+    closing = attitudes_at(model, states[closes], held)
+    found = Attitudes(*(np.full((*closes.shape, own.shape[-1]), np.nan) for own in closing))
+    for whole, part in zip(found, closing, strict=True):
+        whole[closes] = part
     return found
 
 
 def attitudes_at(model: System, states: Array, inputs: Array | None) -> Attitudes:
-    """Return the attitudes of states that all close."""
+    """Return the attitudes of states in which all loops close."""
     count = len(model.equations.BODIES) if iterates(model.equations) else 0
     lead = states.shape[:-1]
-    if not count:
-        return Attitudes(np.empty((*lead, 0)), np.empty((*lead, 0)))
+    if not count or not states.size:
+        return Attitudes(np.empty((*lead, 9 * count)), np.empty((*lead, 9 * count)))
     poses = model.evaluate("poses", states, inputs)
     matrices, motions = (
         poses[..., first : first + width * count].reshape(*lead, count, width)
@@ -73,5 +72,5 @@ def attitudes_at(model: System, states: Array, inputs: Array | None) -> Attitude
 
 
 def iterates(equations: ModuleType) -> bool:
-    """Return whether some loop of these equations is solved by iteration."""
+    """Return whether the equations solve a loop by iteration."""
     return bool(equations.ITERATES)

@@ -26,14 +26,14 @@ class Model(System):
         False: the rack follows a prescribed motion; arm, knuckle and wheel carry mass, as in the
         paper. True: the rack is a third degree of freedom driven by a force, and every moving body
         carries mass. For a suspension with more elements than the paper's, these equations are
-        derived and compiled when they are first needed, as by `kintrafo.compile`.
+        derived and compiled at first use, as by `kintrafo.compile`.
     wheel_loads : bool, optional
         True: loads of a road, a drive shaft and a brake on the wheel are further inputs, which are
         added to the force of the tyre's spring; axes are those of the tyre (ISO 8855: forward,
         left, up). ``contact_force_x``, ``_y``, ``_z`` at the lowest point of the wheel and
         ``center_force_*`` at its centre [N], ``wheel_moment_*``, and about the spin axis
-        ``shaft_torque`` from the chassis and ``hub_torque`` from the carrier [N m], positive as the
-        wheel rolls forward. These equations are derived and compiled when they are first needed.
+        ``shaft_torque`` from the chassis and ``hub_torque`` from the carrier [N m], positive for a
+        wheel that rolls forward. These equations are derived and compiled at first use.
 
     Attributes
     ----------
@@ -85,11 +85,11 @@ class Model(System):
         return made, (self.suspension,)
 
     def of_another(self, suspension: Suspension) -> "Model":
-        """Return the model of another suspension, with the same choices as this."""
+        """Return the model of another suspension, with the same options."""
         return Model(suspension, free_rack=self.free_rack, wheel_loads=self.wheel_loads)
 
     def of(self, some: NDArray[np.int64]) -> "Model":
-        """Return the model of some of the rows of an array of positions: this, for all of them."""
+        """Return the model of some rows of an array of positions, which is the same for all."""
         del some
         return self
 

@@ -1,10 +1,10 @@
 """A batch of suspensions of one kind that differ in values of their files, as one model.
 
-The file of the first is read and checked as usual. The sections of the batch have numbers of a
-batch in the places that differ (see `core.columns`), so that checks, centres of mass, free lengths
-and all that the equations take of a file come from the code that one suspension has, once for all:
-20 microseconds a suspension, where reading and checking its file takes a millisecond. A suspension
-that fails a check that the first one passes, or takes another branch, is not in the batch.
+The file of the first one is read and checked as usual. The sections of the batch have numbers of a
+batch as values that differ (see `core.columns`), so that the code of one suspension computes
+checks, centres of mass, free lengths and all parameters once for all: in 20 microseconds per
+suspension, while reading and checking a file takes a millisecond. A suspension that fails a check
+that the first one passes, or takes another branch, is not in the batch.
 """
 
 from collections.abc import Callable, Iterator, Mapping
@@ -25,7 +25,7 @@ from .model import Model
 Array = NDArray[np.float64]
 
 _COMPONENTS = {"x": 0, "y": 1, "z": 2}
-# What the mirror image has with the other sign, by section and the end of the place.
+# Values with the opposite sign in the mirror image, by section and the end of the place.
 _REVERSED = {
     "hardpoints": (".y",),
     "bodies": (".com_mm.y", ".inertia_xy_kg_m2", ".inertia_yz_kg_m2"),
@@ -34,32 +34,33 @@ _REVERSED = {
 
 
 class ModelBatch(Model):
-    """The models of a batch of suspensions, as one whose arrays have an axis for them in front.
+    """The models of a batch of suspensions as one model, whose arrays have a leading axis for them.
 
     It is evaluated as a `Model`, with states of shape (count, positions, elements).
 
     Parameters
     ----------
     suspension : Suspension
-        The first of them.
+        The first suspension.
     values : mapping of str to ndarray, shape (count,)
-        What differs, by place in the file and in its unit; the first has those of `suspension`.
+        Values that differ, by place in the file and in its unit; the first one is that of
+        `suspension`.
     free_rack : bool
         As of `Model`.
 
     Attributes
     ----------
     first : Model
-        That of the first.
+        The model of the first suspension.
     suspension : Suspension
-        With numbers of a batch where they differ.
+        With numbers of a batch as values that differ.
     constants, design_state : ndarray, shape (count, 1, ...)
     """
 
     def __init__(
         self, suspension: Suspension, values: Mapping[str, Array], *, free_rack: bool
     ) -> None:
-        # all that a model has is put together here otherwise
+        # the attributes of a `Model`, whose __init__ is not called
         count = next(iter(values.values())).size
         mask = BatchMask(count)
         self._first, self._values = suspension, values
@@ -71,7 +72,7 @@ class ModelBatch(Model):
         self.names = suspension.NAMES
         self.equations = suspension.equations(free_rack=free_rack)
         _check(self.suspension)
-        # what decides upon equations and ends; suspensions with others are taken out
+        # these choose equations and limits; suspensions with other ones are removed
         self.suspension.equations(free_rack=free_rack)
         self.suspension.neglected_masses()
         self.suspension.tyre_radius()
@@ -99,7 +100,7 @@ class ModelBatch(Model):
         return self.mask.valid
 
     def of(self, some: NDArray[np.int64]) -> "ModelBatch":
-        """Return the equations of some of them, for states of theirs; it has no files."""
+        """Return the model of some suspensions of the batch, for their states."""
         if some.size == len(self.constants):
             return self
         part = object.__new__(ModelBatch)
@@ -109,21 +110,19 @@ class ModelBatch(Model):
         return part
 
     def allowed_lengths(self) -> tuple[LengthLimit, ...]:
-        """Return the lengths that the files allow; limits of shape (count, 1) where they differ."""
+        """Return the lengths that the files allow; limits that differ have the shape (count, 1)."""
         return self._allowed
 
     @cached_property
     def mirror_image(self) -> "ModelBatch":
         """The batch of the same suspensions on the other side of the vehicle."""
         values = {
-            place: 0.0 - column if _is_reversed(place) else column
+            place: 0.0 - column
+            if place.endswith(_REVERSED.get(place.partition(".")[0], ()))
+            else column
             for place, column in self._values.items()
         }
         return ModelBatch(self._first.mirrored(), values, free_rack=self.free_rack)
-
-
-def _is_reversed(place: str) -> bool:
-    return place.endswith(_REVERSED.get(place.partition(".")[0], ()))
 
 
 def _allowed(one: LengthLimit) -> LengthLimit:
@@ -140,7 +139,7 @@ def _allowed_of(one: LengthLimit, some: NDArray[np.int64]) -> LengthLimit:
 
 
 def _with_columns(section: Any, columns: Mapping[str, BatchNumber]) -> Any:
-    """Return a section with numbers of a batch in some places of it, their ranges checked."""
+    """Return a section with numbers of a batch at some places, their ranges checked."""
     inner: dict[str, dict[str, BatchNumber]] = {}
     changed: dict[str, Any] = {}
     for place, column in columns.items():
@@ -163,7 +162,7 @@ def _with_columns(section: Any, columns: Mapping[str, BatchNumber]) -> Any:
 
 
 def _check_range(kind: type[Section], key: str, column: BatchNumber) -> None:
-    """Take out suspensions with a value that the field does not allow."""
+    """Remove suspensions with a value that the field does not allow."""
     field = kind.model_fields[key]
     for limit in (*field.metadata, *_metadata(field.annotation)):
         for name, question in _QUESTIONS.items():
@@ -181,14 +180,14 @@ _QUESTIONS: dict[str, Callable[[Array, float], NDArray[np.bool_]]] = {
 
 
 def _metadata(annotation: Any) -> Iterator[Any]:
-    """Yield what is said of a type and of those that it is made of."""
+    """Yield the metadata of an annotation and of its parts."""
     yield from getattr(annotation, "__metadata__", ())
     for part in get_args(annotation):
         yield from _metadata(part)
 
 
 def _check(suspension: Suspension) -> None:
-    """Make all checks of a suspension: those that fail one are taken out."""
+    """Remove suspensions that fail a check."""
     sections = {name: getattr(suspension, name) for name in type(suspension).model_fields}
     for section in _sections(suspension):
         section.problems()

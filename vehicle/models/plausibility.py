@@ -1,9 +1,9 @@
-"""What no suspension of a car looks like: signs, units and points that people get wrong.
+"""Plausibility of input files: wrong signs, units and points.
 
-Everything here can move, so that nothing of it is refused; `kintrafo check` shows it. A *problem*
-is what is almost surely a mistake, and the text says which; a *note* is what is unusual. Limits lie
-between what cars have and what the mistake makes of it, on a scale of factors half way: units that
-are mistaken differ by 1,000 or more.
+Such files describe mechanisms that move, and are not refused; `kintrafo check` lists the findings.
+A *problem* is almost certainly a mistake, which the text names; a *note* is an unusual value. A
+limit is the geometric mean of the value of a car and the value with the mistake: wrong units are
+factors of 1,000 or more.
 """
 
 from collections.abc import Callable, Iterator, Mapping
@@ -23,52 +23,52 @@ from .typical import typical_ranges
 
 Array = NDArray[np.float64]
 
-# Where passenger cars have their wheel hop [Hz]: TRL Report SR12 UC, vehicles over discontinuities
+# Frequency of wheel hop of passenger cars [Hz]: TRL Report SR12 UC, vehicles over discontinuities
 # of the road.
 USUAL_HOP = (10.0, 15.0)
 
-# Beyond the centre plane by more than this is on the other side of the car [m]. Racks with a
-# central take-off have their joints within some centimetres of that plane.
+# Greatest distance of a point beyond the centre plane [m]. Racks with a central take-off have their
+# joints within some centimetres of that plane.
 _ACROSS = 0.1
-# A rack that is turned out of the tie rod moves it lengthwise by the cosine: by half at this [deg].
+# At this angle of rack axis and tie rod the rack moves the rod lengthwise by half its travel [deg].
 _LARGEST_RACK_ANGLE = 60.0
-# A point so near to the origin was given in metres in a file in millimetres [m]: the points of a
-# car are within 3 m of its origin.
+# A point nearer to the origin is in metres in a file in millimetres [m]: the points of a car are
+# within 3 m of its origin.
 _NEAR_ORIGIN = 0.003
-# How far the wheel centre is inboard of a ball joint, at most [m]: with brakes inboard, it is some
+# Greatest distance of the wheel centre inboard of a ball joint [m]: with inboard brakes, it is some
 # centimetres outboard.
 _INBOARD = 0.1
-# How far a wheel centre is below the bearings of its arm, at most [m]; more has a portal axle.
+# Greatest distance of a wheel centre below the bearings of its arm [m]; portal axles have more.
 _BELOW = 0.1
-# Caster and kingpin inclination are worth a word so many widths of their usual range beside it.
+# Unusual distance of caster and kingpin inclination from their usual range, in widths of the range.
 _WIDTHS = 2.0
-# A wheel hops on its tyre at 10 to 15 Hz (`USUAL_HOP`). A rate in N/mm or masses in grams make 30
-# times less of it, by the root of 1,000; half way between, by factors, there are some 6 times.
+# A wheel hops on its tyre at 10 to 15 Hz (`USUAL_HOP`). A rate in N/mm or masses in grams change
+# this by a factor of 30, the root of 1,000; the limit is its root.
 _APART = 5.6
-# The rate of a tyre is 5 to 20 times that of the spring, of racing cars as much as it; a spring in
-# N/mm makes 1,000 times more of it, a tyre in N/mm 1,000 times less.
+# The rate of a tyre is 5 to 20 times that of the spring, of racing cars equal to it; a spring in
+# N/mm makes it 1,000 times more, a tyre in N/mm 1,000 times less.
 _TYRE_TO_SPRING = (0.05, 500.0)
-# Of the damping that would keep the wheel on its tyre from oscillating, dampers have 10 to 60 %.
+# Dampers have 10 to 60 % of the critical damping of the wheel on its tyre.
 _DAMPING = (0.005, 20.0)
-# Radii of wheels, from karts to lorries, are 0.1 to 0.7 m; units that are mistaken make 1,000 times
-# more or less of them, and half way, by factors, are these [m].
+# Radii of wheels, from karts to lorries, are 0.1 to 0.7 m; wrong units make them 1,000 times more
+# or less [m].
 _RADII = (0.005, 20.0)
-# Rates of one tyre are alike; one in N/mm is 1,000 times less, and half way, by factors, is this.
+# Rates of one tyre are similar; one in N/mm is 1,000 times less, and the limit is the root of this.
 _ALIKE = 31.6
-# Nothing that rolls has more inertia than a hoop. In kg mm^2 an inertia is 1,000,000 times as much;
-# half way, by factors, leaves room for what is counted with a wheel.
+# No wheel has more inertia than a hoop. In kg mm^2 an inertia is 1,000,000 times as much; the limit
+# is the root of this.
 _HOOPS = 1e3
-# The wheelbase of a car is 1.5 to 4 m, and its centre of gravity 0.25 to 1 m high; one that was
-# given in metres makes 1,000 times less of it in millimetres [m].
+# The wheelbase of a car is 1.5 to 4 m, and its centre of gravity 0.25 to 1 m high; a value in
+# metres is 1,000 times less in millimetres [m].
 _SHORTEST_WHEELBASE, _LOWEST_CENTER = 0.05, 0.01
 # Wheels of cars stand within some degrees of upright and straight ahead [deg].
 _MOST_ALIGNMENT = 10.0
-# Of lengths [m].
+# Rounding of lengths [m].
 _ROUNDING = 1e-9
 
 
 class WholeVehicle(Protocol):
-    """What a file says of the whole vehicle; None where it says nothing."""
+    """The data of the whole vehicle in a file; None if a key is missing."""
 
     @property
     def wheelbase_mm(self) -> float | None:
@@ -81,12 +81,12 @@ class WholeVehicle(Protocol):
 
 @dataclass(frozen=True)
 class Plausibility:
-    """What is reported of a file.
+    """The findings of a file.
 
     Attributes
     ----------
     problems, notes : tuple of str
-        Almost surely mistakes; and what is unusual.
+        Values that are almost certainly mistakes; and unusual values.
     """
 
     problems: tuple[str, ...]
@@ -94,15 +94,7 @@ class Plausibility:
 
 
 def plausibility(suspension: Suspension) -> Plausibility:
-    """Look for what people get wrong in hardpoint files.
-
-    Parameters
-    ----------
-    suspension : Suspension
-
-    Returns
-    -------
-    Plausibility
+    """Return the implausible and the unusual values of a hardpoint file.
 
     Examples
     --------
@@ -135,7 +127,7 @@ def plausibility(suspension: Suspension) -> Plausibility:
 
 
 def _outboard(suspension: Suspension, name: str) -> float:
-    """Return how far a point is from the centre plane, on the side of the wheel [m]."""
+    """Return the distance of a point from the centre plane, positive on the wheel's side [m]."""
     return suspension.vehicle.sign * float(suspension.hardpoints.metres(name)[1])
 
 
@@ -188,14 +180,14 @@ def _stray(suspension: Suspension) -> Iterator[str]:
 
 
 def stray_points(points: Mapping[str, Array], unit: str) -> Iterator[str]:
-    """Find points that were given in metres in a file in millimetres.
+    """Yield problems of points that are in metres in a file in millimetres.
 
     Parameters
     ----------
     points : mapping of str to ndarray
-        By what is in the file: their places [m].
+        Their positions [m], by their text in the file.
     unit : str
-        Of the file.
+        The unit of the file.
     """
     for text, place in points.items():
         distance = float(np.linalg.norm(place))
@@ -229,18 +221,18 @@ def _rates(suspension: Suspension) -> Iterator[str]:
 def unlikely_rates(
     values: Mapping[str, float], length: float, mass: float, key: Callable[[str], str]
 ) -> Iterator[str]:
-    """Compare tyre and masses, the tyre with the spring, and the damper with both.
+    """Yield problems of tyre and masses, of tyre and spring, and of the damper.
 
     Parameters
     ----------
     values : mapping
         Rates by their names in the equations.
     length : float
-        Of the spring at design [m].
+        Length of the spring at design [m].
     mass : float
-        Of all bodies of a wheel [kg].
+        Mass of all bodies of a wheel [kg].
     key : callable
-        Returns where the rate of a part, "spring" or "damper", is in the file.
+        Returns the key of the rate of a part, "spring" or "damper", in the file.
     """
     tyre, damper = (values[f"{part}_rate"] for part in ("tyre", "damper"))
     spring = float(rate_at(values, np.array(length)))
@@ -271,7 +263,7 @@ def unlikely_rates(
 
 
 def beyond_the_table(values: Mapping[str, float], length: float) -> Iterator[str]:
-    """Find a spring that is as long at design [m] as its curve does not go."""
+    """Yield a note on a spring whose length at design [m] is beyond its curve."""
     ends = ends_of_table(values)
     if ends is not None and not ends[0] - _ROUNDING <= length <= ends[1] + _ROUNDING:
         shortest, longest = (1e3 * end for end in ends)
@@ -288,7 +280,7 @@ def _inertia(suspension: Suspension) -> Iterator[str]:
 
 
 def unlikely_inertia(bodies: Mapping[str, RigidBody], size: float) -> Iterator[str]:
-    """Compare the radius of gyration of bodies with the size of what they are part of [m]."""
+    """Yield problems of a radius of gyration greater than the size of the suspension [m]."""
     for name, body in bodies.items():
         elements = body.elements()
         if body.mass_kg > 0.0:
@@ -304,7 +296,7 @@ def unlikely_inertia(bodies: Mapping[str, RigidBody], size: float) -> Iterator[s
 
 
 def unlikely_vehicle(vehicle: WholeVehicle) -> Iterator[str]:
-    """Find lengths of the whole vehicle that were given in metres."""
+    """Yield problems of lengths of the whole vehicle that are in metres."""
     for name, least, usual in (
         ("wheelbase_mm", _SHORTEST_WHEELBASE, "1500 to 4000"),
         ("center_of_gravity_height_mm", _LOWEST_CENTER, "250 to 1000"),
@@ -315,7 +307,7 @@ def unlikely_vehicle(vehicle: WholeVehicle) -> Iterator[str]:
 
 
 def unusual_alignment(wheel: WheelSection) -> Iterator[str]:
-    """Find wheels in positions that no car has."""
+    """Yield notes on camber and toe that no car has."""
     for name in ("camber_deg", "toe_deg"):
         value = getattr(wheel, name)
         if abs(value) > _MOST_ALIGNMENT:
@@ -323,7 +315,7 @@ def unusual_alignment(wheel: WheelSection) -> Iterator[str]:
 
 
 def unlikely_tyre(tyre: TyreSection) -> Iterator[str]:
-    """Compare the rates of a tyre along the ground with that of its springing; see its radius."""
+    """Yield problems of the radius of a tyre, and of its rates in different directions."""
     radius = tyre.radius_mm
     if radius is not None and not _RADII[0] <= 1e-3 * radius <= _RADII[1]:
         yield (
@@ -340,7 +332,7 @@ def unlikely_tyre(tyre: TyreSection) -> Iterator[str]:
 
 
 def unlikely_wheel(wheel: WheelBody, radius: float | None) -> Iterator[str]:
-    """Compare the inertia of a wheel about its axis with that of a hoop."""
+    """Yield a problem of a wheel with far more inertia about its axis than a hoop."""
     hoop = wheel.mass_kg * (radius or np.inf) ** 2
     if wheel.inertia_spin_kg_m2 - wheel.inertia_shaft_kg_m2 > _HOOPS * hoop:
         yield (

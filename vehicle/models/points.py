@@ -1,4 +1,4 @@
-"""Where the hardpoints are in a given position of the suspension."""
+"""Positions and velocities of hardpoints in states of a suspension."""
 
 from collections.abc import Mapping
 
@@ -34,8 +34,8 @@ def hardpoints(
     Returns
     -------
     dict
-        Name to position [m], shape (..., 3). Points that the file leaves out are where those are
-        that replace them.
+        Positions by name, (..., 3) [m]. A point that the file leaves out has the position of the
+        point that replaces it.
 
     Examples
     --------
@@ -66,22 +66,15 @@ def carried(
     *,
     poses: tuple[Array, Array] | None = None,
 ) -> dict[str, Array]:
-    """Return where points of moving bodies are.
+    """Return the positions of points on moving bodies, (..., 3) [m].
 
     Parameters
     ----------
     model : Model
     points : mapping
-        By names of any choice, the body and the place at design, chassis axes [m].
-    state, inputs : array_like
-        One state or many, as in the compiled module.
-    poses : tuple of ndarray, optional
-        Positions and orientations there, if they have been evaluated.
-
-    Returns
-    -------
-    dict
-        Position of each [m], shape (..., 3).
+        By any names: the body, and the position at design, chassis axes [m].
+    state, inputs, poses
+        As of `hardpoints`.
     """
     bodies, at_design = model.equations.BODIES, _centers_of_mass(model)
     if poses is None:
@@ -101,7 +94,7 @@ def carried(
 def carried_velocity(
     model: Model, body: str, place: Array, states: Array, inputs: Array | None = None
 ) -> Array:
-    """Return the velocity of the point of a body that is at a place, (..., 3) [m/s].
+    """Return the velocity of the point of a body at a position, (..., 3) [m/s].
 
     Parameters
     ----------
@@ -110,8 +103,8 @@ def carried_velocity(
     place : ndarray, shape (..., 3)
         Position of the point [m].
     states, inputs : ndarray
-        As in the compiled module; velocities are linear in their rates, so that those at a unit
-        rate are derivatives.
+        As in the compiled module. Velocities are linear in the rates: those at a unit rate are
+        derivatives.
     """
     which = model.equations.BODIES.index(body)
     twist = model.evaluate("velocities", states, inputs)[..., which, :]
@@ -121,7 +114,7 @@ def carried_velocity(
 
 
 def _centers_of_mass(model: Model) -> dict[str, Array]:
-    """Return the centres of mass of the rigid bodies at design [m], by the bodies' names."""
+    """Return the centres of mass of the rigid bodies at design [m], by body."""
     points = model.suspension.hardpoints
     bodies = model.suspension.bodies.rigid()
     return {name: body.centre_of_mass(points) for name, body in bodies.items()}

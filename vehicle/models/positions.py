@@ -41,14 +41,13 @@ __all__ = [
 
 Array = NDArray[np.float64]
 
-# Newton's method needs five steps where the height is smooth; where it takes longer, every other
-# step halves the bracket, which is two degrees at first.
+# Newton's method needs five steps if the height is smooth; after this number every other step
+# halves the bracket, which is two degrees at first.
 _NEWTON_STEPS = 10
 _MOST_STEPS = 120
-# A height that is beyond the reach by less than this is at its end, and one that is missed by less
-# is met [m].
+# Tolerance of heights at the ends of the range, and of heights that are met [m].
 _ROUNDING = 1e-12
-# Where a rounding of the arm's angle moves the wheel by more than that, by so many of them.
+# Further tolerance, in roundings of the arm's angle.
 _ROUNDINGS = 8.0
 _EPSILON = float(np.finfo(np.float64).eps)
 
@@ -79,8 +78,8 @@ def arm_angles(model: Model, height: ArrayLike, rack_position: ArrayLike = 0.0) 
     Raises
     ------
     PositionError
-        If a height is out of reach; the message states the range. Or if it cannot be met, because
-        rounding moves the wheel by more beside a dead point.
+        If a height is out of reach; the message states the range. Or if it cannot be met because of
+        rounding beside a dead point.
     InputError
         If a value is not finite.
 
@@ -117,11 +116,11 @@ def arm_angles(model: Model, height: ArrayLike, rack_position: ArrayLike = 0.0) 
 def arm_angles_of_batch(
     batch: ModelBatch, travel: Array, rack: Array
 ) -> tuple[Array, NDArray[np.bool_]]:
-    """Return the arm angles of a batch at which the wheel centres have travelled so far.
+    """Return the arm angles of a batch at given wheel travels.
 
-    The reach of each is tabulated from its design position, as far as the heights of the first ask
-    for, and to its end for those whose table does not get there. Suspensions that do not get there
-    even so, or whose height is not met to rounding, are marked: those are computed one by one.
+    The range of each suspension is tabulated from its design position up to the heights of the
+    first one, and to its end if this table does not cover its heights. Suspensions whose heights
+    are out of reach, or not met to rounding, are marked: they are computed one by one.
 
     Parameters
     ----------
@@ -132,9 +131,9 @@ def arm_angles_of_batch(
     Returns
     -------
     angles : ndarray, shape (count, positions)
-        [rad]; those of design where they are not found.
+        [rad]; those at design if they are not found.
     found : ndarray of bool, shape (count,)
-        Which suspensions reach all of them for sure.
+        Whether a suspension certainly reaches all travels.
     """
     design = batch.design_state[..., 0]
     wanted = height_and_slope(batch, design)[0] + travel
@@ -164,13 +163,13 @@ def arm_angles_of_batch(
 
 
 def _covers(table: Branch, heights: Array) -> NDArray[np.bool_]:
-    """Return which rows of a table have all heights, of a reach that is more than a point."""
+    """Return whether rows of a table cover all heights, with a range of more than a point."""
     low, high = table.height[:, :1], table.height[:, -1:]
     return np.asarray(((heights >= low) & (heights <= high) & (low < high)).all(axis=1))
 
 
 def _racks_reach(batch: ModelBatch, rack: Array) -> NDArray[np.bool_]:
-    """Return the cars whose rack gets to both of its ends with the arm in its design position."""
+    """Return whether the rack of each reaches both ends with the arm at design, (count,)."""
     design = batch.design_state[..., 0]
     valid = np.ones(len(design), dtype=bool)
     for end in {float(rack.min()), float(rack.max())} - {0.0}:
@@ -198,7 +197,7 @@ def state_at_height(
     Returns
     -------
     State
-        With zero rates but that of the wheel's spin. It carries the position of its rack, for
+        With zero rates except that of the wheel's spin. It contains the position of its rack, for
         every function that takes a state and inputs.
 
     Raises
@@ -220,13 +219,14 @@ def state_at_height(
         spin_rate = given.number("spin_rate", spin_rate, "rad/s")
     angle = float(arm_angles(model, height, rack_position))
     state, inputs = at_rest(model, angle, rack_position)
-    return _spinning(model, State.of(state, inputs, model.names_of_states), spin_rate)
+    state[model.state_names.index(f"{model.names.spin}_rate")] = spin_rate
+    return State.of(state, inputs, model.names_of_states)
 
 
 def road_under_load(
     model: Model, wheel_load: float, state: ArrayLike, inputs: ArrayLike | None = None
 ) -> Array:
-    """Return the height of the road that carries a wheel at rest with a given load.
+    """Return the height of the road under a wheel at rest for a given load.
 
     Parameters
     ----------
@@ -255,12 +255,9 @@ def road_under_load(
 
 
 def road_below(height: Array, tyre: TyreSection, load: float) -> Array:
-    """Return how high the road is that loads the tyre of a wheel at some heights so much [m].
+    """Return the height of the road for a load of the tyre, from heights of the wheel centre [m].
 
-    Raises
-    ------
-    InputError
-        If the tyre has no stiffness.
+    A tyre without stiffness raises an `InputError`.
     """
     values = tyre.parameters()
     if values["tyre_rate"] == 0.0:
@@ -272,13 +269,8 @@ def road_below(height: Array, tyre: TyreSection, load: float) -> Array:
     return road
 
 
-def _spinning(model: Model, state: State, spin_rate: float) -> State:
-    state[model.state_names.index(f"{model.names.spin}_rate")] = spin_rate
-    return state
-
-
 def _beyond(heights: Array, table: Branch, index: NDArray[np.int64]) -> NDArray[np.bool_]:
-    """Return which heights lie outside of the table."""
+    """Return whether heights are outside of the table."""
     too_low: NDArray[np.bool_] = heights < table.height[index, 0] - _ROUNDING
     too_high: NDArray[np.bool_] = heights > table.height[index, -1] + _ROUNDING
     return too_low | too_high
@@ -290,7 +282,7 @@ def _refuse_out_of_reach(
     beyond = _beyond(heights, table, index)
     if not beyond.any():
         return
-    # the position asked for is at the end of a range, not the first one beyond
+    # the farthest height, which a caller recognises as the end of its range
     worst = np.abs(heights[beyond] - design_height(model)).argmax()
     height, rack = float(heights[beyond][worst]), float(racks[beyond][worst])
     reach = travel_range(model, rack)
@@ -313,27 +305,26 @@ def _rounded_inward(ends: Sequence[float]) -> tuple[float, float]:
 
 
 def solve(model: Model, heights: Array, racks: Array, table: Branch) -> tuple[Array, Array, Array]:
-    """Return the arm angles at some heights within a table of the reach.
+    """Return the arm angles at some heights within a table of the range.
 
-    Newton's method with the exact slope, from a cubic between neighbours of the table, which falls
-    back on halving the bracket: beside a dead point the height is no smooth function of the angle,
-    and Newton's step may leave the bracket there.
+    Newton's method with the exact slope starts from a cubic between neighbours of the table, and
+    falls back on halving the bracket: beside a dead point the height is not a smooth function of
+    the angle, and Newton's step may leave the bracket there.
 
     Parameters
     ----------
     model : Model
-        One, or as many as there are rows.
+        One model, or a batch with a model per row.
     heights : ndarray, shape (rows, positions)
-        Of the wheel centre [m].
+        Heights of the wheel centre [m].
     racks : ndarray, shape (rows,)
         Displacements of the rack [m].
     table : Branch
-        Of each row.
 
     Returns
     -------
     angles, errors, allowed : ndarray, shape (rows, positions)
-        [rad]; by how much the heights are missed, and what rounding allows of that [m].
+        Arm angles [rad], errors of the heights, and their tolerances by rounding [m].
     """
     angle, ends, at_ends, slopes = _brackets(heights, table)
     low, high = ends
@@ -341,7 +332,7 @@ def solve(model: Model, heights: Array, racks: Array, table: Branch) -> tuple[Ar
     lower = errors[0] <= errors[1]
     found: Array = np.where(lower, low, high)
     error, slope = errors.min(axis=0), np.where(lower, slopes[0], slopes[1])
-    # at an end of the bracket, as at design, Newton's step leads out of it by a rounding
+    # at an end of the bracket, such as design, Newton's step leaves it by a rounding
     rows = np.flatnonzero((error > np.spacing(np.abs(heights))).any(axis=1))
     for count in range(_MOST_STEPS):
         if rows.size == 0:
@@ -366,14 +357,14 @@ def solve(model: Model, heights: Array, racks: Array, table: Branch) -> tuple[Ar
 
 
 def _brackets(heights: Array, table: Branch) -> tuple[Array, Array, Array, Array]:
-    """Return where a cubic has some heights, and angles, heights and slopes of the neighbours."""
+    """Return angles at heights by a cubic, and angles, heights and slopes of the neighbours."""
     points = table.height.shape[1]
     right = np.clip((table.height[:, None] < heights[..., None]).sum(axis=-1), 1, points - 1)
     ends, at_ends, slopes = (
         np.stack([np.take_along_axis(values, i, axis=1) for i in (right - 1, right)])
         for values in (table.angle, table.height, table.slope)
     )
-    with np.errstate(all="ignore"):  # an end is repeated, and its slope may be none
+    with np.errstate(all="ignore"):  # an end is repeated, and its slope may be zero
         rise, change = at_ends[1] - at_ends[0], ends[1] - ends[0]
         part = (heights - at_ends[0]) / rise
         first, last = rise / slopes

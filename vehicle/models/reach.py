@@ -1,9 +1,9 @@
-"""How far the wheel travels: the arm angles that belong to the design position's assembly.
+"""The range of wheel travel: the arm angles on the branch of the design position.
 
 From the design position the arm is swung either way until a loop cannot close or the wheel centre
 turns back. In between, the height of the wheel centre is a monotonic function of the arm angle, so
-that every height within reach has exactly one position. `swing` sees to it that no fold between two
-angles that are looked at is missed.
+that every height within the range has exactly one position. `swing` ensures that no fold between
+two evaluated angles is missed.
 """
 
 from collections.abc import Callable
@@ -24,22 +24,22 @@ from .swing import GOAL, UNRESOLVED, PlacesAlong, march, margins_stay, resolved
 
 Array = NDArray[np.float64]
 
-# Arm angles are looked at in steps of this size [rad], up to a right angle from design.
+# Step of the evaluated arm angles [rad], up to a right angle from design.
 ARM_STEP = np.deg2rad(2.0)
 ARM_STEPS = 45
-# By how much the reach ends before that [rad]. What has to be positive is then some 1e-13 m^2,
-# clear of its rounding, and the wheel is less than a nanometre from its last position.
+# Distance of the range from its limit [rad]. The margins are then some 1e-13 m^2, clear of their
+# rounding, and the wheel is less than a nanometre from its last position.
 _CLEARANCE = 1e-12
-# Where the straight way of an iteration passes a point at which branches meet, by less than some
-# 1e-10 rad, roundings decide whether it gets by.
+# The same with loops solved by iteration: where its straight path passes a point at which branches
+# meet by less than some 1e-10 rad, roundings decide on which side.
 _CLEARANCE_OF_ITERATION = 1e-9
-# Lengths are read from the same numbers [m].
+# Rounding of lengths from the same numbers [m].
 _LENGTH = 1e-12
-_CHUNK = 500  # racks that are looked at together, to bound the memory
-_KEPT = 8  # tables, of so many racks each, that are remembered
-_PROBES = 9  # racks that show how much of the reach is of interest
+_CHUNK = 500  # racks that are evaluated together, to bound the memory
+_KEPT = 8  # cached tables, of so many racks each
+_PROBES = 9  # racks that show which part of the range is of interest
 
-_RACK_STEP = 0.002  # in which the rack goes from its middle to where it is wanted [m]
+_RACK_STEP = 0.002  # step of the rack from its middle to its position [m]
 _MOST_RACK_STEPS = 1000
 
 _TURNS_BACK = -1
@@ -66,7 +66,7 @@ class AngleRange:
     height : tuple of float
         Lowest and highest height of the wheel centre [m].
     lower_limit, upper_limit : str
-        What ends the range.
+        The reasons for the ends of the range.
     """
 
     arm_angle: tuple[float, float]
@@ -76,7 +76,7 @@ class AngleRange:
 
 
 def travel_range(model: Model, rack_position: float = 0.0) -> AngleRange:
-    """Return the travel that the wheel can make from the design position.
+    """Return the range of wheel travel from the design position.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ def travel_range(model: Model, rack_position: float = 0.0) -> AngleRange:
     -------
     AngleRange
         Its ends are the last positions before the limit, to 1e-12 rad of the arm angle, or to 1e-9
-        rad where loops are solved by iteration.
+        rad with loops solved by iteration.
 
     Raises
     ------
@@ -109,7 +109,7 @@ def travel_range(model: Model, rack_position: float = 0.0) -> AngleRange:
 
 @lru_cache(maxsize=_KEPT)
 def _range(model: Model, rack_position: float) -> AngleRange:
-    """Look for the ends once: a request for one position at rest is followed by others."""
+    """Return the range, cached: a request for one position at rest is followed by others."""
     racks = np.array([rack_position])
     _refuse_racks(model, racks)
     (low, low_limits), (high, high_limits) = (ends_of(model, racks, way) for way in (+1.0, -1.0))
@@ -123,16 +123,16 @@ def _range(model: Model, rack_position: float) -> AngleRange:
 
 
 class Branch(NamedTuple):
-    """Arm angles and wheel heights over the reach, for each of several rack positions or models.
+    """Table of arm angles and wheel heights over the range, for several rack positions or models.
 
     Attributes
     ----------
     angle : ndarray, shape (rows, points)
-        Falling [rad]; repeated where the reach ends earlier.
+        Falling [rad]; the last one is repeated if the range ends earlier.
     height : ndarray, shape (rows, points)
         Height of the wheel centre, rising [m].
     slope : ndarray, shape (rows, points)
-        Its derivative by the angle [m/rad].
+        Its derivative with respect to the angle [m/rad].
     """
 
     angle: Array
@@ -151,7 +151,7 @@ def branch(
     covering: tuple[float, float] | None = None,
     to_the_end: bool = False,
 ) -> Branch:
-    """Tabulate the reach for each rack position.
+    """Return the table of the range for each rack position.
 
     Parameters
     ----------
@@ -159,16 +159,11 @@ def branch(
     rack_positions : array_like, shape (racks,)
         Displacements of the rack [m].
     covering : tuple of float, optional
-        Lowest and highest wheel height that are of interest [m]: of many racks, the rest is left
-        out as far as a few of them show where it begins. What the table covers must be seen from
-        its heights.
+        Lowest and highest wheel height of interest [m]: tables of many racks end near them, by an
+        estimate from a few of the racks. The heights of the table show its actual ends.
     to_the_end : bool, optional
-        Whether to locate the ends of the reach, as `travel_range` does. Otherwise the table ends a
-        few degrees before them, where the height gets steep, and is made much faster.
-
-    Returns
-    -------
-    Branch
+        Whether to locate the ends of the range, as `travel_range` does. Otherwise the table ends a
+        few degrees before them, where the height gets steep, and is computed much faster.
 
     Raises
     ------
@@ -187,7 +182,7 @@ def branch(
 
 
 def _steps_to(model: Model, racks: Array, covering: tuple[float, float]) -> tuple[int, int]:
-    """Return how many steps from design, down and up, some of the racks need, and one more."""
+    """Return the steps from design, down and up, that some of the racks need, and one more."""
     some = np.quantile(racks, np.linspace(0.0, 1.0, _PROBES), method="nearest")
     _refuse_racks(model, some)
     whole = tabulated(model, some, (ARM_STEPS, ARM_STEPS), to_the_end=False)
@@ -195,7 +190,7 @@ def _steps_to(model: Model, racks: Array, covering: tuple[float, float]) -> tupl
 
 
 def steps_covering(height: Array, covering: tuple[float, float]) -> tuple[int, int]:
-    """Return how many steps from design, down and up, some heights need, and one more."""
+    """Return the steps from design, down and up, that cover some heights, and one more."""
     below = (height[:, ARM_STEPS::-1] > covering[0]).sum(axis=1).max()
     above = (height[:, ARM_STEPS:] < covering[1]).sum(axis=1).max()
     return min(int(below) + 1, ARM_STEPS), min(int(above) + 1, ARM_STEPS)
@@ -203,26 +198,14 @@ def steps_covering(height: Array, covering: tuple[float, float]) -> tuple[int, i
 
 @lru_cache(maxsize=_KEPT)
 def _tabulated(model: Model, racks: bytes, steps: tuple[int, int], *, to_the_end: bool) -> Branch:
-    """Look at steps of the arm once: a report asks for the same racks at a hundred heights."""
+    """Return a table, cached: a report requests the same racks at a hundred heights."""
     own = np.frombuffer(racks)
     _refuse_racks(model, own)
     return tabulated(model, own, steps, to_the_end=to_the_end)
 
 
 def tabulated(model: Model, racks: Array, steps: tuple[int, int], *, to_the_end: bool) -> Branch:
-    """Look at steps of the arm from design.
-
-    Parameters
-    ----------
-    model : Model
-        One, or as many as there are racks.
-    racks : ndarray, shape (rows,)
-        Displacements of the rack [m].
-    steps : tuple of int
-        How many down and up.
-    to_the_end : bool
-        As of `branch`; the steps lead there.
-    """
+    """Return the table of the range for numbers of steps of the arm, down and up, see `branch`."""
     grid = model.design_state[..., 0] - ARM_STEP * np.arange(-steps[0], steps[1] + 1)
     grid = np.broadcast_to(grid, (racks.size, grid.shape[-1]))
     seen = _look(model, grid, racks[:, None])
@@ -239,7 +222,7 @@ def tabulated(model: Model, racks: Array, steps: tuple[int, int], *, to_the_end:
 
 
 def _connected(grid: Array, seen: PlacesAlong, design: int) -> Branch:
-    """Return the part of a grid that nothing separates from design, its ends repeated."""
+    """Return the part of a grid that is connected with design, its ends repeated."""
     fine = resolved(np.array(-ARM_STEP), seen)
     down = np.logical_and.accumulate(fine[:, :design][:, ::-1], axis=1).sum(axis=1)
     up = np.logical_and.accumulate(fine[:, design:], axis=1).sum(axis=1)
@@ -251,7 +234,7 @@ def _connected(grid: Array, seen: PlacesAlong, design: int) -> Branch:
 def at_rest(
     model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0, *, arm_rate: float = 0.0
 ) -> tuple[Array, Array]:
-    """Return states and inputs with everything at rest but, if wanted, the arm.
+    """Return states and inputs with zero rates, except that of the arm.
 
     Parameters
     ----------
@@ -260,11 +243,6 @@ def at_rest(
         [rad] and [m]; they are broadcast.
     arm_rate : float, optional
         Rate of the arm angle [rad/s].
-
-    Returns
-    -------
-    states, inputs : ndarray
-        For the compiled functions.
     """
     angles, racks = np.broadcast_arrays(np.asarray(arm_angle, float), rack_position)
     names = model.state_names
@@ -285,18 +263,13 @@ def at_rest(
 def height_and_slope(
     model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0
 ) -> tuple[Array, Array]:
-    """Return the height of the wheel centre and its exact derivative by the arm angle.
+    """Return height [m] of the wheel centre and its exact derivative by the arm angle [m/rad].
 
     Parameters
     ----------
     model : Model
     arm_angle, rack_position : array_like
         [rad] and [m]; they are broadcast.
-
-    Returns
-    -------
-    height, slope : ndarray
-        [m] and [m/rad].
     """
     # velocities are linear in the rates: that at unit rate is the derivative
     states, inputs = at_rest(model, arm_angle, rack_position, arm_rate=1.0)
@@ -305,23 +278,23 @@ def height_and_slope(
 
 
 def ends_of(model: Model, racks: Array, direction: float) -> tuple[Array, NDArray[np.int64]]:
-    """Swing the arm as far as it goes.
+    """Return the ends of the range in one direction of the arm.
 
     Parameters
     ----------
     model : Model
-        One, or as many as there are racks.
+        One model, or a batch with a model per rack.
     racks : ndarray, shape (rows,)
         Displacements of the rack [m].
     direction : float
-        1 or -1: which way the arm swings.
+        1 or -1, the sign of the arm's rotation.
 
     Returns
     -------
     angle : ndarray, shape (rows,)
-        The last angle within reach [rad].
+        The last angle within the range [rad].
     limits : ndarray of int, shape (rows,)
-        What ends the reach, as in `_look`.
+        The limits there, as in `_look`.
     """
     angles = model.design_state[..., 0] + direction * ARM_STEP * np.arange(ARM_STEPS + 1)
     angles = np.broadcast_to(angles, (racks.size, ARM_STEPS + 1))
@@ -353,11 +326,11 @@ def _clear_of(
     design: Array,
     direction: float,
 ) -> Array:
-    """Return the last angles within reach, clear of what ends it there.
+    """Return the last angles within the range, clear of its limits.
 
-    Where roundings decide, the next angle is not `usable`: the clearance is ten times as much then.
+    If roundings make the angle not `usable`, the clearance is multiplied by ten.
     """
-    # not past the design position, where a wheel that turns back at once has its end
+    # not past the design position, which is the end for a wheel that turns back at once
     swung = direction * (ends - design)
     clear = np.where((swung > clearance) & (limits != GOAL), ends - direction * clearance, ends)
     refused = (limits != GOAL) & (swung > clearance) & ~usable(clear)
@@ -370,12 +343,7 @@ def _clear_of(
 
 
 def refuse_beyond(model: System, state: Array, inputs: Array) -> None:
-    """Refuse a state of rest at which a length is beyond what the file allows.
-
-    Raises
-    ------
-    PositionError
-    """
+    """Raise a `PositionError` for a state of rest at which a length is beyond its limit."""
     signals = model.signals(state, inputs)
     passed = [one for one in model.allowed_lengths() if float(one.left(signals)) < -_LENGTH]
     if passed:
@@ -387,14 +355,14 @@ def refuse_beyond(model: System, state: Array, inputs: Array) -> None:
 
 
 def _look(model: Model, angles: Array, racks: Array) -> PlacesAlong:
-    """Return whether the loops close and the wheel rises as the arm does.
+    """Return whether the loops close and the wheel rises with the arm.
 
-    The limit of what is not usable is the index of a margin, or `_TURNS_BACK`; behind the margins
-    of the equations are those of the lengths that the file allows.
+    The limit of a position that is not usable is the index of a margin, or `_TURNS_BACK`; the
+    margins of lengths that the file allows follow those of the equations.
     """
     states, inputs = at_rest(model, angles, racks, arm_rate=1.0)
     margins = margins_at(model, states, inputs)
-    # a NaN behind a failed guard must not pass
+    # a NaN after a failed guard must not pass
     closes = np.asarray((margins > 0.0).all(axis=-1))
     signals, stand = _where_it_closes(model, states, inputs, closes)
     allowed = [np.where(closes, one.left(signals), 1.0) for one in model.allowed_lengths()]
@@ -410,9 +378,9 @@ def _look(model: Model, angles: Array, racks: Array) -> PlacesAlong:
 def _where_it_closes(
     model: Model, states: Array, inputs: Array, closes: NDArray[np.bool_]
 ) -> tuple[dict[str, Array], Attitudes]:
-    """Return signals and attitudes; where loops do not close, those of a place where they do.
+    """Return signals and attitudes; if loops do not close, those of an angle at which they do.
 
-    They are not numbers in rows without one. The angles of `states` are set to those looked at.
+    They are NaN in rows without such an angle. The angles of `states` are set to those evaluated.
     """
     some = np.flatnonzero(closes.any(axis=1))
     if not closes.all():
@@ -433,9 +401,9 @@ def _where_it_closes(
 
 
 def margins_at(model: Model, states: Array, inputs: Array) -> Array:
-    """Return what must be positive at a position."""
+    """Return the margins, which are positive within the range."""
     margins = model.evaluate("margins", states, inputs)
-    # what guards an angle that no position depends on, as the azimuth of a vertical shaft
+    # except guards of angles on which no position depends, such as the azimuth of a vertical shaft
     acting = {guard for guards in model.equations.ACTING_GUARDS.values() for guard in guards}
     margins[..., [guard not in acting for guard in range(margins.shape[-1])]] = 1.0
     return margins
@@ -449,7 +417,7 @@ def _in_words(model: Model, limit: int) -> str:
 
 
 def _refuse_racks(model: Model, racks: Array) -> None:
-    """Refuse racks that cannot get where they are with the arm in its design position."""
+    """Refuse rack positions that are out of reach with the arm in its design position."""
     seen = _look(model, model.design_state[:1], racks[:, None])
     closes = (seen.margins[:, 0] > 0.0).all(axis=-1)
     first, limit = -1, -1
@@ -474,6 +442,6 @@ def _refuse_racks(model: Model, racks: Array) -> None:
 
 
 def way_of_rack(rack: float) -> Array:
-    """Return places from the middle of the rack to where it is wanted."""
+    """Return positions between the middle of the rack and its displacement [m]."""
     count = min(2 + int(abs(rack) / _RACK_STEP), _MOST_RACK_STEPS)
     return np.linspace(0.0, rack, 1 + count)

@@ -1,15 +1,15 @@
-"""How far a coordinate can be moved before something ends: a march that steps over nothing.
+"""The range of a coordinate: a march to its limits that misses none between two positions.
 
-Along one coordinate, a mechanism is looked at in some places: whether its loops close, how far the
-quantities are from zero that must be positive, and a height that should change one way only. Two
-neighbours that are both fine say nothing about what is between them, unless everything is smooth on
-the scale of their distance. That can be seen: the mean of two slopes and the chord between them
-belong to one smooth curve (the trapezoidal rule), and so do three values of a margin.
+Along one coordinate, a mechanism is evaluated at some positions: whether its loops close, margins
+that must be positive, and a height that must be monotonic. Two usable neighbours show that
+everything between them is usable only if the functions are smooth on the scale of their distance.
+The check of this: the mean of two slopes agrees with the chord between them (the trapezoidal rule),
+and three values of a margin do not bend too much.
 
-Where loops are solved by iteration, neighbours may be on different branches, too, and the bodies
-have other attitudes there (`attitudes`). Around the point at which branches meet, positions x
-belong to coordinates ``a = x^3 - d x``: between two branches, whose rates differ by a factor of
-three at most, the trapezoidal rule misses the jump by half of it or more.
+With loops solved by iteration, neighbours may also be on different branches, with other attitudes
+of the bodies (`attitudes`). Around the point at which branches meet, positions x have coordinates
+``a = x^3 - d x``: between two branches, whose rates differ by a factor of three at most, the
+trapezoidal rule misses the jump by half of it or more.
 """
 
 from collections.abc import Callable
@@ -23,41 +23,41 @@ from .attitudes import Attitudes
 Array = NDArray[np.float64]
 
 GOAL, UNRESOLVED = -2, -3
-"""What ends a march besides a limit: nothing, and steps that have become too small."""
+"""The ends of a march besides a limit: the goal, and steps that have become too small."""
 
-# The chord misses the mean of two slopes by h^2 s'' / 12, and the slope between them misses it by
+# The chord differs from the mean of two slopes by h^2 s'' / 12, and the slope between them by
 # h^2 s'' / 8 at most: it keeps its sign if the first is less than 2/3 of the flatter slope. A third
-# of that, because s'' is not the same all over.
+# of that, because s'' is not constant.
 _SMOOTH = 0.2
-# What bodies turn by that is little, per coordinate, and how much of its rate may differ.
+# A small rotation of bodies per coordinate, and the greatest relative difference of its rates.
 _LITTLE, _ALIKE = 1.0, 2.0 / 3.0
-# A parabola dips below its lower neighbour by at most 1/8 of its second difference; twice that.
+# A parabola is below its lower neighbour by at most 1/8 of its second difference; twice that.
 _DIP = 0.25
-# More than rounding does to a height of some metres [m].
+# Greater than the rounding of a height of some metres [m].
 _ROUNDING = 1e-13
-# Steps of a march looked at together, and the smallest step [rad].
+# Steps of a march that are evaluated together, and the smallest step [rad].
 _TOGETHER = 8
 _SMALLEST = 3e-13
 _FASTER = 4.0
-# A march needs some thirty of them.
+# A march needs some thirty evaluations.
 _MOST_LOOKS = 400
 
 
 class PlacesAlong(NamedTuple):
-    """What there is at some places; the last axis of the first four is along the coordinate.
+    """Values at some positions; the last axis of the first four is along the coordinate.
 
     Attributes
     ----------
     usable : ndarray of bool
-        Whether the place can be taken.
+        Whether the position is within the range.
     limit : ndarray of int
-        Why not, otherwise.
+        The limit that a position is beyond.
     height, slope : ndarray
-        What should change one way only, and its derivative; mean nothing where not usable.
+        A monotonic quantity, and its derivative; without meaning if not usable.
     margins : ndarray, shape (..., places, margins)
-        Must be positive.
+        Positive if usable.
     attitudes : Attitudes
-        Attitudes of the bodies, as far as loops are solved by iteration.
+        Attitudes of the bodies, if loops are solved by iteration.
     """
 
     usable: NDArray[np.bool_]
@@ -69,7 +69,7 @@ class PlacesAlong(NamedTuple):
 
 
 def resolved(width: Array, seen: PlacesAlong) -> NDArray[np.bool_]:
-    """Return between which neighbours nothing can be that they do not show.
+    """Return between which neighbours every position is usable.
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ def resolved(width: Array, seen: PlacesAlong) -> NDArray[np.bool_]:
     Returns
     -------
     ndarray of bool
-        One element less along the last axis; false where one of the two is not usable.
+        One element less along the last axis; false if one of the two is not usable.
     """
     both = seen.usable[..., :-1] & seen.usable[..., 1:]
     low, high = np.abs(seen.slope[..., :-1]), np.abs(seen.slope[..., 1:])
@@ -93,7 +93,7 @@ def resolved(width: Array, seen: PlacesAlong) -> NDArray[np.bool_]:
 
 
 def _on_one_branch(width: Array, attitudes: Attitudes) -> NDArray[np.bool_]:
-    """Return between which neighbours the bodies turn as their rates say."""
+    """Return between which neighbours the bodies rotate as their rates predict."""
     turned, rate = attitudes
     if not turned.shape[-1]:
         return np.ones((), dtype=bool)
@@ -133,24 +133,24 @@ def margins_stay(margins: Array) -> NDArray[np.bool_]:
 def march(
     look: Callable[[Array, NDArray[np.int64]], PlacesAlong], start: Array, goal: Array, step: float
 ) -> tuple[Array, NDArray[np.int64]]:
-    """Go from each start towards its goal until something ends.
+    """Return the last usable position from each start towards its goal.
 
     Parameters
     ----------
     look : callable
-        Given places, shape (rows, places), and which of the starts the rows belong to, returns
-        what is there.
+        Takes positions, shape (rows, places), and the indices of the rows' starts; returns the
+        values there.
     start, goal : ndarray, shape (starts,)
         The starts are usable.
     step : float
-        First and greatest distance of two places.
+        First and greatest distance of two positions.
 
     Returns
     -------
     reached : ndarray, shape (starts,)
-        The last place up to which everything is usable, to `_SMALLEST`.
+        The last position up to which everything is usable, to `_SMALLEST`.
     limit : ndarray of int
-        What ends there: as in `PlacesAlong`, or `GOAL` or `UNRESOLVED`.
+        The limit there: as in `PlacesAlong`, or `GOAL` or `UNRESOLVED`.
     """
     reached = start.copy()
     width = np.full(start.shape, step)
@@ -174,7 +174,7 @@ def march(
         factor = np.where(stuck, 1.0 / _TOGETHER, np.where(all_fine, _FASTER, 1.0))
         width[rows] = np.minimum(np.abs(steps) * factor, step)
         done = stuck & (width[rows] < _SMALLEST)
-        # of what is just behind, if nothing is known of the step before it
+        # the limit of the next position, if the step itself shows none
         wrong = ~seen.usable
         first = seen.limit[np.arange(rows.size), wrong.argmax(axis=1)]
         limit[rows[done]] = np.where(wrong.any(axis=1), first, UNRESOLVED)[done]

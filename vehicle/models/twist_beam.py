@@ -1,4 +1,4 @@
-"""A twist-beam axle as a file describes it, what holds its parts together, and its equations."""
+"""Twist-beam axles: the data of a file, the joints and the equations of motion."""
 
 from collections.abc import Iterator, Mapping
 from types import ModuleType
@@ -41,9 +41,9 @@ ACROSS = np.array([0.0, 1.0, 0.0])
 """The direction of the line through both pivots."""
 
 _UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
-# Pivots and shear centre are farther from the wheels' line, or from each other, than this [m].
+# Least distance of pivots and shear centre from the wheels' line, and from each other [m].
 _SHORTEST = 0.05
-# Newton's method is at the end where it moves nothing by more than this [rad]; it doubles digits.
+# Greatest last step of Newton's method [rad], which converges quadratically.
 _CLOSE, _MOST_STEPS = 1e-14, 20
 _ARMS, _BEAM = "#4a525a", "#d55e00"
 
@@ -80,7 +80,7 @@ class BeamSection(Section):
 
     @property
     def rate(self) -> float:
-        """The torque of the beam by its twist [N m/rad]."""
+        """The torque of the beam per twist [N m/rad]."""
         return float(np.degrees(self.rate_Nm_per_deg))
 
 
@@ -100,7 +100,7 @@ class TwistBeamBodies(Bodies):
 
 
 class TwistBeamAxle(WholeAxle):
-    """Two trailing arms and a beam between them that twists, at design. Immutable.
+    """Two trailing arms and a twisting beam between them, at design. Immutable.
 
     Make one with `load`, `from_dict` or `with_changes`. The attributes are the sections of the
     file, with the file's keys and units.
@@ -113,7 +113,7 @@ class TwistBeamAxle(WholeAxle):
     Raises
     ------
     InputError
-        With all problems, if no axle can be like this.
+        With all problems, if the data are not valid.
 
     Examples
     --------
@@ -175,7 +175,7 @@ and `[bushings.POINT]`, whose points are `pivot`, `shear_center` and `wheel_cent
 
     @property
     def twist_ratio(self) -> float:
-        """The twist of the beam by the turn of an arm about its line to the shear centre [1]."""
+        """The twist of the beam per rotation of an arm about its line to the shear centre [1]."""
         return (
             2.0 * abs(float(self.pivot[1])) / float(np.linalg.norm(self.pivot - self.shear_center))
         )
@@ -208,15 +208,7 @@ and `[bushings.POINT]`, whose points are `pivot`, `shear_center` and `wheel_cent
         return Structure(joints, lines)
 
     def bushes(self, given: Validator, described: Mapping[str, Any]) -> list[Bush]:
-        """Return bushes as they are described by their hardpoints.
-
-        Parameters
-        ----------
-        given : Validator
-            Gets what is wrong.
-        described : mapping
-            By ``pivot`` and ``wheel_center``, of both sides, and ``shear_center``.
-        """
+        """Return the described bushes: of ``pivot``, ``wheel_center`` and ``shear_center``."""
         joints = (
             PivotJoint(CHASSIS, "arm", (PIVOT,)),
             FixedJoint("arm", "wheel", (CENTER,)),
@@ -233,10 +225,10 @@ and `[bushings.POINT]`, whose points are `pivot`, `shear_center` and `wheel_cent
         ]
 
     def parameters(self) -> dict[str, float]:
-        """Return everything that the equations of motion need, by their names, in SI units.
+        """Return the parameters of the equations of motion by name, in SI units.
 
-        The torque T of the beam by its twist does T times the rate of the twist, which is that of
-        an arm's turn times `twist_ratio`; so the rate by the turn has the square of that.
+        The power of the beam's torque T is T times the rate of the twist, which is that of an arm's
+        rotation times `twist_ratio`; the rate per rotation has the square of this.
         """
         rate = self.beam.rate * self.twist_ratio**2
         values = {
@@ -252,7 +244,7 @@ and `[bushings.POINT]`, whose points are `pivot`, `shear_center` and `wheel_cent
     # -- its checks -----------------------------------------------------------------------------
 
     def _own_problems(self) -> list[str]:
-        """Say which points leave no arm: pivots that are no pivots, a beam at the pivots."""
+        """Return problems of pivots at the wheels, and of a shear centre at the pivots."""
         problems = []
         pivot, shear, wheel = self.pivot, self.shear_center, self.hardpoints.metres(CENTER)
         if float(np.hypot(*(wheel - pivot)[[0, 2]])) < _SHORTEST:
@@ -272,7 +264,7 @@ and `[bushings.POINT]`, whose points are `pivot`, `shear_center` and `wheel_cent
         return problems
 
     def _unlikely(self) -> Iterator[str]:
-        """Say what is almost surely a mistake: units, and points that are swapped."""
+        """Yield almost certain mistakes: units, and swapped points."""
         arm = self.bodies.arm
         yield from self._unlikely_of({}, {"arm": arm}, 0.0, arm.mass_kg)
         if self.twist_beam == "rear" and self.pivot[0] < self.center[0]:
@@ -286,7 +278,7 @@ and `[bushings.POINT]`, whose points are `pivot`, `shear_center` and `wheel_cent
 
 
 class PivotJoint(SphericalJoint):
-    """The bush of an arm: a force; its own axis is that through both pivots."""
+    """The bush of an arm, with a force; its axis is the line through both pivots."""
 
     def axis(self, points: Points) -> Array | None:
         """Return the direction through both pivots."""
@@ -294,11 +286,11 @@ class PivotJoint(SphericalJoint):
 
 
 class BeamJoint(PartJoint):
-    """Where both halves of the beam meet: all but the torque about the direction of the pivots.
+    """The joint of both halves of the beam, with all loads but the torque about the pivots' line.
 
-    That is what the spring of the beam has. A force along the beam, and with it how the pivots
-    share one across the vehicle, is statically indeterminate: least energy of the bushes decides
-    it, and without bushes least forces.
+    This torque is that of the beam's spring. A force along the beam, and with it the shares of the
+    pivots in a lateral force, is statically indeterminate: it has the least energy of the bushes,
+    or without bushes the least forces.
     """
 
     def axis(self, points: Points) -> Array | None:
@@ -316,7 +308,7 @@ class BeamJoint(PartJoint):
     def right_angles(
         self, points: Points, turned: Mapping[str, Array], design: Points, spin: Array
     ) -> list[tuple[Array, Array]]:
-        """Return the direction of the pivots with both directions across it."""
+        """Return the direction of the pivots with both perpendicular directions."""
         del turned, design, spin
         shape = points[self.at[0]].shape
         return [
@@ -335,8 +327,7 @@ class TwistBeamModel(WholeAxleModel):
     axle : TwistBeamAxle, str or Path
         The data, or the name of a packaged data set or path of a TOML file.
     wheel_loads : bool, optional
-        Whether loads on the wheels are inputs, as in `Model`, after ``right_`` and ``left_``.
-        These equations are derived and compiled when they are first needed.
+        As of `WholeAxleModel`.
 
     Attributes
     ----------
@@ -362,21 +353,11 @@ class TwistBeamModel(WholeAxleModel):
     axle: TwistBeamAxle
 
     def placed(self, left: Array, right: Array) -> Array:
-        """Return the states at rest with the wheels at some travels, whether it gets there or not.
+        """Return the states at rest at wheel travels; NaN if no angles are found.
 
-        The height of a wheel is ``z cos(lift) - x sin(lift)`` with its place x, z beside the pivots
-        after the turn about the line to the shear centre: Newton's method for both, from those of
-        small angles.
-
-        Parameters
-        ----------
-        left, right : ndarray, shape (...)
-            Heights of the wheel centres above design [m].
-
-        Returns
-        -------
-        ndarray, shape (..., 8)
-            NaN where no angles are found.
+        The height of a wheel is ``z cos(lift) - x sin(lift)`` with its position x, z relative to
+        the pivots after the rotation about the line to the shear centre. Newton's method solves
+        for both angles from design.
         """
         states = np.broadcast_to(self.design_state, (*left.shape, self.design_state.size)).copy()
         wanted = np.stack(np.broadcast_arrays(left, right), axis=-1)
@@ -387,13 +368,7 @@ class TwistBeamModel(WholeAxleModel):
         return states
 
     def moved(self, states: Array, left: Array, right: Array) -> Array:
-        """Return states with the rates at which the wheels travel so fast [m/s].
-
-        Parameters
-        ----------
-        states : ndarray, shape (..., 8)
-        left, right : ndarray
-        """
+        """Return states with the rates for velocities of the wheels [m/s]."""
         found = states.copy()
         lift, twist = (states[..., self.state_names.index(name)] for name in self.COORDINATES)
         with np.errstate(all="ignore"):
@@ -404,13 +379,13 @@ class TwistBeamModel(WholeAxleModel):
         return found
 
     def turned(self, states: Array) -> Array:
-        """Return the larger of both angles [rad]; half a turn where there are none."""
+        """Return the larger of both angles [rad]; pi for NaN."""
         both = [np.abs(states[..., self.state_names.index(name)]) for name in self.COORDINATES]
         return np.nan_to_num(np.maximum(*both), nan=np.pi)
 
 
 def _angles(axle: TwistBeamAxle, wanted: Array) -> tuple[Array, Array]:
-    """Return lift and twist at heights of both wheels above design, (..., 2) [m]; NaN for none."""
+    """Return lift and twist at heights of both wheels above design, (..., 2) [m], or NaN."""
     lift, twist = np.zeros(wanted.shape[:-1]), np.zeros(wanted.shape[:-1])
     change = np.full(wanted.shape[:-1], np.inf)
     for _ in range(_MOST_STEPS):
@@ -446,7 +421,7 @@ def _heights(axle: TwistBeamAxle, lift: Array, twist: Array) -> tuple[Array, Arr
 
 
 def _solved(slopes: Array, right: Array) -> tuple[Array, Array]:
-    """Return the solution of two linear equations, without raising where there is none."""
+    """Return the solution of two linear equations; not finite if they are singular."""
     (a, b), (c, d) = np.moveaxis(slopes, (-2, -1), (0, 1))
     first, second = np.moveaxis(right, -1, 0)
     whole = a * d - b * c

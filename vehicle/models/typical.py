@@ -1,4 +1,4 @@
-"""Ranges in which front suspensions usually lie at design."""
+"""Usual ranges of front suspensions at design."""
 
 import tomllib
 from importlib import resources
@@ -6,17 +6,9 @@ from typing import Any
 
 
 def typical_ranges(kind: str) -> dict[str, dict[str, Any]]:
-    """Return the usual ranges of front suspensions by the name of the characteristic.
+    """Return ``low``, ``high``, ``unit`` and ``source`` of the usual ranges, by characteristic.
 
-    Parameters
-    ----------
-    kind : str
-        Kind of the suspension, as in the input file.
-
-    Returns
-    -------
-    dict
-        ``low``, ``high``, ``unit`` and ``source`` of each.
+    `kind` is the kind of the suspension, as in the input file.
     """
     text = resources.files(__package__).joinpath("typical.toml").read_text(encoding="utf-8")
     ranges: dict[str, dict[str, Any]] = tomllib.loads(text)

@@ -1,4 +1,4 @@
-"""Axles without sides, such as a rigid axle: the members that all share."""
+"""The base of axles without sides, such as a rigid axle."""
 
 from abc import abstractmethod
 from collections.abc import Iterable, Iterator, Mapping
@@ -44,12 +44,12 @@ if TYPE_CHECKING:
     from .axle.file import Brakes, End
     from .whole_axle_file import AxleDrive, WholeAxleVehicle
 
-# A wheel centre nearer to the vehicle's centre plane than this is on neither side [m].
+# Least distance of a wheel centre from the vehicle's centre plane [m].
 _SMALLEST_HALF_TRACK = 0.1
-# Two ends of a spring or a damper are farther apart than this [m].
+# Least length of a spring or a damper [m].
 SHORTEST = 0.001
 _MIRROR = np.array([1.0, -1.0, 1.0])
-# The signals and inputs of a side that are the force of a spring or a damper.
+# The signals and inputs of a side that sum up to the force of a spring or a damper.
 _FORCES = {
     "spring": ("spring_spring_force", "spring_actuator"),
     "damper": tuple(f"damper_{name}" for name in FORCES_OF_A_DAMPER),
@@ -58,7 +58,7 @@ CHASSIS = "chassis"
 
 
 class WholeAxle(WheeledSection):
-    """An axle with both wheels, at its design position, as one file describes it. Immutable.
+    """An axle with both wheels in one file, at its design position. Immutable.
 
     Make one with `load`, `from_dict` or `with_changes`. The attributes are the sections of the
     file, with the file's keys and units; each class has them in the order of its file.
@@ -71,15 +71,15 @@ class WholeAxle(WheeledSection):
     Raises
     ------
     InputError
-        With all problems, if no axle can be like this.
+        With all problems, if the data are not valid.
 
     Attributes
     ----------
     KEY : str
-        The top-level key that says that a file is one of these, whose value is the end of the
-        vehicle: the name of the data set, see `data.starter.whole_axles`.
+        The top-level key of such a file, whose value is the end of the vehicle: the name of the
+        data set, see `data.starter.whole_axles`.
     NEEDED : str
-        What is said where something else is given.
+        The message about other objects.
     PAGE : str
         The text in the reference of input files before its sections; Markdown.
     """
@@ -89,7 +89,7 @@ class WholeAxle(WheeledSection):
     PAGE: ClassVar[str]
 
     if TYPE_CHECKING:
-        # sections that every class has, in places of its own
+        # sections of every class, each in the order of its file
         vehicle: WholeAxleVehicle
         spring: SpringSection
         damper: ApartDamper
@@ -113,7 +113,7 @@ class WholeAxle(WheeledSection):
 
     @classmethod
     def packaged(cls) -> Mapping[str, Traversable]:
-        """Return the files of those that come with kintrafo, by their names."""
+        """Return the packaged files, by name."""
         return data_sets(WHOLE_AXLES)
 
     @classmethod
@@ -129,12 +129,12 @@ class WholeAxle(WheeledSection):
         data : mapping
             The sections, with their keys and units as in the file.
         source : str, optional
-            Where the data come from, for error messages.
+            Origin of the data, for error messages.
 
         Raises
         ------
         InputError
-            If no axle can be like this; it lists everything that is wrong.
+            If the data are not valid; it lists all problems.
         """
         check_keys(source, "data", data, f"keys and values of {words_of(cls.KEY)}'s file")
         if cls.KEY not in data:
@@ -149,7 +149,7 @@ class WholeAxle(WheeledSection):
         except InputError as error:
             raise InputError(error.problems, source) from None
 
-    # -- what it is -----------------------------------------------------------------------------
+    # -- its properties -------------------------------------------------------------------------
 
     @abstractmethod
     def heading(self) -> str:
@@ -157,7 +157,7 @@ class WholeAxle(WheeledSection):
 
     @property
     def end(self) -> "End":
-        """At which end of the vehicle it is."""
+        """The end of the vehicle, 'front' or 'rear'."""
         found: End = getattr(self, self.KEY)
         return found
 
@@ -166,7 +166,7 @@ class WholeAxle(WheeledSection):
         """Whether it moves only as its bushes deflect."""
         return False
 
-    # -- what a car needs of every axle -----------------------------------------------------------
+    # -- interface for a car ----------------------------------------------------------------------
 
     whole: ClassVar[bool] = True
     """Whether it has no sides."""
@@ -186,13 +186,13 @@ class WholeAxle(WheeledSection):
         return self.KEY
 
     def parameters_of_masses(self) -> list[Mapping[str, float]]:
-        """Return the parameters of each side, with the same names for both, as of the right one."""
+        """Return the parameters of each side, with the names of the right one for both."""
         values = self.parameters()
         right = {name: value for name, value in values.items() if not name.startswith("left_")}
         return [right, of_side(values, LEFT)]
 
     def parameters_in_a_car(self) -> dict[str, float]:
-        """Return the parameters by the names that a car's equations have for them."""
+        """Return the parameters by their names in the equations of a car."""
         require_generator()
         from ...generator.mechanisms import model_named  # noqa: PLC0415 (an extra)
 
@@ -234,17 +234,14 @@ class WholeAxle(WheeledSection):
         return {name: point * _MIRROR for name, point in found.items()} | self._left_points()
 
     def _left_points(self) -> dict[str, Array]:
-        """Return the points of the left side that are not the image of the right one's [m]."""
+        """Return the points of the left side that are not mirror images [m]."""
         return {}
 
     @abstractmethod
     def drawn_lines(self) -> Iterable[tuple[str, str, float, Array]]:
-        """Return what it is drawn by besides wheels, springs and dampers.
+        """Return lines of a drawing besides wheels, springs and dampers.
 
-        Returns
-        -------
-        iterable of tuple of str, str, float and ndarray
-            Label, colour, width and the points of each line, (n, 3) [m].
+        Each has a label, a colour, a width and its points, (n, 3) [m].
         """
 
     @abstractmethod
@@ -253,49 +250,32 @@ class WholeAxle(WheeledSection):
 
     @abstractmethod
     def bushes(self, given: Validator, described: Mapping[str, Any]) -> list[Bush]:
-        """Return bushes as they are described by their hardpoints.
-
-        Parameters
-        ----------
-        given : Validator
-            Gets what is wrong.
-        described : mapping
-        """
+        """Return the bushes that are described by their hardpoints; `given` collects problems."""
 
     @property
     @abstractmethod
     def joint_names(self) -> tuple[str, ...]:
-        """The moving points, by their names in the parts."""
+        """The names of the moving points in the parts."""
 
     # -- its equations --------------------------------------------------------------------------
 
     @abstractmethod
     def parameters(self) -> dict[str, float]:
-        """Return everything that the equations of motion need, by their names, in SI units."""
+        """Return the parameters of the equations of motion by name, in SI units."""
 
     def parameters_of(self, side: str) -> Mapping[str, float]:
-        """Return the parameters of a side, by the names that those of the right one have."""
+        """Return the parameters of a side, with the names of the right one."""
         return of_side(self.parameters(), side)
 
     def length(self, part: str, side: str) -> float:
-        """Return the length of a spring or a damper at design [m].
-
-        Parameters
-        ----------
-        part : {'spring', 'damper'}
-        side : {'left', 'right'}
-        """
-        return _length(self.points(side), part)
+        """Return the length of a part, 'spring' or 'damper', of a side at design [m]."""
+        points = self.points(side)
+        return float(np.linalg.norm(points[f"{part}_top"] - points[f"{part}_seat"]))
 
     def _of_bodies(self, carrier: str) -> dict[str, float]:
         """Return the parameters of the carrier of the wheels, and of the parts of each side.
 
         These parts are wheels, springs, dampers, stops and tyres.
-
-        Parameters
-        ----------
-        carrier : str
-            The body that carries both wheels, or the right wheel.
         """
         values, wheel = {}, dict[str, float]()
         for name, value in self.bodies.parameters(self.hardpoints).items():
@@ -310,18 +290,17 @@ class WholeAxle(WheeledSection):
 
     def _of_side(self, side: str, sign: float) -> dict[str, float]:
         """Return the parameters of spring, damper, stops and tyre of a side, without its name."""
-        points, damper = self.points(side), self.damper
-        length = _length(points, "damper")
+        damper = self.damper
         values = {
             **self.tyre.parameters(),
             **components("spin_axis", self.wheel.spin_axis(sign)),
-            **self.parameters_of_extras(length, damper.curve),
-            **self.spring.parameters(_length(points, "spring"), general=True),
+            **self.parameters_of_extras(self.length("damper", side), damper.curve),
+            **self.spring.parameters(self.length("spring", side), general=True),
             "damper_rate": damper.rate_N_s_per_m or 0.0,
             "damper_friction": damper.friction_N,
             "damper_friction_speed": damper.friction_velocity_m_per_s,
         }
-        for name, point in points.items():
+        for name, point in self.points(side).items():
             values |= components(name, point)
         return values
 
@@ -341,7 +320,7 @@ class WholeAxle(WheeledSection):
 
     @abstractmethod
     def _unlikely(self) -> Iterable[str]:
-        """Say what is almost surely a mistake: units, points that are swapped."""
+        """Yield almost certain mistakes: units, swapped points."""
 
     def _unlikely_of(
         self,
@@ -350,7 +329,7 @@ class WholeAxle(WheeledSection):
         reach: float,
         mass: float,
     ) -> Iterator[str]:
-        """Yield the almost certain mistakes that any axle without sides can have.
+        """Yield the almost certain mistakes of any axle without sides.
 
         Parameters
         ----------
@@ -359,7 +338,7 @@ class WholeAxle(WheeledSection):
         bodies : mapping
             Bodies besides the wheel.
         reach : float
-            Extent of the bodies beyond the points, as seen from the middle [m].
+            Extent of the bodies beyond the points, from the middle [m].
         mass : float
             Unsprung mass at a wheel, without the wheel [kg].
         """
@@ -377,7 +356,7 @@ class WholeAxle(WheeledSection):
         yield from unlikely_rates(self.parameters(), length, mass + wheel.mass_kg, self.rate_key)
 
     def _own_problems(self) -> list[str]:
-        """Say what else cannot be, where the points are good."""
+        """Return further problems, if the points have none."""
         return []
 
     def _check_bushes(self, given: Validator, bushes: list[Bush]) -> None:
@@ -399,7 +378,7 @@ class WholeAxle(WheeledSection):
                 "0. Correct the sign of y."
             )
         for name in ("spring", "damper"):
-            length = _length(self.points(LEFT), name)
+            length = self.length(name, LEFT)
             if length < SHORTEST and not problems:
                 problems.append(
                     f"[left_hardpoints] {name}_top and {name}_seat are {1e3 * length:.3f} mm "
@@ -408,35 +387,20 @@ class WholeAxle(WheeledSection):
         return problems
 
     def _lengths_refused(self) -> list[str]:
-        """Say why a damper cannot be as long as it is at design."""
-        found = [
-            self.damper.length_problems(_length(self.points(side), "damper")) for side in SIDES
-        ]
+        """Return problems of the dampers' lengths at design."""
+        found = [self.damper.length_problems(self.length("damper", side)) for side in SIDES]
         return list(dict.fromkeys(problem for problems in found for problem in problems))
 
 
 def of_side(values: Mapping[str, float], side: str) -> Mapping[str, float]:
-    """Return the parameters of a side, by the names that those of the right one have.
-
-    Parameters
-    ----------
-    values : mapping
-        Of the whole axle.
-    side : {'left', 'right'}
-    """
+    """Return the parameters of a side from those of an axle, with the names of the right side."""
     if side == RIGHT:
         return values
     return {n.removeprefix("left_"): v for n, v in values.items() if n.startswith("left_")}
 
 
 def lines_of_sides(carriers: Mapping[str, str]) -> list[LineForce]:
-    """Return the springs and the dampers, between the chassis and the carrier of each wheel.
-
-    Parameters
-    ----------
-    carriers : mapping of str to str
-        The body that carries the wheel, by side.
-    """
+    """Return the springs and dampers between the chassis and the carrier of each wheel, by side."""
     return [
         LineForce(
             f"{name}_{side}",
@@ -451,35 +415,19 @@ def lines_of_sides(carriers: Mapping[str, str]) -> list[LineForce]:
 
 
 def on_both_sides(bush: Bush) -> list[Bush]:
-    """Return the bush of the right side, and its image before it."""
+    """Return the mirror image of a bush of the right side, and the bush."""
     at = bush.point
     return [bush.mirrored(f"{at}_{LEFT}"), replace(bush, point=f"{at}_{RIGHT}")]
 
 
-def _length(points: Mapping[str, Array], name: str) -> float:
-    return float(np.linalg.norm(points[f"{name}_top"] - points[f"{name}_seat"]))
-
-
 def whole_axle_class(key: str) -> type[WholeAxle]:
-    """Return what the file of such an axle describes: the class of the module with its name.
-
-    Parameters
-    ----------
-    key : str
-        One of `data.starter.whole_axles`.
-    """
+    """Return the class of an axle without sides, from the module with its key."""
     found: type[WholeAxle] = class_in(import_module(f".{key}", __package__), WholeAxle)
     return found
 
 
 def class_in(module: ModuleType, base: type) -> Any:
-    """Return the one class of a module, or of a package, that is derived from another.
-
-    Parameters
-    ----------
-    module : module
-    base : type
-    """
+    """Return the one class of a module, or of a package, that is derived from `base`."""
     (found,) = (
         kind
         for kind in vars(module).values()

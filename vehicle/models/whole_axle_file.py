@@ -1,4 +1,4 @@
-"""The sections that the files of all axles without sides have."""
+"""The sections of the files of all axles without sides."""
 
 from collections.abc import Mapping
 from typing import ClassVar
@@ -12,7 +12,7 @@ from .axle.file import Drive, TorqueReaction
 
 
 class WholeAxleVehicle(Section):
-    """Data of the whole vehicle to the characteristics of the axle."""
+    """Data of the whole vehicle for the characteristics of the axle."""
 
     wheelbase_mm: Positive | None = Field(
         default=None, description="distance of front and rear wheel centres along x"
@@ -44,7 +44,7 @@ class WholeAxleHardpoints(Hardpoints):
     damper_seat: Triple = Field(description="lower end of the damper, on the axle")
 
     def geometry_problems(self) -> list[str]:
-        """Say which points of a spring or a damper are one."""
+        """Return problems of springs and dampers whose ends coincide."""
         return self.coincidence_problems(
             self.coinciding(
                 {name: (f"{name}_seat", f"{name}_top") for name in ("spring", "damper")}

@@ -1,4 +1,4 @@
-"""The equations of motion of an axle that one file describes, and the positions that it takes."""
+"""The equations of motion of an axle without sides, and its positions."""
 
 from abc import abstractmethod
 from functools import partial
@@ -21,27 +21,27 @@ from .reach import PositionError
 from .swing import GOAL, PlacesAlong, march
 from .whole_axle import WholeAxle
 
-# What turns as far stands on its end [rad].
+# Limit of the rotation of axle or arms from design [rad].
 _MOST_TURN = np.pi / 4.0
-# Lengths at design are read from the same numbers [m].
+# Rounding of lengths from the same numbers [m].
 _ROUNDING = 1e-12
-# A way is looked at in steps of this travel at most [m].
+# Greatest step of travel in the search for the range [m].
 _STEP = 0.02
 
 
 class WholeAxleModel(System):
     """The compiled equations of an axle: wheels, springs, dampers, stops and tyres.
 
-    Two states move the wheels up and down; signals and inputs of a side begin with ``right_`` or
-    ``left_``.
+    Two states move the wheels up and down; signals and inputs of a side have the prefix ``right_``
+    or ``left_``.
 
     Parameters
     ----------
     axle : WholeAxle, str or Path
         The data, or the name of a packaged data set or path of a TOML file.
     wheel_loads : bool, optional
-        Whether loads on the wheels are inputs, as in `Model`, after ``right_`` and ``left_``.
-        These equations are derived and compiled when they are first needed.
+        Whether loads on the wheels are inputs, as in `Model`, with these prefixes. These equations
+        are derived and compiled at first use.
 
     Attributes
     ----------
@@ -49,13 +49,13 @@ class WholeAxleModel(System):
     parameters, constants, design_state
         As of `System`.
     AXLE : type of WholeAxle
-        What it takes.
+        Type of its data.
     EQUATIONS : module
-        Those that come with the project.
+        The packaged equations.
     COORDINATES : tuple of str
         The states that move the wheels up and down.
     ENDS : str
-        What ends a way, in words.
+        The reasons for the end of the range, for a sentence.
     """
 
     AXLE: ClassVar[type[WholeAxle]]
@@ -94,7 +94,7 @@ class WholeAxleModel(System):
         raise InputError([problem], cls.__name__)
 
     def _check(self) -> None:
-        """Refuse an axle that these equations do not move."""
+        """Refuse an axle that these equations do not describe."""
 
     def allowed_lengths(self) -> tuple[LengthLimit, ...]:
         """Return the lengths of the dampers that the file allows."""
@@ -104,21 +104,17 @@ class WholeAxleModel(System):
     # -- positions ------------------------------------------------------------------------------
 
     def states_at(self, left: ArrayLike, right: ArrayLike) -> Array:
-        """Return the states at rest with the wheel centres at some travels.
+        """Return the states at rest with the wheel centres at some travels, (..., states).
 
         Parameters
         ----------
         left, right : array_like
             Heights of the wheel centres above design [m].
 
-        Returns
-        -------
-        ndarray, shape (..., states)
-
         Raises
         ------
         PositionError
-            If the axle cannot be there; the message states how far it goes on this way.
+            If a position is out of reach; the message states the range in this direction.
         """
         with Validator("states_at") as given:
             lefts = given.array("left", left, "m", dimensions=[0, 1])
@@ -131,7 +127,7 @@ class WholeAxleModel(System):
         parts = self.parts_of_ways(lefts.ravel(), rights.ravel())
         missed = parts < 1.0
         if missed.any():
-            # the position asked for is at the end of a range
+            # the farthest position, which a caller recognises as the end of its range
             far = np.where(missed, np.maximum(np.abs(lefts), np.abs(rights)).ravel(), -1.0)
             worst = int(far.argmax())
             where = float(lefts.ravel()[worst]), float(rights.ravel()[worst])
@@ -140,7 +136,7 @@ class WholeAxleModel(System):
 
     @abstractmethod
     def placed(self, left: Array, right: Array) -> Array:
-        """Return the states at rest with the wheels at some travels, whether it gets there or not.
+        """Return the states at rest at wheel travels, reachable or not, (..., states).
 
         Parameters
         ----------
@@ -150,36 +146,22 @@ class WholeAxleModel(System):
         Returns
         -------
         ndarray, shape (..., states)
-            NaN where there is no such position.
+            NaN if there is no such position.
         """
 
     @abstractmethod
     def moved(self, states: Array, left: Array, right: Array) -> Array:
-        """Return states with the rates at which the wheels travel so fast [m/s].
-
-        Parameters
-        ----------
-        states : ndarray, shape (..., states)
-        left, right : ndarray
-        """
+        """Return states, (..., states), with the rates for velocities of the wheels [m/s]."""
 
     @abstractmethod
     def turned(self, states: Array) -> Array:
-        """Return the largest angle by which it has turned, which is less than 45 deg [rad]."""
+        """Return the largest rotation of a part from design [rad], which is limited to 45 deg."""
 
     def margins(self, states: Array) -> Array:
-        """Return what is positive where the axle can be.
+        """Return the margins of states, (..., margins), positive within the range.
 
-        Loops close, the dampers are as long as the file allows, and nothing has turned too far.
-
-        Parameters
-        ----------
-        states : ndarray, shape (..., states)
-
-        Returns
-        -------
-        ndarray, shape (..., margins)
-            NaN where one before it is not positive.
+        They are those of the loops, of the dampers' lengths and of the rotation; NaN after one
+        that is not positive.
         """
         turns = self.turned(states)
         level = turns < _MOST_TURN
@@ -194,36 +176,32 @@ class WholeAxleModel(System):
         return np.concatenate([closing, left, (_MOST_TURN - turns)[..., None]], axis=-1)
 
     def farthest(self, left: float, right: float) -> float:
-        """Return how much of a way from design the axle can go, straight in the wheels' travels.
+        """Return the reachable part of a path from design, straight in the wheels' travels [1].
 
         Parameters
         ----------
         left, right : float
-            Travels of the wheels at the end of the way [m].
+            Travels of the wheels at the end of the path [m].
 
         Returns
         -------
         float
-            1 where it comes to the end, less where it does not.
+            1 if the end is reachable, otherwise less.
         """
         with Validator("farthest") as given:
             left, right = given.number("left", left, "m"), given.number("right", right, "m")
         return float(self.parts_of_ways(np.array([left]), np.array([right]))[0])
 
     def parts_of_ways(self, lefts: Array, rights: Array) -> Array:
-        """Return how much of each way from design the axle can go, see `farthest`.
+        """Return the reachable part of each path from design, (n,), see `farthest`.
 
         Parameters
         ----------
         lefts, rights : ndarray, shape (n,)
-            Travels of the wheels at the ends of the ways [m].
-
-        Returns
-        -------
-        ndarray, shape (n,)
+            Travels of the wheels at the ends of the paths [m].
         """
         longest = np.maximum(np.abs(lefts), np.abs(rights))
-        # of a way without length either is none
+        # a path of zero length has no direction
         senses = np.stack([lefts, rights]) / np.where(longest > 0.0, longest, 1.0)
 
         def look(along: Array, which: NDArray[np.int64]) -> PlacesAlong:
@@ -241,7 +219,7 @@ class WholeAxleModel(System):
         return np.where(limits == GOAL, 1.0, short)
 
     def _refuse(self, left: float, right: float, part: float) -> None:
-        """Refuse travels of which the axle can go a part."""
+        """Refuse travels of which only a part is reachable."""
         ends = np.floor(1e5 * part * np.abs([left, right])) / 1e2 * np.sign([left, right])
         message = (
             f"the axle cannot be with its left wheel at {1e3 * left:+g} mm and its right one at "

@@ -1,10 +1,10 @@
-"""An axle: two suspensions on one rack, with an anti-roll bar, as a file describes it.
+"""Axles of two suspensions on one rack, with an anti-roll bar.
 
 `file`       the sections of the file
 `bar`        the anti-roll bar and its drop links
-`steering`   from the angle of the steering wheel to the rack
-`axle`       what the sections make together: `Axle`
-`equations`  the equations of motion of the whole
+`steering`   rack displacement over the angle of the steering wheel
+`axle`       `Axle`, the data of a file
+`equations`  the equations of motion
 """
 
 from .axle import Axle

@@ -1,4 +1,4 @@
-"""An axle: what the sections of its file make together."""
+"""`Axle`: the data of an axle's file, with the suspensions that it names."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -32,11 +32,11 @@ from .steering import SteeringCurve
 
 Array = NDArray[np.float64]
 
-# Bodies that no drop link is joined to.
+# Bodies to which a drop link cannot be joined.
 _NEVER_PULLED = ("tie_rod", "rack")
-# The racks of two sides are one, if their axes agree to that.
+# Greatest difference of the rack axes in the files of both sides.
 _SAME_AXIS = 1e-9
-# What belongs to the whole vehicle, in the files of both sides.
+# Data of the whole vehicle in the files of both sides.
 _OF_THE_VEHICLE = (
     ("vehicle", "wheelbase_mm"),
     ("vehicle", "center_of_gravity_height_mm"),
@@ -58,12 +58,12 @@ class Axle(Described):
         'front' or 'rear'.
     right, left : Suspension
     symmetric : bool
-        Whether one side is the mirror image of the other, by how the file gives them.
+        Whether the file describes one side, whose mirror image is the other one.
     bar : AntiRollBar or None
     bar_side : str
         The side whose points the bar has.
     steering : SteeringCurve or None
-        None: the ``travel_per_turn_mm`` of the suspension counts.
+        None: the ``travel_per_turn_mm`` of the suspension applies.
     brakes : Brakes
     drive : Drive or None
 
@@ -88,7 +88,7 @@ class Axle(Described):
 
     @classmethod
     def packaged(cls) -> Mapping[str, Traversable]:
-        """Return the files of those that come with kintrafo, by their names."""
+        """Return the packaged files, by name."""
         return data_sets(AXLES)
 
     @classmethod
@@ -111,14 +111,14 @@ class Axle(Described):
             The sections, with their keys and units as in the file. A side is the name of a file, a
             `Suspension`, or the nested dictionaries of one.
         source : str, optional
-            Where the data come from, for error messages.
+            Origin of the data, for error messages.
         folder : str or pathlib.Path, optional
-            From where paths of sides are counted.
+            The folder to which paths of sides are relative.
 
         Raises
         ------
         InputError
-            If no axle can be like this; it lists everything that is wrong.
+            If the data are not valid; it lists all problems.
         """
         check_keys(source, "data", data, "keys and values of an axle's file")
         with Validator(source) as checked:
@@ -155,8 +155,8 @@ class Axle(Described):
     def to_dict(self, *, exclude_defaults: bool = False) -> dict[str, Any]:
         """Return the sections as nested dictionaries, which `from_dict` takes back unchanged.
 
-        The sections of a side are
-        nested in ``side``, or in ``right`` and ``left``, in place of the name of its file.
+        The sections of a side are nested in ``side``, or in ``right`` and ``left``, instead of the
+        name of its file.
         """
         sides = {"side": self.sides[self.bar_side]} if self.symmetric else self._apart()
         sections: dict[str, Any] = sides | {
@@ -175,15 +175,15 @@ class Axle(Described):
         Parameters
         ----------
         changes : mapping of str to Any
-            For each place in the file, section and key with dots between them, the new value in
-            the file's unit: ``anti_roll_bar.rate_Nm_per_deg``; of a hardpoint file behind
-            ``side``, whose mirror image the other side stays, or behind ``right`` or ``left``,
-            which are apart from then on. None removes an optional key.
+            New values in the file's units by place, section and key with dots between them:
+            ``anti_roll_bar.rate_Nm_per_deg``. Places of a hardpoint file begin with ``side``, and
+            the other side stays its mirror image, or with ``right`` or ``left``, and the sides then
+            differ. None removes an optional key.
 
         Raises
         ------
         InputError
-            If there is no such place, or no axle can be like this.
+            If there is no such place, or the data are not valid.
 
         Examples
         --------
@@ -217,7 +217,7 @@ class Axle(Described):
         )
 
     def _changed(self, changes: Mapping[str, Mapping[str, Any]]) -> dict[str, Suspension]:
-        """Return both sides with changes of one and its image, then of each."""
+        """Return both sides with changes of one and its image, followed by those of each."""
         sides = self._apart()
         if changes["side"]:
             one = sides[self.bar_side].with_changes(changes["side"])
@@ -228,7 +228,7 @@ class Axle(Described):
         }
 
     def _apart(self) -> dict[str, Suspension]:
-        """Return the sides as a file gives them that are no mirror images."""
+        """Return the sides by the keys of a file with both of them."""
         return {RIGHT: self.right, LEFT: self.left}
 
     @property
@@ -238,7 +238,7 @@ class Axle(Described):
 
     @cached_property
     def models(self) -> dict[str, Model]:
-        """The compiled equations of each side by itself, the left one first."""
+        """The compiled equations of each side, the left one first."""
         return {side: Model(suspension) for side, suspension in self.sides.items()}
 
     @cached_property
@@ -249,10 +249,10 @@ class Axle(Described):
         return {side: self.bar.half(mirrored=side != self.bar_side) for side in self.sides}
 
     def steered(self) -> bool:
-        """Return whether its wheels can be steered: whether there is a rack."""
+        """Return whether there is a rack."""
         return self.right.steered()
 
-    # -- what a car needs of every axle -----------------------------------------------------------
+    # -- interface for a car ----------------------------------------------------------------------
 
     whole: ClassVar[bool] = False
     """Whether it has no sides."""
@@ -306,7 +306,7 @@ class Axle(Described):
         )
 
     def parameters_of_masses(self) -> list[Mapping[str, float]]:
-        """Return the parameters of each side, with the same names for both, as of the right one."""
+        """Return the parameters of each side, with the names of the right one for both."""
         return [side.parameters() for side in self.sides.values()]
 
     def parameters_by_side(self) -> dict[str, dict[str, float]]:
@@ -323,24 +323,17 @@ class Axle(Described):
         return found
 
     def parameters_of_bar(self) -> dict[str, float]:
-        """Return the parameters of the anti-roll bar itself, in SI units; none without one."""
+        """Return the parameters of the anti-roll bar, in SI units; none without one."""
         if self.bar is None:
             return {}
         return {"bar_rate": self.bar.rate(), "bar_free_angle": self.bar.free_twist()}
 
     def parameters_in_a_car(self) -> dict[str, float]:
-        """Return the parameters of both sides by the names that a car's equations have for them."""
+        """Return the parameters of both sides, by their names in the equations of a car."""
         sides = self.parameters_by_side()
+        by_name = {f"{side}_{n}": value for side, own in sides.items() for n, value in own.items()}
         # both sides have one rack, whose values are those of the right one
-        return (
-            self.parameters_of_bar()
-            | sides[RIGHT]
-            | {
-                f"{side}_{name}": value
-                for side, own in sides.items()
-                for name, value in own.items()
-            }
-        )
+        return self.parameters_of_bar() | sides[RIGHT] | by_name
 
     def heading(self) -> str:
         """Return the name of the axle."""
@@ -425,7 +418,7 @@ def _problems_of_sides(axle: Axle) -> list[str]:
 
 
 def _apart(axle: Axle) -> bool:
-    """Return whether the racks of both sides go different ways."""
+    """Return whether the racks of both sides have different axes."""
     right, left = (unit_vector(side.rack.axis) for side in (axle.right, axle.left))
     return bool(np.abs(right - left).max() > _SAME_AXIS)
 

@@ -1,4 +1,4 @@
-"""The anti-roll bar: its section of the file, and how its halves turn with the wheels.
+"""The anti-roll bar: its section of the file, and the rotation of its halves with the wheels.
 
 Half a bar turns about its axis in its bushes on the chassis; a drop link of fixed length joins the
 end of its lever to a part of the suspension. With the part's point F, the bush P, the axis a, the
@@ -21,18 +21,17 @@ from pydantic import Field
 from ....core.vectors import angle_between_lines, cross, distance_from_line, unit_vector
 from ...input.hardpoints import SMALLEST_DISTANCE
 from ...input.section import AllowedRange, NonNegative, Number, Section, Triple
-from ...input.units import LengthUnit, in_metres
+from ...input.units import LengthUnit, in_metres, point_in_metres
 
 Array = NDArray[np.float64]
 
-# Nearer to the x axis than this, the universal joint at its foot does not hold a drop link [deg].
+# Least angle of a drop link to the x axis, at which its universal joint is singular [deg].
 _SMALLEST_CROSS_ANGLE = 1.0
-# Of steel: shear modulus [GPa], and Young's modulus over it, 2 (1 + nu) with nu = 0.3.
+# Steel: shear modulus [GPa], and Young's modulus over it, 2 (1 + nu) with nu = 0.3.
 _STEEL, _YOUNG = 79.3, 2.6
 _RADIANS = pi / 180.0
-# No point of a bar is farther from the origin than this, if the unit is right [m].
+# A larger coordinate has the wrong unit [m].
 _LARGEST_COORDINATE = 20.0
-
 
 _REMEDY = "Check the unit of the value."
 _Rate = Annotated[
@@ -114,14 +113,14 @@ class AntiRollBar(Section):
 
     @classmethod
     def unit_of_key(cls, key: str, table: Mapping[str, Any]) -> str:
-        """Return the unit of a key: of the points the section's own `unit`."""
+        """Return the unit of a key; that of the points is the section's `unit`."""
         unit = str(table.get("unit"))
         if key in ("bush", "link_top", "link_foot") and unit in get_args(LengthUnit):
             return unit
         return super().unit_of_key(key, table)
 
     def problems(self) -> list[str]:
-        """Say why this is no bar."""
+        """Return the problems of rate, axis and points."""
         problems = self._problems_of_rate()
         if not 1e-6 < np.linalg.norm(self.axis) < np.inf or self.axis[1] <= 0.0:
             problem = (
@@ -195,7 +194,7 @@ class AntiRollBar(Section):
         return problems
 
     def _problems_of_bushes(self, bush: Array) -> list[str]:
-        """Say where soft bushes, the bar's and its image, are too near to hold it between them."""
+        """Return a problem if soft bushes, the bar's and its image, are too near to each other."""
         if self.bush_radial_N_per_mm is None or abs(bush[1]) >= SMALLEST_DISTANCE:
             return []
         problem = (
@@ -206,18 +205,17 @@ class AntiRollBar(Section):
         return [problem]
 
     def metres(self, name: str) -> Array:
-        """Return a point as the file gives it, chassis axes [m]."""
-        return np.array([in_metres(value, self.unit) for value in getattr(self, name)])
+        """Return a point of the file, chassis axes [m]."""
+        return point_in_metres(getattr(self, name), self.unit)
 
     def rate(self) -> float:
-        """Return the torque by the twist that the feet of the drop links ask for [N m/rad].
+        """Return the torque per twist between the feet of the drop links [N m/rad].
 
         Bar, bushes and drop links are springs in series. For a unit torque a link with the lever r
-        about the axis carries 1 / r, and a bush a radial force R; by the unit-load theorem ::
+        about the axis carries 1 / r, and a bush a radial force R; by the unit-load theorem, with
+        the levers at design ::
 
             1 / rate = 1 / rate_of_bar + 2 / (link r^2) + 2 R^2 / bush
-
-        The levers are those at design.
         """
         soft = 1.0 / self.rate_of_bar()
         if self.link_axial_N_per_mm is not None:
@@ -235,12 +233,12 @@ class AntiRollBar(Section):
         return force
 
     def _radial_force(self) -> Array:
-        """Return what a bush carries across the bar for a unit torque, at design [1/m].
+        """Return the radial force of a bush for a unit torque, at design [1/m].
 
-        The other half is loaded by the opposite of the image. Both links and both bushes are in
-        equilibrium about the middle of the bushes: with the force f at the arm r, and the bush at
-        the distance b from the middle plane, ``(f_y r - r_y f) / b`` across that plane's normal,
-        and ``-f_y`` along it.
+        The load of the other half is the opposite of the mirror image. From the equilibrium of both
+        links and bushes about the middle of the bushes, with the force f at the arm r, and the bush
+        at the distance b from the middle plane, it is ``(f_y r - r_y f) / b`` in this plane, and
+        ``-f_y`` normal to it.
         """
         half, pull = self.half(), self._pull()
         arm = half.top - half.bush * (1.0, 0.0, 1.0)
@@ -249,11 +247,11 @@ class AntiRollBar(Section):
         return radial
 
     def rate_of_bar(self) -> float:
-        """Return the torque by the twist between the bar's arms, held rigidly [N m/rad].
+        """Return the torque per twist between the bar's arms, on rigid bearings [N m/rad].
 
-        From the dimensions, the bar's twist between the arms and the bending of the two arms, which
-        are taken to be straight and of the same section: with the lever r of the drop link about
-        the axis, ``1 / rate = length / (G J) + 2 r / (3 E I)``, J = 2 I = pi (D^4 - d^4) / 32.
+        From the dimensions: the twist between the arms and the bending of the two arms, assumed
+        straight and of the same section. With the lever r of the drop link about the axis,
+        ``1 / rate = length / (G J) + 2 r / (3 E I)``, J = 2 I = pi (D^4 - d^4) / 32.
         """
         if self.rate_Nm_per_deg is not None:
             return self.rate_Nm_per_deg / _RADIANS
@@ -279,7 +277,7 @@ class AntiRollBar(Section):
     def half(self, *, mirrored: bool = False) -> "HalfBar":
         """Return the half that the file describes, or the other one."""
         image = np.array([1.0, -1.0, 1.0]) if mirrored else np.ones(3)
-        # a turn about an axis looks in the mirror like one about the opposite of its image
+        # the image of a rotation about an axis is one about the opposite of the axis' image
         sense = -1.0 if mirrored else 1.0
         return HalfBar(
             axis=sense * image * unit_vector(self.axis),
@@ -291,7 +289,7 @@ class AntiRollBar(Section):
 
 
 def mirrored_points(section: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the section of a bar with the points of the other side, and its axis to the left."""
+    """Return the section of a bar with the points of the other side and its axis to the left."""
     x, y, z = section["axis"]
     points = {
         name: [section[name][0], 0.0 - section[name][1], section[name][2]]
@@ -342,25 +340,25 @@ class HalfBar:
         Parameters
         ----------
         foot : ndarray, shape (..., 3)
-            Where the foot of the drop link is [m].
+            Position of the foot of the drop link [m].
 
         Returns
         -------
         ndarray
-            NaN where the link does not reach.
+            NaN if the link does not reach.
         """
         cosine, sine, reach = self._equation(foot)
         amplitude = np.hypot(cosine, sine)
         with np.errstate(invalid="ignore", divide="ignore"):
             opening = np.arccos(reach / amplitude)
-        # at design the angle is zero: cos(0) A = C, and B says on which side of the middle that is
+        # at design the angle is zero: cos(0) A = C, and the sign of B selects the solution
         _, at_design, _ = self._equation(self.foot)
         angle = np.arctan2(sine, cosine) - np.copysign(1.0, at_design) * opening
         turned: Array = np.arctan2(np.sin(angle), np.cos(angle))
         return turned
 
     def top_at(self, turn: Array) -> Array:
-        """Return where the upper end of the drop link is [m], shape (..., 3)."""
+        """Return the position of the upper end of the drop link, (..., 3) [m]."""
         across = self._across
         cosine, sine = np.cos(turn)[..., None], np.sin(turn)[..., None]
         fixed = self.top - across
@@ -368,14 +366,14 @@ class HalfBar:
         return place
 
     def lever(self, foot: Array, turn: Array) -> tuple[Array, Array]:
-        """Return how the drop link pulls.
+        """Return direction and lever of the drop link.
 
         Returns
         -------
         direction : ndarray, shape (..., 3)
             Unit vector along the link from the foot to the bar.
         lever : ndarray
-            Of a force in this direction about the bar's axis [m]; signed.
+            Lever of a force in this direction about the bar's axis [m]; signed.
         """
         top = self.top_at(turn)
         link = top - foot
@@ -384,7 +382,7 @@ class HalfBar:
         return direction, np.einsum("...i,...i->...", arm, direction)
 
     def rate_of_turn(self, foot: Array, turn: Array, velocity: Array) -> Array:
-        """Return the rate of the angle for a velocity of the foot: the link keeps its length."""
+        """Return the rate of the angle for a velocity of the foot, with the link's length fixed."""
         direction, lever = self.lever(foot, turn)
         rate: Array = np.einsum("...i,...i->...", velocity, direction) / lever
         return rate

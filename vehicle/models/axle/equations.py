@@ -1,4 +1,4 @@
-"""The equations of motion of an axle, derived and compiled when they are first needed."""
+"""The equations of motion of an axle, derived and compiled at first use."""
 
 from collections.abc import Callable
 from functools import cached_property, partial
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 class AxleModel(System):
     """The compiled equations of an axle: both suspensions, the rack and the anti-roll bar.
 
-    They are derived and compiled when they are first needed, as by `kintrafo.compile`, and kept.
+    They are derived and compiled at first use, as by `kintrafo.compile`, and cached.
 
     Parameters
     ----------
@@ -27,14 +27,14 @@ class AxleModel(System):
     progress : callable, optional
         Called with a short description of the present step.
     wheel_loads : bool, optional
-        Whether loads on the wheels are inputs, as in `Model`, after ``right_`` and ``left_``.
+        Whether loads on the wheels are inputs, as in `Model`, with these prefixes, too.
 
     Attributes
     ----------
     axle : Axle
     parameters, constants, design_state
-        As of `System`. Names of states, inputs and signals are those of the suspension, after
-        ``right_`` and ``left_``; the bar has ``bar_angle`` and ``bar_spring_moment``.
+        As of `System`. Names of states, inputs and signals are those of the suspension, with the
+        prefix ``right_`` or ``left_``; the bar has ``bar_angle`` and ``bar_spring_moment``.
     """
 
     def __init__(
@@ -56,7 +56,7 @@ class AxleModel(System):
 
     @cached_property
     def corners(self) -> dict[str, Model]:
-        """The equations of each side by itself, with the same loads on its wheel."""
+        """The equations of each side alone, with the same loads on its wheel."""
         if not self.wheel_loads:
             return self.axle.models
         return {side: Model(own, wheel_loads=True) for side, own in self.axle.sides.items()}
@@ -73,7 +73,7 @@ class AxleModel(System):
 
 
 def declared(axle: Axle, *, wheel_loads: bool = False) -> "Formulation":
-    """Return the declaration of an axle, whose values are apart from it."""
+    """Return the declaration of an axle, without values."""
     require_generator()
     from ....generator.mechanisms import axle as page  # noqa: PLC0415 (an extra)
     from ....generator.mechanisms import model_named  # noqa: PLC0415

@@ -14,7 +14,7 @@ TorqueReaction = Literal["body", "carrier"]
 
 SECTIONS_OF_SIDES = ("side", "right", "left")
 
-# What a file can say; from Python a side may also be a suspension, or what is in its file.
+# The type in a file; from Python a side may also be a suspension, or the sections of its file.
 _BY_NAME = WithJsonSchema({"type": "string"})
 _SIDE = "hardpoint file beside this one, or the name of a packaged data set: "
 
@@ -23,13 +23,13 @@ class Torque(Section):
     """The part that reacts the torque of brakes or drive."""
 
     torque_on: TorqueReaction = Field(
-        description='"carrier": what turns against the torque is on the wheel carrier, as with '
-        'brakes or a motor at the wheel; "body": on the chassis, behind a shaft'
+        description='"carrier": the wheel carrier reacts the torque, as with brakes or a motor at '
+        'the wheel; "body": the chassis reacts it, behind a shaft'
     )
 
 
 class Brakes(Torque):
-    """The brakes of the axle. Their share is that of ``front_brake_share`` in the side's file."""
+    """The brakes of the axle; ``front_brake_share`` in the side's file is their share."""
 
     torque_on: TorqueReaction = Field(
         default="carrier",
@@ -49,7 +49,7 @@ class Drive(Torque):
 
 
 class AxleFile(Section):
-    """An axle as its file says it; `Axle` has the suspensions that are named here."""
+    """The sections of an axle's file; `Axle` has the suspensions that are named here."""
 
     axle: End = Field(description='where the axle is: "front" or "rear"')
     side: Annotated[
@@ -68,7 +68,7 @@ class AxleFile(Section):
     drive: Drive | None = Field(default=None, description="the drive of the axle")
 
     def problems(self) -> list[str]:
-        """See that there are two sides."""
+        """Return a problem if there are not two sides."""
         given = [name for name in SECTIONS_OF_SIDES if getattr(self, name) is not None]
         if given in (["side"], ["right", "left"]):
             return []

@@ -1,4 +1,4 @@
-"""From the angle of the steering wheel to the rack: a curve of the file."""
+"""The rack displacement over the steering-wheel angle: a curve of the file."""
 
 from itertools import pairwise
 from typing import TYPE_CHECKING
@@ -30,7 +30,7 @@ class SteeringCurve(Section):
     rack_mm: Numbers = Field(description="rack displacements at these angles, positive along axis")
 
     def problems(self) -> list[str]:
-        """See that the points are a curve that can be followed both ways."""
+        """Return problems of the points, which must be an invertible curve."""
         angles, racks = self.angle_deg, self.rack_mm
         if len(angles) != len(racks) or len(angles) < _LEAST_POINTS:
             problem = (
@@ -63,12 +63,7 @@ class SteeringCurve(Section):
         return float(low), float(high)
 
     def beyond(self, angle: Array) -> str:
-        """Return why angles of the steering wheel [rad] are not on the curve; nothing if they are.
-
-        Parameters
-        ----------
-        angle : ndarray
-        """
+        """Return the problem of steering-wheel angles [rad] beyond the curve, or an empty text."""
         low, high = self.limits()
         outside = np.ravel(angle)[~((angle >= low) & (angle <= high)).ravel()]
         if not outside.size:
@@ -79,37 +74,22 @@ class SteeringCurve(Section):
         )
 
     def rack(self, angle: Array) -> Array:
-        """Return the displacement of the rack at angles of the steering wheel [m].
+        """Return the displacement of the rack at steering-wheel angles [m].
 
-        Raises
-        ------
-        InputError
-            If an angle is beyond the points.
+        An angle beyond the points raises an `InputError`, here and in the derivatives.
         """
         return np.asarray(self._curve(angle)(angle), dtype=np.float64)
 
     def travel_per_turn(self, angle: Array) -> Array:
-        """Return the rack travel for one turn of the steering wheel there, with its sign [m].
-
-        Raises
-        ------
-        InputError
-            If an angle is beyond the points.
-        """
+        """Return the signed rack travel for one turn of the steering wheel at angles [m]."""
         return np.asarray(2.0 * np.pi * self._curve(angle).derivative()(angle), dtype=np.float64)
 
     def bend(self, angle: Array) -> Array:
-        """Return the second derivative of the displacement by the angle there [m/rad^2].
-
-        Raises
-        ------
-        InputError
-            If an angle is beyond the points.
-        """
+        """Return the second derivative of the displacement with respect to the angle [m/rad^2]."""
         return np.asarray(self._curve(angle).derivative(2)(angle), dtype=np.float64)
 
     def travel_per_turn_at(self, rack: Array) -> Array:
-        """Return the same where the rack is displaced by so much [m]; NaN beyond the points."""
+        """Return the rack travel per turn at rack displacements [m]; NaN beyond the points."""
         curve = self._interpolated()
         # the curve is monotone: it has each displacement once, or twice at a knot
         roots = [curve.solve(float(one), extrapolate=False) for one in rack]
@@ -117,7 +97,7 @@ class SteeringCurve(Section):
         return np.asarray(2.0 * np.pi * curve.derivative()(angles), dtype=np.float64)
 
     def _curve(self, angle: Array) -> "PchipInterpolator":
-        """Return the curve, for angles that are on it."""
+        """Return the curve; refuse angles beyond it."""
         problem = self.beyond(np.asarray(angle))
         if problem:
             raise InputError([problem], "axle")

@@ -1,4 +1,4 @@
-"""A car: its file, its equations of motion, and its state of rest."""
+"""Cars: files and equations of motion."""
 
 from .car import Car
 

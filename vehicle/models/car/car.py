@@ -1,4 +1,4 @@
-"""A car: what the sections of its file make together."""
+"""`Car`: the data of a car's file, with the axles that it names."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -19,7 +19,7 @@ from ...input.described import Described, check_keys, described_by, parts_of
 from ...input.messages import messages_of
 from ...input.places import put
 from ...input.toml_file import read_toml
-from ...input.units import in_metres
+from ...input.units import in_metres, point_in_metres
 from ...kinds import Suspension
 from ...tyres import Tyre
 from ..axle.axle import Axle
@@ -35,13 +35,13 @@ AnyAxle = Axle | WholeAxle
 WHEELS = tuple(f"{end}_{side}" for end in ENDS for side in SIDES)
 """The names of the wheels of a car with two axles."""
 
-# Lengths that two files give agree to this [m]: the last digit of a length in mm.
+# Greatest difference of lengths in two files: the last digit in mm [m].
 _CLOSE = 5e-4
-# The height of the gravity centre that files give is rounded more [m].
+# The height of the gravity centre is usually rounded more [m].
 _CLOSE_HEIGHT = 5e-3
-# Shares add up to one so closely.
+# Greatest difference of the sum of shares from one.
 _CLOSE_SHARE = 1e-9
-# A wheel centre at design is not so far above the radius of its tyre [m].
+# Greatest height of a wheel centre at design above the radius of its tyre [m].
 _HIGHEST = 0.1
 _PARTS = ("corner", *ENDS)
 
@@ -55,13 +55,13 @@ class Car(Described):
     Attributes
     ----------
     described : CarFile
-        Data of its own file.
+        The data of its own file.
     corner : Suspension or None
         The suspension of a quarter car.
     axles : dict of str to Axle or WholeAxle
-        The front and the rear one by the end that they are at; empty for a quarter car.
+        The front and the rear axle, by end; empty for a quarter car.
     tyres : dict of str to kintrafo.tyres.Tyre
-        Those of a car that drives, by the end that they are at; empty for others.
+        The tyres of a car that drives, by end; empty for others.
 
     Examples
     --------
@@ -79,7 +79,7 @@ class Car(Described):
 
     @classmethod
     def packaged(cls) -> Mapping[str, Traversable]:
-        """Return the files of those that come with kintrafo, by their names."""
+        """Return the packaged files, by name."""
         return data_sets(CARS)
 
     @classmethod
@@ -98,14 +98,14 @@ class Car(Described):
             The sections, with their keys and units as in the file. A corner or an axle is the name
             of a file, an object, or the nested dictionaries of one.
         source : str, optional
-            Where the data come from, for error messages.
+            Origin of the data, for error messages.
         folder : str or pathlib.Path, optional
-            From where paths are counted.
+            The folder to which paths are relative.
 
         Raises
         ------
         InputError
-            If no car can be like this; it lists everything that is wrong.
+            If the data are not valid; it lists all problems.
         """
         check_keys(source, "data", data, "keys and values of a car's file")
         with Validator(source) as checked:
@@ -132,7 +132,7 @@ class Car(Described):
     def to_dict(self, *, exclude_defaults: bool = False) -> dict[str, Any]:
         """Return the sections as nested dictionaries, which `from_dict` takes back unchanged.
 
-        The sections of its corner and of its axles are in the place of the names of their files.
+        They have the sections of corner or axles instead of the names of their files.
         """
         own = self.described.model_dump(
             mode="json",
@@ -149,7 +149,7 @@ class Car(Described):
         return {CAR: own.pop(CAR)} | parts | {name: v for name, v in own.items() if v != {}}
 
     def save(self, path: str | Path, *, force: bool = False) -> Path:
-        """Write the input file that gives exactly this, as `Described.save`.
+        """Write an input file with these data, as `Described.save`.
 
         Parameters
         ----------
@@ -161,7 +161,7 @@ class Car(Described):
         Raises
         ------
         InputError
-            Also if a tyre is one from Python, which has no file.
+            Also if a tyre was made in Python and has no file.
         """
         given = self.to_dict().get("tyres", {})
         problems = [
@@ -180,15 +180,15 @@ class Car(Described):
         Parameters
         ----------
         changes : mapping of str to Any
-            For each place in the file, section and key with dots between them, the new value in
-            the file's unit: ``body.mass_kg``; of its corner behind ``corner``, of an axle behind
+            New values in the file's units by place, section and key with dots between them:
+            ``body.mass_kg``. Places of the corner begin with ``corner``, those of an axle with
             ``front`` or ``rear``: ``front.side.hardpoints.ball_joint.z``. None removes an optional
             key.
 
         Raises
         ------
         InputError
-            If there is no such place, or no car can be like this.
+            If there is no such place, or the data are not valid.
 
         Examples
         --------
@@ -215,7 +215,7 @@ class Car(Described):
                 data[name] = self.parts[name].with_changes(own)
         return self.from_dict(data, source)
 
-    # -- what it is -------------------------------------------------------------------------------
+    # -- its properties ---------------------------------------------------------------------------
 
     @property
     def parts(self) -> dict[str, Any]:
@@ -224,12 +224,12 @@ class Car(Described):
 
     @property
     def coordinates(self) -> tuple[str, ...]:
-        """Coordinates of the body: heave [m], positive up, pitch, roll and so on [rad]."""
+        """The coordinates of the body: heave [m], positive up, pitch and roll [rad]."""
         return COORDINATES[self.described.car]
 
     @property
     def drives(self) -> bool:
-        """Whether its body moves freely, so that it drives on tyres that roll."""
+        """Whether its body moves freely, on rolling tyres."""
         return self.described.drives
 
     def tyre(self, wheel: str) -> Tyre:
@@ -243,7 +243,7 @@ class Car(Described):
         Returns
         -------
         kintrafo.tyres.Tyre
-            As it is on that side.
+            The tyre on that side.
 
         Raises
         ------
@@ -257,17 +257,17 @@ class Car(Described):
 
     @property
     def relaxing(self) -> bool:
-        """Whether slips of its tyres follow along their relaxation lengths."""
+        """Whether the slips of its tyres lag by their relaxation lengths."""
         return self.described.tyres is not None and self.described.tyres.relaxation
 
     @property
     def drive_shares(self) -> dict[str, float]:
-        """The part of the driving force at each axle, by end; none of axles without a drive."""
+        """The share of the driving force at each driven axle, by end [1]."""
         return {end: axle.drive.share for end, axle in self.axles.items() if axle.drive is not None}
 
     @property
     def front_brake_share(self) -> float | None:
-        """The part of the brake torque at the front wheels."""
+        """The share of the brake torque at the front wheels [1]."""
         own = None if self.described.brakes is None else self.described.brakes.front_share
         shares = [axle.vehicle.front_brake_share for axle in self.axles.values()]
         return next((s for s in (own, *shares) if s is not None), None)
@@ -279,7 +279,7 @@ class Car(Described):
 
     @property
     def parts_named(self) -> list[str]:
-        """The file names of its corner or axles, without those that are given as tables."""
+        """The file names of its corner or axles, except those that are tables."""
         given = [getattr(self.described, key) for key in _PARTS]
         return [name for name in given if isinstance(name, str)]
 
@@ -290,13 +290,12 @@ class Car(Described):
         return f"car, {' and '.join(axle.heading() for axle in self.axles.values())}"
 
     def steered(self) -> bool:
-        """Return whether its rack can be moved: that of the front axle."""
-        one = self.corner if self.corner is not None else self.axles["front"]
-        return one.steered()
+        """Return whether it has a rack at the front axle."""
+        return (self.corner or self.axles["front"]).steered()
 
     @property
     def origins(self) -> dict[str, float]:
-        """The x of the origins of the axles' axes, in the axes of the car, by end [m]."""
+        """The x coordinates of the axles' origins in the axes of the car, by end [m]."""
         return {"front": 0.0, "rear": in_metres(self.described.rear_origin_mm, "mm")}
 
     @cached_property
@@ -317,11 +316,11 @@ class Car(Described):
         given = self.described.body.com_mm
         if given is None:  # of a quarter car, which only heaves
             return np.array(self.wheel_centers[self.wheels[0]])
-        return np.array([in_metres(value, "mm") for value in given])
+        return point_in_metres(given, "mm")
 
     @property
     def unused(self) -> tuple[str, ...]:
-        """Values of its files that a body with these coordinates does not use, in words."""
+        """The keys of its files that a car with these coordinates does not use."""
         body = self.described.body
         turns = {"pitch": "yy", "roll": "xx"}
         used = {turns[name] for name in self.coordinates if name in turns}
@@ -337,7 +336,7 @@ class Car(Described):
         return tuple(words)
 
     def _unused_of_driving(self) -> list[str]:
-        """Return what only a car that drives takes; of that one what its tyres have instead."""
+        """Return the unused keys of driving; of a driving car those that its tyres replace."""
         if not self.drives:
             return [f"[{k}]" for k in OF_DRIVING if getattr(self.described, k) is not None]
         words = [f"{end} axle: [tyre] (a car that drives takes [tyres])" for end in self.axles]
@@ -370,7 +369,7 @@ def _with_tyres(described: CarFile, folder: Path, source: str) -> tuple[CarFile,
 
 
 def _copied(given: Any) -> Any:
-    """Return the table of a tyre as one of its own; names and tyres as they are."""
+    """Return a copy of the table of a tyre; names and tyres as they are."""
     return dict(given) if isinstance(given, Mapping) else given
 
 
@@ -421,7 +420,7 @@ def _problems_of_axles(car: Car) -> list[str]:
 
 
 def _problems_of_places(car: Car) -> list[str]:
-    """See that the axles are as far apart as the file says, and the body between them."""
+    """Return problems of the wheelbase, and of a centre of mass that is not between the axles."""
     x = {
         end: float(np.mean([car.wheel_centers[f"{end}_{side}"][0] for side in SIDES]))
         for end in ENDS
@@ -447,7 +446,7 @@ def _problems_of_places(car: Car) -> list[str]:
 
 
 def _problems_of_shared(car: Car) -> list[str]:
-    """See that the files of the axles agree on what belongs to the whole car."""
+    """Return the differences of car and axles in the data of the whole vehicle."""
     problems = []
     described = {end: axle.vehicle for end, axle in car.axles.items()}
     for end, vehicle in described.items():
@@ -483,7 +482,7 @@ def _problems_of_gravity(car: Car) -> list[str]:
 
 
 def _problems_of_driving(car: Car) -> list[str]:
-    """See that brakes and drive are what axles and car say together, and tyres fit."""
+    """Return problems of shares of brakes and drive, and of the height of the tyres."""
     problems = []
     shares, total = car.drive_shares, sum(car.drive_shares.values())
     if shares and abs(total - 1.0) > _CLOSE_SHARE:
@@ -541,7 +540,7 @@ def masses(car: Car) -> list[tuple[float, Array]]:
 
 
 def suspension_masses(car: Car) -> dict[str, float]:
-    """Return the mass of all parts of each axle, by its end; of a quarter car by an empty name."""
+    """Return the mass of all parts of each axle [kg], by end; of a quarter car by ""."""
     if car.corner is not None:
         parts: dict[str, list[Mapping[str, float]]] = {"": [car.corner.parameters()]}
     else:

@@ -1,4 +1,4 @@
-"""The sections of a car that drives: tyres that roll, brakes, air."""
+"""The sections of a driving car: rolling tyres, brakes, air."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -26,7 +26,7 @@ _TYRE = Annotated[
 
 
 class CarTyres(Section):
-    """The tyres on which the car rolls, in the place of those of the axles' files."""
+    """The tyres on which the car rolls, instead of those of the axles' files."""
 
     front: _TYRE
     rear: _TYRE
@@ -126,19 +126,9 @@ class LinearTyreSection(Section):
 
 
 def tyre_of(given: Any, end: str, folder: Path) -> Tyre:
-    """Return the tyre that [tyres] gives for an axle.
+    """Return the tyre of an axle, 'front' or 'rear', from its value in [tyres].
 
-    Parameters
-    ----------
-    given : str, Path, Mapping or Tyre
-    end : str
-        'front' or 'rear'.
-    folder : Path
-        From where paths are counted.
-
-    Raises
-    ------
-    InputError
+    The value is a name, a path relative to `folder`, the table of a linear tyre, or a tyre.
     """
     if isinstance(given, Tyre):
         return given
@@ -154,7 +144,7 @@ def tyre_of(given: Any, end: str, folder: Path) -> Tyre:
 
 
 def named(given: Any, folder: Path) -> Any:
-    """Return the name of a packaged tyre, or the path of a file from where one works; else it."""
+    """Return a packaged name as it is, a path relative to `folder`, and other objects unchanged."""
     if not isinstance(given, str | Path) or given in packaged_tyres():
         return given
     return str(folder / given)

@@ -1,4 +1,4 @@
-"""The equations of motion of a car: shipped for some, otherwise derived when first needed."""
+"""The equations of motion of a car: packaged for some, otherwise derived at first use."""
 
 import importlib
 from collections.abc import Callable, Mapping
@@ -28,8 +28,8 @@ Report = Callable[[str], None]
 class CarModel(System):
     """The compiled equations of a car: body, axles, tyres.
 
-    Those of the cars that come with kintrafo come with it; others are derived and compiled when
-    they are first needed, as by `kintrafo.compile`, and kept.
+    Those of packaged cars are part of kintrafo; others are derived and compiled at first use, as by
+    `kintrafo.compile`, and cached.
 
     Parameters
     ----------
@@ -41,11 +41,11 @@ class CarModel(System):
     ----------
     car : Car
     parameters, constants, design_state
-        As of `System`. States are those of the body, ``heave``, ``pitch`` and ``roll``, then those
-        of the suspensions; their names, and those of inputs and signals, begin with that of the
-        wheel, ``front_left_``, or of the axle. Those of a quarter car have no such beginning. The
-        body of a car that drives moves freely, with ``body_x`` to ``body_r``; last are the
-        deflections of its tyres.
+        As of `System`. States are those of the body, ``heave``, ``pitch`` and ``roll``, followed by
+        those of the suspensions; their names, and those of inputs and signals, have the prefix of
+        the wheel, ``front_left_``, or of the axle, and no prefix in a quarter car. The body of a
+        driving car moves freely, with ``body_x`` to ``body_r``; the last states are the deflections
+        of its tyres.
 
     Examples
     --------
@@ -83,7 +83,7 @@ class CarModel(System):
 
 
 def name_of(car: Car) -> str:
-    """Return the name of the equations of a car, by what is in them."""
+    """Return the name of the equations of a car, from their elements."""
     if car.corner is not None:
         return f"quarter_{Model(car.corner).equations.NAME}"
     tyres = dict.fromkeys(tyre.law for tyre in car.tyres.values())
@@ -92,20 +92,17 @@ def name_of(car: Car) -> str:
 
 
 def _equations(car: Car, progress: Report | None) -> ModuleType:
-    """Return the equations that come with the project, or those that are compiled here."""
-    name = name_of(car)
-    if car.drives:  # which terms its equations have depends on the coefficients of its tyres
-        return _compiled(car, progress)
-    try:
-        return importlib.import_module(f"kintrafo.generated.{name}")
-    except ModuleNotFoundError as error:
-        if error.name != f"kintrafo.generated.{name}":
-            raise
-    return _compiled(car, progress)
+    """Return the packaged equations of a car, or those compiled for it.
 
-
-def _compiled(car: Car, progress: Report | None) -> ModuleType:
-    """Return the equations that are compiled here: of cars that differ in values the same ones."""
+    Cars that differ only in values have the same equations.
+    """
+    if not car.drives:  # the terms of driving cars depend on the coefficients of their tyres
+        packaged = f"kintrafo.generated.{name_of(car)}"
+        try:
+            return importlib.import_module(packaged)
+        except ModuleNotFoundError as error:
+            if error.name != packaged:
+                raise
     declaration = declared(car)
     known = _LAST.get(declaration.name)
     if known is not None and known[0] is declaration:
@@ -115,16 +112,13 @@ def _compiled(car: Car, progress: Report | None) -> ModuleType:
     return found
 
 
-# By name the last declaration that was compiled, and its equations: a study varies values of one
-# car, and to identify a declaration takes longer than a steady turn.
+# The last compiled declaration by name, and its equations: a study varies values of one car, and
+# identifying a declaration takes longer than a steady turn.
 _LAST: "dict[str, tuple[Formulation, ModuleType]]" = {}
 
 
 def declared(car: Car) -> "Formulation":
-    """Return the declaration of a car, whose values are apart from it.
-
-    That of cars that differ in values is the same one, made once: a study varies them.
-    """
+    """Return the declaration of a car, without values; cars that differ only in values share it."""
     require_generator()
     if car.corner is not None:
         return _declared_quarter(str(Model(car.corner).equations.NAME))
@@ -136,19 +130,19 @@ def declared(car: Car) -> "Formulation":
 
 @dataclass(frozen=True)
 class _End:
-    """What the equations of a car depend on at an axle, without values.
+    """The structure of an axle on which the equations of a car depend.
 
     Attributes
     ----------
     suspension : str
-        What its equations are called.
+        The name of its equations.
     whole : bool
         Whether it has no sides.
     pulls : str
-        What the drop links of its anti-roll bar pull at.
+        The part to which the drop links of its anti-roll bar are joined.
     steered : bool
     law, relaxing, brakes_on, drive_on
-        Of a car that drives, see `generator.mechanisms.car.driving`.
+        Of a driving car, see `generator.mechanisms.car.driving`.
     """
 
     suspension: str
@@ -162,7 +156,7 @@ class _End:
 
     @classmethod
     def of(cls, car: Car, end: str) -> "_End":
-        """Return the structure of an axle on which they depend."""
+        """Return the structure of an axle of a car."""
         axle = car.axles[end]
         rolling: dict[str, Any] = {}
         if car.drives:
@@ -210,7 +204,7 @@ def _declared_quarter(corner: str) -> "Formulation":
 def _declared(
     name: str, title: str, ends: tuple[_End, ...], coordinates: tuple[str, ...] | None
 ) -> "Formulation":
-    """Return the declaration of a car by the coordinates of its body, or of one that drives."""
+    """Return the declaration of a car with coordinates of its body; of a driving car for None."""
     from ....generator.mechanisms import car as page  # noqa: PLC0415 (an extra)
 
     axles = [end.declared() for end in ends]
@@ -220,14 +214,7 @@ def _declared(
 
 
 def _parameters(car: Car, described: Mapping[str, Mapping[str, Any]]) -> dict[str, float]:
-    """Return everything that the equations of a car need, in SI units.
-
-    Parameters
-    ----------
-    car : Car
-    described : mapping
-        The parameters of the equations, with their units.
-    """
+    """Return the values of the described parameters of a car's equations, in SI units."""
     body = car.described.body
     values = {"body_mass": body.mass_kg, **components("body_com", car.com)}
     values |= {f"body_inertia_{name}": value for name, value in body.elements().items()}
@@ -238,7 +225,7 @@ def _parameters(car: Car, described: Mapping[str, Mapping[str, Any]]) -> dict[st
         values["gravity"] = own["right_gravity"]
         values |= {f"{end}_{name}": value for name, value in own.items()}
     known = {name: value for name, value in values.items() if name in described}
-    # places are in the axes of each axle, and have a unit where directions have none
+    # points are in the axes of each axle; directions have no unit
     known |= {
         name: value + car.origins["rear"]
         for name, value in known.items()
@@ -249,7 +236,7 @@ def _parameters(car: Car, described: Mapping[str, Mapping[str, Any]]) -> dict[st
 
 
 def _of_driving(car: Car) -> dict[str, float]:
-    """Return the parameters of tyres that roll, brakes and air, in SI units."""
+    """Return the parameters of rolling tyres, brakes and air, in SI units."""
     values: dict[str, float] = {}
     for wheel in car.wheels:
         name = f"{wheel}_tyre"

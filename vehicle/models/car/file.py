@@ -11,7 +11,7 @@ from ....core.vectors import Vector
 from ...input.bodies import RigidBody
 from ...input.hardpoints import Hardpoints
 from ...input.section import Number, Positive, Section, Triple
-from ...input.units import in_metres
+from ...input.units import point_in_metres
 from .driving import Air, CarBrakes, CarTyres
 
 Freedoms = Literal["heave", "ride", "roll", "full"]
@@ -22,26 +22,26 @@ COORDINATES: Mapping[str, tuple[str, ...]] = {
     "roll": ("heave", "pitch", "roll"),
     "full": ("heave", "pitch", "roll", "yaw", "forward", "sideways"),
 }
-"""What the body does, by the word for it in a file; all but that of "full" are coordinates."""
+"""The coordinates of the body by their name in a file; those of "full" only describe its motion."""
 
 ENDS = ("front", "rear")
 
 OF_DRIVING = ("tyres", "brakes", "air")
-"""Sections that only a car that drives uses."""
+"""Sections that only a driving car uses."""
 
-# What a file can say; from Python it may also be what is in it.
+# The type in a file; from Python it may also be an object, or the sections of its file.
 _BY_NAME = WithJsonSchema({"type": "string"})
 _FILE = "file beside this one, or the name of a packaged data set: "
 _OF_A_SEAT = (
     'the name of a seat may have letters, digits and _, and must not be "body", which is the name '
     "of the acceleration of the centre of mass. Rename it."
 )
-# How each coordinate of the body moves it against its own inertia.
+# The moment of inertia about the axis of each rotation of the body.
 _INERTIA = {"pitch": "yy", "roll": "xx", "yaw": "zz"}
 
 
 class CarBody(RigidBody):
-    """The body of a car with all that is fixed to it: what its springs carry."""
+    """The body of a car with all that is fixed to it: the sprung mass."""
 
     mass_kg: Positive = Field(description="mass of the body, without axles and wheels")
     com_mm: Triple | None = Field(
@@ -49,12 +49,12 @@ class CarBody(RigidBody):
     )
 
     def default_centre_of_mass(self, points: Hardpoints) -> Vector:
-        """Return the origin: that of a quarter car, which only heaves, is of no importance."""
+        """Return the origin: a quarter car, which only heaves, has no use for the point."""
         del points
         return np.zeros(3)
 
     def problems_with(self, coordinates: tuple[str, ...]) -> list[str]:
-        """Say what is missing for coordinates of the body."""
+        """Return the missing data for coordinates of the body."""
         turning = [f"inertia_{_INERTIA[name]}_kg_m2" for name in coordinates if name in _INERTIA]
         missing = [
             f"{key} = {getattr(self, key):g} kg m^2: more than 0 kg m^2 is needed for a body that "
@@ -74,7 +74,7 @@ class Seat(Section):
 
 
 class CarFile(Section):
-    """A car as its file says it; `Car` has the axles that are named here."""
+    """The sections of a car's file; `Car` has the axles that are named here."""
 
     car: Freedoms = Field(
         description='how its body moves: "heave" (a quarter car), "ride" (heave and pitch), "roll" '
@@ -109,11 +109,11 @@ class CarFile(Section):
 
     @property
     def drives(self) -> bool:
-        """Whether its body moves freely, so that the car drives on tyres that roll."""
+        """Whether its body moves freely, on rolling tyres."""
         return self.car == "full"
 
     def problems(self) -> list[str]:
-        """Say what is missing, and what a quarter car does not have."""
+        """Return missing keys, and keys that a quarter car does not have."""
         of_axles = ("front", "rear", "wheelbase_mm")
         given = [key for key in (*of_axles, "corner") if getattr(self, key) is not None]
         needed = of_axles if len(self.coordinates) > 1 else ("corner",)
@@ -149,8 +149,5 @@ class CarFile(Section):
         ]
 
     def seat_places(self) -> dict[str, Vector]:
-        """Return where the seats are [m]."""
-        return {
-            name: np.array([in_metres(value, "mm") for value in seat.place_mm])
-            for name, seat in self.seats.items()
-        }
+        """Return the positions of the seats [m]."""
+        return {name: point_in_metres(seat.place_mm, "mm") for name, seat in self.seats.items()}

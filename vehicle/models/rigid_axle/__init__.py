@@ -1,9 +1,9 @@
-"""A rigid axle: a beam with two wheels on four rods, as a file describes it.
+"""Rigid axles: a beam with two wheels on four rods.
 
-`rods`   what four rods hold, and what more or fewer of them would
+`rods`   the degrees of freedom of a beam on rods
 `file`   the sections of the file
-`axle`   what the sections make together: `RigidAxle`
-`model`  its equations of motion: `RigidAxleModel`
+`axle`   `RigidAxle`, the data of a file
+`model`  `RigidAxleModel`, its equations of motion
 """
 
 from .axle import RigidAxle

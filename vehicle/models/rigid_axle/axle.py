@@ -1,4 +1,4 @@
-"""A rigid axle: what the sections of its file make together."""
+"""`RigidAxle`: the data of a rigid axle's file."""
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -15,7 +15,7 @@ from ...corner.corner import Array
 from ...corner.structure import Structure
 from ...input.spring import SpringSection
 from ...input.stop import StopSection
-from ...input.units import in_metres
+from ...input.units import point_in_metres
 from ...input.vehicle import GravitySection, TyreSection, WheelSection
 from ..axle.file import Brakes, End
 from ..sides import SIDES
@@ -25,17 +25,17 @@ from .file import LeftHardpoints, RigidAxleBodies, RodSection, RollBarSection
 from .rods import NEEDED, Ends, Hold
 from .structure import CENTER, of_a_file, structure_of
 
-# Nearer to the vertical than this, a rod stands on its axle and does not guide it [deg].
+# Least angle of a rod that guides the axle to the vertical [deg].
 _SMALLEST_ANGLE = 1.0
-# What is less of how soft a bush is in any direction is rounding.
+# Rounding of a flexibility, relative to the greatest one of a bush.
 _ROUNDING = 1e-12
-# No coordinate of a rod is larger than this [m].
+# Largest coordinate of a rod [m].
 _LARGEST = 20.0
-# What loads are on, or come from, besides the rods; there are two of most of them.
+# Names of parts and sources of loads besides the rods; there are two of most of them.
 _PARTS = (
     "chassis", "beam", "wheel", "spring", "damper", "bar", "road", "drive", "gravity", "inertia",
 )  # fmt: skip
-# A rod whose axle's end is so much farther from the axle than the other one is swapped [m].
+# The ends of a rod are swapped if the one on the axle is farther from it by this distance [m].
 _SWAPPED = 0.2
 _LEFTWARD = np.array([0.0, 1.0, 0.0])
 # The colours of rods and axle in drawings.
@@ -56,7 +56,7 @@ class RigidAxle(WholeAxle):
     Raises
     ------
     InputError
-        With all problems, if no axle can be like this.
+        With all problems, if the data are not valid.
 
     Examples
     --------
@@ -109,34 +109,28 @@ Points of bushings are the names of the rods with the ending `_chassis` or `_axl
         default=None, description="what deflects at hardpoints, for compliance: see Loads"
     )
 
-    # -- what it is -----------------------------------------------------------------------------
+    # -- its properties -------------------------------------------------------------------------
 
     def heading(self) -> str:
         """Return the name of the axle."""
         return f"rigid {self.rigid_axle} axle"
 
     def ends(self) -> dict[str, Ends]:
-        """Return where the rods are at design, on the chassis and on the axle [m]."""
+        """Return the ends of the rods at design, on the chassis and on the axle [m]."""
         unit = self.hardpoints.unit
         return {
-            name: (
-                np.array([in_metres(value, unit) for value in rod.chassis]),
-                np.array([in_metres(value, unit) for value in rod.axle]),
-            )
+            name: (point_in_metres(rod.chassis, unit), point_in_metres(rod.axle, unit))
             for name, rod in self.rods.items()
         }
 
     def _left_points(self) -> dict[str, Array]:
-        """Return the points of the left side that are not the image of the right one's [m]."""
+        """Return the points of the left side that are not mirror images [m]."""
         unit, own = self.hardpoints.unit, self.left_hardpoints.model_dump(exclude_none=True)
-        return {
-            name: np.array([in_metres(value, unit) for value in point])
-            for name, point in own.items()
-        }
+        return {name: point_in_metres(point, unit) for name, point in own.items()}
 
     @property
     def joint_names(self) -> tuple[str, ...]:
-        """The ends of rods and the seats on the axle."""
+        """The names of the ends of rods, and of the seats, on the axle."""
         ends = [f"{name}_axle" for name in self.rods]
         own = [name for name in self.points(SIDES[0]) if not name.endswith("_top")]
         return (*ends, *(f"{name}_{side}" for name in own for side in SIDES))
@@ -163,14 +157,14 @@ Points of bushings are the names of the rods with the ending `_chassis` or `_axl
         return structure_of(self.rods)
 
     def bushes(self, given: Validator, described: Mapping[str, Any]) -> list[Bush]:
-        """Return bushes by their hardpoints; see `docs/suspension/compliance.md`.
+        """Return the described bushes; see `docs/suspension/compliance.md`.
 
         Parameters
         ----------
         given : Validator
-            Gets what is wrong.
+            Collects problems.
         described : mapping
-            By the name of a rod with ``_chassis`` or ``_axle`` behind it, and ``wheel_center`` for
+            By the name of a rod with the ending ``_chassis`` or ``_axle``, and ``wheel_center`` for
             the bearings of both wheels.
         """
         points = {CENTER: self.hardpoints.metres(CENTER)}
@@ -185,7 +179,7 @@ Points of bushings are the names of the rods with the ending `_chassis` or `_axl
         ]
 
     def parameters(self) -> dict[str, float]:
-        """Return everything that the equations of motion need, by their names, in SI units."""
+        """Return the parameters of the equations of motion by name, in SI units."""
         values = {
             **components("axle_center", self.center),
             "gravity": self.gravity.acceleration_m_per_s2,
@@ -241,11 +235,8 @@ Points of bushings are the names of the rods with the ending `_chassis` or `_axl
 
     def _check_bushes(self, given: Validator, bushes: Sequence[Bush]) -> None:
         """Refuse five rods of which none deflects along itself."""
-        if self.overheld and not given.failed:
-            self._refuse_rigid(given, bushes)
-
-    def _refuse_rigid(self, given: Validator, bushes: Sequence[Bush]) -> None:
-        """Refuse five rods of which none deflects along itself."""
+        if given.failed or not self.overheld:
+            return
         ends = self.ends()
         ways = {
             f"{name}_{end}": unit_vector(axle - chassis)
@@ -263,7 +254,7 @@ Points of bushings are the names of the rods with the ending `_chassis` or `_axl
             )
 
     def _unlikely(self) -> Iterable[str]:
-        """Say what is almost surely a mistake: units, and rods that are swapped."""
+        """Yield almost certain mistakes: units, and rods with swapped ends."""
         ends_of_rods = {
             f"[rods.{name}] {end}": at
             for name, ends in self.ends().items()

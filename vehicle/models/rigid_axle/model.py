@@ -1,4 +1,4 @@
-"""The equations of motion of a rigid axle, and the positions that it takes."""
+"""The equations of motion of a rigid axle, and its positions."""
 
 from functools import partial
 from pathlib import Path
@@ -32,19 +32,18 @@ class RigidAxleModel(WholeAxleModel):
     axle : RigidAxle, str or Path
         The data, or the name of a packaged data set or path of a TOML file.
     guided : bool, optional
-        Of an axle on five rods those of four of them, from which an equilibrium on bushes begins;
-        without it such an axle is refused, as it has no motion with rigid rods.
+        Whether an axle on five rods, which has no motion with rigid rods, has the equations of four
+        of them, from which an equilibrium on bushes begins; otherwise it is refused.
     wheel_loads : bool, optional
-        Whether loads on the wheels are inputs, as in `Model`, after ``right_`` and ``left_``.
-        These equations are derived and compiled when they are first needed.
+        As of `WholeAxleModel`.
 
     Attributes
     ----------
     axle : RigidAxle
     parameters, constants, design_state
         As of `System`. The states are ``heave`` [m] and ``roll`` [rad], positive with the left
-        wheel up, and the angles of the wheels; signals and inputs of a side begin with ``right_``
-        or ``left_``.
+        wheel up, and the angles of the wheels; signals and inputs of a side have the prefix
+        ``right_`` or ``left_``.
 
     Examples
     --------
@@ -76,12 +75,12 @@ class RigidAxleModel(WholeAxleModel):
         return made, (self.axle,)
 
     def _check(self) -> None:
-        """Refuse an axle on five rods that are rigid."""
+        """Refuse an axle on five rigid rods."""
         if self.axle.overheld and not self._guided:
             raise InputError([_OVERHELD.format(rods=", ".join(self.axle.rods))], "RigidAxleModel")
 
     def placed(self, left: Array, right: Array) -> Array:
-        """Return the states at rest with the wheels at some travels, whether it gets there or not.
+        """Return the states at rest at wheel travels, reachable or not.
 
         Parameters
         ----------
@@ -91,7 +90,7 @@ class RigidAxleModel(WholeAxleModel):
         Returns
         -------
         ndarray, shape (..., 8)
-            NaN where no beam is as long as the wheels would be apart.
+            NaN if the wheels would have to be farther apart than at design.
         """
         states = np.broadcast_to(self.design_state, (*left.shape, self.design_state.size)).copy()
         states[..., self.state_names.index(HEAVE)] = 0.5 * (left + right)
@@ -101,12 +100,13 @@ class RigidAxleModel(WholeAxleModel):
         return states
 
     def moved(self, states: Array, left: Array, right: Array) -> Array:
-        """Return states with the rates at which the wheels travel so fast [m/s].
+        """Return states with the rates for velocities of the wheels.
 
         Parameters
         ----------
         states : ndarray, shape (..., 8)
         left, right : ndarray
+            Vertical velocities of the wheel centres [m/s].
         """
         found = states.copy()
         with np.errstate(all="ignore"):  # of an axle that is inclined too far

@@ -1,9 +1,9 @@
-"""What rods hold of a beam that has to heave and roll.
+"""The degrees of freedom of a beam on rods, which must be heave and roll.
 
-A rod of fixed length takes one of the six degrees of freedom of a beam, if it does not repeat what
-others do. Its row says how fast it would grow in a motion of the beam: along the rod, and the
-moment of that direction about the middle of the axle. The rank of the rows is how many degrees of
-freedom are taken.
+A rod of fixed length removes one of the six degrees of freedom of a beam, unless it is redundant.
+Its row is the rate of its length in motions of the beam: its direction, and the moment of this
+direction about the middle of the axle. The rank of the rows is the number of removed degrees of
+freedom.
 """
 
 from collections.abc import Mapping
@@ -16,16 +16,16 @@ from ....core.vectors import cross, unit_vector
 
 Array = NDArray[np.float64]
 Ends = tuple[Array, Array]
-"""Where a rod is at design: on the chassis, on the axle [m]."""
+"""The ends of a rod at design: on the chassis, on the axle [m]."""
 
 NEEDED = 4
-"""As many rods leave a beam two degrees of freedom: heave and roll."""
+"""The number of rods that leave a beam two degrees of freedom, heave and roll."""
 
-# Turns are measured by what they move at this distance from the middle of the axle [m].
+# Rotations are measured by the displacement at this distance from the middle of the axle [m].
 _RADIUS = 0.5
-# Held at its height and inclination, the beam may move so many times what a rod grows.
+# Greatest motion of the beam at constant height and inclination, per elongation of a rod.
 _LOOSEST = 100.0
-# A singular value below this is nothing: rods that repeat others exactly, as files can say it.
+# A smaller singular value is zero: of rods that are exactly redundant, to the digits of a file.
 _NOTHING = 1e-6
 _MOTIONS = ("forward", "to the left", "up", "about x (roll)", "about y (pitch)", "about z (yaw)")
 _HEAVE, _ROLL = np.eye(6)[2], np.eye(6)[3]
@@ -34,14 +34,14 @@ _FREEDOMS = 6
 
 @dataclass(frozen=True)
 class Hold:
-    """What some rods hold.
+    """The constraints of some rods.
 
     Attributes
     ----------
     names : tuple of str
     rows : ndarray, shape (rods, 6)
-        Growth of each rod by shifts of the beam along x, y, z, and by turns about them, those in
-        units of what they move at half a metre.
+        Elongation of each rod per displacement of the beam along x, y, z, and per rotation about
+        them, measured by the displacement at half a metre.
     """
 
     names: tuple[str, ...]
@@ -49,7 +49,7 @@ class Hold:
 
     @classmethod
     def of(cls, rods: Mapping[str, Ends], center: Array) -> "Hold":
-        """Return what rods hold of a beam whose middle is at some place [m]."""
+        """Return the constraints of rods on a beam with a given middle [m]."""
         rows = []
         for chassis, axle in rods.values():
             along = unit_vector(axle - chassis)
@@ -58,19 +58,19 @@ class Hold:
 
     @property
     def sizes(self) -> Array:
-        """Return the singular values of the rows, the largest first."""
+        """The singular values of the rows, the largest first."""
         return np.asarray(np.linalg.svd(self.rows, compute_uv=False))
 
     @property
     def rank(self) -> int:
-        """Return how many degrees of freedom are taken."""
+        """The number of removed degrees of freedom."""
         return int((self.sizes > _NOTHING).sum())
 
     def guides(self) -> tuple[str, ...]:
-        """Return the four rods that close the loops of the equations: those that hold firmest.
+        """Return the four rods that close the loops of the equations: the firmest ones.
 
-        Of five that leave one degree of freedom, the other one deflects with all of them on their
-        bushes. None, where no four of them hold the axle.
+        With five rods, which leave one degree of freedom, the axle heaves and rolls on their
+        bushes. It is empty if no four of them constrain the axle.
         """
         if len(self.names) != NEEDED + 1 or self.rank != NEEDED + 1:
             return self.names
@@ -80,7 +80,7 @@ class Hold:
 
     @property
     def firmness(self) -> float:
-        """What a rod grows by, at least, for a unit motion at a height and an inclination."""
+        """The least elongation of a rod for a unit motion at constant height and inclination."""
         return self._at_rest()[0]
 
     def _without(self, which: int) -> "Hold":
@@ -88,7 +88,7 @@ class Hold:
         return Hold(names, np.delete(self.rows, which, axis=0))
 
     def problems(self) -> list[str]:
-        """Say why these rods do not leave heave and roll, and nothing else."""
+        """Return a problem if the degrees of freedom are not heave and roll alone."""
         if len(self.names) != NEEDED:
             return [self._miscounted()]
         firm, free = self._at_rest()
@@ -105,12 +105,12 @@ class Hold:
         return [problem]
 
     def _at_rest(self) -> tuple[float, Array]:
-        """Return how firmly the beam is held at its height and inclination, and what is loosest."""
+        """Return the firmness at constant height and inclination, and the loosest motion."""
         _, sizes, directions = np.linalg.svd(np.array([*self.rows, _HEAVE, _ROLL]))
         return float(sizes[-1]), directions[-1]
 
     def _miscounted(self) -> str:
-        """Say what these rods, more or fewer than four, leave of a beam's degrees of freedom."""
+        """Return the problem of more or fewer than four rods, with the degrees of freedom left."""
         given, rank = len(self.names), self.rank
         begin = (
             f"[rods] {given} rod{'s' if given != 1 else ''}, {', '.join(self.names) or 'none'}: "
@@ -139,7 +139,7 @@ class Hold:
 
 
 def _said(motion: Array) -> str:
-    """Return a motion of the beam in words: its largest part, and all of it in figures."""
+    """Return a motion of the beam as text: its largest part, and all parts in figures."""
     most = int(np.abs(motion).argmax())
     figures = (np.round(motion / motion[most], 2) + 0.0).tolist()
     return f"{_MOTIONS[most]} (x, y, z, roll, pitch and yaw as {figures})"

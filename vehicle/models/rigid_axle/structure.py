@@ -1,7 +1,7 @@
-"""What holds the parts of a rigid axle together: rods, bearings, springs and dampers.
+"""The joints and force elements of a rigid axle: rods, bearings, springs and dampers.
 
-The parts are the beam, both wheels and the rods by their names. Points of a rod are its name and
-``_chassis`` or ``_axle``; those of a side end in ``_left`` or ``_right``.
+The parts are the beam, both wheels and the rods by their names. Points of a rod have its name with
+the ending ``_chassis`` or ``_axle``; those of a side end in ``_left`` or ``_right``.
 """
 
 from collections.abc import Iterable
@@ -25,25 +25,20 @@ _UPWARD = (0.0, 0.0, 1.0)
 
 
 def structure_of(rods: Iterable[str]) -> Structure:
-    """Return the joints and lines of an axle on rods of some names.
-
-    Parameters
-    ----------
-    rods : iterable of str
-    """
+    """Return the joints and force elements of an axle on named rods."""
     bearings = [FixedJoint(BEAM, f"wheel_{side}", (f"{CENTER}_{side}",)) for side in SIDES]
     lines = lines_of_sides(dict.fromkeys(SIDES, BEAM))
-    # how the bar gets to the body is left out
+    # the links of the bar to the body are left out
     return Structure((*_of_rods(rods), *bearings), lines, {MIDDLE: ""})
 
 
 def of_a_file(rods: Iterable[str]) -> Structure:
-    """Return the joints that a file gives bushes to: those of both bearings are one."""
+    """Return the joints that have bushes in a file: both wheel bearings are one."""
     return Structure((*_of_rods(rods), FixedJoint(BEAM, "wheel", (CENTER,))), ())
 
 
 def _of_rods(rods: Iterable[str]) -> list[PartJoint]:
-    """Return a cross at the chassis and a ball joint at the axle for each rod."""
+    """Return a universal joint at the chassis and a ball joint at the axle for each rod."""
     return [
         joint
         for rod in rods
