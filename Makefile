@@ -4,7 +4,7 @@
 	benchmark benchmark-andrews benchmark-axles benchmark-bits benchmark-braking benchmark-bushes benchmark-car-peers benchmark-cluster benchmark-derivatives benchmark-drive benchmark-ensemble benchmark-export benchmark-growth benchmark-loads benchmark-loops benchmark-microcontroller benchmark-page benchmark-peers benchmark-real-time benchmark-ride benchmark-speed benchmark-stiff benchmark-studies format-page front-axle-page report-assets
 PYTHON := .venv/bin/python
 
-EMITTED := $(wildcard generated/*.pyx generated/c/* runtime/equations/*.pyx runtime/simulation/*.pyx runtime/simulation/native/*.pyx runtime/simulation/*/*.[ch])
+EMITTED := $(wildcard generated/*.pyx generated/c/* generated/units/* runtime/targets/fmi/core/* runtime/equations/*.pyx runtime/simulation/*.pyx runtime/simulation/native/*.pyx runtime/simulation/*/*.[ch])
 
 help: ## Show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -26,6 +26,7 @@ sundials: ## Build SUNDIALS anew, optimised, for the next build (set-up does it 
 
 generate: .venv/.ready ## Derive the equations again and write generated/
 	@$(PYTHON) -m kintrafo.generator generate generated
+	@$(PYTHON) -m kintrafo.targets.fmi generated
 
 run: build ## The paper's suspension: topology, Figures 4 to 6, summary, all in out/
 	@$(PYTHON) -m kintrafo.generator topology --picture out/topology.png --figures out --force

@@ -5,6 +5,7 @@ Everything else is in pyproject.toml.
 
 import json
 import os
+import platform
 import re
 import runpy
 import shlex
@@ -12,13 +13,14 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Iterable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
 from Cython.Build import cythonize
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
-from setuptools.modified import newer_group
+from setuptools.modified import newer, newer_group
 
 GENERATED = Path("generated")
 SOURCES = GENERATED / "c"
@@ -30,6 +32,16 @@ FLAGS = [] if sys.platform == "win32" else ["-O2", "-fno-math-errno", "-ffp-cont
 LANES = Path("runtime/simulation/lanes")
 OPTIONS = runpy.run_path(str(LANES / "options.py"))
 WIDTHS, SCHEDULED = OPTIONS["OF_WIDTH"], OPTIONS["SCHEDULED"]
+
+# Libraries of units of FMI, for one platform only, see runtime/targets/fmi/binaries.py. They share
+# objects with the modules; functions that FMI does not call are neither visible nor kept.
+FMI = Path("runtime/targets/fmi")
+FILES = runpy.run_path(str(FMI / "files.py"))
+UNITS = (sys.platform, platform.machine()) == ("linux", "x86_64")
+COMMON = FILES["common_files"](FMI, NATIVE, FILES["HEADERS"])
+UNIT_OBJECTS = "units"
+SECTIONS = ["-ffunction-sections", "-fdata-sections"] if UNITS else []
+EXPORTED = "{ global: fmi2*; fmi3*; local: *; };\n"
 
 # Where SUNDIALS may be: in the place that the user names, or built here by `.ci/sundials`, or in
 # the active environment, or of the system. `.ci/setup` looks in the same places, and builds it
@@ -51,7 +63,7 @@ def model_extension(wrapper: Path) -> Extension:
         [wrapper.as_posix(), *(file for file in files if file.endswith(".c"))],
         include_dirs=[SOURCES.as_posix()],
         depends=[file for file in files if file.endswith(".h")],
-        extra_compile_args=FLAGS,
+        extra_compile_args=[*FLAGS, *SECTIONS],
     )
 
 
@@ -131,6 +143,85 @@ class Lanes(Extension):
         made = [objects(self.wide, width, flags) for width, flags in WIDTHS.items()]
         made.append(objects(self.fixed, 1, []))
         return [path for paths in made for path in paths]
+
+
+class Unit(Extension):
+    """The library of a model for units of FMI, without numbers.
+
+    Parameters
+    ----------
+    name : str
+        Of the model.
+    emitted : sequence of str
+        C files of its equations, which are compiled with its module before.
+    """
+
+    def __init__(self, name: str, emitted: Sequence[str]) -> None:
+        self.tables = {f: GENERATED / f"units/{name}_{f}" for f in ("model.c", "numbers.c")}
+        self.model, self.equations = name, {Path(file).name: Path(file) for file in emitted}
+        files = [*COMMON.values(), *self.tables.values(), *self.equations.values()]
+        super().__init__(
+            f"kintrafo.generated._{name}_unit",
+            [],
+            depends=[path.as_posix() for path in files],
+            optional=True,  # without it, a compiler is needed where a unit is written
+        )
+
+    def link(self, compiler: Any, folder: str, common: Sequence[str], path: str) -> None:
+        """Write the library, marked by a hash of its sources.
+
+        Parameters
+        ----------
+        compiler : object
+            Of setuptools.
+        folder : str
+            Of objects.
+        common : sequence of str
+            Objects that all units have.
+        path : str
+            Of the library.
+        """
+        equations = {f"{FILES['EQUATIONS']}/{n}": p for n, p in self.equations.items()}
+        files = {**COMMON, **equations, **self.tables}
+        texts = {name: path.read_text(encoding="utf-8") for name, path in files.items()}
+        own = Path(folder) / UNIT_OBJECTS / self.model
+        for name in (*self.tables, *equations):  # headers are where the tables include them
+            (own / name).parent.mkdir(parents=True, exist_ok=True)
+            (own / name).write_text(texts[name], encoding="utf-8")
+        tables = compile_unit(compiler, [(own / name).as_posix() for name in self.tables], "")
+        # the objects of the module, which is built before
+        sources = [p.as_posix() for p in self.equations.values() if p.suffix == ".c"]
+        objects = compiler.object_filenames(sources, output_dir=folder)
+        old = [source for source, made in zip(sources, objects, strict=True) if newer(source, made)]
+        if old:
+            compile_unit(compiler, old, folder)
+        exported = own / "exported.map"
+        exported.write_text(EXPORTED, encoding="utf-8")
+        compiler.link_shared_object(
+            [*common, *tables, *objects], path, libraries=["m"],
+            extra_postargs=["-Wl,--gc-sections", f"-Wl,--version-script={exported}", "-s"],
+        )  # fmt: skip
+        library = Path(path)
+        library.write_bytes(FILES["filled"](library.read_bytes(), FILES["digest"](texts)))
+
+
+def compile_unit(compiler: Any, sources: Sequence[str], folder: str) -> list[str]:
+    """Compile C files of units, and return the objects."""
+    headers = [FMI / "core", FMI / "headers", NATIVE, SOURCES]
+    return compiler.compile(
+        [*sources],
+        output_dir=folder,
+        include_dirs=[path.as_posix() for path in headers],
+        extra_postargs=[*FLAGS, *SECTIONS],
+    )
+
+
+def units(wrappers: Iterable[Path]) -> Iterator[Unit]:
+    """Yield the units of the models, if this machine can run them."""
+    for wrapper in wrappers if UNITS else ():
+        name = wrapper.stem.removeprefix("_")
+        manifest = json.loads((GENERATED / f"{name}.json").read_text(encoding="utf-8"))
+        yield Unit(name, [(SOURCES / source).as_posix() for source in manifest["sources"]])
 
 
 def _headers(*folders: Path) -> list[str]:
@@ -233,15 +324,40 @@ class Build(build_ext):
             sys.exit(f"kintrafo: its equations are C, and there is no compiler {program}. {REMEDY}")
         if not any((Path(folder) / "Python.h").exists() for folder in self.include_dirs):
             sys.exit(f"kintrafo: Python's own header Python.h is not installed. {REMEDY}")
+        units = [extension for extension in self.extensions if isinstance(extension, Unit)]
+        modules = [extension for extension in self.extensions if extension not in units]
+        self._build(modules)
+        if any(map(self._is_old, units)):
+            sources = [path.as_posix() for path in COMMON.values() if path.suffix == ".c"]
+            with ThreadPoolExecutor(os.cpu_count()) as pool:
+                objects = pool.map(self._common_object, sources)
+                self.unit_objects = [made for made in objects if made]
+        self._build(units)
+
+    def _build(self, extensions: list[Extension]) -> None:
+        """Build some of the extension modules."""
+        every, self.extensions = self.extensions, extensions
         super().build_extensions()
+        self.extensions = every
+
+    def _common_object(self, source: str) -> str:
+        return compile_unit(self.compiler, [source], f"{self.build_temp}/{UNIT_OBJECTS}")[0]
+
+    def _is_old(self, ext: Extension) -> bool:
+        """Return whether an extension module is missing, or older than one of its files."""
+        path = self.get_ext_fullpath(ext.name)
+        return self.force or newer_group([*ext.sources, *ext.depends], path)
 
     def build_extension(self, ext: Extension) -> None:
         """Build an extension module; one in lanes for every width."""
         path = self.get_ext_fullpath(ext.name)
-        if not self.force and not newer_group([*ext.sources, *ext.depends], path):
+        if not self._is_old(ext):
             return
         # where the build of an optional one fails, an old one is not what these sources say
         Path(path).unlink(missing_ok=True)
+        if isinstance(ext, Unit):
+            ext.link(self.compiler, self.build_temp, self.unit_objects, path)
+            return
         if isinstance(ext, Lanes):
             ext.extra_objects = ext.compile(self.compiler, self.build_temp)
         super().build_extension(ext)
@@ -251,7 +367,7 @@ class Build(build_ext):
         super().run()
         for extension in self.extensions:
             if extension.optional and not Path(self.get_ext_fullpath(extension.name)).exists():
-                without = "ensembles" if isinstance(extension, Lanes) else "SUNDIALS"
+                without = {Lanes: "ensembles", Unit: "it"}.get(type(extension), "SUNDIALS")
                 print(
                     f"kintrafo: {extension.name} was not built; going on without {without}",
                     file=sys.stderr,
@@ -274,7 +390,8 @@ for module in MODULES:
     # a build of the solver that fails leaves SciPy; set here, since cythonize does not keep it
     module.optional = SOLVER is not None and module.name == SOLVER.name
 # the longest first, so that no core waits for it at the end
-MODULES = [*lanes_extensions(sorted(GENERATED.glob("*.pyx"))), *MODULES]
+WRAPPERS = sorted(GENERATED.glob("*.pyx"))
+MODULES = [*lanes_extensions(WRAPPERS), *MODULES, *units(WRAPPERS)]
 README = runpy.run_path(".ci/long_description.py")
 REPOSITORY, _ = README["repository_and_revision"]()
 setup(

@@ -1,7 +1,8 @@
 """See that what is installed has all that is compiled: every method in C, every model in lanes.
 
-Nothing else would show that it is missing: without SUNDIALS, SciPy integrates, and only ensembles
-need lanes. On Windows, where wheels have neither, every model is moved by SciPy.
+Nothing else would show that it is missing: without SUNDIALS, SciPy integrates, only ensembles need
+lanes, and units of FMI are compiled where there is a compiler. On Windows, where wheels have none
+of them, every model is moved by SciPy.
 """
 
 import sys
@@ -12,6 +13,9 @@ import kintrafo
 from kintrafo import generated
 from kintrafo.simulation import solvers
 from kintrafo.simulation.lanes import library
+from kintrafo.targets.emitted import Emitted
+from kintrafo.targets.fmi import binaries
+from kintrafo.targets.fmi.sources import library_files
 
 
 def main() -> None:
@@ -32,7 +36,15 @@ def main() -> None:
             sys.exit(f"incomplete: {name} is not there in lanes.")
         if not kintrafo.ensemble(system, None, (0.0, 1e-3))["success"].all():
             sys.exit(f"{name} does not move in lanes.")
+        if binaries.HERE and not has_unit(system):
+            sys.exit(f"incomplete: {name} has no library for units of FMI.")
     print(f"complete: {', '.join(solvers.native_methods())} in C, {len(systems)} models in lanes")
+
+
+def has_unit(system: kintrafo.System) -> bool:
+    """Return whether a unit of FMI is written without a compiler."""
+    emitted = Emitted(system, system.design_state, system.inputs())
+    return binaries.shipped(library_files(emitted), emitted.name) is not None
 
 
 def by_scipy() -> None:

@@ -19,8 +19,8 @@ def system_named(name: str) -> kintrafo.System:
     """Return a small mechanism, one without signals or states, a suspension or a car."""
     if name == "reference_car":
         return kintrafo.Model("reference_car")
-    if name == "quarter_car":
-        return kintrafo.CarModel(kintrafo.load(name))
+    if name in ("quarter_car", "reference_axle"):
+        return kintrafo.model_of(kintrafo.load(name))
     if name == "prescribed":
         return kintrafo.System(own(_prescribed()))
     return kintrafo.System(importlib.import_module(f"kintrafo.generated.{name}"))

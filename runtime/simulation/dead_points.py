@@ -3,6 +3,7 @@
 This is what ``native/margins.h`` explains and does for SUNDIALS, for the methods of SciPy.
 """
 
+from collections.abc import Mapping
 from functools import cache
 from types import ModuleType
 from typing import Any, NoReturn
@@ -28,14 +29,19 @@ def meanings(equations: ModuleType) -> NDArray[np.int32]:
     have the first bit only: where one vanishes the accelerations grow without bound, which the
     error control of every method sees.
     """
-    acting = equations.ACTING_GUARDS
-    places = set(acting["positions"]) | set(acting["orientations"])
-    found = np.zeros(len(equations.GUARDS), dtype=np.int32)
-    rates, signals = set(acting["rhs"]), set(acting.get("signals", ()))
+    return meanings_of(equations.equations.manifest)
+
+
+def meanings_of(manifest: Mapping[str, Any]) -> NDArray[np.int32]:
+    """Return the same of the equations of a manifest."""
+    acting = {name: set(function["guards"]) for name, function in manifest["functions"].items()}
+    places = acting["positions"] | acting["orientations"]
+    found = np.zeros(len(manifest["guards"]), dtype=np.int32)
+    rates, signals = acting["rhs"], acting.get("signals", set())
     for guard in rates | signals:
         found[guard] |= ACTS
     # of a mechanism whose motion is given as a whole, signals are all that there is
-    singular = (places | set(acting["forces"])) & rates if equations.STATE else places & signals
+    singular = (places | acting["forces"]) & rates if manifest["state"] else places & signals
     for guard in singular:
         found[guard] |= SINGULAR
     return found

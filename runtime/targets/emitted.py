@@ -1,5 +1,6 @@
 """What is exported: emitted sources, the numbers of one parameter set, where results lie."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -85,17 +86,22 @@ class Emitted:
 
     def result(self, name: str) -> Result | None:
         """Return where a result is computed; None where the mechanism has none of it."""
-        functions, stages = self.manifest["functions"], self.manifest["stages"]
-        described = functions.get(name)
-        if described is None:
-            return None
-        count = int(np.prod(described["shape"]))
-        stage = described.get("stage", name)
-        size = stages[stage]["size"] if stage in stages else count
-        return Result(f"{self.name}_{stage}", size, described.get("start", 0), count)
+        return result_of(self.manifest, name)
 
     def compiled(self) -> dict[str, dict[str, Any]]:
         """Return what is said of each C function of constants, state and inputs, by its name."""
         functions = self.manifest["functions"].items()
         stages: dict[str, dict[str, Any]] = self.manifest["stages"]
         return {n: f for n, f in functions if "stage" not in f and n != "residuals"} | stages
+
+
+def result_of(manifest: Mapping[str, Any], name: str) -> Result | None:
+    """Return where a result of some equations is computed; None where they have none of it."""
+    functions, stages = manifest["functions"], manifest["stages"]
+    described = functions.get(name)
+    if described is None:
+        return None
+    count = int(np.prod(described["shape"]))
+    stage = described.get("stage", name)
+    size = stages[stage]["size"] if stage in stages else count
+    return Result(f"{manifest['name']}_{stage}", size, described.get("start", 0), count)

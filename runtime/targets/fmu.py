@@ -1,6 +1,5 @@
 """A functional mock-up unit of FMI 2.0 or 3.0: Model Exchange and Co-Simulation in one file."""
 
-import sys
 import zipfile
 from collections.abc import Mapping, Sequence
 from importlib.resources import files
@@ -13,7 +12,8 @@ from ..core.validator import Validator
 from .emitted import Emitted
 from .fmi import binaries, fmi2, fmi3
 from .fmi.description import ModelDescription
-from .fmi.sources import HEADERS, source_files
+from .fmi.sources import library_files, source_files
+from .fmi.tables import tables
 
 ENDING = ".fmu"
 VERSIONS: Mapping[int, ModuleType] = {2: fmi2, 3: fmi3}
@@ -29,7 +29,7 @@ def write(
     force: bool,
     read: Paths,
     fmi: int = 2,
-    platforms: Sequence[str] = ("linux",) if sys.platform == "linux" else (),
+    platforms: Sequence[str] = binaries.HERE,
 ) -> Path:
     """Write a unit.
 
@@ -74,9 +74,10 @@ def contents(emitted: Emitted, fmi: int, platforms: Sequence[str]) -> dict[str, 
     version: Any = VERSIONS[fmi]
     known = ModelDescription(emitted)
     token = known.token(fmi)
-    sources = source_files(known, [version.FRONT], token, known.values)
+    of_model = tables(known.manifest, token, known.values)
+    sources = source_files(emitted.sources, of_model, [version.FRONT])
     # the library of a model is compiled once, for both versions and all values of its parameters
-    any_numbers = source_files(known, HEADERS, "", [0.0] * len(known.values))
+    any_numbers = library_files(emitted)
     compiled = [name for name in sources if name.endswith(".c")]
     found = {"modelDescription.xml": version.model_description(known, compiled).encode()}
     for platform in platforms:

@@ -1,19 +1,27 @@
-"""Shared libraries of a unit: compiled once for a model, and filled with the numbers of each."""
+"""Shared libraries of a unit, without numbers of their own: compiled once for a model.
+
+Those of models that come with the project are compiled with it.
+"""
 
 import hashlib
+import platform as machine
 import shutil
-import struct
 import sys
 from collections.abc import Mapping, Sequence
+from importlib.resources import files
 from importlib.util import find_spec
 from pathlib import Path
+from sysconfig import get_config_var
 
+from ... import generated
 from ...systems.compile.cache import appearing, cache_folder, damage, seal
 from ...systems.compile.compiler import FLAGS, Compiler, CompilerError, find_compiler
-from .sources import MARK
+from .files import digest, filled, token_of
 
 PLATFORMS = ("linux", "windows")
 """What there can be libraries for, all of them for processors of the kind x86-64."""
+HERE = ("linux",) if (sys.platform, machine.machine()) == ("linux", "x86_64") else ()
+"""The platform of this machine, if it is one of them."""
 
 _MORE = (
     "-std=c11",
@@ -23,7 +31,6 @@ _MORE = (
     "-Wl,--gc-sections",
 )
 _MINGW = "x86_64-w64-mingw32-gcc"
-_MARK_SIZE, _TOKEN_SIZE = 32, 64
 _NO_COMPILER = (
     "there is no C compiler. Install one (on Debian: apt-get install gcc libc6-dev), or name one "
     "in CC; or export without libraries, platforms=(), for programs that compile the sources."
@@ -54,23 +61,35 @@ def library(
     CompilerError
         If there is no compiler, or it fails.
     """
-    return filled(_compiled(sources, name, platform), token, values)
+    made = shipped(sources, name) if platform == "linux" else None
+    return filled(made or _compiled(sources, name, platform), token, values)
 
 
-def filled(content: bytes, token: str, values: Sequence[float]) -> bytes:
-    """Return a library with other numbers behind its mark."""
-    start = content.index(MARK.encode())
-    assert content.count(MARK.encode()) == 1
-    numbers = struct.pack(f"<{len(values)}d", *values)
-    text = token.encode().ljust(_TOKEN_SIZE, b"\0") + numbers
-    at = start + _MARK_SIZE
-    return content[:at] + text + content[at + len(text) :]
+def shipped(sources: Mapping[str, str], name: str) -> bytes | None:
+    """Return the library for Linux that was compiled with this package.
+
+    Parameters
+    ----------
+    sources : mapping
+        As of `library`.
+    name : str
+
+    Returns
+    -------
+    bytes or None
+        None if there is none, or if it was compiled from other sources.
+    """
+    file = files(generated) / f"_{name}_unit{get_config_var('EXT_SUFFIX')}"
+    if not file.is_file():
+        return None
+    content = file.read_bytes()
+    return content if token_of(content) == digest(sources) else None
 
 
 def _compiled(sources: Mapping[str, str], name: str, platform: str) -> bytes:
     """Return the library of a model, from the cache or compiled now."""
     compiler = _compiler(platform)
-    text = "\0".join((*sources, *sources.values(), *compiler.command, compiler.version))
+    text = "\0".join((digest(sources), *compiler.command, compiler.version))
     folder = cache_folder() / f"unit_{name}-{hashlib.sha256(text.encode()).hexdigest()[:16]}"
     file = f"{name}{'.dll' if platform == 'windows' else '.so'}"
     if damage(folder):
@@ -94,8 +113,11 @@ def _compiler(platform: str) -> Compiler:
     """Return what compiles for a platform."""
     if platform == "windows":
         return _cross_compiler()
-    if platform not in sys.platform:
-        message = f"a library for {platform} cannot be compiled on {sys.platform}. Leave it out."
+    if platform not in HERE:
+        message = (
+            f"a library for {platform} and processors of the kind x86-64 cannot be compiled here, "
+            f"on {sys.platform} {machine.machine()}. Leave that platform out."
+        )
         raise CompilerError(message)
     found = find_compiler()
     if found is None:

@@ -2,12 +2,13 @@
 
 import hashlib
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 from ..emitted import Emitted
+from .crossings import Crossing, crossings
 
 _SOLVER = {
     "solver.step": (
@@ -64,34 +65,6 @@ class Variable:
 
 
 @dataclass(frozen=True)
-class Crossing:
-    """A zero crossing that is reported as an event.
-
-    Attributes
-    ----------
-    name, meaning : str
-    signal, guard : int
-        Place of the signal, or -1 and that of the guard.
-    level : float
-        What is taken away from the signal.
-    parameter : int
-        Place of a parameter that is taken away, with `sign`; -1 for none.
-    sign : float
-    needs : int
-        Place of a parameter without which it cannot happen; -1 for none.
-    """
-
-    name: str
-    meaning: str
-    signal: int
-    guard: int
-    level: float = 0.0
-    parameter: int = -1
-    sign: float = 1.0
-    needs: int = -1
-
-
-@dataclass(frozen=True)
 class ModelDescription:
     """What a unit is.
 
@@ -114,37 +87,8 @@ class ModelDescription:
 
     @cached_property
     def crossings(self) -> tuple[Crossing, ...]:
-        """Events that the signals have, and the guards beyond which there is no motion."""
-        return (*self._of_signals(), *self._of_guards())
-
-    def _of_signals(self) -> Iterator[Crossing]:
-        parameters = list(self.manifest["parameters"])
-        for place, signal in enumerate(self.manifest["signals"].values()):
-            seen = set()
-            for name, entry in signal.get("events", {}).items():
-                level = entry["level"]
-                if level in seen:  # the same, from the other side
-                    continue
-                seen.add(level)
-                needs = entry.get("needs")
-                named = isinstance(level, str)
-                yield Crossing(
-                    f"events.{name}",
-                    entry["meaning"],
-                    place,
-                    -1,
-                    0.0 if named else float(level),
-                    parameters.index(level.removeprefix("-")) if named else -1,
-                    -1.0 if named and level.startswith("-") else 1.0,
-                    -1 if needs is None else parameters.index(needs.removeprefix("-")),
-                )
-
-    def _of_guards(self) -> Iterator[Crossing]:
-        functions = self.manifest["functions"]
-        acting = {g for n in ("rhs", "signals") if n in functions for g in functions[n]["guards"]}
-        for place in sorted(acting):
-            guard = self.manifest["guards"][place]
-            yield Crossing(f"margins.{guard['name']}", guard["meaning"], -1, place)
+        """Events of the signals, and guards beyond which there is no motion."""
+        return crossings(self.manifest)
 
     # -- variables ------------------------------------------------------------------------------
 

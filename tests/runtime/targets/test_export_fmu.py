@@ -17,14 +17,17 @@ from exported import system_named
 from folders import ROOT
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.systems.compile.compiler import find_compiler
+from kintrafo.targets.emitted import Emitted
 from kintrafo.targets.fmi import binaries
+from kintrafo.targets.fmi.sources import library_files
+from kintrafo.targets.fmi.tables import any_tables
 from kintrafo.targets.fmi.units import powers
 from mockup import DISCARD, ERROR, OK, Unit
 from own_models import STRICT, UNOPTIMISED
 from own_yokes import WHEEL_ON_A_YOKE
 
 pytestmark = pytest.mark.skipif(
-    find_compiler() is None or sys.platform != "linux", reason="no compiler for Linux"
+    find_compiler() is None or not binaries.HERE, reason="no compiler for Linux on x86-64"
 )
 MINGW = "x86_64-w64-mingw32-gcc"
 VERSIONS = (2, 3)
@@ -792,10 +795,8 @@ def test_casadi_has_the_equations_with_their_derivatives(unit, version):
 
 def test_a_platform_without_a_compiler(tmp_path, monkeypatch):
     """The error names what to install, and nothing is written; sources alone need none."""
-    system, path = system_named("four_bar"), tmp_path / "a.fmu"
-    monkeypatch.setattr(binaries.shutil, "which", lambda _: None)
-    monkeypatch.setattr(binaries, "find_spec", lambda _: None)
-    monkeypatch.setattr(binaries, "find_compiler", lambda: None)
+    system, path = system_named("prescribed"), tmp_path / "a.fmu"
+    without_compilers(monkeypatch)
     for platform, words in (
         ("windows", r"pip install .kintrafo\[windows\]"),
         ("linux", "apt-get install gcc"),
@@ -806,6 +807,96 @@ def test_a_platform_without_a_compiler(tmp_path, monkeypatch):
     kintrafo.export_model(system, path, "fmu", platforms=())
     with zipfile.ZipFile(path) as archive:
         assert not any(name.startswith("binaries") for name in archive.namelist())
+
+
+def without_compilers(monkeypatch):
+    monkeypatch.setattr(binaries.shutil, "which", lambda _: None)
+    monkeypatch.setattr(binaries, "find_spec", lambda _: None)
+    monkeypatch.setattr(binaries, "find_compiler", lambda: None)
+
+
+def test_another_processor_has_no_library(tmp_path, monkeypatch):
+    """A folder of libraries for x86-64 never has one for another processor."""
+    monkeypatch.setattr(binaries, "HERE", ())
+    with pytest.raises(kintrafo.CompilerError, match="processors of the kind x86-64 cannot be"):
+        kintrafo.export_model(
+            system_named("prescribed"), tmp_path / "a.fmu", "fmu", platforms=["linux"]
+        )
+    assert not [*tmp_path.iterdir()]
+
+
+# -- models that come with the project ------------------------------------------------------------
+
+
+def test_tables_of_shipped_models_are_committed():
+    """Where this fails, run ``make generate``."""
+    wanted = {
+        f"{name}_{file}": text
+        for name, module in EMITTED.items()
+        for file, text in any_tables(module.equations.manifest).items()
+    }
+    found = {path.name: path.read_text() for path in (ROOT / "generated/units").iterdir()}
+    assert found.keys() == wanted.keys()
+    assert [name for name in wanted if found[name] != wanted[name]] == []
+
+
+@pytest.mark.parametrize("name", sorted(EMITTED))
+def test_a_shipped_library_is_used_for_its_sources_only(name):
+    """Where this fails, run ``make build``: what was built is not what the sources say."""
+    system = kintrafo.System(EMITTED[name])
+    sources = library_files(Emitted(system, system.design_state, system.inputs()))
+    library = binaries.shipped(sources, name)
+    assert library is not None
+    assert len(library) < 1_500_000
+    changed = dict(sources)
+    changed["model.c"] += " "
+    assert binaries.shipped(changed, name) is None
+    renamed = {f"{path}x" if path == "unit.h" else path: text for path, text in sources.items()}
+    assert binaries.shipped(renamed, name) is None
+    assert binaries.shipped(sources, f"{name}_of_another_name") is None
+
+
+def test_a_shipped_library_computes_what_a_compiled_one_does(tmp_path, monkeypatch):
+    """One that is compiled now, by other options: the same bits after each step."""
+    path, motions = tmp_path / "a.fmu", []
+    for folder in ("shipped", "compiled"):
+        kintrafo.export_model(system_named("four_bar"), path, "fmu", force=True)
+        instance = Unit(path, tmp_path / folder).instance()
+        assert instance.initialise(crank_torque=2.0) == OK
+        motions.append([])
+        for k in range(5):
+            assert instance.step(0.05 * k, 0.05) == OK
+            motions[-1].append(instance.get("crank_angle", "spring_force"))
+        instance.free()
+        monkeypatch.setattr(binaries, "shipped", lambda *_: None)
+    assert motions[0] == motions[1]
+
+
+@pytest.mark.parametrize("name", ["reference_car", "reference_axle", "four_bar"])
+def test_a_unit_of_a_shipped_model_needs_no_compiler(tmp_path, name):
+    """A person without one exports it; FMPy simulates it as `simulate` does."""
+    fmpy = pytest.importorskip("fmpy")
+    folder, cache = str(tmp_path), tmp_path / "cache"
+    alone = {"PATH": folder, "HOME": folder, "KINTRAFO_CACHE": str(cache)}
+    command = [sys.executable, "-m", "kintrafo", "export", name, "--to", "fmu"]
+    subprocess.run(command, check=True, cwd=tmp_path, env=alone)
+    assert [*cache.glob("unit_*")] == []  # nothing was compiled
+    system = system_named(name)
+    times = np.linspace(0.0, 0.1, 3)
+    found = fmpy.simulate_fmu(
+        str(tmp_path / f"{name}.fmu"), stop_time=0.1, output_interval=0.05, fmi_type=KINDS[1],
+        relative_tolerance=1e-12, output=[*system.state_names],
+    )  # fmt: skip
+    wanted = kintrafo.simulate(
+        system, (0.0, 0.1), system.design_state, t_eval=times, method="DOP853", rtol=1e-12,
+        atol=1e-14,
+    )  # fmt: skip
+    for state, values in zip(system.state_names, wanted.y, strict=True):
+        # the accumulated error of hundreds of steps, 1e-12 each
+        np.testing.assert_allclose(found[state], values, atol=1e-9 * max(1, np.abs(values).max()))
+
+
+# -- Windows --------------------------------------------------------------------------------------
 
 
 @pytest.mark.skipif(shutil.which(MINGW) is None, reason=f"{MINGW} is not installed")
