@@ -19,7 +19,7 @@ def system_named(name: str) -> kintrafo.System:
     """Return a small mechanism, one without signals or states, a suspension or a car."""
     if name == "reference_car":
         return kintrafo.Model("reference_car")
-    if name in ("quarter_car", "reference_axle"):
+    if name in ("quarter_car", "rigid_axle"):
         return kintrafo.model_of(kintrafo.load(name))
     if name == "prescribed":
         return kintrafo.System(own(_prescribed()))

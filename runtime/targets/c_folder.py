@@ -32,6 +32,14 @@ _TEMPLATES = {
 }
 
 
+def check(path: Path) -> None:
+    """Refuse a path at which there is something else than a folder."""
+    with as_input_errors(path):
+        if path.exists() and not path.is_dir():
+            problem = "there is something here that is not a folder. Give the name of a folder."
+            raise InputError([problem], str(path))
+
+
 def write(emitted: Emitted, path: Path, *, force: bool, read: Paths) -> Path:
     """Write a folder of C.
 
@@ -142,14 +150,11 @@ def _stack(costs: Iterable[Mapping[str, int]]) -> int:
 
 
 def _refuse_others(path: Path, texts: Mapping[str, str]) -> None:
-    """Refuse a folder with other files, and what is no folder."""
+    """Refuse a folder with other files."""
+    check(path)
     with as_input_errors(path):
-        if not path.exists():
-            return
-        if not path.is_dir():
-            problem = "there is something here that is not a folder. Give the name of a folder."
-            raise InputError([problem], str(path))
-        others = sorted(entry.name for entry in path.iterdir() if entry.name not in texts)
+        found = path.iterdir() if path.exists() else ()
+        others = sorted(entry.name for entry in found if entry.name not in texts)
     if others:
         shown = ", ".join(others[:3]) + (", ..." if len(others) > 3 else "")
         problem = f"this folder holds other files: {shown}. Name a new folder, or an empty one."

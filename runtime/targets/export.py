@@ -1,10 +1,11 @@
 """From a system to files for other programs."""
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ..core.files import Paths
+from ..core.files import Paths, refuse
 from ..core.named_types import ArrayLike
 from ..core.validator import Validator
 from ..systems.state import inputs_of
@@ -20,6 +21,13 @@ TARGETS: Mapping[str, Write] = {
     "jax": python_module.write_jax,
 }
 """What writes each kind of export: of an `Emitted` and a path, with options of its own."""
+CHECKS: Mapping[str, Callable[..., None]] = {
+    "c": c_folder.check,
+    "fmu": fmu.check,
+    "casadi": partial(python_module.check, "casadi"),
+    "jax": partial(python_module.check, "jax"),
+}
+"""What refuses a path, and options of its own, before there is a model."""
 ENDINGS: Mapping[str, str] = {
     "c": "_c",
     "fmu": fmu.ENDING,
@@ -79,6 +87,8 @@ def export_model(
         'jax', if the equations iterate.
     MissingPackageError
         If equations must be derived, and the packages for that are not installed.
+    ClosureError
+        If there is no motion from the state at the start, since a loop cannot close there.
     CompilerError
         If a library is to be compiled, and there is no compiler for it, or it fails.
 
@@ -92,25 +102,58 @@ def export_model(
     ...     sorted(file.name for file in written.iterdir())[:4]
     ['CMakeLists.txt', 'README.txt', 'elementary.h', 'four_bar.c']
     """
+    check_export(path, to, force=force, read=read, **options)
     with Validator("export") as given:
         given.instance("system", system, System, System.NEEDED)
-        given.path("path", path)
-        given.among("to", to, TARGETS)
-        given.flag("force", force)
         if not given.failed:
             start = system.design_state
             if state is not None:
                 count = len(system.state_names)
                 start = given.array("state", state, dimensions=[1], last=count, empty=True)
-            _refuse_options(given, to, options)
     held = inputs_of(state, system.names_of_states)
     first = system.inputs() if held is None else held.copy()
     named = {} if inputs is None else inputs
     values = system.inputs(named)
     for name in named:
         first[system.input_names.index(name)] = values[system.input_names.index(name)]
+    _evaluate(system, start, first)
     emitted = Emitted(system, start, first)
     return TARGETS[to](emitted, Path(path), force=force, read=read, **options)
+
+
+def check_export(
+    path: str | Path, to: str, *, force: bool = False, read: Paths = (), **options: Any
+) -> None:
+    """Refuse arguments that `export_model` cannot use with any model.
+
+    Parameters
+    ----------
+    path, to, force, read, **options
+        As of `export_model`.
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used, or an existing file must not be replaced.
+    MissingPackageError
+        If packages are needed that are not installed.
+    """
+    with Validator("export") as given:
+        given.path("path", path)
+        given.among("to", to, TARGETS)
+        given.flag("force", force)
+        if not given.failed:
+            _refuse_options(given, to, options)
+    CHECKS[to](Path(path), **options)
+    if to != "c":  # whose files have names of their own
+        refuse([path], force=force, inputs=read)
+
+
+def _evaluate(system: System, state: ArrayLike, inputs: ArrayLike) -> None:
+    """Raise the error of a state at which the equations do not hold."""
+    for name in ("rhs", "signals"):
+        if name in system.equations.equations.functions:
+            system.evaluate(name, state, inputs)
 
 
 def _refuse_options(given: Validator, to: str, options: Mapping[str, Any]) -> None:

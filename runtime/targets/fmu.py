@@ -22,6 +22,27 @@ VERSIONS: Mapping[int, ModuleType] = {2: fmi2, 3: fmi3}
 _NO_DATE = (1980, 1, 1, 0, 0, 0)
 
 
+def check(path: Path, *, fmi: int = 2, platforms: Sequence[str] = binaries.HERE) -> None:
+    """Refuse arguments that `write` cannot use.
+
+    Parameters
+    ----------
+    path : Path
+    fmi : {2, 3}, optional
+    platforms : sequence of str, optional
+
+    Raises
+    ------
+    InputError
+    """
+    with Validator("export") as given:
+        given.among("fmi", str(fmi), map(str, VERSIONS))
+        given.names("platforms", platforms, binaries.PLATFORMS)
+        if path.suffix.lower() != ENDING:
+            shown = path.with_suffix(ENDING) if path.name else f"model{ENDING}"
+            given.fail(f"{path}: the name of this file must end in {ENDING}. Write {shown}.")
+
+
 def write(
     emitted: Emitted,
     path: Path,
@@ -54,18 +75,12 @@ def write(
     Raises
     ------
     InputError
-        If an argument cannot be used, or the file cannot be written.
+        If the file cannot be written.
     CompilerError
         If there is no compiler for a platform, or it fails.
     """
-    with Validator("export") as given:
-        given.among("fmi", str(fmi), map(str, VERSIONS))
-        chosen = given.names("platforms", platforms, binaries.PLATFORMS)
-        if path.suffix.lower() != ENDING:
-            shown = path.with_suffix(ENDING) if path.name else f"model{ENDING}"
-            given.fail(f"{path}: the name of this file must end in {ENDING}. Write {shown}.")
     with replacing(path, force=force, inputs=read) as temporary:
-        _pack(temporary, contents(emitted, int(fmi), tuple(dict.fromkeys(chosen))))
+        _pack(temporary, contents(emitted, int(fmi), tuple(dict.fromkeys(platforms))))
     return path
 
 

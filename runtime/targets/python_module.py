@@ -26,6 +26,26 @@ Its time grows with their cube: 1 s for the 1,154 of an axle, 95 s for the 5,385
 """
 
 
+def check(library: str, path: Path) -> None:
+    """Refuse names of files that are no module, or hide a library, and missing packages.
+
+    Parameters
+    ----------
+    library : {'casadi', 'jax'}
+    path : Path
+
+    Raises
+    ------
+    InputError
+    MissingPackageError
+    """
+    if path.suffix != ENDING or path.stem in (library, "numpy"):
+        stem = path.stem or "model"
+        problem = f"the name of a module such as {stem}_{library}{ENDING} is needed."
+        raise InputError([problem], str(path))
+    require_generator()
+
+
 def write_casadi(emitted: Emitted, path: Path, *, force: bool, read: Paths) -> Path:
     """Write functions of CasADi; see `_write`."""
     return _write("casadi", emitted, path, force=force, read=read)
@@ -33,6 +53,7 @@ def write_casadi(emitted: Emitted, path: Path, *, force: bool, read: Paths) -> P
 
 def write_jax(emitted: Emitted, path: Path, *, force: bool, read: Paths) -> Path:
     """Write functions over arrays of JAX, with a warning if they are long; see `_write`."""
+    _refuse_iterations("jax", emitted)
     count = emitted.manifest["functions"]["rhs"]["operations"]["total"]
     if count > MOST_OF_JAX:
         message = (
@@ -67,25 +88,13 @@ def _write(library: str, emitted: Emitted, path: Path, *, force: bool, read: Pat
     ------
     InputError
         If the equations iterate or are not known to the generator, or the file cannot be written.
-    MissingPackageError
-        If the packages of the extra "generator" are not installed.
     """
-    _refuse_name(library, path)
     _refuse_iterations(library, emitted)
-    require_generator()
     with replacing(path, force=force, inputs=read) as temporary:
         facts = _facts(emitted, derived_again(emitted.system.equations), _dialects()[library])
         text = environment("python_files").get_template(f"{library}.py.jinja").render(facts)
         temporary.write_text(text, encoding="utf-8", newline="\n")
     return path
-
-
-def _refuse_name(library: str, path: Path) -> None:
-    """Refuse files that are no module, and those that would be imported for a library."""
-    if path.suffix != ENDING or path.stem in (library, "numpy"):
-        stem = path.stem or "model"
-        problem = f"the name of a module such as {stem}_{library}{ENDING} is needed."
-        raise InputError([problem], str(path))
 
 
 def _refuse_iterations(library: str, emitted: Emitted) -> None:

@@ -20,7 +20,10 @@ EXAMPLES = (
     "kintrafo export my_car.toml --to points -o points.csv",
 )
 
-_NOT_A_TABLE = "and a table of hardpoints is that of a suspension. Name the file of its side."
+_NOT_A_TABLE = (
+    "and a table of hardpoints is that of a suspension. Give the file of a suspension, such as "
+    "that of a side of an axle."
+)
 
 
 def command(
@@ -49,7 +52,10 @@ def command(
     fmi: Annotated[int | None, option("Version of FMI: 2 or 3. Default: 2.", "VERSION")] = None,
     platform: Annotated[
         list[str] | None,
-        option("Systems of the library: linux, windows. Default: this one.", "NAME,..."),
+        option(
+            "Systems of the library: linux, windows, or none for sources only. Default: this one.",
+            "NAME,...",
+        ),
     ] = None,
     model: Which = None,
     force: Force = False,
@@ -63,7 +69,7 @@ def command(
     state can be the start: kintrafo.export_model(model, "car.fmu", "fmu", state=rest).
     """
     from ...core.validator import Validator
-    from ...targets.export import ENDINGS, export_model
+    from ...targets.export import ENDINGS, check_export, export_model
     from ..files.point_table import write_points
     from ..kinds import Suspension
 
@@ -71,21 +77,23 @@ def command(
     with Validator("export") as given:
         given.among("--to", to, endings)
     refuse_which(file, model)
-    options = {"fmi": fmi, "platforms": platform or None}
+    if to != "fmu":
+        refuse_options("--to fmu", {"--fmi": fmi, "--platform": platform or None})
+    options = {"fmi": fmi, "platforms": () if platform == ["none"] else platform or None}
     stem = Path(file).stem if Path(file).suffix else file
     path = Path(f"{stem}{endings[to]}") if out is None else out
     if to == "points":
-        refuse_options("--to fmu", {"--fmi": fmi, "--platform": platform or None})
         kind: type[Any] = Suspension  # an abstract class, of which one is loaded
         suspension = subject_of(file, kind, _NOT_A_TABLE)
         facts = {"path": str(write_points(suspension, path, force=force, inputs=[file])), "to": to}
     else:
         # these derive the equations again, which takes minutes for a car
         text = "deriving the equations, and writing them" if to in ("casadi", "jax") else "export"
+        chosen: Any = {name: value for name, value in options.items() if value is not None}
+        chosen |= {"force": force, "read": [file]}
+        check_export(path, to, **chosen)  # before anything is derived
         with problems.status(text):
-            system = _described_by(file, model)
-            chosen: Any = {name: value for name, value in options.items() if value is not None}
-            written = export_model(system, path, to, force=force, read=[file], **chosen)
+            written = export_model(system := _described_by(file, model), path, to, **chosen)
         facts = {"path": str(written), "to": to, "equations": system.equations.NAME}
     if json:
         print_json(facts)
@@ -97,13 +105,18 @@ def _described_by(file: str, model: str | None) -> "System":
     """Return the equations of what a file describes, or a name."""
     from importlib import import_module
 
+    from ...core.validator import Validator
     from ...systems.system import System
     from ..data.starter import all_packaged
 
     if file.endswith(".py"):
         return system_of(file, model)
-    if file in _shipped() and file not in all_packaged():
+    packaged, shipped = [*all_packaged()], _shipped()
+    if file in shipped and file not in packaged:
         return System(import_module(f"kintrafo.generated.{file}"))
+    if not (Path(file).suffix or Path(file).exists()):
+        with Validator("export") as given:
+            given.among("FILE", file, [*packaged, *shipped])
     return model_of(file)
 
 

@@ -33,7 +33,8 @@ _MORE = (
 _MINGW = "x86_64-w64-mingw32-gcc"
 _NO_COMPILER = (
     "there is no C compiler. Install one (on Debian: apt-get install gcc libc6-dev), or name one "
-    "in CC; or export without libraries, platforms=(), for programs that compile the sources."
+    "in CC; or export without libraries (platforms=(), in a command --platform none), for programs "
+    "that compile the sources."
 )
 _NO_CROSS_COMPILER = (
     'a library for Windows needs a compiler for it: pip install "kintrafo[windows]", or on Debian '

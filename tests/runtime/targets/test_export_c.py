@@ -167,4 +167,4 @@ def test_the_command(kintrafo, tmp_path):
     assert "'matlab' is not known" in err
     code, _, err = kintrafo("export", "four_bra", "--to", "c")
     assert code == 2
-    assert "no such file" in err
+    assert "'four_bra' is not known. Did you mean four_bar?" in " ".join(err.split())

@@ -753,12 +753,23 @@ def test_the_command(kintrafo, tmp_path):
     assert (code, out.strip()) == (0, "four_bar.fmu"), err
     with zipfile.ZipFile(tmp_path / "four_bar.fmu") as archive:
         assert "binaries/x86_64-linux/four_bar.so" in archive.namelist()
+    code, _, err = kintrafo("export", "four_bar", "--to", "fmu", "--platform", "none")
+    with zipfile.ZipFile(tmp_path / "four_bar.fmu") as archive:
+        assert not any(name.startswith("binaries") for name in archive.namelist())
     code, _, err = kintrafo("export", "four_bar", "--to", "c", "--fmi", 3)
     assert code == 2
-    assert "fmi is not an option" in err
+    assert "--fmi is only for --to fmu" in " ".join(err.split())
     code, _, err = kintrafo("export", "four_bar", "--to", "fmu", "--platform", "amiga")
     assert code == 2
     assert "'amiga' is not known" in err
+
+
+def test_a_start_at_which_nothing_can_move_is_refused(tmp_path):
+    system = kintrafo.System(system_named("four_bar").equations, SHORT)
+    for to in ("fmu", "c"):
+        with pytest.raises(kintrafo.ClosureError, match="cannot close"):
+            kintrafo.export_model(system, tmp_path / "a.fmu", to, state=[-1.55, 0.0])
+    assert not [*tmp_path.iterdir()]
 
 
 @pytest.mark.parametrize("name", sorted(EMITTED))
@@ -872,7 +883,7 @@ def test_a_shipped_library_computes_what_a_compiled_one_does(tmp_path, monkeypat
     assert motions[0] == motions[1]
 
 
-@pytest.mark.parametrize("name", ["reference_car", "reference_axle", "four_bar"])
+@pytest.mark.parametrize("name", ["reference_car", "rigid_axle", "four_bar"])
 def test_a_unit_of_a_shipped_model_needs_no_compiler(tmp_path, name):
     """A person without one exports it; FMPy simulates it as `simulate` does."""
     fmpy = pytest.importorskip("fmpy")

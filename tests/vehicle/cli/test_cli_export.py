@@ -1,0 +1,73 @@
+"""``kintrafo export``: an error by name ends it, before a model is made."""
+
+import pytest
+from kintrafo.targets.export import TARGETS
+from kintrafo.vehicle.cli import export
+
+EVERY = (*TARGETS, "points")
+
+
+@pytest.fixture
+def nothing_is_made(monkeypatch):
+    """No equations are looked for."""
+
+    def described_by(*_):
+        pytest.fail("a model was made")
+
+    monkeypatch.setattr(export, "_described_by", described_by)
+
+
+@pytest.mark.parametrize("to", EVERY)
+def test_a_file_with_a_value_out_of_its_range(kintrafo, tmp_path, to):
+    """As a person leaves it who has edited it: key, value, unit and range are named."""
+    kintrafo("new", "a.toml")
+    file = tmp_path / "a.toml"
+    text = file.read_text()
+    assert text.count("spring_rate_N_per_m = 25000.0") == 1
+    for value, words in (("-25000.0", "is out of range: allowed is 0 N/m or more"), ("nan", "nan")):
+        file.write_text(text.replace("rate_N_per_m = 25000.0", f"rate_N_per_m = {value}"))
+        code, out, err = kintrafo("export", "a.toml", "--to", to)
+        assert (code, out) == (2, "")
+        said = " ".join(err.split())
+        assert f"spring_rate_N_per_m = {value}" in said
+        assert words in said
+        assert [path.name for path in tmp_path.iterdir()] == ["a.toml"]
+
+
+@pytest.mark.usefixtures("nothing_is_made")
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--to", "matlab"], "--to 'matlab' is not known. Known are: c, fmu, casadi, jax, points."),
+        (["--to", "fmu", "--fmi", "1"], "fmi '1' is not known. Known are: 2, 3."),
+        (["--to", "fmu", "--platform", "mac"], "platforms 'mac' is not known"),
+        (["--to", "fmu", "-o", "a.zip"], "must end in .fmu. Write a.fmu."),
+        (["--to", "jax", "-o", "jax.py"], "the name of a module such as jax_jax.py is needed"),
+        (["--to", "casadi", "-o", "a.txt"], "the name of a module such as a_casadi.py is needed"),
+        (["--to", "fmu", "-o", "mine.fmu"], "exists already"),
+        (["--to", "c", "-o", "mine.fmu"], "not a folder"),
+        (["--to", "c", "--fmi", "2"], "--fmi is only for --to fmu"),
+        (["--to", "points", "--platform", "linux"], "--platform is only for --to fmu"),
+    ],
+)
+def test_bad_arguments_are_found_before_a_car_is_derived(kintrafo, tmp_path, arguments, words):
+    (tmp_path / "mine.fmu").write_text("a year of work")
+    code, out, err = kintrafo("export", "driving_car", *arguments)
+    assert (code, out) == (2, "")
+    assert words in " ".join(err.split())
+    assert [path.name for path in tmp_path.iterdir()] == ["mine.fmu"]
+
+
+def test_names_that_are_almost_right(kintrafo):
+    code, _, err = kintrafo("export", "four_bars", "--to", "c")
+    assert code == 2
+    assert "FILE 'four_bars' is not known. Did you mean four_bar?" in " ".join(err.split())
+
+
+@pytest.mark.parametrize("to", ["casadi", "jax"])
+def test_equations_that_iterate_are_refused_without_other_warnings(kintrafo, tmp_path, to):
+    code, out, err = kintrafo("export", "rigid_axle", "--to", to)
+    assert (code, out) == (2, "")
+    assert "Newton's method solves a loop" in " ".join(err.split())
+    assert "XLA" not in err
+    assert not [*tmp_path.iterdir()]
