@@ -1,14 +1,14 @@
-"""What an engineer asks of an assembly.
+"""Analyses of any assembly.
 
-`checkup`          a first look
+`checkup`          summary, problems and unusual values
 `characteristics`  kinematic characteristics over the motions of a rig
 `sweep`            positions of wheels and joints
-`compare`          several suspensions beside each other
+`compare`          characteristics of several suspensions, and their differences
 `loads`            forces on every part
-`compliance`       what bushes do to the wheels, to first order and by any amount
-`rig`, `sheet`     curves that a rig measured; the K&C sheet
-`roads`, `measurement`, `excitation`    roads, racks and forces by formula and from a file
-`scenario`         a motion that is described by data
-`ride`             how a car rests, swings and rides over a road
-`paper`            what the paper shows of its suspension
+`compliance`       deflection of the wheels on bushes, linear and nonlinear
+`rig`, `sheet`     curves measured on a rig; the K&C sheet
+`roads`, `measurement`, `excitation`    inputs of simulations: by formula, measured, both
+`scenario`         a simulation described by data
+`handling`, `ride` a car that drives and steers; a car on a rough road
+`paper`            Figures 4 to 6 of the paper
 """

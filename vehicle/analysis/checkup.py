@@ -1,4 +1,4 @@
-"""A first look at a corner, an axle or a rigid axle."""
+"""A summary of a corner, an axle or a rigid axle, with problems and unusual values."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -30,11 +30,11 @@ __all__ = [
     "without_friction",
 ]
 
-# Where the body of a comfortable passenger car has its frequency [Hz]: Audi, Self-Study Programme
-# 242, page 9.
+# Natural frequency of the body of a comfortable passenger car [Hz]: Audi, Self-Study Programme 242,
+# page 9.
 USUAL_RIDE = (1.0, 1.5)
 
-# Read at design over parallel travel, by their columns, and what stands before the value.
+# Characteristics at design over parallel travel, with their labels.
 _WORDS = {
     "track": "track",
     "roll_center_height": "roll-centre height",
@@ -50,10 +50,10 @@ _WORDS = {
     "anti_lift_braked": "anti-lift under braking",
     "anti_squat": "anti-squat",
 }
-# What others say already: the facts of each corner; the track that a beam is described by.
+# Left out: they are in the facts of each corner, or in the description of a beam.
 _NOT_OF_CORNERS = ("roll_steer", "roll_stiffness_bar", "wheel_rate_left", "wheel_rate_right")
 _NOT_ON_A_BEAM = ("track", "bar_share")
-# At rest so far from design, or on tyres so far apart, a rate, a unit or a free length is wrong.
+# Farther from design at rest, a rate, a unit or a free length is probably wrong [m].
 _MOST_TRAVEL = 0.5 * USUAL_TRAVEL
 
 
@@ -86,8 +86,8 @@ class Checkup:
     Attributes
     ----------
     wheels : tuple of WheelFacts
-        The wheels that move by themselves: that of a corner; of an axle both, or one where the
-        other is its mirror image; none of a rigid axle.
+        Independently suspended wheels: one of a corner, or of an axle whose sides are mirror
+        images; two of other axles; none of a rigid axle.
     axle : AxleFacts or None
         Results for both wheels together; None for a corner.
     problems : tuple of str
@@ -147,7 +147,7 @@ def checkup(subject: Any) -> Checkup:
 
 
 def _in_words(assembly: Assembly, by_side: list[tuple[str, tuple[str, ...]]]) -> list[str]:
-    """Return what is said of wheels, beginning with their names where there are several."""
+    """Return texts about wheels, each with its side if there are several wheels."""
     several = len(assembly.wheels) > 1
     return [
         f"{side} side: {text}" if several else text for side, texts in by_side for text in texts
@@ -155,13 +155,15 @@ def _in_words(assembly: Assembly, by_side: list[tuple[str, tuple[str, ...]]]) ->
 
 
 class _AxleLook:
-    """Finds what both wheels of an axle have together."""
+    """Values of both wheels of an axle together; problems and notes are appended to the lists."""
 
     def __init__(self, assembly: Assembly, problems: list[str], notes: list[str]) -> None:
         self._assembly, self._problems, self._notes = assembly, problems, notes
         self.values: dict[str, float] = {}
         self.rows: dict[str, str] = assembly.described()
-        self._reach()
+        for name, (value, ends) in assembly.reach().items():
+            self.values[f"reach_{name}"] = value
+            self.rows[f"travel {name} to"] = f"{1e3 * value:.1f} mm{'' if ends else ' and more'}"
         if assembly.MODES:
             self._at_rest()
         try:
@@ -172,13 +174,8 @@ class _AxleLook:
         except (InputError, PositionError) as error:
             problems += getattr(error, "problems", (str(error),))
 
-    def _reach(self) -> None:
-        for name, (value, ends) in self._assembly.reach().items():
-            self.values[f"reach_{name}"] = value
-            self.rows[f"travel {name} to"] = f"{1e3 * value:.1f} mm{'' if ends else ' and more'}"
-
     def _at_rest(self) -> None:
-        """Find where it rests, and its modes there; without friction, as it slides."""
+        """Find the equilibrium, and the modes about it without friction."""
         assembly, model = self._assembly, self._assembly.model
         smooth = assembly.without_friction().model
         try:
@@ -233,7 +230,7 @@ class _AxleLook:
 
     def _in_roll(self) -> None:
         assembly, angles = self._assembly, self._assembly.usual("roll")
-        # that drop links reach is seen over all of the usual travel, too
+        # drop links must also reach over all of the usual travel
         assembly.values("bump", assembly.usual("bump"))
         moments = assembly.values("roll", angles[[0, -1]]).get("roll_moment")
         if moments is not None:

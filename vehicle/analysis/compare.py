@@ -1,4 +1,4 @@
-"""Several suspensions or axles side by side: their characteristics, and how much they differ."""
+"""Characteristics of several suspensions or axles over one motion, and their differences."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -6,11 +6,10 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from ...core.errors import InputError
 from ...core.memory import positions_given
-from ...core.named_types import ArrayLike
+from ...core.named_types import Array, ArrayLike
 from ...core.validator import Validator
 from ..assembly.assembly import Assembly
 from ..assembly.by_wheel import flat
@@ -20,9 +19,7 @@ from .characteristics.datasets import DATA_SET, dataset, given_motion
 from .compliance.flexibility import HELD, WheelSupport
 from .compliance.linear import linear
 
-Array = NDArray[np.float64]
-
-# A position so near to zero is that of design, of a rig as well [m] or [rad].
+# Positions this close to each other are the same one, also of a rig [m] or [rad].
 _AT_DESIGN = 5e-4
 
 
@@ -96,40 +93,27 @@ def compare(
 def beside_each_other(names: Mapping[str, Any], datasets: Sequence[xr.Dataset]) -> xr.Dataset:
     """Return datasets over one motion as one, with the dimension ``data_set``."""
     common = [
-        n
-        for n in datasets[0]
-        if all(n in each and _alike(each[n], datasets[0][n]) for each in datasets)
+        name
+        for name, first in datasets[0].items()
+        if all(name in each and each[name].dims == first.dims for each in datasets)
     ]
-    # where one has a rack and another has none, neither is held
-    racks = all(RACK.name in each.coords for each in datasets)
-    parts = [
-        each[common] if racks else each[common].drop_vars(RACK.name, errors="ignore")
-        for each in datasets
-    ]
+    parts = [each[common] for each in datasets]
+    if not all(RACK.name in each.coords for each in datasets):  # some have no rack
+        parts = [each.drop_vars(RACK.name, errors="ignore") for each in parts]
     labels = xr.Variable(DATA_SET, list(names), {"long_name": "data set"})
+    return side_by_side(parts, labels)
+
+
+def side_by_side(parts: Sequence[xr.Dataset], labels: xr.Variable) -> xr.Dataset:
+    """Return datasets at the same positions, which may repeat, over a further dimension."""
     return xr.concat(
-        parts,
-        labels,
-        coords="minimal",
-        compat="override",
+        parts, labels, join="override", coords="minimal", compat="override",
         combine_attrs="override",
-        join="override",
-    )
-
-
-def _alike(one: xr.DataArray, other: xr.DataArray) -> bool:
-    """Return whether both are of each wheel, or both of the axle."""
-    return one.dims == other.dims
+    )  # fmt: skip
 
 
 def _common_motion(assemblies: Mapping[str, Assembly], over: str | None) -> str:
-    """Return the motion over which all assemblies are compared.
-
-    Raises
-    ------
-    InputError
-        If some do not have it, or have no motion in common.
-    """
+    """Return the motion over which all assemblies are compared, or raise an `InputError`."""
     first = next(iter(assemblies.values()))
     for name, assembly in assemblies.items():
         if assembly.usual_motion != first.usual_motion:
@@ -141,7 +125,7 @@ def _common_motion(assemblies: Mapping[str, Assembly], over: str | None) -> str:
     for assembly in assemblies.values():
         motion = given_motion(assembly, over, "over")
     if len({assembly.motions[motion].along.name for assembly in assemblies.values()}) > 1:
-        return "rack"  # of some nothing says how the steering wheel moves it
+        return "rack"  # some files have no steering ratio
     return motion
 
 
@@ -164,7 +148,7 @@ def with_compliance(
     held: WheelSupport,
     rack_position: float = 0.0,
 ) -> xr.Dataset:
-    """Return characteristics over wheel travel with compliance beside them.
+    """Return characteristics and compliance over wheel travel.
 
     Parameters
     ----------
@@ -185,10 +169,7 @@ def with_compliance(
 
 
 def common_positions(assemblies: Sequence[Assembly], motion: str) -> Array:
-    """Return the usual positions of a motion that all assemblies take, zero included [m] or [rad].
-
-    They are those of the first one that lie within, with the nearer ends.
-    """
+    """Return the usual positions of the first assembly within the range of all [m] or [rad]."""
     grids = [assembly.usual(motion) for assembly in assemblies]
     low, high = max(grid[0] for grid in grids), min(grid[-1] for grid in grids)
     inner = grids[0][(grids[0] > low) & (grids[0] < high)]
@@ -197,7 +178,7 @@ def common_positions(assemblies: Sequence[Assembly], motion: str) -> Array:
 
 @dataclass(frozen=True)
 class Difference:
-    """Difference of one characteristic from that of the first suspension or axle, SI units.
+    """Difference of a characteristic from that of the first suspension or axle, SI units.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What moves a suspension in a simulation: road and rack, by formula or as they were measured."""
+"""Inputs of the simulation of a suspension: road and rack, by formula or as measured."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -12,14 +12,14 @@ from .roads import sine, step
 
 @dataclass(frozen=True)
 class TimeProfile:
-    """The course of one input over time: at most one of `held`, `step` and `sine`.
+    """One input as a function of time: at most one of `held`, `step` and `sine`.
 
     Attributes
     ----------
     held : float, optional
         Constant value [m].
     step : float, optional
-        Value behind a jump [m].
+        Value after a jump from zero [m].
     step_at : float
         Time of the jump [s].
     sine : float, optional
@@ -36,11 +36,11 @@ class TimeProfile:
 
     @property
     def given(self) -> tuple[str, ...]:
-        """The names of the given inputs."""
+        """Names of the attributes with a value, of those three."""
         return tuple(n for n in ("held", "step", "sine") if getattr(self, n) is not None)
 
     def signal(self, end: float) -> Signal:
-        """Return the argument of `kintrafo.simulate`, for a simulation up to a time [s]."""
+        """Return the input as `kintrafo.simulate` takes it, up to the last time [s]."""
         with Validator("course") as given:
             for name in self.given:
                 given.number(name, getattr(self, name), "m")

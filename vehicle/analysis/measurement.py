@@ -1,4 +1,4 @@
-"""Roads, rack motions and forces that were measured: reading them from CSV files."""
+"""Measured roads, rack motions and forces from CSV files."""
 
 import math
 import re
@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.errors import InputError
+from ...core.named_types import Array
 from ...core.suggestions import nearest, suggestion
 from ...core.tables import Table, read_table
 from ...core.units import in_si
@@ -17,9 +17,6 @@ from ...core.validator import Validator
 from ...simulation.interpolation import Between, Samples
 from ..corner.wheel_loads import UNITS
 from ..kinds import KINDS
-
-Array = NDArray[np.float64]
-
 
 _UNITS = {
     "time": "s",
@@ -35,13 +32,13 @@ _COLUMNS = {
     for name, unit in _UNITS.items()
     for shown in _SHOWN.get(name, (unit,))
 }
-"""What quantities are called with the units that people use of them."""
+"""Names of columns in usual units, and their quantities."""
 _ABSCISSAE = ("time", "distance")
 
 
 @dataclass(frozen=True)
 class Measurement:
-    """Inputs that were measured over time or along a road.
+    """Inputs measured over time or along a road.
 
     Attributes
     ----------
@@ -64,29 +61,28 @@ class Measurement:
         return float(self.times[-1])
 
     def inputs(self, between: Between = "monotone") -> dict[str, Samples]:
-        """Return the samples as `kintrafo.simulate` takes them; `between` is that of `Samples`."""
+        """Return the samples as `kintrafo.simulate` takes them; for `between` see `Samples`."""
         return {name: Samples(self.times, values, between) for name, values in self.values.items()}
 
 
 def measured(path: str | Path, *, speed: float | None = None) -> Measurement:
     """Read inputs from a CSV file.
 
-    The first line names the columns: ``time_s`` or ``time_ms``, or ``distance_m`` along the road;
-    and at least one of ``road_height_mm``, ``rack_position_mm`` (also in ``_m``), and the force of
-    the actuator by the name that the kind of suspension has for it: ``strut_force_N``,
-    ``spring_actuator_N``; and what acts on the wheel of a model with ``wheel_loads``:
-    ``contact_force_x_N`` and so on, ``center_force_x_N``, ``wheel_moment_x_Nm``,
-    ``shaft_torque_Nm``, ``hub_torque_Nm``. Other units that are usual, and other forms of these
-    names, ``Road height [in]``, are read as `kintrafo.core.tables` says. Columns are separated by
-    commas, semicolons or tabs; with the latter two, decimals may have a comma. Times increase and
-    are shifted to begin with zero; a time that is given twice is a jump. `kintrafo.Samples` says
-    what is in between.
+    The first line has the names of the columns: ``time_s``, ``time_ms`` or ``distance_m`` along the
+    road; and one or more of ``road_height_mm``, ``rack_position_mm`` (also in ``_m``), the force of
+    the actuator by its name in the kind of suspension (``strut_force_N``, ``spring_actuator_N``),
+    and loads on the wheel of a model with ``wheel_loads``: ``contact_force_x_N`` and so on,
+    ``center_force_x_N``, ``wheel_moment_x_Nm``, ``shaft_torque_Nm``, ``hub_torque_Nm``. Other usual
+    units and spellings, such as ``Road height [in]``, are described in `kintrafo.core.tables`.
+    Columns are separated by commas, semicolons or tabs; with the latter two, decimals may have a
+    comma. Times increase, and are shifted to begin with zero; a repeated time is a jump.
+    `kintrafo.Samples` describes the interpolation.
 
     Parameters
     ----------
     path : str or pathlib.Path
     speed : float, optional
-        Speed at which a road that is given over the distance is driven on [m/s].
+        Speed of the car on a road over distance [m/s].
 
     Returns
     -------
@@ -95,7 +91,7 @@ def measured(path: str | Path, *, speed: float | None = None) -> Measurement:
     Raises
     ------
     InputError
-        If the file cannot be used; with the lines that are wrong.
+        If the file cannot be used; the message has the wrong lines.
     """
     with Validator("measured") as given:
         given.instance("path", path, (str, Path), "the path of a CSV file is needed")
@@ -151,7 +147,7 @@ def _check(sheet: Table) -> None:
 
 
 def _resembles(name: str) -> bool:
-    """Return whether a column that is not known was probably meant to be one that is."""
+    """Return whether an unknown column begins like a known one, as a misspelt one does."""
     first = re.split(r"[\W_]", name.strip(), maxsplit=1)[0].lower()
     return first in {known.partition("_")[0] for known in _UNITS}
 
@@ -159,7 +155,7 @@ def _resembles(name: str) -> bool:
 def _times(
     columns: dict[str, Array], lines: Sequence[int], speed: float | None, source: str
 ) -> Array:
-    """Return times that begin with zero, or refuse them where they fall."""
+    """Return times that begin with zero [s], or raise an `InputError` if they decrease."""
     if "distance" in columns:
         if speed is None or not (math.isfinite(speed) and speed > 0.0):
             given = "none is given" if speed is None else f"{speed * 3.6:g} km/h is given"

@@ -1,8 +1,8 @@
-"""The results of the paper: Figures 4, 5 and 6, and what there is to say about them.
+"""The results of the paper: Figures 4, 5 and 6, and the state of rest.
 
 J. A. M. Góis and C. A. P. Sarzeto, "Modelo de suspensão MacPherson utilizando transformadores
-cinemáticos", Instituto Militar de Engenharia, Rio de Janeiro, 2000. The paper gives no hardpoints,
-masses or rates; the reference car is this project's own, so the curves compare in kind.
+cinemáticos", Instituto Militar de Engenharia, Rio de Janeiro, 2000. The paper has no hardpoints,
+masses or rates; those of the reference car are this project's, so only the shape of curves agrees.
 """
 
 import time
@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...systems.linearisation import linearise
 from ...systems.modes import Mode
 from ..assembly.equilibrium import equilibrium
@@ -22,7 +22,6 @@ from ..models.reach import at_rest
 if TYPE_CHECKING:
     from ...simulation.result import Simulation
 
-Array = NDArray[np.float64]
 
 REST_HEIGHT = 0.300  # height of the wheel centre at rest [m]
 TRAVEL = 0.150  # to either side of it [m]
@@ -37,7 +36,7 @@ PAPER_GEAR_S = 13.0  # IMSL DIVPAG, same machine
 
 @dataclass(frozen=True)
 class PaperKinematics:
-    """Figures 4 and 5: the wheel over its travel, rack held at zero.
+    """Figures 4 and 5: motion of the wheel over its travel, rack held at zero.
 
     Attributes
     ----------
@@ -62,14 +61,14 @@ class PaperKinematics:
 
 @dataclass(frozen=True)
 class PaperDynamics:
-    """Figure 6: one second from 0.325 m with the wheel spinning.
+    """Figure 6: one second from a wheel centre at 0.325 m, with the wheel spinning.
 
     Attributes
     ----------
     result : Simulation
         Output every 1e-4 s, as in the paper.
     seconds : float
-        Time that the integration took, output included [s].
+        Wall-clock time of the integration, output included [s].
     """
 
     result: "Simulation"
@@ -77,13 +76,13 @@ class PaperDynamics:
 
 
 def kinematics(model: Model, points: int = 121) -> PaperKinematics:
-    """Compute Figures 4 and 5.
+    """Return the curves of Figures 4 and 5.
 
     Parameters
     ----------
     model : Model
     points : int, optional
-        Number of equally spaced wheel heights; the design position comes besides.
+        Number of equally spaced wheel heights; the design position is added.
 
     Returns
     -------
@@ -92,7 +91,7 @@ def kinematics(model: Model, points: int = 121) -> PaperKinematics:
     ends = (REST_HEIGHT - TRAVEL, REST_HEIGHT + TRAVEL)
     design_height = float(model.signal("wheel_center_z", model.design_state))
     heights = np.linspace(*ends, points)
-    # the design position is one of them: an equally spaced one where that is the same
+    # the design position replaces an equally spaced one that differs by rounding only
     heights = np.union1d(heights[np.abs(heights - design_height) > 1e-9], design_height)
     signals = model.signals(*at_rest(model, arm_angles(model, heights)))
     return PaperKinematics(
@@ -107,7 +106,7 @@ def kinematics(model: Model, points: int = 121) -> PaperKinematics:
 
 
 def dynamics(model: Model) -> PaperDynamics:
-    """Compute Figure 6 by Gear's method.
+    """Return the simulation of Figure 6 by Gear's method.
 
     Parameters
     ----------
@@ -128,7 +127,7 @@ def dynamics(model: Model) -> PaperDynamics:
 
 @dataclass(frozen=True)
 class PaperRest:
-    """The state of rest and how the suspension moves about it.
+    """The state of rest and the wheel-hop mode about it.
 
     Attributes
     ----------
@@ -146,7 +145,7 @@ class PaperRest:
 
 
 def rest(model: Model) -> PaperRest:
-    """Find the equilibrium and the wheel-hop mode there.
+    """Return the equilibrium and the wheel-hop mode there.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Curves that were measured on a rig: reading them, and characteristics beside them."""
+"""Curves measured on a rig, and characteristics at the same positions."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from ...core.errors import InputError
+from ...core.named_types import Array
 from ...core.suggestions import nearest
 from ...core.tables import Column, Table, read_table
 from ...core.units import in_si
@@ -28,12 +28,10 @@ from ..assembly.quantity import (
 )
 from ..models.car.car import WHEELS
 from .characteristics.datasets import ALONG, DATA_SET, KNOWN, OF_AXLES, OF_CARS, dataset
-from .compare import with_compliance
+from .compare import side_by_side, with_compliance
 from .compliance.flexibility import HELD, WheelSupport
 from .compliance.linear import COMPLIANCES, COMPLIANCES_OF_AXLES
 from .handling.circle import columns_of_turns
-
-Array = NDArray[np.float64]
 
 _OF_BODY = (HEAVE, PITCH, LATERAL_ACCELERATION)
 _ALONG = {
@@ -55,25 +53,25 @@ _EVERY = {
     for name, quantity in known.items()
     if name not in _ALONG
 }
-# What is held moves by less than this [m], and by less than this part of what does not.
+# A held position varies by less than this [m], and by less than this part of the one that varies.
 _NOISE, _PART_OF_NOISE = 1e-4, 1e-2
 
 
 def measured_curves(path: str | Path) -> xr.Dataset:
-    """Read curves from a CSV file.
+    """Return curves from a CSV file.
 
-    The first line names the columns, each with its unit: ``wheel_travel [mm]`` or
+    The first line has the names of the columns, each with its unit: ``wheel_travel [mm]`` or
     ``rack_position [mm]``, and characteristics, such as ``toe [deg]`` or ``wheel_rate [N/mm]``, by
-    their names in kintrafo; over wheel travel compliance, too, ``toe_by_lateral [deg/kN]``. Of an
+    their names in kintrafo; over wheel travel also compliance, ``toe_by_lateral [deg/kN]``. For an
     axle they are over ``wheel_travel`` of both wheels, ``roll_angle [deg]``, ``rack_position`` or
     ``steering_wheel_angle [deg]``, and names of characteristics of a wheel end in ``_left`` or
-    ``_right``, ``toe_left [deg]``. Of a car they are over ``body_heave``, ``body_pitch`` or
+    ``_right``, ``toe_left [deg]``. For a car they are over ``body_heave``, ``body_pitch`` or
     ``roll_angle``, or over the ``lateral_acceleration [m/s^2]`` of steady turns, such as
-    ``steering_wheel_angle [deg]``. Columns of other names are left out. `kintrafo.core.tables`
-    describes the spellings of names and units: ``Wheel Travel (mm)`` is the same, and units may be
-    in a separate row or comment. Rows may be in any order, and a position may be there more than
-    once, as of a loop with friction. A cell may be empty. Where both positions are there, one must
-    be the same in all rows, to 0.1 mm: the suspension is held there, at its mean.
+    ``steering_wheel_angle [deg]``. Other columns are left out. `kintrafo.core.tables` describes the
+    spellings of names and units, such as ``Wheel Travel (mm)``; units may be in a separate row or
+    comment. Rows may be in any order, and positions may repeat, as in a loop with friction. A cell
+    may be empty. If there are two positions, one must be the same in all rows, to 0.1 mm: the
+    suspension is held at its mean.
 
     Parameters
     ----------
@@ -82,8 +80,8 @@ def measured_curves(path: str | Path) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        Over the positions, such as ``wheel_travel`` [m]; SI units. The attribute ``left_out`` names
-        the columns that were not read.
+        Over the positions, such as ``wheel_travel`` [m]; SI units. The attribute ``left_out`` has
+        the names of columns that were not read.
 
     Raises
     ------
@@ -130,7 +128,7 @@ def measured_curves(path: str | Path) -> xr.Dataset:
 
 
 def _moved(names: Mapping[str, Any]) -> dict[str, Quantity]:
-    """Return the quantities of positions that are curves in a table with these columns."""
+    """Return the quantities that vary along other curves but are curves in this table."""
     if LATERAL_ACCELERATION.name in names:  # in steady turns the steering wheel angle is a curve
         turns = _KNOWN[LATERAL_ACCELERATION.name]
         return {name: turns[name] for name in names if name in turns}
@@ -143,7 +141,7 @@ def _quantity(name: str) -> Quantity:
 
 
 def _separated(sheet: Table, places: Mapping[str, Array]) -> tuple[str, list[tuple[str, float]]]:
-    """Return which position varies, and where the other one is held if it is there."""
+    """Return the name of the position that varies, and the others with their mean [m] or [rad]."""
     spread = {name: float(np.ptp(values)) for name, values in places.items()}
     least = min(_NOISE, _PART_OF_NOISE * max(spread.values()))
     varying = [name for name in places if spread[name] > least]
@@ -164,24 +162,24 @@ def beside(
     *,
     held: WheelSupport = "height",
 ) -> xr.Dataset:
-    """Return characteristics at the positions of measured curves, beside these.
+    """Return measured curves, and characteristics at the same positions.
 
     Parameters
     ----------
     measured : xarray.Dataset
         From `measured_curves`.
     subjects : mapping of str to Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
-        By the names that are beside their curves.
+        By the names of their curves.
     name : str, optional
-        That of the measurement.
+        Name of the measurement.
     held : {'height', 'tyre', 'spring', 'locked'}, optional
         Support of the wheels when compliance was measured, see `kintrafo.compliance.linear`.
 
     Returns
     -------
     xarray.Dataset
-        The curves that were measured, by the names of their columns, over ``data_set``: the
-        measurement is the first, then come the `subjects`. `kintrafo.compare.differences` takes it.
+        The measured curves, by the names of their columns, over ``data_set``: the measurement, then
+        the `subjects`; for `kintrafo.compare.differences`.
 
     Raises
     ------
@@ -208,30 +206,20 @@ def beside(
     for assembly in assemblies.values():
         whole = flat(_curves(assembly, measured, held))
         found.append(whole[[n for n in map(str, measured) if n in whole]])
-    attributes = {"long_name": "data set", "measured": 1}  # the first of them
-    names = xr.Variable(DATA_SET, [name, *assemblies], attributes)
-    # positions are the same and may repeat: nothing is to be aligned
-    return xr.concat(
-        found, names, join="override", coords="minimal", compat="override",
-        combine_attrs="override",
-    )  # fmt: skip
+    attributes = {"long_name": "data set", "measured": 1}  # the first one is measured
+    return side_by_side(found, xr.Variable(DATA_SET, [name, *assemblies], attributes))
 
 
 def motion_of(assembly: Assembly, measured: xr.Dataset) -> str | None:
-    """Return the motion of an assembly in which what varies along measured curves varies.
-
-    Over wheel travel it is the usual one: both wheels of an axle move in parallel.
-    """
-    for motion, how in assembly.motions.items():
-        if how.along.name in measured.dims:
-            return motion
-    return None
+    """Return the first motion of an assembly over the position of measured curves, or None."""
+    motions = assembly.motions.items()
+    return next((name for name, how in motions if how.along.name in measured.dims), None)
 
 
 def _refuse_other_motions(
     given: Validator, name: str, assembly: Assembly, measured: xr.Dataset
 ) -> None:
-    """Refuse curves over what an assembly does not have."""
+    """Raise an error for curves over a position that no motion of the assembly has."""
     if motion_of(assembly, measured) is None:
         (along,) = {*measured.dims} & {*_ALONG}
         known = ", ".join(dict.fromkeys(how.along.name for how in assembly.motions.values()))
@@ -245,7 +233,7 @@ def _curves(assembly: Assembly, measured: xr.Dataset, held_by: WheelSupport) -> 
         return float(measured[quantity.name]) if quantity.name in measured.coords else 0.0
 
     motion = motion_of(assembly, measured)
-    assert motion is not None  # others were refused
+    assert motion is not None  # checked by `beside`
     along = assembly.motions[motion].along
     travel = 0.0 if along is TRAVEL else held(TRAVEL)
     rack = 0.0 if along is RACK or not assembly.steered else held(RACK)

@@ -1,42 +1,41 @@
 """Roads and rack motions by formula, for `kintrafo.simulate`.
 
-Each function returns something that ``simulate(..., inputs={"road_height": ...})`` takes; heights
-are in metres, positive up. What was measured is read by `kintrafo.measurement`.
+Each function returns an argument of ``simulate(..., inputs={"road_height": ...})``; heights are
+positive up [m]. `kintrafo.measurement` reads measured ones.
 """
 
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from ...core.errors import InputError
+from ...core.named_types import Array
 from ...core.validator import Validator
 
-Array = NDArray[np.float64]
 Samples = tuple[Array, Array]
 
-# A cubic spline leaves its function by h^4 / 384 of the fourth derivative: 6e-11 for these.
+# A cubic spline differs from its function by h^4 / 384 of the fourth derivative: 6e-11 for these.
 _SAMPLES_OF_A_PERIOD = 512
 _MOST_PERIODS = 5000
 
 
 def step(height: float, *, at: float, end: float) -> Samples | float:
-    """Return a road that rises at once.
+    """Return a road with a step.
 
     Parameters
     ----------
     height : float
-        Height behind the step [m]; negative for a drop.
+        Height after the step [m]; negative for a drop.
     at : float
-        Time at which the tyre meets it [s].
+        Time at which the tyre reaches it [s].
     end : float
         Last time of the simulation [s].
 
     Returns
     -------
     tuple of ndarray, or float
-        Samples with a jump; a number where the step is there from the start.
+        Samples with a jump; the height if `at` is not after the start.
 
     Examples
     --------
@@ -57,12 +56,12 @@ def step(height: float, *, at: float, end: float) -> Samples | float:
 
 
 def sine(amplitude: float, frequency: float, *, end: float) -> CubicSpline:
-    """Return a harmonic motion that starts in its middle, upward.
+    """Return a sine over time, which starts at zero and rises.
 
     Parameters
     ----------
     amplitude : float
-        To either side [m].
+        [m]
     frequency : float
         [Hz]
     end : float
@@ -71,8 +70,8 @@ def sine(amplitude: float, frequency: float, *, end: float) -> CubicSpline:
     Returns
     -------
     scipy.interpolate.CubicSpline
-        Of time [s], from zero to `end`, NaN elsewhere; it follows the sine to 1e-10 of the
-        amplitude.
+        A function of time [s], from zero to `end`, NaN elsewhere; it differs from the sine by at
+        most 1e-10 of the amplitude.
 
     Examples
     --------

@@ -3,23 +3,20 @@
 from collections.abc import Sequence
 from typing import NamedTuple, Protocol
 
-import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...systems.system import System
 from ..assembly.car import CarAssembly
 from ..roads.road import Road
 
-Array = NDArray[np.float64]
-
 
 class MovingCar(Protocol):
-    """A car as a picture needs it, and the loads on its parts."""
+    """Properties of a car that pictures of its motion and loads on its parts need."""
 
     @property
     def assembly(self) -> CarAssembly | None:
-        """The car with its linkages, if it has some."""
+        """The car with its linkages; None if it has none."""
 
     @property
     def model(self) -> System:
@@ -35,7 +32,7 @@ class MovingCar(Protocol):
 
     @property
     def spins(self) -> Sequence[str]:
-        """The angles of the wheels among the states."""
+        """The names of the angles of the wheels among the states."""
 
     @property
     def radii(self) -> Sequence[float]:
@@ -51,11 +48,11 @@ class Run(NamedTuple):
     motion : xarray.Dataset
         Its motion over time.
     states, inputs : ndarray, shape (n, states) and (n, inputs)
-        Of its equations, at the same times.
+        States and inputs of its equations, at the same times.
     places : ndarray, shape (n, 2)
         Position on the road of the point of the car whose path is shown, axes of the equations [m].
     way : ndarray, shape (n,), optional
-        Distance travelled by a car whose equations hold its body at one place [m].
+        Distance travelled [m], if the body has no coordinate along the road.
     road : Road, optional
         The road under its wheels; level by default.
     """

@@ -1,13 +1,13 @@
-"""One run over a road: where it starts, what road and rack do, for how long."""
+"""A simulation over a road: its start, its inputs and its duration."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.errors import InputError
+from ...core.named_types import Array
 from ...core.validator import Validator
 from ...datasets.recording import dataset_of
 from ...simulation.courses import Signal
@@ -30,14 +30,12 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-Array = NDArray[np.float64]
-
 BOTH = "both"
-"""Under all wheels."""
+"""The inputs are those of all wheels."""
 
 _RACK = "rack_position"
 
-# More output than this is a mistake in the step, and would fill the memory.
+# More rows of output would fill the memory: the output step is probably wrong.
 _MOST_OUTPUTS = 5_000_000
 
 
@@ -52,9 +50,9 @@ class Scenario:
     output_step : float
         Time between outputs [s].
     height : float or mapping of str to float, optional
-        Height of all wheel centres at the start, or by wheel, 'left' and 'right', and that of
-        design where it is not given; chassis axes [m]. By default the equilibrium on the road as it
-        is at the start.
+        Height of all wheel centres at the start, or by wheel, 'left' and 'right', that of design
+        for a wheel that is left out; chassis axes [m]. By default the equilibrium on the road at
+        the start.
     spin_rate : float
         Rate of the wheels relative to their carriers, positive rolling forward [rad/s].
     inputs : dict
@@ -68,7 +66,7 @@ class Scenario:
     inputs: dict[str, Signal] = field(default_factory=dict)
 
     def checked(self, given: Validator) -> tuple[float, float]:
-        """Return duration and output step [s], or refuse them."""
+        """Return duration and output step [s], or add an error to the validator."""
         duration = given.number("duration", self.duration, "s", above=0.0)
         step = given.number("output step", self.output_step, "s", above=0.0)
         if not given.failed and duration / step > _MOST_OUTPUTS:
@@ -79,7 +77,7 @@ class Scenario:
         return duration, step
 
     def times(self) -> Array:
-        """Return the times of the output, the first and the last included [s]."""
+        """Return the times of the output, with the first and the last one [s]."""
         with Validator("simulation") as given:
             duration, step = self.checked(given)
         count = int(np.floor(duration / step + 1e-9))
@@ -97,30 +95,30 @@ def run(
     wheels: str = BOTH,
     **options: Any,
 ) -> "tuple[Simulation, xr.Dataset]":
-    """Simulate a scenario.
+    """Return the simulation of a scenario, and its signals over time.
 
     Parameters
     ----------
     model : Model, AxleModel or RigidAxleModel
     scenario : Scenario
-        Its ``road_height``, and loads on a wheel, are those of the wheels that are named; the
-        others have a level road. Inputs of an axle may be given by their own names, too.
     wheels : {'both', 'left', 'right'}, optional
+        The wheels that ``road_height`` and loads on a wheel are for; the others have a level road.
+        Inputs of an axle may also have the names of the model, such as ``left_road_height``.
     **options : Any
         Of `kintrafo.simulate`: ``method``, ``rtol``, ``atol``, ...
 
     Returns
     -------
     Simulation
-        With the times at which the first wheel left the ground in ``t_events[0]``, and at which it
-        came back in ``t_events[1]``; those of the second wheel behind them, the left one first.
+        ``t_events[0]`` has the times at which the first wheel left the ground, ``t_events[1]``
+        those at which it came back; then come those of the second wheel. The left one is the first.
     xarray.Dataset
         Signals, states and inputs over time, see `kintrafo.datasets.recording.dataset_of`.
 
     Raises
     ------
     InputError, PositionError, SimulationError
-        As `kintrafo.simulate` and `kintrafo.equilibrium`; or if a wheel cannot be at its height.
+        As `kintrafo.simulate` and `kintrafo.equilibrium`; or if a wheel does not reach its height.
 
     Examples
     --------
@@ -143,12 +141,12 @@ def run(
 
 
 def motion_of(model: AnyModel, result: Simulation) -> "xr.Dataset":
-    """Return signals, states and inputs of a simulation; those of an axle name their wheel.
+    """Return signals, states and inputs of a simulation, with the wheel in their long names.
 
     Parameters
     ----------
     model : Model, AxleModel or RigidAxleModel
-        The one that was simulated.
+        The simulated model.
     result : Simulation
 
     Returns
@@ -170,7 +168,7 @@ def motion_of(model: AnyModel, result: Simulation) -> "xr.Dataset":
 
 
 def by_wheel(model: AnyModel, motion: "xr.Dataset") -> "xr.Dataset":
-    """Return a motion whose variables of wheels have the dimension ``wheel``, for drawing.
+    """Return a motion in which variables of wheels have the dimension ``wheel``.
 
     Parameters
     ----------
@@ -181,24 +179,19 @@ def by_wheel(model: AnyModel, motion: "xr.Dataset") -> "xr.Dataset":
     Returns
     -------
     xarray.Dataset
-        That of a corner is as it was. Of ``left_road_height`` and ``right_road_height`` there is
-        ``road_height``.
+        ``left_road_height`` and ``right_road_height`` become ``road_height``. The motion of a
+        corner is unchanged.
     """
     with Validator("by_wheel") as given:
         assembly = given_model(given, model)
         given.dataset(motion)
-    if len(assembly.wheels) == 1:
-        return motion
-    return together(motion, assembly.wheels)
+    return motion if len(assembly.wheels) == 1 else together(motion, assembly.wheels)
 
 
 def started(
     model: AnyModel, scenario: Scenario, *, wheels: str = BOTH
 ) -> tuple[State, dict[str, Signal]]:
-    """Return the state that a scenario starts from, and its inputs by the names of the model.
-
-    Arguments and errors as of `run`.
-    """
+    """Return the first state of a scenario, and its inputs by the names of the model; see `run`."""
     with Validator("simulation") as given:
         assembly = given_model(given, model)
         given.instance("scenario", scenario, Scenario, "a Scenario is needed")
@@ -229,7 +222,7 @@ def started(
 
 
 def _refuse_unusable(given: Validator, assembly: Assembly, scenario: Scenario) -> None:
-    """Refuse times that cannot be, and a start and inputs that the assembly does not have."""
+    """Add errors for wrong times, and for inputs that the assembly does not have."""
     scenario.checked(given)
     inputs = given.mapping("inputs", scenario.inputs, "input names and their values")
     if _RACK in inputs and not assembly.steered:
@@ -240,7 +233,7 @@ def _refuse_unusable(given: Validator, assembly: Assembly, scenario: Scenario) -
 def _by_wheel(
     assembly: Assembly, given: Mapping[str, Signal], wheels: Sequence[str]
 ) -> dict[str, Signal]:
-    """Return inputs by the names of the model: what is given for one wheel, for each of these."""
+    """Return inputs by the names of the model; an input of one wheel is that of each of these."""
     inputs, prefixes = dict(given), [assembly.names_of(wheel).prefix for wheel in wheels]
     for name in ("road_height", *UNITS):
         named = [f"{prefix}{name}" for prefix in prefixes]

@@ -1,8 +1,8 @@
-"""The K&C sheet: kinematic and compliance gradients at design on one page, as a rig's summary has.
+"""The K&C sheet: kinematic and compliance gradients at design, as in the summary of a rig.
 
-Each has its definition, and its sign in two systems of axes: ISO 8855 (x forward, y left, z up), in
-which everything here is computed, and the one of SAE J670 whose z axis points down (x forward, y
-right). The latter is how its edition of 1976 has them; that of 2008 allows both.
+Each gradient has its definition, and its sign in two systems of axes: ISO 8855 (x forward, y left,
+z up), in which everything is computed, and SAE J670 with z down (x forward, y right). The 1976
+edition of SAE J670 has only these axes; that of 2008 allows both.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -28,7 +28,7 @@ QUANTITY = "quantity"
 
 _SIDES = ("_left", "_right")
 _LEFTWARD, _RIGHTWARD = "to the left", "to the right"
-# Of one wheel or of an axle, by the part of the sheet; what is not known of one is left out.
+# Characteristics by the part of the sheet; those that an assembly does not have are left out.
 _PARTS = {
     "at rest": (
         "toe", "camber", "caster", "kingpin_inclination", "trail", "steering_axis_offset",
@@ -74,18 +74,18 @@ def sheet(
     ----------
     subject : Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
     bushings : mapping, optional
-        As of `kintrafo.compliance.linear`, in the place of those of the file. Where neither has
-        any, the sheet has no compliance.
+        As in `kintrafo.compliance.linear`, instead of those of the file. Without bushes the sheet
+        has no compliance.
     held : {'height', 'tyre', 'spring', 'locked'}, optional
-        What holds a wheel under the loads of the compliance.
+        Support of the wheels under the loads of the compliance.
 
     Returns
     -------
     xarray.Dataset
         Over ``quantity``, the names of the characteristics and compliances: the values with the
-        signs of ``iso_8855`` and of ``sae_j670`` (z down), in the display units of
-        ``unit``; ``part`` of the sheet, ``meaning``, ``definition``, and when either value is
-        positive, ``iso_8855_sign`` and ``sae_j670_sign``.
+        signs of ``iso_8855`` and of ``sae_j670`` (z down), in the display units of ``unit``;
+        ``part`` of the sheet, ``meaning``, ``definition``, and the meaning of a positive value in
+        ``iso_8855_sign`` and ``sae_j670_sign``.
 
     Raises
     ------
@@ -94,9 +94,9 @@ def sheet(
 
     Notes
     -----
-    Both systems count toe towards the vehicle, camber by its top, and what has a side of the wheel
-    alike. What counts to the left in ISO 8855, such as steer angles, counts to the right in the
-    axes of SAE J670 with z down: its value has the other sign.
+    Toe, camber and quantities relative to the inside of the car have the same sign in both systems.
+    Quantities that are positive to the left in ISO 8855, such as steer angles, have the other sign
+    in SAE J670 with z down.
 
     Examples
     --------
@@ -111,7 +111,8 @@ def sheet(
         given.among("held", held, HELD)
     found = dict(_kinematic(assembly))
     if bushings is not None or assembly.has_bushes:
-        found |= _compliant(assembly, bushings, held)
+        soft = flat(linear(assembly, bushings, [0.0], held=held)).drop_dims(["moved", "by"])
+        found |= {str(name): (_COMPLIANCE, data) for name, data in soft.items()}
     return _dataset(found, held)
 
 
@@ -219,36 +220,18 @@ def _rows(here: xr.Dataset, values: Sequence[str]) -> Iterator[tuple[str, ...]]:
         yield (meaning, *cells.values(), unit, iso, _in_sae(iso, sae))
 
 
-# -- what stands in it ----------------------------------------------------------------------------
-
-
 def _kinematic(assembly: Assembly) -> Iterator[tuple[str, tuple[str, xr.DataArray]]]:
     """Yield the characteristics at design with the parts of the sheet, by their names."""
     known: dict[str, xr.DataArray] = {}
-    for curves in _curves(assembly):
+    steering = () if assembly.steered_by is None else (assembly.steered_by,)
+    for motion in (assembly.usual_motion, *steering):
+        curves = flat(dataset(assembly, motion, np.zeros(1)))
         known = {str(name): data for name, data in curves.items()} | known
     for part, stems in _PARTS.items():
         for stem in stems:
             for name in (stem, *(f"{stem}{side}" for side in _SIDES)):
                 if name in known:
                     yield name, (part, known[name])
-
-
-def _curves(assembly: Assembly) -> list[xr.Dataset]:
-    """Return all characteristics at design, by the names of their columns."""
-    steering = () if assembly.steered_by is None else (assembly.steered_by,)
-    return [
-        flat(dataset(assembly, motion, np.zeros(1)))
-        for motion in (assembly.usual_motion, *steering)
-    ]
-
-
-def _compliant(
-    assembly: Assembly, bushings: Mapping[str, Any] | None, held: WheelSupport
-) -> dict[str, tuple[str, xr.DataArray]]:
-    """Return the compliances at design, by the names of their columns."""
-    found = flat(linear(assembly, bushings, [0.0], held=held)).drop_dims(["moved", "by"])
-    return {str(name): (_COMPLIANCE, data) for name, data in found.items()}
 
 
 def _dataset(rows: Mapping[str, tuple[str, xr.DataArray]], held: WheelSupport) -> xr.Dataset:
@@ -266,14 +249,12 @@ def _dataset(rows: Mapping[str, tuple[str, xr.DataArray]], held: WheelSupport) -
         "sae_j670_sign": flipped,
     }
     words = "value at design with the sign of"
+    data = {name: xr.Variable(QUANTITY, each) for name, each in texts.items()}
     values = {
         "iso_8855": xr.Variable(QUANTITY, iso, attributes(f"{words} ISO 8855", "")),
         "sae_j670": xr.Variable(QUANTITY, sae, attributes(f"{words} SAE J670, z down", "")),
     }
-    described = {name: xr.Variable(QUANTITY, each) for name, each in texts.items()}
-    order = ("part", "iso_8855", "sae_j670", "unit", "meaning", "definition")
-    data = described | values
-    ordered = {name: data[name] for name in (*order, "iso_8855_sign", "sae_j670_sign")}
+    ordered = {"part": data.pop("part")} | values | data
     return xr.Dataset(
         ordered, {QUANTITY: [*rows]}, {"title": "K&C sheet at design", "held": HELD[held]}
     )

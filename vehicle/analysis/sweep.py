@@ -1,17 +1,16 @@
-"""Positions over wheel travel and rack displacement: where the wheel and the joints go.
+"""Positions of wheels and joints over wheel travel and rack displacement.
 
 Wheel travel is the height of the wheel centre above its design position [m], positive in bump; the
-rack is displaced along its axis [m]. Both are zero at design.
+displacement of the rack is along its axis [m]. Both are zero at design.
 """
 
 from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from ...core.memory import positions_given
-from ...core.named_types import ArrayLike
+from ...core.named_types import Array, ArrayLike
 from ...core.quantities import variable
 from ...core.validator import Validator
 from ..assembly.assembly import HeldAssembly
@@ -22,7 +21,6 @@ from ..assembly.usual import grid, usual_rack, usual_travel
 
 __all__ = ["grid", "positions", "usual_rack", "usual_travel"]
 
-Array = NDArray[np.float64]
 
 TRAVEL, RACK = "wheel_travel", "rack_position"
 
@@ -48,11 +46,11 @@ def positions(
     Returns
     -------
     xarray.Dataset
-        Over ``wheel_travel`` and ``rack_position``, of which one that is a single number is a
-        scalar coordinate; of an axle, what each side has also over ``wheel``. Variables: the
-        signals of the equations that the position decides (wheel centre, camber, toe, steer angle,
-        strut length, ...), the moving hardpoints (``ball_joint_x``, ...) and the independent
-        coordinates; SI units, chassis axes.
+        Over ``wheel_travel`` and ``rack_position`` (a single number is a scalar coordinate); of an
+        axle, variables of the sides also over ``wheel``. Variables: the signals of the equations
+        that depend on position alone (wheel centre, camber, toe, steer angle, strut length, ...),
+        the moving hardpoints (``ball_joint_x``, ...) and the independent coordinates; SI units,
+        chassis axes.
 
     Raises
     ------
@@ -82,7 +80,7 @@ def positions(
             if not assembly.steered:
                 given.fail("rack: this axle has none. Leave it out.")
     travels = assembly.usual(assembly.usual_motion) if travel is None else travels
-    # travels go down, racks across; a single one of either has no dimension
+    # travels are rows, racks columns; a single value of either has no dimension
     heights, across = np.broadcast_arrays(
         travels[:, None] if travels.ndim and racks.ndim else travels, racks
     )
@@ -106,7 +104,7 @@ Columns = dict[str, tuple[Array, str, str]]
 
 
 def _of_group(assembly: HeldAssembly, suffix: str, poses: PartPoses) -> Columns:
-    """Return everything that the position of a group of parts decides, as columns."""
+    """Return the positions, angles and lengths of a group of parts, as columns."""
     model = poses.model
     found: Columns = {}
     for name, values in poses.signals().items():
@@ -130,7 +128,7 @@ def _of_group(assembly: HeldAssembly, suffix: str, poses: PartPoses) -> Columns:
 
 
 def _ended(assembly: HeldAssembly, name: str) -> str:
-    """Return the name of a signal with that of its wheel at the end, where equations begin it."""
+    """Return the name of a signal with its wheel at the end rather than at the beginning."""
     if len(assembly.wheels) == 1:
         return name
     for wheel in assembly.wheels:

@@ -1,11 +1,11 @@
-"""What a wheel that moves by itself has: geometry, reach, rest on the road, wheel hop."""
+"""Facts of an independently suspended wheel: geometry, reach, rest on the road, wheel hop."""
 
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...core.validator import Validator
 from ...core.vectors import distance_from_line
 from ..assembly import wheel
@@ -16,13 +16,10 @@ from ..models.plausibility import plausibility
 from ..models.positions import AngleRange, PositionError, design_height, travel_range
 from . import paper
 
-Array = NDArray[np.float64]
-
-# Less travel than this between design and an end is noted, as a part of the height of the wheel
-# centre: 40 mm of a passenger car (300 mm), 27 mm of a Formula Student car (200 mm; its rules ask
-# for 25 mm).
+# Less travel between design and an end is noted, as a part of the height of the wheel centre: 40 mm
+# of a passenger car (300 mm), 27 mm of a Formula Student car (200 mm; its rules ask for 25 mm).
 _LITTLE_TRAVEL = 0.04 / 0.3
-# So far from design, the wheel's place at rest is worth a word [m].
+# A wheel that rests farther from design is noted [m].
 _FAR_FROM_DESIGN = 0.005
 
 
@@ -39,16 +36,16 @@ class RestFacts:
     signals : dict
         All signals of the model there, SI units.
     frequency : float
-        Undamped natural frequency of the wheel-hop mode [Hz]; NaN where nothing would swing.
+        Undamped natural frequency of the wheel-hop mode [Hz]; NaN if the wheel does not swing.
     damping_ratio : float
         Of that mode, without friction; above one where it does not oscillate.
     damping_ratio_with_friction : float or None
-        With the friction as steep as it is at rest, which holds for speeds far below
-        ``friction_velocity_m_per_s`` alone; None if there is no friction.
+        With friction linear about rest, which holds only for speeds far below
+        ``friction_velocity_m_per_s``; None if there is no friction.
     ride_frequency : float or None
-        Undamped natural frequency of the body above a wheel at rest on the road: of the mass that
-        spring and stops carry, on their rate in series with the tyre's [Hz]. None where they carry
-        nothing or have no rate.
+        Undamped natural frequency of the body above a wheel at rest on the road: of the mass on
+        spring and stops, on their rate in series with the tyre's [Hz]. None if they carry no load
+        or have no rate.
     """
 
     height: float
@@ -73,13 +70,13 @@ class WheelFacts:
     geometry : dict
         Lengths and angles at design, by name; those that end in ``_angle`` are angles.
     reach : AngleRange
-        Wheel heights that can be reached with the rack in its middle, and what ends them.
+        Range of wheel heights with the rack in its middle, and its limits.
     travel : tuple of float
-        The same as travel from design: lowest and highest.
+        The same range as travel from design, lowest and highest.
     extension_travel : float or None
         Travel at which the strut is fully extended; None if it never is, or there is none.
     equilibrium : RestFacts or None
-        None if there is no stable one.
+        None if there is no stable equilibrium.
     problems : tuple of str
         Errors, and almost certain mistakes.
     notes : tuple of str
@@ -117,7 +114,7 @@ class WheelFacts:
 
 
 def facts_of(model: Model) -> WheelFacts:
-    """Return what there is to say of the wheel of a corner."""
+    """Return the facts of the wheel of a corner."""
     reach, design = travel_range(model), design_height(model)
     travel = reach.height[0] - design, reach.height[1] - design
     problems: list[str] = []
@@ -162,8 +159,8 @@ def _equilibrium(model: Model) -> RestFacts:
 def without_friction(model: Model) -> Model:
     """Return the model without friction, the same one if it has none.
 
-    Friction is smoothed near rest, so that it has a slope there: a damper of friction over speed,
-    many times what the wheel meets in any motion that is seen. At rest it has no force.
+    Friction is smoothed near rest, where its slope is that of a damper many times as strong as
+    those that the wheel has in a motion. At rest it has no force.
 
     Parameters
     ----------
@@ -212,10 +209,7 @@ def _geometry(model: Model) -> dict[str, float]:
 
 
 def _extension_travel(model: Model, reach: AngleRange) -> float | None:
-    """Return the travel at which what the wheel hangs on is drawn out, looked up in a table.
-
-    None if nothing is, or it never is.
-    """
+    """Return the travel at which the strut is fully extended [m], from a table; None if never."""
     extended = model.suspension.extended()
     if extended is None:
         return None
@@ -224,7 +218,7 @@ def _extension_travel(model: Model, reach: AngleRange) -> float | None:
     states[:, 0] = angles
     signals: dict[str, Array] = model.signals(states)
     longer = signals[extended.signal] - extended.length
-    # from low to high positions it becomes shorter
+    # it becomes shorter from low to high positions
     below = np.flatnonzero((longer[:-1] > 0.0) & (longer[1:] <= 0.0))
     if below.size == 0:
         return None

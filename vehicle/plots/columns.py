@@ -5,9 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.text import Annotation
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ...core.named_types import Array
 
 # Between two labels, and between them and the edge [points].
 _ROOM = 3.0

@@ -15,10 +15,10 @@ from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_pdf import PdfPages
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from ...core.errors import InputError
 from ...core.files import Paths, refuse, replacing
+from ...core.named_types import Array
 from ...core.quantities import displayed
 from ...core.validator import Validator, shown
 from ...pictures.curves import COLUMNS, dimension_along, draw, drawable, is_constant
@@ -26,8 +26,6 @@ from ...pictures.figures import METADATA, STYLE, lay_out, save
 from ..analysis.characteristics.groups import ORDER, group_of
 from ..studies.goals import Goal
 from .goals import about, mark_sides
-
-Array = NDArray[np.float64]
 
 FORMATS = ("png", "svg", "pdf")
 # Over travel and roll, and over the rack: the curves that engineers look at first.

@@ -8,14 +8,12 @@ from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
-from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...pictures.figures import BLUE, GREEN, ORANGE, STYLE, save
 from ..models.model import Model
 from ..models.points import hardpoints
 from ..models.positions import state_at_height
-
-Array = NDArray[np.float64]
 
 GREY = "#b8b8b8"
 TYRE_WIDTH = 0.205  # of the drawing only [m]

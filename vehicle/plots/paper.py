@@ -6,14 +6,12 @@ import numpy as np
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from ...core.files import refuse
 from ...core.legible import legible
+from ...core.named_types import Array
 from ...pictures.figures import BLUE, GREEN, ORANGE, STYLE, save
 from ..analysis.paper import PaperDynamics, PaperKinematics
-
-Array = NDArray[np.float64]
 
 _NAMES = ("figure_4_wheel_path", "figure_5_wheel_angles", "figure_6_wheel_motion")
 _ENDINGS = ("png", "svg")

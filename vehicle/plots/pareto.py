@@ -5,17 +5,14 @@ from pathlib import Path
 from textwrap import fill
 from typing import Unpack
 
-import numpy as np
 from matplotlib.axes import Axes
-from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...core.quantities import bracketed, display_of
 from ...pictures.figures import BLUE, GREEN, ORANGE
 from ..studies.objectives import Objective
 from ..studies.pareto import Front
 from .panels import FigureOptions, write_panels
-
-Array = NDArray[np.float64]
 
 # So many letters of a name stand beside an axis of these pictures.
 _LETTERS = 34

@@ -4,16 +4,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...core.vectors import cross
 from ..models.model import Model
 from .curves import CharacteristicCurve, curves
 from .encode import rounded
 from .grid import Grid
 from .poses import Poses, poses
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

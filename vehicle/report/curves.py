@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ..analysis.characteristics.datasets import over
 from ..analysis.characteristics.groups import group_of
 from ..assembly.corner_kinematics import gaps
@@ -19,8 +19,6 @@ from .poses import racks_of
 
 if TYPE_CHECKING:
     from xarray import DataArray, Dataset
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

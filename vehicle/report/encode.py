@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Array = NDArray[np.float64]
+from ...core.named_types import Array
 
 
 def rounded(values: ArrayLike, design: ArrayLike) -> Array:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Array = NDArray[np.float64]
+from ...core.named_types import Array
 
 # Points of the cubic through which each direction is interpolated.
 ORDER = 4

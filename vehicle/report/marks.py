@@ -7,6 +7,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ..analysis.characteristics.datasets import KNOWN, over
 from ..assembly.by_wheel import WHEEL
 from ..models.axle import Axle
@@ -16,8 +17,6 @@ from ..studies.goals import Goal, Limit, TargetValue, words_of
 from ..studies.sweep_axes import sweep_axis
 from .curves import CharacteristicCurve
 from .grid import Grid, GridAxis
-
-Array = NDArray[np.float64]
 
 # Positions that are nearer to the end of a chart are in it [m].
 _ROUNDING = 1e-9

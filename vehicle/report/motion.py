@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.errors import KintrafoError
+from ...core.named_types import Array
 from ...core.quantities import attributes
 from ...simulation.simulate import simulate
 from ..analysis.paper import DURATION, REST_HEIGHT, SPIN_RATE, START_HEIGHT
@@ -13,8 +13,6 @@ from ..models.model import Model
 from ..models.positions import design_height, state_at_height
 from .curves import printed
 from .grid import Grid, GridAxis
-
-Array = NDArray[np.float64]
 
 DROP = START_HEIGHT - REST_HEIGHT  # above the design position, as in the paper [m]
 STEP = 1e-3  # between two samples [s]

@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 from jinja2 import Environment
 from markupsafe import Markup
-from numpy.typing import NDArray
 
 from ...core.files import Paths, refuse, replacing
 from ...core.legible import legible
+from ...core.named_types import Array
 from ...core.validator import Validator, shown
 from ...pages.embedded import asset, page_environment
 from ...pages.mechanism.page import report_page
@@ -34,8 +34,6 @@ from .payload import Look, page_data
 from .plotted import decimals, shown_range
 from .poses import Poses, poses, reachable_grid
 from .tables import input_tables, summary
-
-Array = NDArray[np.float64]
 
 ENDINGS = (".html", ".htm")
 """What the name of a report ends in."""

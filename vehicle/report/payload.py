@@ -4,8 +4,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from markupsafe import Markup
-from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...pages.embedded import embedded
 from ..kinds import Suspension
 from .curves import CharacteristicCurve
@@ -15,8 +15,6 @@ from .marks import Marks
 from .motion import NoMotion, ReportedMotion, TimeCurve
 from .plotted import decimals, full_range, meaningful
 from .poses import Poses
-
-Array = NDArray[np.float64]
 
 # Of the drawing only [m]; the radius where the data have none.
 TYRE_WIDTH = 0.205

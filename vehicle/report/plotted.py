@@ -3,9 +3,8 @@
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ...core.named_types import Array
 
 # A range so many times as wide as that of the middle 80 % of the values belongs to a pole.
 _POLE = 12.0

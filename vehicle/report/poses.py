@@ -3,15 +3,13 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ..models.model import Model
 from ..models.points import hardpoints
 from ..models.positions import PositionError, arm_angles, design_height, travel_range
 from ..models.reach import at_rest
 from .grid import Grid, GridAxis
-
-Array = NDArray[np.float64]
 
 TRAVEL = 0.100  # to either side of the design position, where the mechanism reaches [m]
 TRAVEL_STEP = 0.005  # [m]

@@ -4,15 +4,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...core.quantities import display_of
 from ..assembly.assembly import Assembly
 from ..assembly.quantity import Quantity
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

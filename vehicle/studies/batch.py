@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import KintrafoError
+from ...core.named_types import Array
 from ...core.threads import shared_out
 from ...equations.errors import ClosureError
 from ...simulation.lanes.run import usual_threads
@@ -30,8 +31,6 @@ from ..models.positions import arm_angles_of_batch
 from .curves import Curves, changed
 from .design_variables import DesignVariable, is_factor, names_bushes
 from .evaluation import Subject
-
-Array = NDArray[np.float64]
 
 # Cars of a batch: enough that work done once for all is negligible, and few enough that their
 # results stay in the cache.

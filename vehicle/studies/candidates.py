@@ -3,17 +3,15 @@
 from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.errors import KintrafoError
+from ...core.named_types import Array
 from ..assembly.of import assembly_of
 from .batch import curves_of_many, moved_by
 from .curves import CurveBundle, changed
 from .design_variables import DesignVariable
 from .evaluation import Subject
 from .goals import Goal
-
-Array = NDArray[np.float64]
 
 # Nearer to the end of its range than this part of it, a value is at the end.
 _AT_THE_END = 1e-6

@@ -5,9 +5,8 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
-from ...core.named_types import ArrayLike
+from ...core.named_types import Array, ArrayLike
 from ...core.quantities import variable
 from ...core.suggestions import suggestion
 from ...core.validator import Validator, shown
@@ -16,8 +15,6 @@ from .batch import curves_of_many
 from .curves import Curves, curves_of, refuse_bushes
 from .design_variables import DesignVariable, places_of
 from .evaluation import Subject, check_subject
-
-Array = NDArray[np.float64]
 
 CAR = "car"
 """The dimension of values that are given as rows of numbers."""

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from typing import Any, TypeVar, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...core.validator import Validator
 from ..analysis.compliance.flexibility import HELD
 from ..assembly.assembly import Assembly
@@ -15,8 +15,6 @@ from ..assembly.quantity import Quantity
 from .design_variables import DesignVariable, scaled
 from .evaluation import Subject, available, usual_positions, values_of
 from .sweep_axes import given_axis, sweep_axes_of, sweep_axis
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

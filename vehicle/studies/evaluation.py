@@ -5,8 +5,8 @@ from typing import Any, cast
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...core.validator import Validator
 from ..analysis.characteristics.datasets import dataset
 from ..analysis.compare import common_positions as common_to
@@ -20,7 +20,6 @@ from ..models.car import Car
 from ..models.whole_axle import WholeAxle
 from .sweep_axes import sweep_axis
 
-Array = NDArray[np.float64]
 Subject = Suspension | Axle | WholeAxle | Car
 """What has design variables: the numbers of its files."""
 

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from ...core.errors import InputError
+from ...core.named_types import Array
 from ...core.quantities import display_of
 from ...core.validator import Validator
 from ..analysis.compliance.flexibility import HELD, WheelSupport
@@ -18,8 +18,6 @@ from .goals import GREATEST, LEAST, TargetValue, check_data
 from .search import Search, in_words, least
 from .sweep_axes import UNDER_LOADS, given_axis, sweep_axes_of, sweep_axis
 from .tolerance import SIGMAS
-
-Array = NDArray[np.float64]
 
 # A curve is measured to this part of what it varies by, where nothing is said.
 _USUAL_ACCURACY = 0.02

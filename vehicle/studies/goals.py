@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...core.quantities import bracketed, display_of
 from ...core.validator import Validator
 from ..analysis.compliance.flexibility import HELD
@@ -26,8 +27,6 @@ from .sweep_axes import (
     sweep_axes_of,
     sweep_axis,
 )
-
-Array = NDArray[np.float64]
 
 _SECTIONS = (
     "distribution",

@@ -2,12 +2,8 @@
 
 from collections.abc import Callable
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ...core.named_types import Array
 from ...core.optional import require
-
-Array = NDArray[np.float64]
 
 _PURPOSE, _EXTRA = "A Pareto front", "pareto"
 

@@ -5,14 +5,13 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...core.quantities import distinct
 from ...core.validator import Validator
 from .goals import Goal, TargetValue, extremes_of, targets_of
 from .sweep_axes import sweep_axis
 
-Array = NDArray[np.float64]
 Kind = Literal["deviation", "greatest", "least"]
 
 # Of several positions, and of one.

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from ...core.errors import InputError
+from ...core.named_types import Array
 from ...core.validator import Validator
 from .design_variables import DesignVariable, amounts
 from .evaluation import Subject, check_subject
@@ -24,8 +24,6 @@ from .search import (
     least,
 )
 from .sweep_axes import sweep_axes_of
-
-Array = NDArray[np.float64]
 
 # What it costs to move a value over all of its range, in deviations that matter: of what does as
 # well, that which moves least is taken.

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from ...core.errors import InputError
+from ...core.named_types import Array
 from ...core.validator import Validator
 from .candidates import Candidates
 from .curves import changed, refuse_bushes
@@ -20,8 +20,6 @@ from .nsga import check_installed, evolve
 from .objectives import Objective, objectives_of
 from .search import in_words
 from .sweep_axes import sweep_axes_of
-
-Array = NDArray[np.float64]
 
 MEMBER = "member"
 """Dimension of a front."""

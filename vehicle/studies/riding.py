@@ -3,10 +3,9 @@
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...core.validator import Validator
 from ..analysis.ride.by_speed import OF_CAR, OF_WHEELS, by_speed
 from ..assembly.assembly import Assembly
@@ -14,8 +13,6 @@ from ..assembly.quantity import SPEED
 from ..models.car.car import WHEELS
 from ..roads.rough import roughness_of
 from .axis import SweepAxis, number_of
-
-Array = NDArray[np.float64]
 
 RIDE = "speed"
 """Speed of cars that do not drive, on a rough road."""

@@ -3,16 +3,14 @@
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
+from ...core.named_types import Array
 from .candidates import Candidates
 from .design_variables import DesignVariable
 from .evaluation import Subject
 from .goals import Limit, TargetValue
 from .sensitivity import step_of
-
-Array = NDArray[np.float64]
 
 MOST_STEPS, NOTHING_TO_GAIN = 100, 1e-8
 """Steps of the solvers, and the part of the cost below which there is nothing to gain."""

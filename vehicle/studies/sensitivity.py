@@ -5,10 +5,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from ...core.errors import InputError, KintrafoError
-from ...core.named_types import ArrayLike
+from ...core.named_types import Array, ArrayLike
 from ...core.quantities import Display, display_of
 from ...core.validator import Validator
 from ..analysis.compliance.flexibility import HELD, WheelSupport
@@ -18,8 +17,6 @@ from .curves import Curves, changed, curves_of, refuse_bushes
 from .design_variables import DesignVariable, matching, names_bushes
 from .evaluation import Subject, check_subject
 from .sweep_axes import known_anywhere
-
-Array = NDArray[np.float64]
 
 PLACE = "place"
 """The dimension of the values that vary."""

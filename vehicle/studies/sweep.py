@@ -5,10 +5,9 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from ...core.errors import InputError, KintrafoError
-from ...core.named_types import ArrayLike
+from ...core.named_types import Array, ArrayLike
 from ...core.validator import Validator
 from ...ensembles import ensemble
 from ...ensembles.variants import without_mass
@@ -18,8 +17,6 @@ from ..corner.wheel_loads import UNITS
 from .curves import changed, refuse_bushes
 from .design_variables import DesignVariable, matching
 from .evaluation import Subject, check_held_subject
-
-Array = NDArray[np.float64]
 
 _CAR = "car"
 _MOST_CARS = 1_000_000

@@ -5,9 +5,8 @@ from typing import Any, Literal
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
-from ...core.named_types import ArrayLike
+from ...core.named_types import Array, ArrayLike
 from ...core.quantities import variable
 from ...core.validator import Validator
 from ..analysis.compliance.flexibility import WheelSupport
@@ -20,7 +19,6 @@ from .goals import Limit, check_data, limits_of
 from .sensitivity import PLACE, ROUNDING, slopes
 from .sweep_axes import sweep_axes_of
 
-Array = NDArray[np.float64]
 Distribution = Literal["normal", "uniform"]
 
 QUANTILE, CAR = "quantile", "car"

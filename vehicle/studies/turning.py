@@ -4,8 +4,8 @@ from collections.abc import Mapping
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...core.validator import Validator
 from ..analysis.handling.circle import columns_of_turns, turns_at
 from ..analysis.handling.steady import SteadyCondition
@@ -14,8 +14,6 @@ from ..assembly.assembly import Assembly
 from ..assembly.quantity import LATERAL_ACCELERATION
 from ..models.car.car import WHEELS
 from .axis import SweepAxis, number_of
-
-Array = NDArray[np.float64]
 
 TURNS = "lateral_acceleration"
 """Steady turns of cars that drive (ISO 4138)."""

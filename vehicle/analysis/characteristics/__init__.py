@@ -1,9 +1,5 @@
 """Kinematic characteristics of a suspension, an axle or a rigid axle, over the motions of a rig.
 
-    `over`       the characteristics as labelled arrays
-    `datasets`   how they are made, from the measures of each assembly
-    `groups`     which belongs beside which others
-
 Formulas, names, units, definitions and signs are in `kintrafo.vehicle.assembly.measures`; see
 docs/suspension/characteristics.md, docs/suspension/axles.md.
 """

@@ -1,4 +1,4 @@
-"""What a suspension or an axle is at design, as tables: of each wheel, and of the axle."""
+"""Tables of the characteristics at design, of each wheel and of the axle."""
 
 from collections.abc import Sequence
 
@@ -10,7 +10,7 @@ from ...assembly.by_wheel import AXLE, WHEEL
 
 
 def at_design(dataset: xr.Dataset, title: str) -> list[Tabulated]:
-    """Return the tables of all characteristics at zero of what varies.
+    """Return tables of all characteristics at the zero of the motion.
 
     Parameters
     ----------
@@ -22,8 +22,8 @@ def at_design(dataset: xr.Dataset, title: str) -> list[Tabulated]:
     Returns
     -------
     list of Tabulated
-        Of a corner one; of an axle what each wheel has, and what the axle has; of a car what each
-        wheel and each axle has. Those without rows are left out.
+        One of a corner; of an axle or a car one of the wheels, and one of the axle or axles. Empty
+        tables are left out.
     """
     if WHEEL not in dataset.dims:
         return _tables(title, [("at design", ("value",), [*dataset.values()])])
@@ -31,18 +31,11 @@ def at_design(dataset: xr.Dataset, title: str) -> list[Tabulated]:
     data = [*dataset.values()]
     of_wheels = [each for each in data if WHEEL in each.dims]
     of_axle = [each for each in data if WHEEL not in each.dims]
-    axles = [*map(str, dataset[AXLE].values)] if AXLE in dataset.dims else ("value",)
-    return _tables(
-        title,
-        [
-            ("each wheel, at design", wheels, of_wheels),
-            (
-                "the axle, at design" if AXLE not in dataset.dims else "each axle, at design",
-                axles,
-                of_axle,
-            ),
-        ],
-    )
+    last: tuple[str, Sequence[str], Sequence[xr.DataArray]]
+    last = "the axle, at design", ("value",), of_axle
+    if AXLE in dataset.dims:
+        last = "each axle, at design", [*map(str, dataset[AXLE].values)], of_axle
+    return _tables(title, [("each wheel, at design", wheels, of_wheels), last])
 
 
 def _tables(

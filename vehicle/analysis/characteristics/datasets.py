@@ -20,10 +20,10 @@ from ...models.car.file import ENDS
 from ...models.sides import SIDES
 
 DATA_SET = "data_set"
-"""The dimension of several sets of curves beside each other."""
+"""Dimension of several sets of curves."""
 
 ALONG = {"travel": TRAVEL, "rack": RACK}
-"""What varies along the curves of a corner."""
+"""Positions along the curves of a corner, by motion."""
 
 KNOWN: dict[str, dict[str, Quantity]] = {
     "travel": columns(corner.OVER_TRAVEL, ["left"]),
@@ -39,7 +39,7 @@ OF_AXLES = {
     RACK.name: _STEERED,
     STEERING_WHEEL.name: _STEERED | {RACK.name: RACK},
 }
-"""Characteristics of axles by the names of their columns, by what they are over."""
+"""Characteristics of axles by the names of their columns, for each position that they are over."""
 
 OF_CARS = columns(corner.OVER_TRAVEL, ["left"]) | {
     each.name: each
@@ -65,14 +65,14 @@ def over(
     ----------
     subject : Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
     motion : str, optional
-        Of a suspension 'travel' or, if it is steered, 'rack'. Of both kinds of axles 'bump' (both
-        wheels in parallel), 'roll', 'left' and 'right' (one wheel, the other one at design); of a
-        steered axle also 'steer' and 'rack'. By default the first of these.
+        Of a suspension 'travel' or, if it is steered, 'rack'. Of an axle 'bump' (both wheels in
+        parallel), 'roll', 'left' and 'right' (one wheel, the other one at design); of a steered
+        axle also 'steer' and 'rack'. By default the first of these.
     along : array_like, shape (n,), optional
         Positions of the motion: heights of wheel centres above design or displacements of the rack
         [m], roll angles of the body, positive with the right side down, or angles of the steering
-        wheel, positive to the left [rad]. By default the usual range, as far as the wheels go: 80
-        mm of travel and 60 mm of the rack to either side, 4 deg of roll.
+        wheel, positive to the left [rad]. By default the usual range, limited to the reach of the
+        wheels: 80 mm of travel and 60 mm of the rack to either side, 4 deg of roll.
     extent : SweepRange, optional
         Ends of the motion that differ from the usual range.
     travel : float, optional
@@ -86,7 +86,7 @@ def over(
         Over ``wheel_travel`` [m], ``roll_angle`` [rad], ``steering_wheel_angle`` [rad] or
         ``rack_position`` [m]; of an axle, characteristics of the wheels also over ``wheel``. The
         motion 'steer' is over the rack if the file has no steering ratio. SI units; each variable
-        carries ``units``, ``long_name``, ``definition``, ``sign`` and the display unit as
+        has ``units``, ``long_name``, ``definition``, ``sign`` and the display unit as
         ``display_units`` and ``display_factor``. Characteristics that need missing data of the
         vehicle are left out.
 
@@ -138,13 +138,7 @@ def over(
 
 
 def given_motion(assembly: Assembly, motion: Any, name: str = "motion") -> str:
-    """Return a motion of an assembly, by default the usual one.
-
-    Raises
-    ------
-    InputError
-        If it has no such motion.
-    """
+    """Return a motion of an assembly, by default the usual one, or raise an `InputError`."""
     if motion is None:
         return assembly.usual_motion
     if isinstance(motion, str) and motion not in assembly.motions:

@@ -1,9 +1,9 @@
-"""What bushes do to the wheels of any assembly: to first order, and by any amount.
+"""Deflection of the wheels of any assembly on bushes.
 
-`linear`            how wheels move per unit of a load, over parallel wheel travel
+`linear`            motion of the wheels per unit of a load, over parallel wheel travel
 `nonlinear`         the same by equilibrium, under loads of any size
-`elastokinematics`  the motions of a rig on bushes, beside rigid joints
-`combined`          over wheel travel and a load at once
+`elastokinematics`  the motions of a rig on bushes and with rigid joints
+`combined`          over wheel travel and a load together
 `read_bushes`       a file of bushes
 """
 

@@ -1,13 +1,10 @@
-"""How far an anti-roll bar is twisted between bodies that move freely.
-
-By the drop links of two suspensions, or by the inclination of a rigid axle.
-"""
+"""Twist of an anti-roll bar between free bodies: of two suspensions, or of a rigid axle."""
 
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ....core.named_types import Array
 from ....core.vectors import cross
 from ...corner.corner import UP
 from ...models.axle.bar import HalfBar
@@ -19,12 +16,10 @@ from .rigid_displacements import (
     second_by_rotation,
 )
 
-Array = NDArray[np.float64]
-
 
 @dataclass(frozen=True)
 class Foot:
-    """Where a drop link is joined to a body.
+    """The joint of a drop link on a body.
 
     Attributes
     ----------
@@ -41,7 +36,7 @@ class Foot:
 
 @dataclass(frozen=True)
 class Bars:
-    """The twist of an anti-roll bar, the left half less the right one, by their closed form.
+    """The twist of an anti-roll bar by its closed form: the angle of the left half minus the right.
 
     Attributes
     ----------
@@ -52,7 +47,7 @@ class Bars:
     right: Foot
 
     def at(self, places: RigidDisplacements) -> BodyMeasures:
-        """Return it somewhere [rad]; no number where a drop link does not reach."""
+        """Return the twist with derivatives [rad]; NaN where a drop link does not reach."""
         (one, first, bent), (other, second, also) = (
             _turned(foot, places) for foot in (self.left, self.right)
         )
@@ -68,7 +63,7 @@ class Bars:
 
 @dataclass(frozen=True)
 class Inclinations:
-    """The angle between a direction of a body and the level, positive with its end up.
+    """The angle between a direction of a body and the horizontal plane, positive upward.
 
     Attributes
     ----------
@@ -81,7 +76,7 @@ class Inclinations:
     direction: Array
 
     def at(self, places: RigidDisplacements) -> BodyMeasures:
-        """Return it somewhere [rad]."""
+        """Return the angle with derivatives [rad]."""
         upward = np.broadcast_to(UP, self.direction.shape)
         pair = np.array([[0, self.body]])
         sine = Angles(pair, upward[:, None], self.direction[:, None]).at(places)
@@ -95,7 +90,7 @@ class Inclinations:
 
 
 def _turned(foot: Foot, places: RigidDisplacements) -> tuple[Array, Array, Array]:
-    """Return the angle of a half, and its derivatives by six coordinates of the body."""
+    """Return the angle of a half [rad], and its derivatives in six coordinates of the body."""
     arm = places.of(np.array([foot.body]), foot.arm[:, None])[:, 0]
     at = places.centers[:, foot.body] + arm
     turn = foot.half.turn(at)
@@ -109,11 +104,10 @@ def _turned(foot: Foot, places: RigidDisplacements) -> tuple[Array, Array, Array
 
 
 def _by_foot(half: HalfBar, foot: Array, turn: Array) -> tuple[Array, Array]:
-    """Return the derivatives of the angle of a half by the place of the foot.
+    """Return the first and second derivatives of the angle of a half in the position of the foot.
 
-    With the link d = T - F and the top's derivatives T' and T'' by the angle, its length
-    g = d d / 2 has the derivatives g_F = -d, g_FF = 1, g_phi = T' d, g_Fphi = -T' and
-    g_phiphi = T'' d + T' T'.
+    The length g = d d / 2 of the link d = T - F is constant: with T' and T'' by the angle phi,
+    g_F = -d, g_FF = 1, g_phi = T' d, g_Fphi = -T', g_phiphi = T'' d + T' T'.
     """
     top = half.top_at(turn)
     link, first = top - foot, cross(np.broadcast_to(half.axis, top.shape), top - half.bush)

@@ -1,4 +1,4 @@
-"""Wheels on their bushes over travel and a load at once, as in the combined test of a rig."""
+"""Wheels on bushes over travel and a load together, as in the combined test of a rig."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -53,16 +53,16 @@ def combined(
     ----------
     subject : Suspension, Model, Axle or RigidAxle
     bushings : mapping or None
-        As of `nonlinear`.
+        As in `nonlinear`.
     under : {'lateral', 'braking', 'recession', 'aligning'}
-        As of `nonlinear`.
+        As in `nonlinear`.
     amounts : array_like, shape (m,)
         Amounts of the load, of either sign [N], [N m].
     travel : array_like, shape (n,), optional
         Heights of the wheel centres with rigid joints above design, of an axle in parallel [m]; by
         default the usual range.
     wheels, rack_position, held, hardpoints
-        As of `nonlinear`.
+        As in `nonlinear`.
 
     Returns
     -------
@@ -74,12 +74,12 @@ def combined(
     Raises
     ------
     InputError, PositionError
-        As of `nonlinear`.
+        As in `nonlinear`.
 
     Notes
     -----
-    The equilibria of `nonlinear` at many travels: the deflection of bushes under a load depends on
-    where the suspension is, and on the vertical force there.
+    These are the equilibria of `nonlinear` at many travels: the deflection of bushes under a load
+    depends on the position of the suspension and on the vertical force there.
 
     Examples
     --------

@@ -1,6 +1,6 @@
-"""What joints, bushes, springs and stops of a suspension measure between its bodies.
+"""Displacements and angles between bodies of a suspension, at joints, bushes, springs and stops.
 
-What a joint keeps is a condition; a bush has a force over the displacement.
+Each is a condition of a rigid joint, or has a law of force of a bush, a spring or a stop.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ....core.named_types import Array
 from ....core.vectors import cross
 from ...assembly.anti_roll_bar import AnyBar, Bar, RollBar, TwistBar
 from ...assembly.part_poses import PartPoses
@@ -29,16 +29,15 @@ from .rigid_displacements import (
     Torsions,
 )
 
-Array = NDArray[np.float64]
 Pair = tuple[int, int]
 Carried = Mapping[tuple[str, str, str], Array]
-"""Force and moment on a joint's second part, by both of its parts and the point, each (6,)."""
+"""Force and moment on the second part of a joint, (6,), by first part, second part and point."""
 
 GROUND = "chassis"
 GUIDE = GROUND, RACK, "tie_rod_inner"
-"""The joint that holds a rack that deflects, of those that carry."""
+"""The joint that holds a compliant rack, as a key of `Carried`."""
 
-# The pairs of directions of a wheel bearing that have its axis: what tilts.
+# The first right angles of a wheel bearing are those with its axis, which tilts.
 _TILTING = 2
 # The last directions of a bush are those across its axis.
 _ACROSS = 2
@@ -46,16 +45,16 @@ _ACROSS = 2
 
 @dataclass(frozen=True)
 class CompliantJoints:
-    """What deflects.
+    """Bushes and compliant rack of a suspension.
 
     Attributes
     ----------
     bushes : mapping of str to Bush
         By hardpoint.
     rack : float
-        How far the rack deflects along its axis for a unit force; zero where it is held [m/N].
+        Compliance of the rack along its axis [m/N]; zero if it is rigid.
     carried : mapping
-        What joints carry where the hardpoints are; those that are not there are relaxed.
+        Loads on joints at the hardpoints; joints that are left out are relaxed there.
     """
 
     bushes: Mapping[str, Bush]
@@ -64,28 +63,28 @@ class CompliantJoints:
 
 
 class Connections:
-    """Everything that is measured between the bodies of a suspension, or of both of an axle.
+    """All displacements and angles between the bodies of a suspension or an axle.
 
     Parameters
     ----------
     sides : sequence of tuple of PartPoses and CompliantJoints
-        Each in as many positions, with rigid joints. They have one rack: its deflection and
-        carries is that of the first.
+        All in the same positions, with rigid joints. The compliance of their common rack, and the
+        load on it, are those of the first.
     bar : AnyBar, optional
-        Between the two sides, on a rigid axle, or between two parts of one.
+        An anti-roll bar between the sides, on a rigid axle, or between two parts of one.
 
     Attributes
     ----------
     start : RigidDisplacements
-        Where the bodies are with rigid joints; the ground is the first.
+        The bodies with rigid joints; the ground is the first.
     laws : list of Law or None
-        What each measure has of a force; None for a condition.
+        The law of force of each measure; None for a condition.
     springs : list of int
-        Which measures are the lengths of the springs, by wheel.
+        Indices of the measures that are lengths of springs, by wheel.
     bar : int or None
-        Which measure is the twist of the bar.
+        Index of the measure that is the twist of the bar.
     wheels : list of int
-        Which bodies are the wheels.
+        Indices of the bodies that are wheels.
     """
 
     def __init__(
@@ -117,7 +116,7 @@ class Connections:
             of_each = (np.stack(same, axis=1) for same in zip(*vectors, strict=True))
             self._groups.append(kind(np.array(bodies), *of_each))
             self.laws += laws
-        # the lines are the last
+        # lines are the last measures
         lines = [line for side in self._sides for line in side.lines]
         begin = len(self.laws) - len(lines)
         self.springs = [begin + i for i, line in enumerate(lines) if line.is_spring]
@@ -134,18 +133,15 @@ class Connections:
             self.laws.append(LinearLaw(bar.rate))
 
     def index(self, side: int, body: str) -> int:
-        """Return which body it is; what does not move is the ground."""
+        """Return the index of a body; fixed ones belong to the ground."""
         return self._sides[side].index(body)
 
     def at(self, places: RigidDisplacements) -> BodyMeasures:
-        """Return all that is measured somewhere."""
+        """Return all measures with the bodies at some places."""
         return BodyMeasures.together([group.at(places) for group in self._groups])
 
-    def given_way(self, places: RigidDisplacements) -> dict[str, Array]:
-        """Return how far bushes are displaced from their hardpoints, the most in any direction [m].
-
-        By their hardpoints; of both sides of an axle the farther.
-        """
+    def deflected(self, places: RigidDisplacements) -> dict[str, Array]:
+        """Return the largest deflection of bushes in any direction, by hardpoint [m]."""
         value, found = self.at(places).value, dict[str, Array]()
         for which, law in enumerate(self.laws):
             if isinstance(law, LinearLaw | CurvedLaw) and law.bush:
@@ -154,7 +150,7 @@ class Connections:
         return found
 
     def strokes(self, places: RigidDisplacements) -> list[dict[str, Array]]:
-        """Return what the stops of each side count by somewhere, by their signals [m]."""
+        """Return the strokes of the stops of each side, by their signals [m]."""
         value = self.at(places).value
         strokes = (
             law.stroke + value[:, which] - law.length
@@ -172,36 +168,25 @@ class Connections:
 
 
 class _Side:
-    """What is measured between the bodies of one suspension.
+    """The measures between the bodies of one suspension."""
 
-    Attributes
-    ----------
-    poses : PartPoses
-    bodies : dict of str to int
-        Those that move.
-    joints : list of PartJoint
-    lines : sequence of LineForce
-    centers : ndarray, shape (n, bodies, 3)
-        Of all bodies, with rigid joints [m].
-    """
-
-    centers: Array
+    centers: Array  # of all bodies with rigid joints, (n, bodies, 3) [m]
 
     def __init__(self, poses: PartPoses, soft: CompliantJoints, bodies: dict[str, int]) -> None:
         self.poses, self._soft, self.bodies = poses, soft, bodies
         self.joints, self.lines = list(poses.structure.joints), poses.structure.lines
 
     def index(self, body: str) -> int:
-        """Return which body it is; what does not move is the ground."""
+        """Return the index of a body; fixed ones belong to the ground."""
         return self.bodies.get(body, 0)
 
     def measures(self, name: str) -> Iterator[tuple[Pair, tuple[Array, ...], Law | None]]:
-        """Yield all of a kind: what the method of that name has of joints, or of lines."""
+        """Yield the bodies, vectors and law of all measures of a kind, by the method's name."""
         for each in self.lines if name == "lengths" else self.joints:
             yield from getattr(self, name)(each)
 
     def foot(self, half: HalfBar) -> Foot:
-        """Return where the drop link of half a bar is joined to its part."""
+        """Return the joint of the drop link of half a bar on its part."""
         poses = self.poses
         places = {"foot": (half.body, half.foot)}
         at = placed(poses.model, places, poses.states, poses.inputs)["foot"]
@@ -209,22 +194,22 @@ class _Side:
         return Foot(half, which, at - self.centers[:, which])
 
     def inclination(self, body: str) -> Inclinations:
-        """Return how far what points left of a body at design has its end up."""
+        """Return the inclination of the direction of a body that points left at design."""
         return Inclinations(self.index(body), self.poses.turned[body][..., 1])
 
     def twist(self, bar: TwistBar) -> Torsions:
-        """Return how far the second part of a bar has turned against its first one."""
+        """Return the rotation of the second part of a bar relative to the first one."""
         _, across, other = frame(bar.axis)
         twist = bar.twist_of(self.poses)[:, None]
         both = np.cos(twist) * across + np.sin(twist) * other
         further = np.cos(twist) * other - np.sin(twist) * across
         shape = both.shape
         first, first_other = (np.broadcast_to(way, shape)[:, None] for way in (across, other))
-        # at rest with rigid joints they are turned by the twist that they have there
+        # directions of the second part include its twist with rigid joints
         bodies = np.array([[self.index(bar.first), self.index(bar.second)]])
         return Torsions(bodies, first, first_other, both[:, None], further[:, None])
 
-    # -- what is measured: bodies, vectors, and the law ------------------------------------------
+    # -- measures: bodies, vectors and law --------------------------------------------------------
 
     def distances(
         self, joint: PartJoint
@@ -235,7 +220,7 @@ class _Side:
             bush, rows = self._bush(joint, point), kept
             laws: list[Law | None] = [None] * kept.shape[-2]
             if bush is not None:
-                # along what a joint does not keep, the axis of a telescope, a bush does nothing
+                # no force along a free direction of the joint, such as the axis of a telescope
                 rows = self._axes(bush, joint.first)[:, -len(laws) :]
                 laws = self._laws(bush, joint)[-len(laws) :]
             start, end = (self._arm(body, point) for body in parts)
@@ -244,7 +229,7 @@ class _Side:
                     yield self._indices(*parts), (rows[:, which], start, end), law
 
     def radii(self, joint: PartJoint) -> Iterator[tuple[Pair, tuple[Array, ...], Law | None]]:
-        """Yield what bushes measure across their axes that are curved there."""
+        """Yield the radial displacement of bushes with a radial curve."""
         for bush in self._bushes(joint):
             curve = bush.curves[-1]
             if curve is None:
@@ -266,7 +251,7 @@ class _Side:
     def angles(self, joint: PartJoint) -> Iterator[tuple[Pair, tuple[Array, Array], Law | None]]:
         poses = self.poses
         wheels = poses.wheels
-        # what else is held in every direction needs no axis of its own
+        # a part that is fixed to another in all directions needs no axis of its own
         spin = wheels.get(joint.second, next(iter(wheels.values()))).design_axis
         pairs = joint.right_angles(poses.points, poses.turned, poses.design, spin)
         bush = self._bush(joint, joint.at[0])
@@ -274,17 +259,17 @@ class _Side:
         for which, (first, second) in enumerate(pairs):
             law, ways = None, (first, second)
             if bush is not None and bush.tilt.any() and which < _TILTING:
-                # what is across the wheel's axis turns with the bush, and measures the rotation
-                # about the other direction across it
+                # a direction across the wheel's axis turns with the bush, and measures the rotation
+                # about the other one
                 turned, across = poses.turned[joint.first], bush.tilts_about[which]
                 ways = np.broadcast_to(turned @ across, first.shape), first
-                # where the bush stands, in axes that are those of design
+                # the moment on the bush, in the axes of design
                 moment = carried[3:] @ cross(turned[0].T @ first[0], across)
                 law = LinearLaw(1.0 / bush.tilt[1 - which], -float(moment))
             yield self._indices(joint.first, joint.second), ways, law
 
     def tilts(self, joint: PartJoint) -> Iterator[tuple[Pair, tuple[Array, Array], Law | None]]:
-        """Yield what of its axis leaves that of a bush which resists tilting."""
+        """Yield the tilting of bushes with tilting stiffness."""
         for bush in self._bushes(joint):
             if any(bush.turning[1:]):
                 rows, axis = self._axes(bush, joint.first), self._axes(bush, joint.second)[:, 0]
@@ -297,7 +282,7 @@ class _Side:
                     )
 
     def twists(self, joint: PartJoint) -> Iterator[tuple[Pair, tuple[Array, ...], Law | None]]:
-        """Yield the torsion of bushes that resist it."""
+        """Yield the torsion of bushes with torsional stiffness."""
         for bush in self._bushes(joint):
             if stiffness := bush.turning[0]:
                 first, second = self._axes(bush, joint.first), self._axes(bush, joint.second)
@@ -308,7 +293,7 @@ class _Side:
                 )
 
     def lengths(self, line: LineForce) -> Iterator[tuple[Pair, tuple[Array, Array], Law]]:
-        """Yield the length of a spring, or of what is beside it."""
+        """Yield the length of a spring or a stop."""
         poses = self.poses
         first, second = (poses.points[point] for point in line.at)
         length = np.linalg.norm(second - first, axis=-1)
@@ -324,11 +309,11 @@ class _Side:
     # -- bushes -----------------------------------------------------------------------------------
 
     def _bush(self, joint: PartJoint, point: str) -> Bush | None:
-        """Return what deflects at a point of a joint, if anything does."""
+        """Return the bush at a point of a joint, if there is one; a compliant rack has one, too."""
         if joint is not _RACK_IN_ITS_GUIDE:
             return self._soft.bushes.get(point)
         axis = self.poses.rack_axis
-        assert axis is not None  # where there is a rack
+        assert axis is not None  # there is a rack
         soft = np.array([self._soft.rack, 0.0, 0.0])
         axes = np.stack(frame(axis))
         none = np.zeros(2), axes[1:], (0.0, 0.0, 0.0), (None, None, None)
@@ -339,13 +324,13 @@ class _Side:
         return [bush for bush in found if bush is not None]
 
     def _axes(self, bush: Bush, part: str) -> Array:
-        """Return the axes of a bush as rows, which turn with a part, (n, 3, 3)."""
+        """Return the axes of a bush, which turn with a part, as rows, (n, 3, 3)."""
         turned = self.poses.turned.get(part, np.eye(3))
         rows = bush.axes @ np.swapaxes(turned, -1, -2)
         return np.broadcast_to(rows, (len(self.poses.states), 3, 3))
 
     def _laws(self, bush: Bush, joint: PartJoint) -> list[Law | None]:
-        """Return the force of a bush along each of its axes; none where it is rigid."""
+        """Return the law of a bush along each of its axes; None where it is rigid."""
         key = joint.first, joint.second, bush.point
         carried = -bush.axes @ self._soft.carried.get(key, np.zeros(6))[:3]
         name = RACK if joint is _RACK_IN_ITS_GUIDE else bush.point
@@ -360,7 +345,7 @@ class _Side:
     # -- bodies -----------------------------------------------------------------------------------
 
     def _arm(self, body: str, point: str) -> Array:
-        """Return a hardpoint from the centre of a body, (n, 3) [m]."""
+        """Return the vector from the centre of a body to a hardpoint, (n, 3) [m]."""
         arm: Array = self.poses.carried_by(body, point) - self.centers[:, self.index(body)]
         return arm
 
@@ -369,7 +354,7 @@ class _Side:
 
 
 _RACK_IN_ITS_GUIDE = FixedJoint(GROUND, RACK, GUIDE[2:])
-# What is measured, and which method of a side has it.
+# Kinds of measures, and the methods of a side that yield them.
 _KINDS: tuple[tuple[Any, str], ...] = (
     (Distances, "distances"), (Angles, "angles"), (Angles, "tilts"), (Torsions, "twists"),
     (Radii, "radii"), (Lengths, "lengths"),

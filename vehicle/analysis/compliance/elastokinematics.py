@@ -1,4 +1,4 @@
-"""How wheels move over the motions of a rig on their bushes, and with rigid joints."""
+"""Motion of the wheels over the motions of a rig, on bushes and with rigid joints."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -32,7 +32,7 @@ from .on_bushes import (
     softs_of,
 )
 
-# So many positions of a corner at a time: their matrices take 50 MB, and grow with the square.
+# Positions of a corner at a time: their matrices take 50 MB, and grow with the square of wheels.
 _TOGETHER = 200
 _KINDS = ("kinematic", "elastokinematic")
 CONTACT_RATE = Quantity(
@@ -86,9 +86,9 @@ def elastokinematics(
         All positions are those with rigid joints; the road holds the contacts at the heights of
         these positions.
     extent : SweepRange, optional
-        How far the usual range goes.
+        Ends of the motion that differ from the usual range.
     travel : float, optional
-        Height of the wheel centres above design where the rack moves [m].
+        Height of the wheel centres above design in motions of the rack [m].
     rack_position : float, optional
         Displacement of the rack in other motions [m].
     hardpoints : {'loaded', 'relaxed'}, optional
@@ -101,7 +101,7 @@ def elastokinematics(
     xarray.Dataset
         Over ``wheel``, ``data_set`` ('kinematic', 'elastokinematic') and ``wheel_travel``,
         ``roll_angle``, ``steering_wheel_angle`` or ``rack_position``: toe and camber [rad],
-        half-track and wheelbase change [m], ``steer`` where the rack moves [rad]; ``wheel_load``,
+        half-track and wheelbase change [m], in motions of the rack ``steer`` [rad]; ``wheel_load``,
         the vertical force of the road [N], and ``contact_rate``, its derivative with respect to the
         height of the contact with the other wheel held [N/m]. The ``wheel_rate`` of the
         characteristics is that of spring and stops, by the height of the centre. Of two wheels
@@ -166,7 +166,7 @@ def elastokinematics(
     for begin in range(0, values.size, together):
         some = values[begin : begin + together]
         poses = assembly.poses(assembly.position(name, some, **held))
-        # five rigid rods would not let an axle move
+        # an axle on five rigid rods does not move
         both = [on_joints(assembly, poses)] if assembly.moves_rigidly else []
         both.append(on_joints(assembly, poses, softs))
         states = [at_height(suspension, some, over) for suspension in both]
@@ -189,7 +189,7 @@ def _over_motion(
     over: Quantity,
     along: Array,
 ) -> xr.Dataset:
-    """Return what the wheels do with rigid joints, if they can move so, and on bushes."""
+    """Return the curves on bushes, and with rigid joints if the wheels can move on these."""
     dims = (DATA_SET, over.name)
     data: dict[str, xr.Variable] = {}
     wheels = [
@@ -221,7 +221,7 @@ def _over_motion(
 def _forces(
     both: Sequence[ElasticEquilibrium], states: Sequence[ElasticState], dims: tuple[str, str]
 ) -> dict[str, xr.Variable]:
-    """Return what the wheels carry, and how stiff the road feels them, of some equilibria."""
+    """Return the wheel loads [N] and the rates at the contacts in some equilibria."""
     rates, stiffness = [], []
     for one, state in zip(both, states, strict=True):
         rate = one.rate(state, np.zeros((*state.road.shape, LOADS)))

@@ -1,7 +1,7 @@
-"""The equilibrium of a suspension or an axle whose joints deflect, however far: Newton's method.
+"""Equilibrium of a suspension or an axle on bushes with large deflections: Newton's method.
 
-Unknown are displacements and rotations of all parts, what holds them together, and what holds the
-wheels. The matrix is exact; steps are those of all positions at once.
+The unknowns are displacements and rotations of all parts, the forces of rigid joints, and the
+forces that support the wheels. The Jacobian is exact; all positions are solved together.
 """
 
 from collections.abc import Sequence
@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.named_types import Array
 from ....core.threads import in_one_thread
 from ....core.vectors import cross
 from ...assembly.anti_roll_bar import AnyBar
@@ -21,41 +22,39 @@ from .connections import CompliantJoints, Connections
 from .flexibility import WheelSupport, rates_of_tyres
 from .rigid_displacements import BodyMeasures, RigidDisplacements, cross_matrix
 
-Array = NDArray[np.float64]
-
 _MOST_STEPS = 40
-# The most that a bush may deflect: real ones reach some tens of millimetres [m].
+# The largest deflection of a bush: real ones reach some tens of millimetres [m].
 _FARTHEST = 0.1
-# A step this small is the last one: the next would be as small as its square, in m and rad.
+# A step this small is the last one: the next would be of the size of its square, in m and rad.
 _LAST_STEP = 1e-9
-# No step goes farther: beyond it, first derivatives say little.
+# Longer steps are shortened to this one: first derivatives hold only nearby.
 _LONGEST = 0.02
-# Conditions that follow from others, to rounding.
+# Conditions with a smaller independent part follow from others, to rounding.
 _REPEATED = 1e-9
-# Unknown forces are counted in this many newtons, so that they are of the size of displacements.
+# Unit of the unknown forces [N], with which they are of the size of displacements.
 _FORCE = 1e5
 LOADS = 9
-"""Numbers of a load, see `ElasticEquilibrium.under`."""
+"""Components of a load, see `ElasticEquilibrium.under`."""
 
-# A unit of what the road does to hold a wheel up, as a load.
+# A unit of vertical force of the road on a wheel, as a load.
 _UPWARD = np.array([0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
 
 
 @dataclass(frozen=True)
 class ElasticState:
-    """Where the parts of a suspension or an axle are, and what holds them there; n positions.
+    """Displacements of the parts of a suspension or an axle, and forces on them; n positions.
 
     Attributes
     ----------
     places : RigidDisplacements
     forces : ndarray, shape (n, conditions)
-        Of the conditions [N], [N m].
+        Forces and moments of the conditions [N], [N m].
     road : ndarray, shape (n, wheels)
         Vertical force of the road at each contact [N].
     lock : ndarray, shape (n, wheels)
-        What locks each spring [N].
+        Force that locks each spring [N].
     found : ndarray of bool, shape (n,)
-        Whether this is an equilibrium that lasts.
+        Whether this is a stable equilibrium.
     """
 
     places: RigidDisplacements
@@ -66,22 +65,22 @@ class ElasticState:
 
 
 class _Rest(NamedTuple):
-    """What springs and tyres remember of a state: lengths [m], and forces of the road [N]."""
+    """Lengths of the springs [m] and forces of the road [N] in a state of reference."""
 
     length: Array
     road: Array
 
 
 class ElasticEquilibrium:
-    """A suspension on bushes in many positions, under loads at the contacts of its wheel.
+    """Equilibrium of a suspension or an axle on bushes, in many positions, under loads on wheels.
 
     Parameters
     ----------
     sides : sequence of tuple of PartPoses and CompliantJoints
-        With rigid joints, and what deflects: of a suspension, of both of an axle, or of a rigid
-        axle.
+        Poses with rigid joints, and the compliant joints: of a suspension, of both sides of an
+        axle, or of a rigid axle.
     bar : AnyBar, optional
-        An anti-roll bar between both, or on a rigid axle.
+        An anti-roll bar between the sides, or on a rigid axle.
 
     Attributes
     ----------
@@ -90,7 +89,7 @@ class ElasticEquilibrium:
     wheels : list of RoadWheel
         With rigid joints.
     start : ElasticState
-        With rigid joints: no equilibrium.
+        The state with rigid joints, which is not an equilibrium.
     """
 
     def __init__(
@@ -123,7 +122,7 @@ class ElasticEquilibrium:
         self._heights = self._contact_heights(connections.start)
         self._rates = rates_of_tyres(self.wheels)
 
-    # -- where a wheel is -------------------------------------------------------------------------
+    # -- pose of a wheel --------------------------------------------------------------------------
 
     def axis(self, places: RigidDisplacements, side: int = 0) -> Array:
         """Return the spin axis of a wheel, pointing outboard, (n, 3)."""
@@ -144,12 +143,12 @@ class ElasticEquilibrium:
     def moved(
         self, point: Array, since: RigidDisplacements, places: RigidDisplacements, side: int = 0
     ) -> Array:
-        """Return how far a wheel took a point with it, (n, 3) [m].
+        """Return the displacement of a point of a wheel from `since` to `places`, (n, 3) [m].
 
         Parameters
         ----------
         point : ndarray, shape (n, 3)
-            Where it was [m].
+            Its position before [m].
         since, places : RigidDisplacements
             Before and after.
         side : int, optional
@@ -161,7 +160,7 @@ class ElasticEquilibrium:
         return shift
 
     def beyond(self, state: ElasticState) -> list[str]:
-        """Return which lengths are beyond what the files allow."""
+        """Return messages for lengths beyond the limits of the files."""
         strokes = self._connections.strokes(state.places)
         return [
             allowed.beyond
@@ -171,8 +170,8 @@ class ElasticEquilibrium:
         ]
 
     def overstretched(self, state: ElasticState) -> str:
-        """Return which bush deflects farther than any bush can; empty where none does."""
-        far = self._connections.given_way(state.places)
+        """Return a message for a bush with an impossible deflection; empty if there is none."""
+        far = self._connections.deflected(state.places)
         for bush, amount in sorted(far.items(), key=lambda item: -float(np.nanmax(item[1]))):
             most = 1e3 * float(np.nanmax(amount))
             if most > 1e3 * _FARTHEST:
@@ -184,7 +183,7 @@ class ElasticEquilibrium:
 
     def _radius(self, side: int) -> float:
         radius = self.wheels[side].vehicle.tyre_radius
-        assert radius is not None  # callers have seen to it
+        assert radius is not None  # checked by callers
         return radius
 
     def _contact_heights(self, places: RigidDisplacements) -> Array:
@@ -204,13 +203,13 @@ class ElasticEquilibrium:
             Force and moment on each wheel at its lowest point, and force at its centre, chassis
             axes [N], [N m].
         held : {'height', 'tyre', 'spring', 'locked'}
-            What holds a wheel: the road at the height where the contact was with rigid joints, or
-            a tyre on a road that stays where it was in `since`; or a force of the road as in
-            `near`, the spring as it is or as long as it was in `since`.
+            Support of the wheels: 'height', a road at the height of the contact with rigid joints;
+            'tyre', a tyre on the road of `since`; 'spring', the force of the road in `near`;
+            'locked', a spring with its length in `since`.
         near : ElasticState
-            Where to begin; it need not be an equilibrium.
+            Start of the iteration; it need not be an equilibrium.
         since : ElasticState, optional
-            Without the load; by default `near`.
+            The state without the load; by default `near`.
         """
         state = near
         rest = self._rest(since or near)
@@ -227,12 +226,12 @@ class ElasticEquilibrium:
         return replace(state, found=found & self._lasts(matrix, held))
 
     def rate(self, state: ElasticState, load: Array) -> Array:
-        """Return how the forces of the road rise with the heights, (n, wheels, wheels) [N/m].
+        """Return the derivatives of road forces in contact heights, (n, wheels, wheels) [N/m].
 
         Parameters
         ----------
         state : ElasticState
-            An equilibrium under a load, the wheels held by the road.
+            An equilibrium under a load, with the road as support of the wheels.
         load : ndarray, shape (n, wheels, 9)
         """
         wheels = state.road.shape[1]
@@ -245,7 +244,7 @@ class ElasticEquilibrium:
         return np.stack(columns, axis=-1)
 
     def torque_of_bar(self, state: ElasticState) -> Array:
-        """Return the torque of the bar, positive with the first half turned the farther [N m]."""
+        """Return the torque of the bar, positive if the first half is turned farther [N m]."""
         which = self._connections.bar
         if which is None:
             return np.zeros(len(state.road))
@@ -256,7 +255,7 @@ class ElasticEquilibrium:
     def _moved(
         self, state: ElasticState, step: Array, held: WheelSupport
     ) -> tuple[ElasticState, Array]:
-        """Return the state after a step, and how far that went."""
+        """Return the state after a step, and the length of the step."""
         size = 6 * (self._count - 1)
         far = np.abs(step[:, :size]).max(axis=1)
         with np.errstate(invalid="ignore"):
@@ -279,7 +278,7 @@ class ElasticEquilibrium:
     def _linear(
         self, state: ElasticState, load: Array, held: WheelSupport, rest: _Rest
     ) -> tuple[Array, Array]:
-        """Return the derivative of what is left of all equations, and what is left."""
+        """Return the Jacobian and the residual of all equations."""
         measured = self._connections.at(state.places)
         n, size = len(load), 6 * (self._count - 1)
         slopes = measured.slopes(self._count)[:, :, 1:].reshape(n, len(self._connections.laws), -1)
@@ -312,7 +311,7 @@ class ElasticEquilibrium:
     def _inner(
         self, state: ElasticState, measured: BodyMeasures, slopes: Array
     ) -> tuple[Array, Array]:
-        """Return what resists displacements and rotations of the parts, and its derivative."""
+        """Return the forces of joints, bushes and springs on the parts, and their derivative."""
         laws = self._connections.laws
         forces, rates = np.zeros_like(measured.value), np.zeros_like(measured.value)
         for which in self._soft:
@@ -325,14 +324,14 @@ class ElasticEquilibrium:
         bent = measured.bent(forces, self._count)[:, 1:, :, 1:].reshape(n, size, size)
         stiffness = bent + slopes.mT @ (rates[..., None] * slopes)
         total = np.einsum("nf,nfx->nx", forces, slopes)
-        # a moment is given in axes that stay, in which a rotation after another is no sum
+        # moments are in fixed axes, in which successive rotations do not add up
         for begin in range(3, size, 6):
             rows = slice(begin, begin + 3)
             stiffness[:, rows, rows] -= 0.5 * cross_matrix(total[:, rows])
         return total, stiffness
 
     def _upward(self, places: RigidDisplacements, load: Array) -> Array:
-        """Return what a unit of the road's force at each wheel does, (n, wheels, unknowns)."""
+        """Return the loads on the parts by a unit road force at a wheel, (n, wheels, unknowns)."""
         found = []
         for side in range(load.shape[1]):
             one = np.zeros_like(load)
@@ -341,7 +340,7 @@ class ElasticEquilibrium:
         return np.stack(found, axis=1)
 
     def _outer(self, places: RigidDisplacements, load: Array) -> tuple[Array, Array]:
-        """Return what pushes and turns the parts from outside, and its derivative."""
+        """Return the weights and the loads of the wheels on the parts, and their derivative."""
         n = len(load)
         total, by = self._gravity(n), np.zeros((n, *2 * (6 * (self._count - 1),)))
         for side, wheel in enumerate(self._connections.wheels):
@@ -358,7 +357,7 @@ class ElasticEquilibrium:
         return total, by
 
     def _contact_by_turn(self, places: RigidDisplacements, side: int, spoke: Array) -> Array:
-        """Return how the lowest point moves as the wheel turns, (n, 3, 3)."""
+        """Return the derivative of the lowest point in the rotation of the wheel, (n, 3, 3)."""
         axis = self.axis(places, side)
         turning = -cross_matrix(axis)
         rise = axis[:, 2, None]
@@ -378,10 +377,10 @@ class ElasticEquilibrium:
 
     @in_one_thread
     def _lasts(self, matrix: Array, held: WheelSupport) -> NDArray[np.bool_]:
-        """Return where all that the conditions leave free is resisted."""
+        """Return where the stiffness in all free directions is positive: a stable equilibrium."""
         size = 6 * (self._count - 1)
         stiffness, conditions = -matrix[:, :size, :size], matrix[:, size:, :size]
-        if held == "tyre":  # a spring is no condition
+        if held == "tyre":  # its rate is a stiffness rather than a condition
             rows = conditions[:, -len(self.wheels) :]
             stiffness = stiffness + rows.mT @ (self._rates[:, None] / _FORCE * rows)
             conditions = conditions[:, : -len(self.wheels)]
@@ -395,21 +394,15 @@ class ElasticEquilibrium:
 
 
 def _independent(slopes: Array, wanted: Sequence[int]) -> list[int]:
-    """Return those of some conditions that do not follow from those before them.
+    """Return the indices of conditions that do not follow from those before them.
 
-    Which these are is the same in every position, as their order is.
-
-    Parameters
-    ----------
-    slopes : ndarray, shape (measures, unknowns)
-    wanted : sequence of int
-        Which measures are conditions.
+    Dependence is that of the slopes in the first position, (measures, unknowns).
     """
     kept: list[int] = []
     basis = np.zeros((0, slopes.shape[1]))
     for which in wanted:
         row = slopes[which]
-        for _ in range(2):  # once more takes the rounding errors of the first time away
+        for _ in range(2):  # the second time removes the rounding errors of the first one
             row = row - (basis @ row) @ basis
         size = np.linalg.norm(row)
         if size > _REPEATED * np.linalg.norm(slopes[which]):
@@ -420,10 +413,10 @@ def _independent(slopes: Array, wanted: Sequence[int]) -> list[int]:
 
 @in_one_thread
 def _solution(matrix: Array, left: Array) -> Array:
-    """Return the steps after which nothing is left, to first order; no numbers where none is."""
+    """Return the Newton steps; NaN where the matrix is singular."""
     try:
         return -np.linalg.solve(matrix, left[..., None])[..., 0].astype(float)
-    except np.linalg.LinAlgError:  # one spoils all
+    except np.linalg.LinAlgError:  # raised for all positions because of one
         found: Array = np.full(left.shape, np.nan)
         for i, (each, rest) in enumerate(zip(matrix, left, strict=True)):
             if np.isfinite(each).all() and np.linalg.cond(each) < 1e15:

@@ -1,8 +1,8 @@
-"""How the wheels deflect under forces: by the unit-load theorem, from the energy of soft parts.
+"""Flexibility of the wheels by the unit-load theorem, from the energy of compliant parts.
 
-Everything is linear in unit loads: forces and moments at the contact of each wheel, the torque of
-an anti-roll bar, and what is tense by itself. What each soft thing does under one of them while it
-carries another is an energy; what statics does not decide gives the least of it.
+All forces are linear in unit loads: forces and moments at the contact of each wheel, the torque of
+an anti-roll bar, and statically indeterminate tensions. The energy is a quadratic form of these;
+the indeterminate tensions have the values of least energy.
 """
 
 from collections.abc import Mapping, Sequence
@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import root
 
+from ....core.named_types import Array
 from ....core.validator import Validator
 from ...assembly.load import Load
 from ...assembly.part_poses import CONTACT, PartPoses, rotated, touching
@@ -23,7 +23,6 @@ from ...corner.structure import GROUND, PartJoint
 from ...input.vehicle import TyreSection
 from ..loads.reactions import BalanceEquations
 
-Array = NDArray[np.float64]
 WheelSupport = Literal["height", "tyre", "spring", "locked"]
 
 HELD = {
@@ -32,16 +31,16 @@ HELD = {
     "spring": "spring and stops carry the wheel",
     "locked": "the spring is locked",
 }
-"""What holds a wheel under the loads."""
+"""Supports of a wheel under loads."""
 
 _VERTICAL, _COMPONENTS = 2, 6
-# What is softer than the rest by this, rounding of it, is rigid.
+# A flexibility below this part of the rest is rounding: the part is rigid.
 _RIGID = 1e-12
 
 
 @dataclass(frozen=True)
 class Side:
-    """A suspension, or a rigid axle, and what is soft about it; arrays over n positions.
+    """A suspension or a rigid axle with its compliant parts; arrays over n positions.
 
     Attributes
     ----------
@@ -50,7 +49,7 @@ class Side:
     lines : SoftLines or None
         None with locked springs.
     bar : sequence of Load
-        What an anti-roll bar does on it for a unit torque; empty without one.
+        Loads of an anti-roll bar on it for a unit torque; empty without one.
     """
 
     poses: PartPoses
@@ -67,13 +66,13 @@ def flexibility(
     Parameters
     ----------
     sides : sequence of Side
-        A suspension, both of an axle, or a rigid axle.
+        A suspension, both sides of an axle, or a rigid axle.
     held : {'height', 'tyre', 'spring', 'locked'}
-        What holds each wheel.
+        Support of the wheels.
     rack : float, optional
-        How far the rack deflects along its axis for a unit force [m/N].
+        Compliance of the rack along its axis [m/N].
     bar : float, optional
-        Twist of the anti-roll bar by its torque, where there is one [rad/(N m)].
+        Twist of the anti-roll bar for a unit torque [rad/(N m)].
 
     Returns
     -------
@@ -88,7 +87,7 @@ def flexibility(
     energy = np.zeros((len(sides[0].poses.states), size, size))
     on_rack, first, begin = np.zeros((*energy.shape[:1], 1, size)), 0, applied + has_bar
     for side, each in zip(sides, energies, strict=True):
-        # which of all unknowns those of this side are
+        # indices of the unknowns of this side
         count = _COMPONENTS * len(side.poses.wheels)
         own = [*range(first, first + count), *[applied][: int(has_bar)]]
         own += range(begin, begin + each.tensions)
@@ -107,12 +106,12 @@ def flexibility(
 
 
 def rates_of_tyres(wheels: Sequence[RoadWheel]) -> Array:
-    """Return the vertical rates of the tyres, zero where there is none, (wheels,) [N/m]."""
+    """Return the vertical rates of the tyres, zero if there is none, (wheels,) [N/m]."""
     return np.array([wheel.vehicle.tyre_rate or 0.0 for wheel in wheels])
 
 
 def refuse_without_rate(given: Validator, held: WheelSupport, *tyres: TyreSection) -> None:
-    """Refuse to let a tyre hold its wheel that has no vertical rate."""
+    """Add an error if tyres support the wheels and one of them has no vertical rate."""
     if held == "tyre" and not all(tyre.rate_N_per_m > 0.0 for tyre in tyres):
         given.fail(
             "held: the tyre is to hold the wheel, and [tyre] rate_N_per_m = 0 N/m. Enter its rate, "
@@ -121,18 +120,11 @@ def refuse_without_rate(given: Validator, held: WheelSupport, *tyres: TyreSectio
 
 
 class _Energy:
-    """The energy of what is soft about a suspension, or a rigid axle, under unit loads.
+    """The energy of the compliant parts of a suspension or a rigid axle under unit loads.
 
-    Attributes
-    ----------
-    tensions : int
-        How many states of tension there are by themselves, those between springs and stops the
-        last.
-    energy : ndarray, shape (n, unknowns, unknowns)
-        By unit forces and moments at the contacts, a unit torque of the bar where there is one, and
-        the tensions.
-    on_rack : ndarray, shape (n, 1, unknowns)
-        The force on the rack along its axis.
+    The unknowns are forces and moments at the contacts, the torque of the bar if there is one, and
+    ``tensions`` indeterminate states, those of stops the last. ``energy`` has the shape (n,
+    unknowns, unknowns); ``on_rack`` is the force on the rack along its axis, (n, 1, unknowns).
     """
 
     def __init__(self, side: Side) -> None:
@@ -147,7 +139,7 @@ class _Energy:
         by_point = {bush.point: bush for bush in side.bushes}
         for joint, carried in zip(poses.structure.joints, forces.carried, strict=True):
             if joint.first == "rack":
-                assert poses.rack_axis is not None  # where there is a rack
+                assert poses.rack_axis is not None  # there is a rack
                 self.on_rack -= np.einsum("c,nkcu->nku", poses.rack_axis, carried[:, :, :3])
             self.energy += _of_joint(joint, carried, by_point, poses)
         for which in range(-stops.shape[-1], 0):
@@ -158,10 +150,10 @@ class _Energy:
 
 
 def shared(equations: BalanceEquations, unknowns: Array, bushes: Sequence[Bush]) -> list[Array]:
-    """Return what the joints carry in the first position, the parts as they are at design.
+    """Return the loads on the joints in the first position, with parts at design.
 
-    What statics does not decide has the least energy of the bushes, however curved they are; what
-    is rigid on all sides is left as it is.
+    Statically indeterminate loads have the least energy of the bushes, also of curved ones; loads
+    between rigid joints alone are unchanged.
 
     Parameters
     ----------
@@ -197,13 +189,9 @@ def shared(equations: BalanceEquations, unknowns: Array, bushes: Sequence[Bush])
 
 
 def _of_least_energy(on_bushes: Sequence[tuple[Bush, Array]], count: int) -> Array:
-    """Return how much of each state of tension makes the energy of bushes least.
+    """Return the amounts of the indeterminate tensions with the least energy of the bushes.
 
-    Parameters
-    ----------
-    on_bushes : sequence of tuple of Bush and ndarray
-        What each carries, (6, 1 + count): of the loads, and of each state of tension.
-    count : int
+    Each bush comes with its forces and moments, (6, 1 + count), by the loads and by each tension.
     """
 
     def slopes(parts: Array) -> tuple[Array, Array]:
@@ -223,7 +211,7 @@ def _of_least_energy(on_bushes: Sequence[tuple[Bush, Array]], count: int) -> Arr
 
     if not free.shape[1]:
         return np.zeros(count)
-    search: Any = root  # its stubs know no function that gives its slopes as well
+    search: Any = root  # its stubs do not allow a function that also returns its derivative
     found: Array = search(reduced, np.zeros(free.shape[1]), jac=True, options={"xtol": 1e-14}).x
     first, second = reduced(found)
     parts: Array = free @ (found - np.linalg.solve(second, first))
@@ -237,33 +225,21 @@ def _of_joint(
     total = np.zeros((*carried.shape[:1], *2 * carried.shape[-1:]))
     for i, point in enumerate(joint.at):
         if point in bushes:
-            soft = _world_compliance(bushes[point], joint, poses.turned)
+            soft = bushes[point].compliance
+            if joint.first not in GROUND:  # bushes turn with the first part
+                soft = rotated(soft, poses.turned[joint.first])
             total += _energy(carried[:, i], soft)
     return total
 
 
-def _world_compliance(bush: Bush, joint: PartJoint, turned: Mapping[str, Array]) -> Array:
-    """Return a compliance in chassis axes, the joint's first part having turned, (..., 6, 6)."""
-    if joint.first in GROUND:
-        return bush.compliance
-    return rotated(bush.compliance, turned[joint.first])
-
-
 class _Forces:
-    """What everything carries of unit loads, and of what is tense by itself.
-
-    Parameters
-    ----------
-    side : Side
-    stopped : sequence of str
-        Beside which dampers stops carry, too.
+    """Loads of joints and springs under unit loads, and in each indeterminate tension.
 
     Attributes
     ----------
     carried : list of ndarray, each of shape (n, touching points, 6, loads + tensions)
-        Of each joint: under unit forces and moments in chassis axes and that of the bar, the
-        suspension held by its springs; then in each state of tension: of a joint by itself, of
-        several together, and between springs and stops.
+        Loads on each joint: under unit forces and moments in chassis axes and a unit torque of the
+        bar, with springs as supports; then in tensions of one joint, of several, and of stops.
     spring : ndarray, shape (n, springs, loads + tensions)
         The force of each spring.
     tensions : int
@@ -283,7 +259,7 @@ class _Forces:
         unknowns = equations.solve(np.stack(applied, axis=-1))
         tensions = [joint.tensions(poses.points) for joint in equations.joints]
         count, begin = sum(t.shape[-1] for t in tensions), len(groups)
-        # behind the tensions of single joints come those of several together
+        # tensions of several joints follow those of single joints
         by_loads, by_stops = np.split(unknowns, [begin], axis=-1)
         further = np.concatenate([equations.indeterminate, by_stops], axis=-1)
         self.tensions = count + further.shape[-1]
@@ -304,7 +280,7 @@ class _Forces:
 
 
 def _energy(forces: Array, soft: Array | float) -> Array:
-    """Return what forces do on the displacements by other ones, (n, forces, forces)."""
+    """Return the work of forces on the displacements by each other, (n, forces, forces)."""
     scaled = forces * soft if np.ndim(soft) == 0 else soft @ forces
     result: Array = forces.mT @ scaled
     return result
@@ -313,14 +289,13 @@ def _energy(forces: Array, soft: Array | float) -> Array:
 def _released(
     flexibility: Array, held: list[int], *, soft: Array | float = 0.0, keep: bool = False
 ) -> Array:
-    """Return a flexibility where some displacements are zero, by the forces that this takes.
+    """Return a flexibility with supports of flexibility `soft` in the directions `held`.
 
-    What belongs to them is left out, unless it is to be kept: as zeros, or where what holds them is
-    soft itself, as what it lets them do.
+    Rows and columns of these directions are left out, or kept with the deflections of the supports.
     """
     rows = np.array(held, dtype=int)
     inner = flexibility[:, rows[:, None], rows] + soft
-    # what is rigid on all sides carries nothing by itself
+    # tensions between rigid joints alone are zero
     forces = np.linalg.pinv(inner, hermitian=True) @ flexibility[:, rows]
     result: Array = flexibility - flexibility[:, :, rows] @ forces
     others = slice(None) if keep else np.delete(np.arange(result.shape[-1]), rows)

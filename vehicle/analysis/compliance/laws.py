@@ -1,23 +1,21 @@
-"""Forces over displacements: of bushes, of springs, of stops."""
+"""Laws of force over displacement of bushes, springs and stops."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ....core.named_types import Array
 from ...input.curve import Curve
 from ...input.spring_table import force_and_rate
-
-Array = NDArray[np.float64]
 
 
 class Law(Protocol):
     """A force over a displacement."""
 
     def __call__(self, displacement: Array) -> tuple[Array, Array]:
-        """Return the force that resists it, and its derivative."""
+        """Return the force that resists the displacement [N], and its derivative [N/m]."""
 
 
 @dataclass(frozen=True)
@@ -29,11 +27,11 @@ class LinearLaw:
     rate : float
         [N/m]; of an angle [N m/rad].
     carried : float
-        What it carries where the displacement is zero [N], [N m].
+        The force at zero displacement [N], [N m].
     bush : str
-        The hardpoint of the bush that is displaced; empty for a spring, or an angle.
+        The hardpoint of the bush; empty for a spring or an angle.
     start : float
-        The displacement where its parts are at the hardpoint [m].
+        The displacement with both parts at the hardpoint [m].
     """
 
     rate: float
@@ -55,11 +53,11 @@ class CurvedLaw:
     ----------
     curve : Curve
     before : float
-        The displacement that the bush has where this one is zero [m].
+        The displacement along the curve where that of the parts is zero [m].
     bush : str
-        Its hardpoint.
+        The hardpoint of the bush.
     start : float
-        The displacement where its parts are there [m].
+        The displacement with both parts at the hardpoint [m].
     """
 
     curve: Curve
@@ -80,9 +78,9 @@ class SpringLaw:
     Attributes
     ----------
     length, force : ndarray, shape (n,)
-        A length, and the force that pushes its ends apart there [m], [N].
+        A length of reference [m], and the force that pushes the ends apart there [N].
     parameters : mapping
-        Of the equations.
+        Parameters of the equations.
     """
 
     length: Array
@@ -90,7 +88,7 @@ class SpringLaw:
     parameters: Mapping[str, float]
 
     def __call__(self, displacement: Array) -> tuple[Array, Array]:
-        """Return what resists a greater length."""
+        """Return the tension at a length, and its derivative."""
         before, _ = force_and_rate(self.parameters, self.length)
         now, of_curve = force_and_rate(self.parameters, displacement)
         rate = self.parameters["spring_rate"]
@@ -100,16 +98,16 @@ class SpringLaw:
 
 @dataclass(frozen=True)
 class StopLaw:
-    """What damper and stops do over the distance of the damper's ends, at rest.
+    """The force of damper and stops at rest, over the distance of the damper's ends.
 
     Attributes
     ----------
     length, force : ndarray, shape (n,)
-        A distance, and the force that pushes the ends apart there [m], [N].
+        A distance of reference [m], and the force that pushes the ends apart there [N].
     stroke : ndarray, shape (n,)
-        By which the stops count, there [m].
+        The stroke at that distance, which decides whether stops are in contact [m].
     parameters : mapping
-        Of the equations.
+        Parameters of the equations.
     """
 
     length: Array
@@ -118,13 +116,13 @@ class StopLaw:
     parameters: Mapping[str, float]
 
     def __call__(self, displacement: Array) -> tuple[Array, Array]:
-        """Return what resists a greater length."""
+        """Return the tension at a distance, and its derivative."""
         before, _ = self._resisting(self.stroke)
         now, rate = self._resisting(self.stroke + displacement - self.length)
         return now - before - self.force, rate
 
     def _resisting(self, stroke: Array) -> tuple[Array, Array]:
-        """Return what both stops resist a greater stroke with."""
+        """Return the force of both stops against a stroke, and its derivative."""
         force, rate = np.zeros_like(stroke), np.zeros_like(stroke)
         for side, sense in (("bump", -1.0), ("rebound", 1.0)):
             if f"{side}_stop_rate" not in self.parameters:

@@ -1,4 +1,4 @@
-"""Compliance of the wheels by the unit-load theorem: what bushes do under loads, to first order."""
+"""First-order compliance of the wheels on bushes, by the unit-load theorem."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
@@ -34,7 +34,7 @@ from .rig_loads import (
 
 MOVED = ("x", "y", "z", "rx", "ry", "rz")
 LOADED = ("fx", "fy", "fz", "mx", "my", "mz")
-"""Components of what moves at a contact, and of what is exerted there."""
+"""Components of the displacement of a contact, and of the load on it."""
 
 
 def linear(
@@ -53,23 +53,23 @@ def linear(
     bushings : mapping, optional
         Bushes instead of those of the file. By hardpoint: ``axial_N_per_mm`` along its axis and
         ``radial_N_per_mm`` across it, one number or two; directions that are left out are rigid.
-        ``axis``, by default that of the arm's bearings, of the strut, the tie rod or the wheel; at
-        other ball joints it must be given. ``radial_axis``, the direction of the first of two
-        radial numbers. Both in chassis axes at design; they turn with the part that is nearer to
-        the chassis. Instead of stiffnesses ``axial_curve`` and ``radial_curve``, whose slope at
-        zero counts. At ``wheel_center``, the bearing, ``tilt_Nm_per_deg`` about all axes across the
-        spin axis. ``rack``: its ``axial_N_per_mm``, the stiffness of the steering at the rack. For
-        an axle they are the bushes of one side, the one with the points of the anti-roll bar
-        (``side`` of the file, or the right one); the other side has the mirror image. For a rigid
-        axle the hardpoints are the names of rods with the ending ``_chassis`` or ``_axle``.
+        ``axis``, by default that of the arm's bearings, of the strut, the tie rod or the wheel, is
+        needed at other ball joints. ``radial_axis`` is the direction of the first of two radial
+        numbers. Both are in chassis axes at design and turn with the part nearer to the chassis.
+        ``axial_curve`` and ``radial_curve`` replace stiffnesses by their slope at zero. At
+        ``wheel_center``, the bearing, ``tilt_Nm_per_deg`` is about all axes across the spin axis.
+        ``rack`` has ``axial_N_per_mm``, the stiffness of the steering at the rack. For an axle they
+        are the bushes of one side, the one with the points of the anti-roll bar (``side`` of the
+        file, or the right one); the other side has the mirror image. For a rigid axle the
+        hardpoints are the names of rods with the ending ``_chassis`` or ``_axle``.
     travel : array_like, shape (n,), optional
         Heights of the wheel centres above design [m]; by default the usual range.
     rack_position : float, optional
         Displacement of the rack [m].
     held : {'height', 'tyre', 'spring', 'locked'}, optional
-        Support of each wheel, besides an anti-roll bar. 'height': the contact of the rigid wheel
-        stays at its height. 'tyre': the pad under the tyre does, and the tyre deflects. 'spring':
-        spring and stops, as on a rig that keeps the vertical force. 'locked': the spring is locked.
+        Support of each wheel, besides an anti-roll bar. 'height': a rigid wheel on a pad of
+        constant height. 'tyre': a tyre that deflects on such a pad. 'spring': spring and stops, as
+        on a rig with constant vertical force. 'locked': a locked spring.
 
     Returns
     -------
@@ -81,10 +81,9 @@ def linear(
         ``patch_displacement_by_...``: displacement of the wheel at the contact plus the deflection
         of the stationary tyre, which is the displacement of the pad of a rig. ``flexibility``,
         displacement and rotation of the contacts by force and moment on the wheels there, tyre axes
-        of each, of shape (n, 6 wheels, 6 wheels) [m/N], [rad/N], [m/(N m)], [rad/(N m)]. Of a rigid
-        axle besides, of the line through its wheel centres, ``axle_steer_by_...`` and
-        ``axle_lateral_by_...``, positive to the left, and ``axle_longitudinal_by_...``, positive
-        forward.
+        of each, of shape (n, 6 wheels, 6 wheels) [m/N], [rad/N], [m/(N m)], [rad/(N m)]. A rigid
+        axle also has ``axle_steer_by_...`` and ``axle_lateral_by_...``, positive to the left, and
+        ``axle_longitudinal_by_...``, positive forward, of the line through its wheel centres.
 
     Raises
     ------
@@ -99,10 +98,10 @@ def linear(
     axis of an arm, follow from the least energy. The result is linear about bushes that are relaxed
     at their hardpoints; their torsion and tilting, and the effect of the static load in turned
     bushes, are left out. The force at the contact acts at the lowest point of the undeflected
-    wheel. The rack and the anti-roll bar of an axle are elastic parts that both sides load; a
-    static load of the bar does not change the stiffness. A rod carries a force along its line, and
-    the compliance of its bushes along the rod counts. Five rods share forces by least energy at the
-    positions of the four that hold the axle firmest.
+    wheel. Both sides of an axle load the elastic rack and the anti-roll bar; a static load of the
+    bar does not change the stiffness. The force of a rod is along its line, and deflects its bushes
+    in that direction. Five rods share forces by least energy, at the positions of the four that
+    support the axle most stiffly.
 
     Examples
     --------
@@ -159,18 +158,15 @@ def linear(
 
 
 def refuse_without_radius(given: Validator, assembly: HeldAssembly) -> None:
-    """Refuse a wheel whose radius is not known."""
+    """Add an error if the file has no tyre radius."""
     if None in assembly.tyre_radii:
         given.fail("[tyre] radius_mm is needed: where the road touches the wheel.")
-
-
-# -- results --------------------------------------------------------------------------------------
 
 
 def _dataset(
     assembly: HeldAssembly, wheels: Sequence[RoadWheel], flexible: Array, travels: Array
 ) -> xr.Dataset:
-    """Return what the wheels do under each load, and the flexibility of their contacts."""
+    """Return the motions of the wheels under each load, and the flexibility of their contacts."""
     over, found = TRAVEL.name, dict[str, xr.Variable]()
     axes = np.zeros((len(travels), *2 * [len(flexible[0])]))
     for which, one in enumerate(wheels):
@@ -195,15 +191,7 @@ def _dataset(
 def _under_loads(
     wheels: Sequence[RoadWheel], flexible: Array
 ) -> Iterator[tuple[RigLoad, Loading, Sequence[Array]]]:
-    """Yield how the contacts move under each load of a rig.
-
-    Yields
-    ------
-    test : RigLoad
-    how : Loading
-    moved : sequence of ndarray, each of shape (n, 6)
-        Displacement and rotation of each contact, chassis axes [m], [rad].
-    """
+    """Yield the displacement and rotation of each contact under each load, (n, 6), chassis axes."""
     for test in RIG_LOADS:
         loads = [load_at_contact(test, wheel) for wheel in wheels]
         for how in loadings(test, wheels):
@@ -216,7 +204,7 @@ def _under_loads(
 def _of_wheels(
     test: RigLoad, how: Loading, wheels: Sequence[RoadWheel], moved: Sequence[Array]
 ) -> dict[str, xr.Variable]:
-    """Return what the wheels do under a load, by the formulas of the characteristics."""
+    """Return the motions of the wheels under a load, by the formulas of the characteristics."""
     of_each = [_of_wheel(test, *own) for own in zip(wheels, moved, how.parts, strict=True)]
     found = {}
     for kind, quantity in quantities_under(test, how).items():
@@ -227,7 +215,7 @@ def _of_wheels(
 
 
 def _of_wheel(test: RigLoad, on_road: RoadWheel, moved: Array, part: float) -> dict[str, Array]:
-    """Return what a wheel does that has a part of a load, by the kind of it."""
+    """Return changes of toe, camber and position of a wheel under a part of a load."""
     turn = moved[:, 3:]
     shift = moved[:, :3] + cross(turn, where_of(test, on_road) - touching(on_road))
     motion = CarrierMotion(shift, turn)
@@ -244,15 +232,17 @@ def _of_wheel(test: RigLoad, on_road: RoadWheel, moved: Array, part: float) -> d
 def _of_beam(
     test: RigLoad, how: Loading, wheels: Sequence[RoadWheel], moved: Sequence[Array]
 ) -> dict[str, xr.Variable]:
-    """Return what the line through the wheel centres of a beam does under a load."""
+    """Return the motion of the line through the wheel centres of a beam under a load."""
     left, right = wheels
     one, other = (
         own[:, :3] + cross(own[:, 3:], wheel.center - touching(wheel))
         for own, wheel in zip(moved, wheels, strict=True)
     )
-    middle = 0.5 * (one + other)
+    middle, apart = 0.5 * (one + other), one - other
+    line = (left.center - right.center)[:, :2]
+    turn = (line[:, 0] * apart[:, 1] - line[:, 1] * apart[:, 0]) / (line**2).sum(-1)
     values = {
-        "axle_steer": _turn(left.center, right.center, one - other),
+        "axle_steer": turn,
         "axle_lateral": middle[:, 1],
         "axle_longitudinal": middle[:, 0],
     }
@@ -262,33 +252,18 @@ def _of_beam(
     }
 
 
-def _turn(left: Array, right: Array, forward: Array) -> Array:
-    """Return how far the line through the wheel centres turns to the left [rad].
-
-    Parameters
-    ----------
-    left, right : ndarray, shape (n, 3)
-        The wheel centres [m].
-    forward : ndarray, shape (n, 3)
-        How far the left one goes more than the right one [m].
-    """
-    line = (left - right)[:, :2]
-    turn: Array = (line[:, 0] * forward[:, 1] - line[:, 1] * forward[:, 0]) / (line**2).sum(-1)
-    return turn
-
-
-# -- what the results are called ------------------------------------------------------------------
+# -- quantities -----------------------------------------------------------------------------------
 
 OF_BEAM = {
     "axle_steer": ("rad", "steer angle of the axle", "positive to the left"),
     "axle_lateral": ("m", "lateral displacement of the axle", "positive to the left"),
     "axle_longitudinal": ("m", "longitudinal displacement of the axle", "positive forward"),
 }
-"""What a beam does: unit, words and sign."""
+"""Unit, words and sign of the motions of a beam."""
 
 
 def quantities_under(test: RigLoad, how: Loading) -> dict[str, Quantity]:
-    """Return what a wheel has under a load, by the kind of it."""
+    """Return the compliances of a wheel under a load, by their kind."""
     toe, camber = "toe angle", "camber"
     kinds = [
         ("toe", "rad", toe, f"change of {toe}", "positive toe-in"),
@@ -302,35 +277,25 @@ def quantities_under(test: RigLoad, how: Loading) -> dict[str, Quantity]:
         words += " of the contact patch"
         meaning = f"{words}, on a tyre that deflects"
         kinds.append(("patch_displacement", "m", words, meaning, sign))
-    return {
-        kind: _quantity(
-            how.key(kind, test), unit, f"{words} by {how.title(test)}", meaning, sign, test
-        )
-        for kind, unit, words, meaning, sign in kinds
-    }
+    return {kind: _quantity(test, how, kind, *texts) for kind, *texts in kinds}
 
 
 def quantities_of_beam(test: RigLoad, how: Loading) -> dict[str, Quantity]:
-    """Return what the line through the wheel centres of a beam has under a load."""
+    """Return the compliances of the line through the wheel centres of a beam under a load."""
     by = "by the line through the wheel centres, for each wheel's load"
     return {
-        kind: _quantity(
-            how.key(kind, test),
-            unit,
-            f"{words} by {how.title(test)}",
-            f"change of the {words}, {by}",
-            sign,
-            test,
-        )
+        kind: _quantity(test, how, kind, unit, words, f"change of the {words}, {by}", sign)
         for kind, (unit, words, sign) in OF_BEAM.items()
     }
 
 
-def _quantity(name: str, unit: str, words: str, meaning: str, sign: str, test: RigLoad) -> Quantity:
-    shown = display_of({"units": unit})
+def _quantity(
+    test: RigLoad, how: Loading, kind: str, unit: str, words: str, meaning: str, sign: str
+) -> Quantity:
+    shown, words = display_of({"units": unit}), f"{words} by {how.title(test)}"
     display = Display(f"{shown.units}/{test.shown.units}", shown.factor * test.shown.factor)
     per = f"{unit}/({test.unit})" if " " in test.unit else f"{unit}/{test.unit}"
-    return Quantity(name, per, words, meaning, sign, display=display)
+    return Quantity(how.key(kind, test), per, words, meaning, sign, display=display)
 
 
 COMPLIANCES = {
@@ -339,7 +304,7 @@ COMPLIANCES = {
     for how in loadings(test, ("wheel",))
     for quantity in quantities_under(test, how).values()
 }
-"""What a corner has under loads, by name."""
+"""Compliances of a corner by name."""
 
 COMPLIANCES_OF_AXLES = {
     quantity.name: quantity
@@ -350,4 +315,4 @@ COMPLIANCES_OF_AXLES = {
         *quantities_of_beam(test, how).values(),
     )
 }
-"""What an axle has under loads, by the names of a flat table."""
+"""Compliances of an axle by the names of their columns."""

@@ -1,4 +1,4 @@
-"""How far wheels deflect on their bushes under loads of any size, beside first order."""
+"""Deflections of the wheels on bushes under loads of any size, and to first order."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
@@ -6,10 +6,9 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from ....core.memory import positions_given
-from ....core.named_types import ArrayLike
+from ....core.named_types import Array, ArrayLike
 from ....core.quantities import attributes, variable
 from ....core.validator import Validator
 from ...assembly import wheel
@@ -37,10 +36,8 @@ from .on_bushes import (
 )
 from .rig_loads import BY_NAME, RigLoad, give_of_tyre, load_at_contact, loadings, sense_of
 
-Array = NDArray[np.float64]
-
 LOAD = "load"
-"""The dimension: how great the load is."""
+"""Dimension of the amounts of the load."""
 
 _QUANTITIES = {
     "toe": Quantity("toe_change", "rad", "change of toe angle", "of the wheel", "positive toe-in"),
@@ -62,13 +59,13 @@ WHEELS = {
     "left": "the left wheel",
     "right": "the right wheel",
 }
-"""Which wheels of an axle are loaded."""
+"""Loaded wheels of an axle."""
 
 _PARALLEL = "parallel"
 _GREATEST = 1e6
-# A tyre slides before it deflects so far [m].
+# A tyre slides before it deflects this far [m].
 _FARTHEST_TYRE = 0.2
-# A part of a load that is a step too small to go on with.
+# The smallest step of a load, as a part of it.
 _LEAST_STEP = 1e-3
 
 
@@ -90,7 +87,7 @@ def nonlinear(
     ----------
     subject : Suspension, Model, Axle or RigidAxle
     bushings : mapping or None
-        As of `elastokinematics`; None: those of the file.
+        As in `elastokinematics`; None for those of the file.
     under : {'lateral', 'braking', 'recession', 'aligning'}
         A lateral force inward or a braking force at the contact, a rearward force at the wheel
         centre, or a torque about the vertical towards toe-out.
@@ -124,17 +121,17 @@ def nonlinear(
     InputError
         If an argument cannot be used.
     PositionError
-        If the travel is out of reach, or there is no equilibrium, or one only with damper or strut
-        beyond a length that the file allows, or with a bush that deflects by more than 100 mm, or
-        a tyre by more than 200 mm.
+        If the travel is out of reach, or there is no equilibrium, or only one with damper or strut
+        beyond a limit of the file, or with a deflection of more than 100 mm of a bush or 200 mm of
+        a tyre.
 
     Notes
     -----
     The method is that of `elastokinematics`, with all parts in one equilibrium: an elastic rack is
-    one further part, and an anti-roll bar has the energy of its twist, which follows from the feet
-    of its drop links in closed form. Forces act at the lowest point of the moving wheel, in
-    constant directions: those of the tyre with rigid joints, without the load. The displacement is
-    that of the point of the wheel that was lowest without the load, or of its centre.
+    a further part, and an anti-roll bar has the energy of its twist, which follows from the feet of
+    its drop links in closed form. Forces act at the lowest point of the moving wheel, in constant
+    directions: those of the tyre with rigid joints, without the load. The displacement is that of
+    the point of the wheel that was lowest without the load, or of its centre.
 
     `linear` leaves out that the forces of bushes turn under the static load. With relaxed bushes
     and no static load both results agree as the load goes to zero; their relative difference is
@@ -202,13 +199,10 @@ def nonlinear(
     return xr.Dataset(data, coordinates, {"title": f"deflection under {load.words}"} | how)
 
 
-# -- which wheels have the load -------------------------------------------------------------------
-
-
 def parts_of(
     given: Validator, assembly: HeldAssembly, under: str, wheels: Any
 ) -> tuple[float, ...]:
-    """Return the parts of a load that the wheels have."""
+    """Return the factors of a load on the wheels."""
     ways = {how.name: how.parts for how in loadings(BY_NAME[under], assembly.wheels)}
     if len(assembly.wheels) == 1:
         if wheels is not None:
@@ -240,9 +234,9 @@ def words_of(under: str, wheels: str | Sequence[float] | None, parts: Sequence[f
 def _straight(
     first_order: xr.Dataset | None, load: RigLoad, parts: Sequence[float], wanted: Array
 ) -> Callable[[str, int | None], Array]:
-    """Return a function of a kind and a wheel, or of a beam: what loads do to first order.
+    """Return a function of a kind, and a wheel or None for a beam: first-order deflections.
 
-    On two wheels it is the sum of what loads that are alike and opposed do.
+    On two wheels they are the sum of those by parallel and by opposed loads.
     """
     ways = loadings(load, parts)
     shares = np.linalg.solve(np.transpose([how.parts for how in ways]), parts)
@@ -259,7 +253,7 @@ def _straight(
 
 
 def amounts_of(given: Validator, amounts: ArrayLike) -> Array:
-    """Read how great a load is."""
+    """Return the amounts of a load, or add an error."""
     wanted = positions_given(given, "amounts", amounts, "N or N m")
     if not (np.abs(wanted) <= _GREATEST).all():
         given.fail(f"amounts: numbers of {_GREATEST:g} N or N m or less are needed.")
@@ -267,7 +261,7 @@ def amounts_of(given: Validator, amounts: ArrayLike) -> Array:
 
 
 def unit_load(load: RigLoad, on_road: RoadWheel) -> Array:
-    """Return a load of 1 N or 1 N m as an equilibrium takes it, (n, 9)."""
+    """Return a load of 1 N or 1 N m for `ElasticEquilibrium.under`, (n, 9)."""
     at_contact = load_at_contact(load, on_road)
     force, still = at_contact[:, :3], np.zeros((len(at_contact), 3))
     if load.at == CENTER:
@@ -305,7 +299,7 @@ def _towards(
     held: WheelSupport,
     load: RigLoad,
 ) -> ElasticState:
-    """Return the equilibrium under a load from that under another one, by steps if need be."""
+    """Return the equilibrium under one amount of a load from that under another, in steps."""
     at, end = amounts
     step = end - at
     while at != end:
@@ -326,7 +320,7 @@ def _towards(
 
 
 def _refuse_on_tyres(suspension: ElasticEquilibrium, load: RigLoad, wanted: Array) -> None:
-    """Refuse loads under which a stationary tyre would deflect farther than one can."""
+    """Raise an error for loads with an impossible deflection of the stationary tyre."""
     soft = max(float(give_of_tyre(load, wheel) or 0.0) for wheel in suspension.wheels)
     worst = float(wanted[np.abs(wanted).argmax()]) if wanted.size else 0.0
     if abs(worst) * soft > _FARTHEST_TYRE:
@@ -342,7 +336,7 @@ def _refuse_on_tyres(suspension: ElasticEquilibrium, load: RigLoad, wanted: Arra
 def _refuse_beyond(
     suspension: ElasticEquilibrium, states: list[ElasticState], load: RigLoad, wanted: Array
 ) -> None:
-    """Refuse loads that bring a bush, or damper and strut, farther than it goes."""
+    """Raise an error for loads with an impossible deflection of a bush, or damper or strut."""
     for which in np.argsort(np.abs(wanted), kind="stable"):
         if strained := suspension.overstretched(states[which]):
             problem = (
@@ -358,9 +352,6 @@ def _refuse_beyond(
             raise PositionError(problem)
 
 
-# -- results --------------------------------------------------------------------------------------
-
-
 def _changes_of_wheels(
     suspension: ElasticEquilibrium,
     base: ElasticState,
@@ -369,21 +360,7 @@ def _changes_of_wheels(
     amounts: Array,
     straight: Callable[[str, int | None], Array],
 ) -> dict[str, xr.Variable]:
-    """Return what the wheels do under some amounts of a load, and what they carry.
-
-    Parameters
-    ----------
-    suspension : ElasticEquilibrium
-    base : ElasticState
-        Without the load.
-    states : list of ElasticState
-        Under each amount.
-    load : RigLoad
-    amounts : ndarray, shape (wheels, n)
-        How much of it each wheel has.
-    straight : callable
-        See `_straight`.
-    """
+    """Return deflections and loads of the wheels under amounts of a load, (wheels, n)."""
     of_each = [
         _changes_of_wheel(suspension, base, states, load, amounts[which], which)
         for which in range(len(suspension.wheels))
@@ -410,7 +387,7 @@ def _changes_of_wheel(
     amounts: Array,
     which: int,
 ) -> dict[str, Array]:
-    """Return what one of the wheels does under some amounts of a load, by the kind of it."""
+    """Return the deflections of a wheel under some amounts of a load, by their kind."""
     before = on_bushes(suspension, base, which)
     point = suspension.contact(base.places, which) if load.at == CONTACT else before.center
     along = sense_of(load, suspension.wheels[which])
@@ -435,7 +412,7 @@ def _changes_of_beam(
     states: list[ElasticState],
     straight: Callable[[str, int | None], Array],
 ) -> dict[str, xr.Variable]:
-    """Return what the line through the wheel centres of a beam does under a load."""
+    """Return the motions of the line through the wheel centres of a beam under a load."""
     before = place_of_beam(suspension, base)
     after = [place_of_beam(suspension, state) for state in states]
     data = {}

@@ -1,12 +1,12 @@
-"""An assembly on its bushes, as a caller describes them, held by the road."""
+"""An assembly on bushes and on the road: its joints, and its equilibrium without other loads."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ....core.named_types import Array
 from ....core.quantities import display_of
 from ....core.validator import Validator
 from ...assembly import wheel
@@ -24,14 +24,13 @@ from .equilibrium import LOADS, ElasticEquilibrium, ElasticState
 from .flexibility import shared
 from .linear import refuse_without_radius
 
-Array = NDArray[np.float64]
 Hardpoints = Literal["loaded", "relaxed"]
 
 HARDPOINTS = {
     "loaded": "the hardpoints are where the joints are under the static load at design",
     "relaxed": "the hardpoints are where the joints are with relaxed bushes",
 }
-"""What the hardpoints of a file mean."""
+"""Meanings of the hardpoints of a file."""
 
 WHEEL_LOAD = Quantity(
     "wheel_load", "N", "wheel load", "vertical force of the road", "positive upward"
@@ -45,7 +44,7 @@ CURVES: Mapping[Quantity, Callable[[RoadWheel], Array]] = {
         "wheelbase_change": wheel.wheelbase_change,
     }.items()
 }
-"""The position of a wheel on bushes, by quantity."""
+"""Formulas of the position of a wheel, by quantity."""
 
 RIGID = CompliantJoints({}, 0.0, {})
 
@@ -53,7 +52,7 @@ RIGID = CompliantJoints({}, 0.0, {})
 def softs_of(
     given: Validator, assembly: HeldAssembly, bushings: Any, hardpoints: Hardpoints
 ) -> dict[str, CompliantJoints]:
-    """Read the bushes, and what they carry at the hardpoints, by the suffixes of the parts."""
+    """Return the compliant joints by the suffixes of their parts, or add errors."""
     if given.failed:
         return {}
     bushes = assembly.bushes(given, bushings)
@@ -71,7 +70,7 @@ def softs_of(
 
 
 def _carried_at_design(assembly: HeldAssembly, bushes: Bushings) -> dict[str, Carried]:
-    """Return what the joints carry at design, with what an anti-roll bar does there."""
+    """Return the loads on the joints at design, with those by an anti-roll bar."""
     poses = assembly.poses(assembly.at_travel(np.zeros(1)))
     torque = assembly.bar_torque(poses)[:, None]
     pulled = {
@@ -83,7 +82,7 @@ def _carried_at_design(assembly: HeldAssembly, bushes: Bushings) -> dict[str, Ca
         for suffix, own in poses.items()
     }
     if assembly.steered and len(found) > 1:
-        # one rack, on which all tie rods pull
+        # all tie rods act on one rack
         both = sum((own[GUIDE] for own in found.values()), np.zeros(6))
         found = {suffix: own | {GUIDE: both} for suffix, own in found.items()}
     return {**found}
@@ -92,16 +91,15 @@ def _carried_at_design(assembly: HeldAssembly, bushes: Bushings) -> dict[str, Ca
 def carried_at(
     poses: PartPoses, pulled: Sequence[Load] = (), bushes: Sequence[Bush] = ()
 ) -> Carried:
-    """Return what the joints carry at design, the first position, the wheel held by the road.
+    """Return the loads on the joints at design, the first position, with the wheel on the road.
 
     Parameters
     ----------
     poses : PartPoses
     pulled : sequence of Load, optional
-        What else acts on the parts.
+        Further loads on the parts.
     bushes : sequence of Bush, optional
-        Those that share what statics does not decide: the force along the axis of an arm, and what
-        holds parts more often than they move.
+        Those whose energy decides statically indeterminate loads.
     """
     equations = BalanceEquations(poses)
     unknowns = equations.solve(equations.applied([*known(poses), *pulled]))
@@ -113,7 +111,7 @@ def carried_at(
     }
     if poses.rack_axis is None:
         return found
-    # the guide of the rack holds what the tie rod does to it
+    # the guide of the rack has the load of the tie rod
     return found | {GUIDE: found[RACK, "tie_rod", "tie_rod_inner"]}
 
 
@@ -122,20 +120,20 @@ def on_joints(
     poses: Mapping[str, PartPoses],
     softs: Mapping[str, CompliantJoints] | None = None,
 ) -> ElasticEquilibrium:
-    """Return an assembly on its bushes where it is with rigid joints; by default on rigid ones."""
+    """Return the equilibrium of an assembly on compliant joints, by default on rigid ones."""
     sides = [(own, softs[suffix] if softs else RIGID) for suffix, own in poses.items()]
     return ElasticEquilibrium(sides, assembly.bar)
 
 
 def gives_way(softs: Mapping[str, CompliantJoints]) -> bool:
-    """Return whether anything moves that rigid joints hold."""
+    """Return whether any bush or the rack is compliant."""
     return any(
         soft.rack or any(bush.gives_way for bush in soft.bushes.values()) for soft in softs.values()
     )
 
 
 def on_bushes(suspension: ElasticEquilibrium, state: ElasticState, side: int = 0) -> RoadWheel:
-    """Return a wheel where it is on the bushes."""
+    """Return a wheel at its position on the bushes."""
     center, axis = suspension.center(state.places, side), suspension.axis(state.places, side)
     return replace(suspension.wheels[side], center=center, axis=axis)
 
@@ -149,9 +147,9 @@ def at_height(
     ----------
     suspension : ElasticEquilibrium
     along : ndarray, shape (n,)
-        Where that is, for messages.
+        The positions, for messages.
     over : Quantity, optional
-        What that counts.
+        The quantity of the positions.
     """
     nothing = np.zeros((*suspension.start.road.shape, LOADS))
     base = suspension.under(nothing, "height", suspension.start)
@@ -170,7 +168,7 @@ def at_height(
 
 
 def place_of_beam(suspension: ElasticEquilibrium, state: ElasticState) -> dict[str, Array]:
-    """Return where the line through two wheel centres is: its steer angle and middle, (n,)."""
+    """Return steer angle and middle of the line through two wheel centres, (n,) [rad], [m]."""
     left, right = (suspension.center(state.places, which) for which in (0, 1))
     line, middle = left - right, 0.5 * (left + right)
     start = np.mean([wheel.design_center for wheel in suspension.wheels], axis=0)

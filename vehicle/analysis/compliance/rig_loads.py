@@ -1,4 +1,4 @@
-"""The loads that a rig applies to wheels: to one, or to both of an axle together."""
+"""Loads of a rig on one wheel, or on both wheels of an axle."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,25 +15,25 @@ Vector = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class RigLoad:
-    """A load on the wheel, as a rig applies it.
+    """A load of a rig on a wheel.
 
     Attributes
     ----------
     name, words : str
     at : str
-        Where it acts, and where displacements are given.
+        Point of the force and of the displacement.
     force, moment : tuple of float
-        On a left wheel, tyre axes; the mirror image on a right one.
+        Unit load on a left wheel, tyre axes; the mirror image is on a right one.
     unit : str
         SI unit of the load.
     shown : Display
         Display unit, and its size in SI units.
     sense : tuple of float
-        Direction in which a displacement counts, on a left wheel.
+        Positive direction of displacements of a left wheel.
     where : str
-        That direction in words; empty where none is given.
+        That direction in words; empty without displacements.
     through : str
-        The rate of the tyre through which it goes, in `Vehicle`; empty where there is none.
+        Attribute of `Vehicle` with the rate of the tyre in that direction; empty if there is none.
     """
 
     name: str
@@ -65,17 +65,15 @@ BY_NAME = {load.name: load for load in RIG_LOADS}
 
 @dataclass(frozen=True)
 class Loading:
-    """How the wheels are loaded together.
+    """A distribution of a load on the wheels.
 
     Attributes
     ----------
     name : str
         "parallel", in one direction, or "opposed"; empty for the wheel of a corner.
     parts : tuple of float
-        Of the load of `RIG_LOADS` that each wheel has, the image of that on a left one on a right
-        one.
+        Factors of the load of `RIG_LOADS` on each wheel; that on a right wheel is the mirror image.
     words : str
-        Both in words.
     """
 
     name: str
@@ -83,7 +81,7 @@ class Loading:
     words: str
 
     def key(self, kind: str, load: RigLoad) -> str:
-        """Return the name of what wheels do under a load."""
+        """Return the name of a kind of compliance under a load."""
         return f"{kind}_by_{load.name}{self.name and f'_{self.name}'}"
 
     def title(self, load: RigLoad) -> str:
@@ -118,15 +116,12 @@ _TWO_WHEELS = {
 
 
 def loadings(load: RigLoad, wheels: Sequence[object]) -> tuple[Loading, ...]:
-    """Return how a rig applies a load to so many wheels."""
+    """Return the distributions of a load on one or two wheels."""
     return _ONE_WHEEL if len(wheels) == 1 else _TWO_WHEELS[load.name]
 
 
 def load_at_contact(test: RigLoad, on_road: RoadWheel) -> Array:
-    """Return the load of a rig on a wheel, as force and moment at its contact, (n, 6).
-
-    On a right wheel it is the mirror image of that on a left one. Chassis axes [N], [N m].
-    """
+    """Return a unit load on a wheel as force and moment at its contact, (n, 6), chassis axes."""
     axes, side = wheel_axes(on_road), on_road.vehicle.side
     force, moment = (
         np.einsum("nij,i->nj", axes, vector)
@@ -137,22 +132,19 @@ def load_at_contact(test: RigLoad, on_road: RoadWheel) -> Array:
 
 
 def where_of(test: RigLoad, on_road: RoadWheel) -> Array:
-    """Return where a load acts, (n, 3) [m]."""
+    """Return the point of a load, (n, 3) [m]."""
     return on_road.center if test.at == CENTER else touching(on_road)
 
 
 def sense_of(test: RigLoad, on_road: RoadWheel) -> Array:
-    """Return the direction in which displacements under a load count, (n, 3)."""
+    """Return the positive direction of displacements under a load, (n, 3)."""
     sense = _mirror(on_road.vehicle.side) * test.sense
     along: Array = np.einsum("nij,i->nj", wheel_axes(on_road), sense)
     return along
 
 
 def give_of_tyre(test: RigLoad, on_road: RoadWheel) -> float | None:
-    """Return the deflection of the stationary tyre under a unit of a load [m/N].
-
-    None where the load does not go through it, or its rate is not known.
-    """
+    """Return the deflection of the stationary tyre under a unit load [m/N]; None if unknown."""
     rate = getattr(on_road.vehicle, test.through) if test.through else None
     return None if rate is None else 1.0 / rate
 

@@ -1,9 +1,9 @@
-"""Where bodies are that move freely, and how far points and directions of them are apart.
+"""Positions of free bodies, and distances and angles between them with their derivatives.
 
-A body moves by a displacement of its centre and a rotation about it, six numbers. What is measured
-between two bodies has its first and second derivatives by the twelve of both, in the order
-displacement and rotation of the first body, then of the second one; second ones are those along
-screw motions, ``exp(rotation)``. Body 0 is the ground, which stays. Arrays have a leading dimension
+A body moves by a displacement of its centre and a rotation about it, six coordinates. Measures
+between two bodies have first and second derivatives in the twelve of both: displacement and
+rotation of the first body, then of the second one; second derivatives are those along screw
+motions, ``exp(rotation)``. Body 0 is the ground, which is fixed. Arrays have a leading dimension
 for the positions of a suspension.
 """
 
@@ -13,25 +13,26 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ....core.named_types import Array
+
 Indices = NDArray[np.intp]
 
 _TIP = 1e-9
-"""No radius is smaller than this [m]."""
+"""Least radius [m]."""
 
 _DISPLACED, _ROTATED = (slice(0, 3), slice(6, 9)), (slice(3, 6), slice(9, 12))
 
 
 @dataclass(frozen=True)
 class RigidDisplacements:
-    """Where bodies are.
+    """Positions of bodies.
 
     Attributes
     ----------
     centers : ndarray, shape (n, bodies, 3)
         [m].
     turned : ndarray, shape (n, bodies, 3, 3)
-        Rotations from where the bodies were when points and directions of them were noted.
+        Rotations from the positions in which points and directions of the bodies are given.
     """
 
     centers: Array
@@ -39,11 +40,11 @@ class RigidDisplacements:
 
     @classmethod
     def at(cls, centers: Array) -> "RigidDisplacements":
-        """Return bodies that have not turned, their centres at some places."""
+        """Return bodies without rotation, with their centres at some places."""
         return cls(centers, np.broadcast_to(np.eye(3), (*centers.shape, 3)))
 
     def moved(self, by: Array) -> "RigidDisplacements":
-        """Return where bodies are after displacements and rotations, (n, bodies, 6)."""
+        """Return the positions after displacements and rotations, (n, bodies, 6)."""
         from scipy.spatial.transform import Rotation  # noqa: PLC0415 (slow to import)
 
         turns: Array = Rotation.from_rotvec(by[..., 3:].reshape(-1, 3)).as_matrix()
@@ -52,14 +53,14 @@ class RigidDisplacements:
         )
 
     def of(self, bodies: Indices, vectors: Array) -> Array:
-        """Return vectors that are fixed to bodies, (n, measures, 3)."""
+        """Return body-fixed vectors after the rotations, (n, measures, 3)."""
         rotated: Array = np.einsum("nfij,nfj->nfi", self.turned[:, bodies], vectors)
         return rotated
 
 
 @dataclass(frozen=True)
 class BodyMeasures:
-    """Numbers that two bodies each decide, and their derivatives.
+    """Functions of the positions of two bodies each, with derivatives.
 
     Attributes
     ----------
@@ -76,7 +77,7 @@ class BodyMeasures:
 
     @classmethod
     def together(cls, parts: Sequence["BodyMeasures"]) -> "BodyMeasures":
-        """Return several one after the other."""
+        """Return several groups of measures as one."""
         return cls(
             np.concatenate([part.bodies for part in parts]),
             *(
@@ -86,7 +87,7 @@ class BodyMeasures:
         )
 
     def slopes(self, count: int) -> Array:
-        """Return the first derivatives by all of some bodies, (n, measures, bodies, 6)."""
+        """Return the first derivatives in all bodies, (n, measures, bodies, 6)."""
         found = np.zeros((*self.value.shape, count, 6))
         each = np.arange(len(self.bodies))
         for end, part in enumerate((slice(0, 6), slice(6, 12))):
@@ -107,7 +108,7 @@ class BodyMeasures:
 
 @dataclass(frozen=True)
 class Distances:
-    """How far a point of one body is from a point of another, along a direction of the first.
+    """Distance from a point of one body to a point of another, along a direction of the first.
 
     Attributes
     ----------
@@ -122,7 +123,7 @@ class Distances:
     end: Array
 
     def at(self, places: RigidDisplacements) -> BodyMeasures:
-        """Return them somewhere, [m]."""
+        """Return the distances at some places [m]."""
         first, second = self.bodies.T
         along, start = places.of(first, self.along), places.of(first, self.start)
         end = places.of(second, self.end)
@@ -142,7 +143,7 @@ class Distances:
 
 @dataclass(frozen=True)
 class Radii:
-    """How far a point of one body is from a line that is fixed to another.
+    """Distance of a point of one body from a line that is fixed to another.
 
     Attributes
     ----------
@@ -152,7 +153,7 @@ class Radii:
     start, end : ndarray, shape (n, measures, 3)
         A point of the line, and the other point, from the centres of their bodies [m].
     before : ndarray, shape (n, measures, 2)
-        How far it is along both directions where these points coincide [m].
+        Offset along both directions where these points coincide [m].
     """
 
     bodies: Indices
@@ -163,13 +164,13 @@ class Radii:
     before: Array
 
     def at(self, places: RigidDisplacements) -> BodyMeasures:
-        """Return them somewhere [m]."""
+        """Return the distances at some places [m]."""
         both = [
             Distances(self.bodies, along, self.start, self.end).at(places)
             for along in (self.across, self.other)
         ]
         offs = [one.value + self.before[..., i] for i, one in enumerate(both)]
-        # a cone has no derivative at its tip; its tip is rounded where nothing is carried
+        # a radius has no derivative at zero: it is rounded there
         radius = np.sqrt(offs[0] ** 2 + offs[1] ** 2 + _TIP**2)
         weights = [off / radius for off in offs]
         one, other = both
@@ -200,7 +201,7 @@ class Angles:
     second: Array
 
     def at(self, places: RigidDisplacements) -> BodyMeasures:
-        """Return them somewhere."""
+        """Return the cosines at some places."""
         one, other = (
             places.of(bodies, vectors)
             for bodies, vectors in zip(self.bodies.T, (self.first, self.second), strict=True)
@@ -220,16 +221,16 @@ class Angles:
 
 @dataclass(frozen=True)
 class Torsions:
-    """The angle by which a body is turned against another about an axis of both.
+    """The relative rotation of two bodies about a common axis.
 
-    Where they are tilted besides, it is that of the rotation before the shortest tilt.
+    If they are also tilted, it is the angle of the rotation before the shortest tilt.
 
     Attributes
     ----------
     bodies : ndarray, shape (measures, 2)
     first, first_other, second, second_other : ndarray, shape (n, measures, 3)
-        Two unit vectors across the axis in each body, the axis being the first times the other one;
-        without a twist those of both bodies are parallel.
+        Two unit vectors across the axis in each body, whose cross product is the axis; without a
+        twist those of both bodies are parallel.
     """
 
     bodies: Indices
@@ -239,7 +240,7 @@ class Torsions:
     second_other: Array
 
     def at(self, places: RigidDisplacements) -> BodyMeasures:
-        """Return them somewhere [rad]."""
+        """Return the angles at some places [rad]."""
 
         def both(a: Array, b: Array, c: Array, d: Array, sign: float) -> BodyMeasures:
             one, other = Angles(self.bodies, a, b).at(places), Angles(self.bodies, c, d).at(places)
@@ -268,7 +269,7 @@ class Torsions:
 
 @dataclass(frozen=True)
 class Lengths:
-    """The distance of two points.
+    """Distance of two points.
 
     Attributes
     ----------
@@ -282,7 +283,7 @@ class Lengths:
     end: Array
 
     def at(self, places: RigidDisplacements) -> BodyMeasures:
-        """Return them somewhere [m]."""
+        """Return the distances at some places [m]."""
         first, second = self.bodies.T
         start, end = places.of(first, self.start), places.of(second, self.end)
         apart = places.centers[:, second] + end - places.centers[:, first] - start
@@ -298,7 +299,7 @@ class Lengths:
 
 
 def cross_matrix(vectors: Array) -> Array:
-    """Return the matrices that multiply with vectors as the cross product does."""
+    """Return the skew-symmetric matrices of cross products with vectors."""
     x, y, z = np.moveaxis(vectors, -1, 0)
     nothing = np.zeros_like(x)
     rows = [[nothing, -z, y], [z, nothing, -x], [-y, x, nothing]]
@@ -306,7 +307,7 @@ def cross_matrix(vectors: Array) -> Array:
 
 
 def second_by_rotation(turning: Array, other: Array) -> Array:
-    """Return the second derivative, by its rotation, of a turning vector times another one."""
+    """Return the second derivative, in the rotation, of a rotated vector times another one."""
     outer = turning[..., :, None] * other[..., None, :]
     product = np.einsum("...i,...i->...", turning, other)[..., None, None]
     result: Array = 0.5 * (outer + outer.mT) - product * np.eye(3)

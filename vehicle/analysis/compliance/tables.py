@@ -1,4 +1,4 @@
-"""Compliance as tables that a person reads."""
+"""Compliance as tables for the terminal and the report."""
 
 from collections.abc import Iterable, Sequence
 
@@ -10,7 +10,7 @@ from ....core.tabulated import Tabulated, significant
 from ...assembly.by_wheel import WHEEL, flat
 from ..loads.sheets import without_side
 
-# What stands in tables of deflections, and what the other curve is called there.
+# Variables in tables of deflections, and names of the other curve.
 _IN_TABLES = (
     "toe", "toe_change", "camber", "camber_change", "displacement", "patch_displacement",
     "contact_rate", "roll_stiffness_at_contacts", "bar_torque", "axle_steer", "axle_lateral",
@@ -33,7 +33,7 @@ _BESIDE = {"elastokinematic": "on bushes", "linear": "linear"}
 
 
 def compliances(found: xr.Dataset, title: str, at: float = 0.0) -> Tabulated:
-    """Return the sheet of a compliance: a row for each load, as a rig's summary has it.
+    """Return a table of compliances with a row for each load, as in the summary of a rig.
 
     Parameters
     ----------
@@ -59,14 +59,14 @@ def compliances(found: xr.Dataset, title: str, at: float = 0.0) -> Tabulated:
 
 
 def _by(names: Sequence[str], kinds: Iterable[str]) -> list[str]:
-    """Return the loads of which some kinds of compliance are there, each once."""
+    """Return the loads in the names of some kinds of compliance, each once."""
     heads = [f"{kind}_by_" for kind in kinds]
     loads = (n.removeprefix(head) for n in names for head in heads if n.startswith(head))
     return list(dict.fromkeys(loads))
 
 
 def _cells(here: xr.Dataset, kinds: Sequence[str], load: str) -> tuple[list[str], str]:
-    """Return the compliances of some kinds under a load, and the name of one that is there."""
+    """Return the compliances of some kinds under a load, and the name of the first variable."""
     keys = [f"{kind}_by_{load}" for kind in kinds]
     cells = [significant(float(displayed(here[k]))) if k in here else "-" for k in keys]
     return cells, next(key for key in keys if key in here)
@@ -77,7 +77,7 @@ def _per(data: xr.DataArray) -> str:
 
 
 def compliances_of_beam(found: xr.Dataset, title: str, at: float = 0.0) -> list[Tabulated]:
-    """Return what loads do to a rigid axle itself, as a table; none of others.
+    """Return a table of the compliances of the beam of a rigid axle; none for other assemblies.
 
     Parameters
     ----------
@@ -99,7 +99,7 @@ def compliances_of_beam(found: xr.Dataset, title: str, at: float = 0.0) -> list[
 
 
 def deflections(found: xr.Dataset, title: str) -> list[Tabulated]:
-    """Return curves of bushes beside those that leave them out, or their deflection.
+    """Return tables of curves on bushes, and with rigid joints or to first order.
 
     Parameters
     ----------
@@ -110,7 +110,7 @@ def deflections(found: xr.Dataset, title: str) -> list[Tabulated]:
     Returns
     -------
     list of Tabulated
-        Of each wheel, and of what the wheels of an axle have together.
+        One of each wheel, and one of values of both wheels together.
     """
     if WHEEL not in found.dims:
         return [_deflections(found, title)]
@@ -131,20 +131,16 @@ def _deflections(found: xr.Dataset, title: str) -> Tabulated:
     which = sorted({round(i) for i in np.linspace(0, count - 1, min(count, _MOST))})
     here = found.isel({over: which})
     _, *others = map(str, here["data_set"].values)
-    columns = [_heading(over.replace("_", " "), here[over])]
+    columns = [bracketed(over.replace("_", " "), here[over].attrs)]
     cells = [[f"{value:g}" for value in displayed(here[over])]]
     for name in (name for name in _IN_TABLES if name in here and here[name].ndim > 1):
         word = _WORDS.get(name) or name.removesuffix("_change").replace("_", " ")
-        columns += [_heading(word, here[name]), *(_BESIDE[other] for other in others)]
+        columns += [bracketed(word, here[name].attrs), *(_BESIDE[other] for other in others)]
         cells += [[_number(value) for value in row] for row in displayed(here[name])]
     return Tabulated(title, tuple(columns), tuple(zip(*cells, strict=True)), frozenset())
 
 
-def _heading(words: str, data: xr.DataArray) -> str:
-    return bracketed(words, data.attrs)
-
-
 def _number(value: float) -> str:
-    """Return a number of a table with as many decimals as all others, without a sign of zero."""
+    """Return a number with four decimals, and zero without a sign."""
     text = f"{value:.4f}"
     return text.removeprefix("-") if float(text) == 0.0 else text

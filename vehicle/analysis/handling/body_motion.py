@@ -10,9 +10,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ....core.named_types import Array
 
 QUANTITIES = {
     "x": ("position along the road", "m"),

@@ -5,16 +5,14 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ....core.named_types import Array
 from ....systems.system import System
 from ...assembly.car import CarAssembly
 from ...assembly.controls import Controls
 from ..loads.on_a_car import rack_force
 from ..run import Run
 from .body_motion import ReferencePoint
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

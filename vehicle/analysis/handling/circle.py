@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from ....core.errors import InputError
+from ....core.named_types import Array
 from ....core.quantities import Display
 from ....equations.errors import ModelError
 from ...assembly.by_wheel import WHEEL, wheel_coordinate
@@ -23,8 +23,6 @@ from .car import DrivingCar
 from .driven import STEERING_TORQUE
 from .result import HandlingResult, quantity
 from .steady import NoSteadyMotionError, Steady, SteadyCondition, SteadyMotion
-
-Array = NDArray[np.float64]
 
 # How near the greatest lateral acceleration is found [m/s^2].
 _RESOLVED = 1e-3

@@ -6,8 +6,8 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from ....core.named_types import Array
 from ....core.validator import Validator
 from ....simulation.stepper import Stepper
 from ....simulation.validity import bounds_of, excursions
@@ -17,8 +17,6 @@ from .body_motion import QUANTITIES
 from .car import DrivingCar
 from .drivers import Observation, Pedals, Pushes, Steers
 from .result import quantity
-
-Array = NDArray[np.float64]
 
 _METHOD: Literal["DormandPrince"] = "DormandPrince"
 # Cosine of the tilt of the body from which on the car overturns.

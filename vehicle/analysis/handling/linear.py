@@ -3,11 +3,11 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.named_types import Array
 from ....systems.linearisation import linearise
 from .car import DrivingCar
 from .steady import Steady
 
-Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 _IMAGINARY = 1e-30

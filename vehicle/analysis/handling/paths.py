@@ -6,10 +6,9 @@ from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline, PPoly
 
-Array = NDArray[np.float64]
+from ....core.named_types import Array
 
 # Between two lanes the path is drawn by so many points.
 _TRANSITION = 25

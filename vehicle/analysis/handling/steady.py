@@ -14,13 +14,11 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ....core.errors import KintrafoError
+from ....core.named_types import Array
 from ....equations.errors import ModelError
 from .car import DrivingCar
-
-Array = NDArray[np.float64]
 
 _MOST_STEPS, _HALVINGS = 40, 12
 # A step so small, beside 1 in SI units, changes nothing more but rounding.

@@ -1,13 +1,13 @@
-"""The forces in a suspension: what every joint, spring and bearing carries.
+"""The loads on all joints, springs and bearings of a suspension.
 
-`static`    in load cases, at rest
-`along`     along a simulation
-`envelope`  the extremes of load cases
-`peaks`     the greatest loads along a simulation
-`table`     a column for each component
-`write_cards`  files for programs of strength: Nastran, Abaqus
-`workbook`  that and the extremes, for Excel
-`read`      a file of load cases
+`static`       in load cases, at rest
+`along`        along a simulation
+`envelope`     the extremes of load cases
+`peaks`        the greatest loads along a simulation
+`table`        a table with a column for each component
+`workbook`     this table and the extremes, for Excel
+`write_cards`  files for Nastran and Abaqus
+`read`         a file of load cases
 """
 
 from .along import along
@@ -17,13 +17,6 @@ from .dataset import envelope, peaks, table, workbook
 from .static import static
 
 __all__ = [
-    "along",
-    "envelope",
-    "peaks",
-    "read",
-    "standard_cases",
-    "static",
-    "table",
-    "workbook",
+    "along", "envelope", "peaks", "read", "standard_cases", "static", "table", "workbook",
     "write_cards",
-]
+]  # fmt: skip

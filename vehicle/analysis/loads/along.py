@@ -1,4 +1,4 @@
-"""The loads on every part of an assembly that moves: Newton and Euler along a simulation."""
+"""Loads on every part of an assembly along a simulation, by the equations of Newton and Euler."""
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from ....core.memory import refuse_beyond
+from ....core.named_types import Array
 from ....core.quantities import variable
 from ....core.threads import shared_out
 from ....core.validator import Validator
@@ -28,11 +28,10 @@ from .on_a_car import of_car
 if TYPE_CHECKING:
     from ...assembly.car import CarAssembly
 
-Array = NDArray[np.float64]
 
 # Signals of the same car in the same states agree to this on every machine.
 _SAME = 1e-6
-# The most time steps that are evaluated together, to limit the memory.
+# Outputs that are evaluated together, to limit the memory.
 _TOGETHER = 5000
 _DOES_NOT_DRIVE = (
     'loads along a motion are those of an axle, or of a car with car = "full". Give the axle, or '
@@ -49,30 +48,30 @@ def along(model: System, result: Simulation) -> xr.Dataset:
     Parameters
     ----------
     model : Model, AxleModel, RigidAxleModel, or CarModel of a car that drives
-        The one that was simulated.
+        The simulated model.
     result : Simulation
 
     Returns
     -------
     xarray.Dataset
-        As of `static`, over ``time`` [s] instead of cases. Further loads ``by`` inertia are minus
-        mass times acceleration and minus the rate of the moment of momentum, so that the sum over
+        As in `static`, over ``time`` [s] instead of cases. Further loads ``by`` inertia are minus
+        mass times acceleration and minus the rate of the angular momentum, so that the sum over
         each part is zero. An anti-roll bar and its drop links have no mass. ``holding_force`` [N]
         is the residual vertical force on each wheel: zero if the equations of motion and the
         balance of the parts agree. The accuracy of the motion depends on the tolerances of the
         simulation. The tyre force acts at the wheel centre, in the plane of the wheel, as in the
-        equations. With ``wheel_loads`` the road acts at the contact, too; ``by`` input are the
+        equations. With ``wheel_loads`` the road also acts at the contact; ``by`` input are the
         forces at the centre and the moment on the wheel, ``by`` shaft is its torque. The torque of
-        the hub is a part of the load of the bearing. Axes are those of the body.
-        Of a car that drives they move with it; names have ``front`` or ``rear`` in them, and ``by``
-        road are all forces and moments of a tyre, where the plane of the wheel meets the road.
+        the hub is a part of the load of the bearing. Axes are those of the body. Those of a car
+        that drives move with it; names contain ``front`` or ``rear``, and ``by`` road are all
+        forces and moments of a tyre, where the plane of the wheel meets the road.
 
     Raises
     ------
     InputError
         If the result is not a motion of this model.
     PositionError
-        If the motion comes to a dead point, where loads have no bound.
+        If the motion reaches a dead point, where loads are unbounded.
 
     Examples
     --------
@@ -92,27 +91,23 @@ def along(model: System, result: Simulation) -> xr.Dataset:
         given.instance("result", result, Simulation, "a result of kintrafo.simulate is needed")
         if not given.failed and not is_motion_of(model, result):
             given.fail(f"result: it is not a motion of this model, {model!r}.")
-    # only a car drives; all other assemblies are held
-    find = (
-        partial(of_car, cast("CarAssembly", assembly))
-        if assembly.drives
-        else partial(in_motion, cast("HeldAssembly", assembly))
-    )
+    find: Callable[[Array, Array], xr.Dataset]
+    if assembly.drives:  # only a car does; the body of other assemblies is held
+        find = partial(of_car, cast("CarAssembly", assembly))
+    else:
+        find = partial(in_motion, cast("HeldAssembly", assembly))
     return over_time(find, result.t, result.y.T, result.inputs)
 
 
 def over_time(
     find: Callable[[Array, Array], xr.Dataset], times: Array, states: Array, inputs: Array
 ) -> xr.Dataset:
-    """Return the loads of a motion, from a function of states and inputs.
-
-    Parts of the motion are evaluated in one thread per core: most of the work is arithmetic over
-    arrays, during which other threads run.
+    """Return the loads along a motion, computed in one thread per core.
 
     Parameters
     ----------
     find : callable
-        Returns the loads of some states and inputs.
+        Returns the loads in some states with inputs.
     times : ndarray, shape (n,)
         [s]
     states, inputs : ndarray, shape (n, states) and (n, inputs)
@@ -122,8 +117,10 @@ def over_time(
     by_part: dict[int, xr.Dataset] = {}
 
     def take(some: tuple[int, xr.Dataset]) -> None:
-        if not by_part:  # they are as large as each other, and put together at the end
-            _refuse_beyond(2.0 * len(parts) * some[1].nbytes, size)
+        if not by_part:  # all are of this size, and are joined at the end
+            with Validator("along") as given:
+                needed, what = 2.0 * len(parts) * some[1].nbytes, f"the loads of {size:,} outputs"
+                refuse_beyond(given, needed, what, "Simulate with fewer outputs, by t_eval.")
         by_part.update([some])
 
     shared_out(lambda rows, _: (rows.start, find(states[rows], inputs[rows])), parts, take)
@@ -135,28 +132,19 @@ def over_time(
     return xr.Dataset(data, coordinates, {**found[0].attrs, "title": "loads along a motion"})
 
 
-def _refuse_beyond(needed: float, outputs: int) -> None:
-    with Validator("along") as given:
-        what = f"the loads of {outputs:,} outputs"
-        refuse_beyond(given, needed, what, "Simulate with fewer outputs, by t_eval.")
-
-
 def _one_after_another(parts: Sequence[xr.Variable]) -> xr.Variable:
-    """Return what was found in parts of a motion as of all of it.
-
-    The same as `xarray.concat`, which compares all coordinates first.
-    """
+    """Return a variable joined over time, as `xarray.concat` without its checks of coordinates."""
     first = parts[0]
     if TIME not in first.dims:
         return first
-    # as they lie in memory, outputs behind each other
+    # the order in memory, with time as the last dimension
     order = [*(name for name in first.dims if name != TIME), TIME]
     values = np.concatenate([part.transpose(*order).values for part in parts], axis=-1)
     return xr.Variable(order, values, first.attrs).transpose(*first.dims)
 
 
 def is_motion_of(model: System, result: Simulation) -> bool:
-    """Return whether a result has the signals that the model has in its states."""
+    """Return whether the signals of a result are those of the model in the same states."""
     if tuple(result.signals) != model.signal_names:
         return False
     again = model.signals(result.y.T, result.inputs)
@@ -167,7 +155,7 @@ def is_motion_of(model: System, result: Simulation) -> bool:
 
 
 def in_motion(assembly: HeldAssembly, states: Array, inputs: Array) -> xr.Dataset:
-    """Return the loads in some states, of shape (n, states), as over time."""
+    """Return the loads in states of shape (n, states), over time."""
     poses, rates = assembly.in_motion(states, inputs)
     acting = assembly.acting(poses)
     known = {
@@ -178,7 +166,7 @@ def in_motion(assembly: HeldAssembly, states: Array, inputs: Array) -> xr.Datase
 
 
 def _on_wheels(group: PartPoses) -> list[Load]:
-    """Return the forces of the tyres, through the wheel centres, and what inputs exert."""
+    """Return the forces of the tyres, through the wheel centres, and those of inputs."""
     tyres, inputs, still = group.tyre_forces(), group.inputs_of_wheels(), np.zeros(3)
     roads, given = [], []
     for part, wheel in group.wheels.items():
@@ -190,7 +178,7 @@ def _on_wheels(group: PartPoses) -> list[Load]:
 
 
 def _of_inputs(given: Mapping[str, Array], wheel: RoadWheel) -> list[Load]:
-    """Return what inputs, see `vehicle.corner.wheel_loads`, exert on a wheel; each (n,)."""
+    """Return the loads of inputs on a wheel, each (n,); see `vehicle.corner.wheel_loads`."""
     axes, nothing = wheel_axes(wheel), np.zeros(3)
     contact, center, moment = (
         np.einsum("an,nai->ni", [given[f"{name}_{axis}"] for axis in "xyz"], axes)

@@ -1,4 +1,4 @@
-"""What load cases, or the tyres at rest, exert on the wheels of an assembly."""
+"""Loads on the wheels of an assembly: those of load cases, or of tyres at rest."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -6,30 +6,29 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.named_types import Array
 from ...assembly.load import Load
 from ...assembly.part_poses import CENTER, CONTACT, PartPoses, touching, wheel_axes
 from ...corner.corner import RoadWheel
 from .cases import Case
 from .dataset import of_side
 
-Array = NDArray[np.float64]
-
 WHEEL = "wheel"
-"""What begins the names of the parts that are wheels."""
+"""The beginning of the names of parts that are wheels."""
 
 
 @dataclass(frozen=True)
 class AppliedLoads:
-    """What acts on k wheels in n load cases.
+    """Loads on k wheels in n load cases.
 
     Attributes
     ----------
     racks : ndarray, shape (n,)
         Displacements of the rack [m].
     travels : ndarray, shape (n, k)
-        Heights above design at which wheels are held [m]; not a number where one is free.
+        Heights above design at which wheels are held [m]; NaN for a free wheel.
     vectors : ndarray, shape (n, k, 12), or None
-        As of `Case.vector`. None: the forces of the tyres on the road at z = 0.
+        As in `Case.vector`; None for the forces of the tyres on the road at z = 0.
     """
 
     racks: Array
@@ -38,7 +37,7 @@ class AppliedLoads:
 
     @classmethod
     def of(cls, cases: Sequence[Sequence[Case]]) -> "AppliedLoads":
-        """Return the loads of cases, each with what it says of every wheel."""
+        """Return the loads of cases, each with a `Case` for every wheel."""
         return cls(
             np.array([wheels[0].rack for wheels in cases]),
             np.array(
@@ -63,13 +62,13 @@ class AppliedLoads:
         return np.isnan(self.travels)
 
     def at(self, poses: Mapping[str, PartPoses], rows: NDArray[np.int64]) -> Array:
-        """Return what acts in some positions, as `Case.vector`, (positions, k, 12).
+        """Return the loads in some positions, as in `Case.vector`, (positions, k, 12).
 
         Parameters
         ----------
         poses : mapping
         rows : ndarray, shape (positions,)
-            The case of each.
+            The case of each position.
         """
         if self.vectors is not None:
             return self.vectors[rows]
@@ -88,7 +87,7 @@ def wheels_of(poses: Mapping[str, PartPoses]) -> Iterator[tuple[str, str, RoadWh
 
 
 def of_wheel(part: str, loads: Sequence[Load]) -> list[Load]:
-    """Return loads on a wheel with the names that its part has."""
+    """Return loads on a wheel with the name of its part."""
     return [of_side(load, part.removeprefix(WHEEL)) for load in loads]
 
 
@@ -98,10 +97,10 @@ def road_and_drive(part: str, wheel: RoadWheel, vectors: Array) -> list[Load]:
     Parameters
     ----------
     part : str
-        Which the wheel is.
+        Name of the wheel's part.
     wheel : RoadWheel
     vectors : ndarray, shape (n, 12)
-        As `Case.vector`.
+        As in `Case.vector`.
     """
     force, moment, at_center, center_moment = np.einsum(
         "nij,nki->knj", wheel_axes(wheel), vectors.reshape(-1, 4, 3)

@@ -1,4 +1,4 @@
-"""Equations of equilibrium, solved at many positions, and where they mean nothing."""
+"""Equations of equilibrium at many positions, and the positions in which they are singular."""
 
 from functools import cache
 
@@ -6,39 +6,37 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.elimination import Entries, eliminated
+from ....core.named_types import Array
 from ....core.threads import in_one_thread
 
-Array = NDArray[np.float64]
-
-# Rounding of loads, 1e-16, that equations so near to singular enlarge to 1e-6 of them; of cars
-# within their travel it is some hundreds.
+# At this condition the rounding of loads, 1e-16, becomes 1e-6 of the result; within the travel of
+# cars the condition is some hundreds.
 _WORST_CONDITION = 1e10
-# Vectors that show how much equations enlarge what is random: of a condition nearly all of it.
+# Random right-hand sides, whose solutions estimate the condition.
 _PROBES = 2
 
 DEAD_POINT = (
     "the linkage is at a dead point, or what holds it has no leverage: the joints carry anything."
 )
-"""Why there are no loads."""
+"""The reason for a position without loads."""
 
 
 def balanced(matrix: Array, applied: Array) -> tuple[Array, NDArray[np.bool_]]:
-    """Return what balances loads, and where that means something.
-
-    Where it does not is a dead point: there they are no numbers.
+    """Return the unknowns that balance loads, and where they are sound.
 
     Parameters
     ----------
     matrix : ndarray, shape (..., m, m)
-        What a unit of each unknown does, as columns.
+        The effect of a unit of each unknown, as columns.
     applied : ndarray, shape (..., m) or (..., m, cases)
         Loads.
 
     Returns
     -------
     unknowns : ndarray
-        As many as `applied` has.
+        Of the shape of `applied`; NaN at dead points.
     sound : ndarray of bool, shape (...)
+        False at dead points.
     """
     several = applied.ndim == matrix.ndim
     found = _solution(matrix, _with_probes(applied if several else applied[..., None]))
@@ -47,12 +45,12 @@ def balanced(matrix: Array, applied: Array) -> tuple[Array, NDArray[np.bool_]]:
 
 
 def balanced_at_many(entries: Entries, applied: Array) -> tuple[Array, NDArray[np.bool_]]:
-    """Return the same as `balanced`, of equations with few entries at many positions.
+    """Return the same as `balanced` for sparse equations at many positions.
 
     Parameters
     ----------
     entries : mapping
-        Of the matrix, those that are not zero at all of n positions, each of shape (n,).
+        Non-zero entries of the matrix at n positions, each of shape (n,).
     applied : ndarray, shape (n, m) or (n, m, cases)
         Loads.
     """
@@ -82,13 +80,13 @@ def dense(
 
 
 def _with_probes(applied: Array) -> Array:
-    """Return right sides, (..., m, cases), and behind them what is enlarged as rounding is."""
+    """Return right-hand sides, (..., m, cases), followed by the random ones."""
     probes = np.broadcast_to(_probes(applied.shape[-2]), (*applied.shape[:-1], _PROBES))
     return np.concatenate([-applied, probes], axis=-1)
 
 
 def _sound(size: Array, found: Array) -> NDArray[np.bool_]:
-    """Return where equations of some norm mean something; elsewhere solutions become no numbers."""
+    """Return where equations of some norm are sound; elsewhere solutions become NaN."""
     sound: NDArray[np.bool_] = size * np.abs(found[..., -_PROBES:]).max((-2, -1)) < _WORST_CONDITION
     found[~sound] = np.nan
     return sound
@@ -96,16 +94,16 @@ def _sound(size: Array, found: Array) -> NDArray[np.bool_]:
 
 @cache
 def _probes(size: int) -> Array:
-    """Return vectors of signs, the same in every run."""
+    """Return random vectors of signs, the same in every run."""
     return np.random.default_rng(0).choice([-1.0, 1.0], (size, _PROBES))
 
 
 @in_one_thread
 def _solution(matrix: Array, right: Array) -> Array:
-    """Return solutions; of matrices that are singular to the last bit huge numbers."""
+    """Return solutions; infinite ones of matrices that are exactly singular."""
     try:
         found: Array = np.linalg.solve(matrix, right).astype(float)
-    except np.linalg.LinAlgError:  # one spoils all
+    except np.linalg.LinAlgError:  # raised for all because of one
         found = np.linalg.pinv(matrix, rcond=1e-15) @ right
         found[np.linalg.cond(matrix) >= _WORST_CONDITION] = np.inf
     return found

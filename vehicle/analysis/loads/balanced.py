@@ -1,12 +1,11 @@
-"""All loads on the parts of a held assembly, in equilibrium with inertia."""
+"""All loads on the parts of a held assembly, in balance with inertia."""
 
 from collections.abc import Mapping
 from typing import NamedTuple, Self
 
-import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from ....core.named_types import Array
 from ....core.quantities import attributes
 from ....datasets.recording import TIME
 from ...assembly.assembly import HeldAssembly
@@ -16,8 +15,6 @@ from ...assembly.part_poses import PartPoses
 from .dataset import loads_of
 from .reactions import BalanceEquations
 
-Array = NDArray[np.float64]
-
 
 class BalancedLoads(NamedTuple):
     """The loads in n states of equations of motion, in the axes of the assembly's file.
@@ -26,7 +23,7 @@ class BalancedLoads(NamedTuple):
     ----------
     assembly : HeldAssembly
     poses : mapping of str to PartPoses
-        Its parts, by suffix.
+        By suffix.
     loads : dict of str to list of Load
         All loads on each group of parts, by suffix, those of the joints first.
     holding : list of ndarray
@@ -45,14 +42,7 @@ class BalancedLoads(NamedTuple):
         poses: Mapping[str, PartPoses],
         known: Mapping[str, list[Load]],
     ) -> Self:
-        """Return the known loads, inertia included, with those of the joints.
-
-        Parameters
-        ----------
-        assembly : HeldAssembly
-        poses, known : mapping
-            By suffix.
-        """
+        """Return the known loads by suffix, with inertia, and those of the joints."""
         loads: dict[str, list[Load]] = {}
         holding: list[Array] = []
         for suffix, group in poses.items():
@@ -63,7 +53,7 @@ class BalancedLoads(NamedTuple):
         return cls(assembly, poses, loads, holding)
 
     def dataset(self) -> xr.Dataset:
-        """Return them over time, as `kintrafo.loads.along`."""
+        """Return the loads over time, as in `kintrafo.loads.along`."""
         found = loads_of(TIME, self.assembly, self.poses, self.loads)
-        meaning = "vertical force at the wheel that the motion would need besides"
+        meaning = "residual vertical force at the wheel"
         return found.assign(holding_force=stacked(TIME, self.holding, attributes(meaning, "N")))

@@ -1,4 +1,4 @@
-"""Load cases: what acts on the wheel, as a file or a caller gives them."""
+"""Load cases: loads on the wheels, from a file or an argument."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ....core.named_types import Array
 from ....core.suggestions import suggestion
 from ....core.validator import Validator
 from ...assembly.assembly import HeldAssembly
@@ -17,8 +17,6 @@ from ...input.toml_file import read_sections
 from ...models.axle.file import TorqueReaction
 from ...models.sides import LEFT, RIGHT, SIDES
 
-Array = NDArray[np.float64]
-
 _RACK = "rack_mm"
 _SECTIONS = ("static_load_N", "cases")
 _KEYS = (
@@ -26,30 +24,29 @@ _KEYS = (
     "travel_mm",
     *(f"{place}_{unit}" for place in ("contact", "center") for unit in ("N", "g", "Nm")),
 )
-# No suspension carries more than this, in N, N m or parts of its static load.
+# The largest load, in N, N m or parts of the static load.
 GREATEST = 1e9
 
 
 @dataclass(frozen=True)
 class Case:
-    """What acts on a wheel at rest.
+    """Loads on a wheel at rest.
 
-    Forces and moments have the axes of the tyre (ISO 8855): x forward in the plane of the wheel, y
-    left, z up, x and y horizontal.
+    Forces and moments are in the axes of the tyre (ISO 8855): x forward in the plane of the wheel,
+    y left, z up, x and y horizontal.
 
     Attributes
     ----------
     name : str
     contact, contact_moment : ndarray, shape (3,)
-        At the lowest point of the wheel [N], [N m]. The brake holds the wheel.
+        At the lowest point of the wheel, whose brake holds it [N], [N m].
     center, center_moment : ndarray, shape (3,)
-        At the wheel centre: what a drive shaft leaves of the traction of a wheel that it turns
-        [N], [N m].
+        At the wheel centre, such as the traction of a wheel with a drive shaft [N], [N m].
     rack : float
         Displacement of the rack [m].
     travel : float or None
-        Wheel travel of the suspension [m]; the vertical force at the contact is that
-        which holds it there. None: the suspension goes to where it carries the loads.
+        Wheel travel [m], with the vertical force at the contact that holds it there. None: the
+        suspension is in equilibrium under the loads.
     """
 
     name: str
@@ -67,7 +64,7 @@ class Case:
 
 
 def read(path: str | Path) -> dict[str, Any]:
-    """Read a TOML file of load cases.
+    """Return the load cases of a TOML file.
 
     Parameters
     ----------
@@ -76,12 +73,12 @@ def read(path: str | Path) -> dict[str, Any]:
     Returns
     -------
     dict
-        ``cases``, and ``static_load_N`` where the file has it.
+        ``cases``, and ``static_load_N`` if the file has it.
 
     Raises
     ------
     InputError
-        If it cannot be read, or has something else.
+        If it cannot be read, or has other keys.
     """
     return read_sections(path, _SECTIONS, needed="cases.NAME")
 
@@ -92,18 +89,18 @@ def cases_of(
     described: Mapping[str, Any],
     static_loads: Sequence[float],
 ) -> list[tuple[Case, ...]]:
-    """Read load cases: what each says of every wheel.
+    """Return load cases, each with a `Case` for every wheel.
 
     Parameters
     ----------
     given : Validator
-        Gets what is wrong.
+        Collects the errors.
     assembly : HeldAssembly
     described : mapping
-        By name, each with keys of `docs/suspension/loads.md`, which count for every wheel. Where
-        there are several, a wheel may have some of its own under its name.
+        By name, each with keys of `docs/suspension/loads.md` for every wheel; one of several wheels
+        may have further ones under its name.
     static_loads : sequence of float
-        Of each wheel, in parts of which forces may be given [N].
+        The static load of each wheel, the unit of keys that end in ``_g`` [N].
     """
     if not described:
         given.fail("cases: one or more are needed.")
@@ -120,7 +117,7 @@ def cases_of(
                 name: _of_wheel(given, name, table, wheel, racks=assembly.steered)
                 for name, table in described.items()
             }
-        # common to all
+        # an error of one wheel may be that of all
         if not given.failed:
             of = wheel if several else ""
             found.append(_cases_of_wheel(given, own, static_load, of))
@@ -128,7 +125,7 @@ def cases_of(
 
 
 def tables_of(described: Mapping[str, Any]) -> list[Mapping[str, Any]]:
-    """Return all tables that there are in load cases: of all wheels, and of one."""
+    """Return all tables in load cases: of all wheels, and of one."""
     every = [*described.values()]
     every += [t.get(side) for t in described.values() if isinstance(t, Mapping) for side in SIDES]
     return [table for table in every if isinstance(table, Mapping)]
@@ -141,7 +138,7 @@ def in_parts_of_it(described: Mapping[str, Any]) -> bool:
 
 
 def _of_wheel(given: Validator, name: str, table: Any, wheel: str, *, racks: bool) -> Any:
-    """Return what a case says of one wheel of several; what is no table as it is."""
+    """Return the keys of one of several wheels in a case; values that are not tables unchanged."""
     if not isinstance(table, Mapping):
         return table
     both = {key: value for key, value in table.items() if key not in SIDES}
@@ -208,10 +205,10 @@ def _cases_of_wheel(
 def standard_cases(subject: Any) -> dict[str, dict[str, Any]]:
     """Return the standard load cases, as fractions of the static load of each wheel.
 
-    Sideways forces push the wheel of a corner inward. In cases of an axle that differ between its
-    wheels the right one has the greater load. Forces along x act where what holds the torque of
-    brakes or drive finds them: at the contact if it is on the carrier or the axle, at the wheel
-    centre if it is on the body. An axle without ``drive`` in its file has no case ``drive``.
+    Lateral forces push the wheel of a corner inward. In cases that differ between the wheels of an
+    axle the right one has the greater load. Forces along x act at the contact if the brake or the
+    drive is on the carrier or the axle, and at the wheel centre if it is on the body. An axle
+    without ``drive`` in its file has no case ``drive``.
 
     Parameters
     ----------
@@ -220,7 +217,7 @@ def standard_cases(subject: Any) -> dict[str, dict[str, Any]]:
     Returns
     -------
     dict
-        As `static` takes them.
+        For `static`.
 
     Examples
     --------
@@ -265,7 +262,7 @@ _OF_AXLES = _EVEN | {
 
 
 def _with_torque_on(case: Mapping[str, Any], held: TorqueReaction) -> dict[str, Any]:
-    """Return a case with its forces along x where they find what holds the torque."""
+    """Return a case with its forces along x at the wheel centre if the torque is on the body."""
     if "contact_g" not in case:
         return {side: _with_torque_on(own, held) for side, own in case.items()}
     x, y, z = case["contact_g"]
@@ -282,7 +279,7 @@ def _number(given: Validator, title: str, table: Mapping[str, Any], key: str) ->
 
 
 def _vector(given: Validator, title: str, table: Mapping[str, Any], key: str) -> Array:
-    """Return three numbers, zeros where there are none."""
+    """Return three numbers, zeros for a missing key."""
     if key not in table:
         return np.zeros(3)
     unit = key.rpartition("_")[2]

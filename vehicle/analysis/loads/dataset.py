@@ -1,4 +1,4 @@
-"""Loads on parts as a dataset, and the extremes of them."""
+"""Loads on parts as a dataset, their extremes, and tables of them."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -6,8 +6,8 @@ from itertools import product
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from ....core.named_types import Array
 from ....core.quantities import variable
 from ....core.validator import Validator
 from ....core.vectors import cross
@@ -22,8 +22,6 @@ from ...models.reach import PositionError
 from .mounts import totals, with_totals
 from .reactions import BalanceEquations
 
-Array = NDArray[np.float64]
-
 CASE, LOAD, AXIS, PART = "case", "load", "axis", "part"
 """Dimensions of the loads."""
 
@@ -31,7 +29,7 @@ AXES = {
     "vehicle": "vehicle: x forward y left z up",
     "part": "part as at design: x forward y left z up",
 }
-"""Axes of points and components, and what tables call them."""
+"""Axes of points and components, and their names in tables."""
 
 _ENDS = "min", "min_case", "max", "max_case"
 _NEEDED = "what kintrafo.loads.static or along returns is needed"
@@ -43,15 +41,9 @@ def loads_of(
     poses: Mapping[str, PartPoses],
     loads: Mapping[str, Sequence[Load]],
 ) -> xr.Dataset:
-    """Return the loads of an assembly over the positions, with those between its groups.
+    """Return the loads of an assembly over a dimension, with those between its groups.
 
-    Parameters
-    ----------
-    over : str
-        Dimension of the positions.
-    assembly : HeldAssembly
-    poses, loads : mapping
-        By suffix.
+    Poses and loads are by suffix.
     """
     every, places = _with_shared(assembly, poses, loads)
     mounted = {
@@ -69,7 +61,7 @@ def loads_of(
 def _with_shared(
     assembly: HeldAssembly, poses: Mapping[str, PartPoses], loads: Mapping[str, Sequence[Load]]
 ) -> tuple[list[Load], dict[str, BodyPose]]:
-    """Return all loads, those on what both sides share too, and where all parts are."""
+    """Return all loads and the poses of all parts, with those that both sides share."""
     own = [of_side(load, suffix) for suffix, every in loads.items() for load in every]
     places = {
         f"{part}{suffix}": BodyPose(group.centers[part], group.turned[part])
@@ -81,7 +73,7 @@ def _with_shared(
 
 
 def design_centers(assembly: HeldAssembly) -> dict[str, Array]:
-    """Return where the centre of each part is at design, see `BodyPose`, (3,) [m]."""
+    """Return the centre of each part at design, see `BodyPose`, (3,) [m]."""
     poses = assembly.at_wheel_coordinates(assembly.design_wheel_coordinates[None], np.zeros(1))
     acting, loads = assembly.acting(poses), {}
     for suffix, group in poses.items():
@@ -93,7 +85,7 @@ def design_centers(assembly: HeldAssembly) -> dict[str, Array]:
 
 
 def of_side(load: Load, suffix: str) -> Load:
-    """Return a load whose names say of which side it is; what there is once has none."""
+    """Return a load whose names have the suffix of a side, but for those that are not of a side."""
     return replace(
         load,
         part=load.part if load.part in GROUND else load.part + suffix,
@@ -109,20 +101,18 @@ def dataset_of(
     design: Mapping[str, Array],
     mounted: Mapping[str, str],
 ) -> xr.Dataset:
-    """Return loads over the positions.
+    """Return loads over a dimension.
 
     Parameters
     ----------
     over : str
-        Dimension of the positions.
     loads : sequence of Load
-        All that there are.
     places : mapping
-        The parts that are in equilibrium.
+        Poses of the parts in equilibrium.
     design : mapping
-        Where their centres are at design, (3,) [m].
+        Their centres at design, (3,) [m].
     mounted : mapping of str to str
-        As of `Structure`.
+        As in `Structure`.
     """
     count = max(len(place.center) for place in places.values())
     fields = {name: _columns(loads, name, count) for name in ("force", "moment", "at")}
@@ -146,7 +136,7 @@ def dataset_of(
     for name, unit, sums in zip(
         ("", "_moment"), ("N", "N m"), zip(*left, strict=True), strict=True
     ):
-        meaning = f"what is left of the sum of the {'moments' if name else 'forces'} on a part"
+        meaning = f"sum of all {'moments' if name else 'forces'} on a part"
         sizes = np.linalg.norm(sums, axis=1)
         residuals[f"residual{name}"] = variable((over, "moving_part"), sizes.T, meaning, unit)
     coordinates = {
@@ -168,18 +158,18 @@ def dataset_of(
 def over_cases(
     found: xr.Dataset, names: Sequence[str], carried: Sequence[int], reasons: Sequence[str]
 ) -> xr.Dataset:
-    """Return the loads of the cases that are carried as those of all cases.
+    """Return the loads over all cases, from those of cases with an equilibrium.
 
     Parameters
     ----------
     found : xarray.Dataset
-        Over the cases that are carried.
+        Over the cases with an equilibrium.
     names : sequence of str
         Of all cases.
     carried : sequence of int
-        Which of them are carried.
+        Indices of the cases with an equilibrium.
     reasons : sequence of str
-        Why a case is not carried; empty where it is.
+        The reason why a case has no equilibrium; empty if it has.
     """
     found = found.assign_coords({CASE: [names[i] for i in carried]}).reindex({CASE: [*names]})
     found["reason"] = variable(CASE, np.array(reasons), "why the case cannot be carried", "1")
@@ -188,13 +178,7 @@ def over_cases(
 
 
 def refuse_if_none(names: Sequence[str], carried: Sequence[int], reasons: Sequence[str]) -> None:
-    """Refuse cases of which none can be carried, see `over_cases`.
-
-    Raises
-    ------
-    PositionError
-        Rather than an `InputError`: what was given has a meaning, and the suspension cannot do it.
-    """
+    """Raise a `PositionError` if no case has an equilibrium, see `over_cases`."""
     if not carried:
         lines = [f"{name}: {reason}" for name, reason in zip(names, reasons, strict=True)]
         raise PositionError("\n  - ".join(["none of the cases can be carried", *lines[:3]]))
@@ -213,13 +197,13 @@ def envelope(dataset: xr.Dataset) -> xr.Dataset:
     Parameters
     ----------
     dataset : xarray.Dataset
-        From `static`; cases that are not carried are left out.
+        From `static`; cases without equilibrium are left out.
 
     Returns
     -------
     xarray.Dataset
         ``force_min``, ``force_max``, ``moment_min``, ``moment_max`` over ``load`` and ``axis``, and
-        for each of them the case, ``force_min_case`` and so on.
+        the case of each, ``force_min_case`` and so on.
     """
     with Validator("envelope") as given:
         given.instance("dataset", dataset, xr.Dataset, _NEEDED)
@@ -235,7 +219,7 @@ def envelope(dataset: xr.Dataset) -> xr.Dataset:
 
 
 def peaks(dataset: xr.Dataset) -> xr.Dataset:
-    """Return the greatest force and moment of every load along a motion, and when they are.
+    """Return the greatest force and moment of every load along a motion, and their times.
 
     Parameters
     ----------
@@ -246,7 +230,7 @@ def peaks(dataset: xr.Dataset) -> xr.Dataset:
     -------
     xarray.Dataset
         Over ``load``: ``force_peak`` [N] and ``moment_peak`` [N m] in size, ``force_peak_time`` and
-        ``moment_peak_time`` [s], and over ``axis``, too, the components then, ``force`` and
+        ``moment_peak_time`` [s]; also over ``axis`` the components at these times, ``force`` and
         ``moment``.
     """
     with Validator("peaks") as given:
@@ -268,21 +252,21 @@ def peaks(dataset: xr.Dataset) -> xr.Dataset:
 
 
 def table(dataset: xr.Dataset, axes: str = "vehicle") -> xr.Dataset:
-    """Return loads with a column for each component, as a strength engineer's program reads them.
+    """Return loads as a table with a column for each component, for strength analysis.
 
     Parameters
     ----------
     dataset : xarray.Dataset
         From `static` or `along`.
     axes : {"vehicle", "part"}, optional
-        Of points and components: those of the vehicle, or of each part, where it is at design.
+        Axes of points and components: those of the vehicle, or of each part at design.
 
     Returns
     -------
     xarray.Dataset
         ``force_x`` to ``moment_z`` and ``at_x`` to ``at_z`` over case, or time, and load: a row for
         each load on each part, and for the total at each mount of the chassis as that on the part
-        ``total``. The column ``axes`` says which they are.
+        ``total``. The column ``axes`` has the name of the axes.
     """
     with Validator("table") as given:
         given.instance("dataset", dataset, xr.Dataset, _NEEDED)
@@ -313,13 +297,13 @@ def workbook(dataset: xr.Dataset, axes: str = "vehicle") -> dict[str, xr.Dataset
     dataset : xarray.Dataset
         From `static` or `along`.
     axes : {"vehicle", "part"}, optional
-        Of the sheet ``loads``, see `table`; the extremes are in those of the vehicle.
+        Axes of the sheet ``loads``, see `table`; the extremes are in those of the vehicle.
 
     Returns
     -------
     dict of str to xarray.Dataset
-        ``loads``, as of `table`, and in load cases ``envelope``: a row for each of these, with the
-        least and the greatest of every component, and the case in which it is.
+        ``loads``, from `table`; for load cases also ``envelope``, with a row for each load, and the
+        least and greatest value of every component with its case.
     """
     found = {"loads": table(dataset, axes)}
     if CASE not in dataset.dims:
@@ -333,7 +317,7 @@ def workbook(dataset: xr.Dataset, axes: str = "vehicle") -> dict[str, xr.Dataset
 
 
 def _check(given: Validator, dataset: xr.Dataset, *further: str) -> None:
-    """Refuse a dataset that is none of loads."""
+    """Add an error for a dataset without loads."""
     if given.failed:
         return
     dimensions = {LOAD, AXIS, *further} <= {*dataset.dims}
@@ -342,7 +326,7 @@ def _check(given: Validator, dataset: xr.Dataset, *further: str) -> None:
 
 
 def _columns(loads: Sequence[Load], name: str, count: int) -> Array:
-    """Return a vector of each load by components, (loads, 3, count): so sums run over columns."""
+    """Return a vector of each load, (loads, 3, count), contiguous over positions."""
     found = np.empty((len(loads), 3, count))
     for columns, load in zip(found, loads, strict=True):
         columns.T[...] = getattr(load, name)
@@ -366,7 +350,7 @@ def _points_in_parts(
     design: Mapping[str, Array],
     rows: Mapping[str, Sequence[int]],
 ) -> Array:
-    """Return points, (loads, 3, count), where the parts had them at design."""
+    """Return the positions of points on the parts at design, (loads, 3, count)."""
     arms = at.copy()
     for part, own in rows.items():
         arms[own] -= places[part].center.T

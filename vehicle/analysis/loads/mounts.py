@@ -1,7 +1,7 @@
-"""What each mount carries together: all loads on the chassis at a point to which parts are bolted.
+"""Total loads on each mount, a point of the chassis to which parts are bolted.
 
-A mount is a point of the chassis. Loads there, and at points that coincide with it or belong to it,
-such as the seat of a spring beside the top of its strut, are summed, the moments about the mount.
+Loads at a mount, and at points that coincide with it or belong to it, such as the seat of a spring
+beside the top of its strut, are summed, with moments about the mount.
 """
 
 from collections.abc import Mapping, Sequence
@@ -14,10 +14,10 @@ from ...assembly.load import Load
 from ...assembly.part_poses import wrench_about
 
 MOUNT, ALL = "mount", "total"
-"""The dimension of totals, and the part that rows of them name."""
+"""Dimension of the totals, and the name of their part in tables."""
 
 CHASSIS = "chassis"
-# Points of one place are read from the same numbers [m].
+# Points closer than this coincide [m].
 _SAME = 1e-9
 _FIELDS = ("force", "moment", "at")
 _MEANINGS = {
@@ -30,24 +30,23 @@ _MEANINGS = {
 def totals(
     over: str, loads: Sequence[Load], mounted: Mapping[str, str], count: int
 ) -> dict[str, xr.Variable]:
-    """Return what each mount carries, as variables.
+    """Return the total loads on each mount, as variables.
 
     Parameters
     ----------
     over : str
         Dimension of the positions.
     loads : sequence of Load
-        All that there are.
     mounted : mapping of str to str
         Points that belong to a mount at another one, or to none (an empty text).
     count : int
-        Of positions.
+        Number of positions.
 
     Returns
     -------
     dict of str to xarray.Variable
         ``total_force``, ``total_moment`` and ``total_at`` over the positions, ``mount`` and axis;
-        the names of the mounts, and in ``total_by`` what acts there.
+        the names of the mounts, and in ``total_by`` those of the loads.
     """
     groups = _groups([load for load in loads if load.part == CHASSIS], mounted)
     found = np.empty((3, count, len(groups), 3))
@@ -62,7 +61,7 @@ def totals(
         for name, values in zip(_FIELDS, found, strict=True)
     }
     acting = [", ".join(dict.fromkeys(load.by for load in own)) for own in groups.values()]
-    words = "what acts on the chassis at a mount"
+    words = "loads on the chassis at a mount"
     return data | {
         MOUNT: xr.Variable(MOUNT, np.array([*groups], dtype=str)),
         "total_by": variable(MOUNT, np.array(acting, dtype=str), words, "1"),
@@ -77,7 +76,7 @@ def with_totals(dataset: xr.Dataset, *, several: bool = False) -> xr.Dataset:
     dataset : xarray.Dataset
         From `static` or `along`.
     several : bool, optional
-        Only of mounts at which more than one thing acts.
+        Whether to leave out mounts with one load.
     """
     if MOUNT not in dataset.dims:
         return dataset
@@ -114,11 +113,8 @@ def _groups(loads: Sequence[Load], mounted: Mapping[str, str]) -> dict[str, list
         point = mounted.get(load.point, load.point)
         if not point:
             continue
-        there = point if point in groups else _same_place(groups, load)
-        groups.setdefault(there or point, []).append(load)
+        if point not in groups:  # unless a mount coincides with it
+            near = (m for m, own in groups.items() if np.abs(own[0].at - load.at).max() < _SAME)
+            point = next(near, point)
+        groups.setdefault(point, []).append(load)
     return groups
-
-
-def _same_place(groups: Mapping[str, list[Load]], load: Load) -> str:
-    """Return the mount that is where a load acts; empty where there is none."""
-    return next((m for m, own in groups.items() if np.abs(own[0].at - load.at).max() < _SAME), "")

@@ -1,8 +1,8 @@
-"""The loads on every part of a car that drives, by the equations of Newton and Euler.
+"""Loads on every part of a car that drives, by the equations of Newton and Euler.
 
 Each axle is balanced in the axes of the body, in which its linkages move as on a held body. The
-motion of the body enters by the accelerations of the parts, by weights that are not along the third
-axis, and by the forces of rolling tyres.
+motion of the body enters by the accelerations of the parts, the direction of weights in these axes,
+and the forces of rolling tyres.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -11,8 +11,8 @@ from functools import cached_property
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from ....core.named_types import Array
 from ....core.vectors import cross
 from ...assembly.car import CarAssembly
 from ...assembly.coupling import STEERING
@@ -26,8 +26,6 @@ from .balanced import BalancedLoads
 from .dataset import AXIS, LOAD, PART
 from .inertia import PartTwists
 from .mounts import ALL, MOUNT
-
-Array = NDArray[np.float64]
 
 # Names of parts and loads that both axles share.
 _SHARED = (*GROUND, "gravity", "inertia", "mass", STEERING, ALL)
@@ -64,7 +62,7 @@ class CarInMotion:
 
     @cached_property
     def signals(self) -> dict[str, Array]:
-        """The signals of its equations, (n,)."""
+        """The signals of its equations, each (n,)."""
         return self.model.signals(self.states, self.inputs)
 
     @cached_property
@@ -79,43 +77,39 @@ class CarInMotion:
         return replace(found, twists=self._seen(found.twists), rates=self._seen(found.rates))
 
     def _seen(self, twists: Array) -> Array:
-        """Return pairs of vectors, (n, parts, 6), in components along the axes of the body."""
+        """Return the components of pairs of vectors, (n, parts, 6), along the axes of the body."""
         pairs = twists.reshape(*twists.shape[:-1], 2, 3)
         found: Array = np.einsum("nji,npkj->npki", self.body, pairs)
         return found.reshape(twists.shape)
 
     def axle(self, end: str) -> BalancedLoads:
-        """Return the loads on the axle at an end, in the axes of the axle's file.
+        """Return the loads on an axle, in the axes of its file.
 
         Raises
         ------
         PositionError
-            Where the motion comes to a dead point.
+            If the motion reaches a dead point.
         """
         axle, begin = self.assembly.held[end], f"{end}_"
-        own = (begin, "rack_") if end == "front" else (begin,)  # elsewhere it is fixed to the body
+        own = (begin, "rack_") if end == "front" else (begin,)  # a rear rack is fixed to the body
         values = {
             name.removeprefix(begin): value
             for name, value in self._values.items()
             if name.startswith(own)
         }
         poses = axle.parts_with(values, len(self.states))
-        acting = axle.acting(poses)
-        known = {
-            suffix: [
-                *map(self._leaning, acting[suffix]),
-                *self._on_wheels(end, suffix, group),
-                *self._inertia(end, suffix, group),
+        known = {}
+        for suffix, loads in axle.acting(poses).items():
+            # weights are vertical in the world
+            acting = [
+                replace(load, force=load.force[..., 2:] * self.up) if load.by == "gravity" else load
+                for load in loads
             ]
-            for suffix, group in poses.items()
-        }
+            further = self._on_wheels, self._inertia
+            known[suffix] = acting + [
+                load for each in further for load in each(end, suffix, poses[suffix])
+            ]
         return BalancedLoads.of(axle, poses, known)
-
-    def _leaning(self, load: Load) -> Load:
-        """Return an applied load; weights act along the vertical of the world."""
-        if load.by != "gravity":
-            return load
-        return replace(load, force=load.force[..., 2:] * self.up)
 
     def _inertia(self, end: str, suffix: str, group: PartPoses) -> Iterator[Load]:
         """Yield the inertia of each part, as loads."""
@@ -144,7 +138,7 @@ class CarInMotion:
             np.stack([self.signals[f"{name}_{what}{axis}"] for axis in "xyz"], axis=-1)
             for what in ("f", "m")
         )
-        # the normal force acts at the lowest point, all else where the plane meets the road
+        # the normal force acts at the lowest point, others where the plane meets the road
         road = self._values[self.assembly.names_of(name).road]
         height = self.signals[f"{name}_wheel_center_z"] - road
         below = (self.signals[f"{name}_deflection"] / cosine)[:, None]
@@ -158,10 +152,7 @@ class CarInMotion:
             yield Load(WHEEL, CENTER, "shaft", nothing, torque[:, None] * left, wheel.center)
 
     def _by_shaft(self, end: str, name: str) -> Array | None:
-        """Return the torque on a wheel whose reaction is on the body; None without one.
-
-        The torque of a brake or a motor on the carrier is a part of the load of the bearing.
-        """
+        """Return the torque of brakes and drive on the body, if any; others load the bearing."""
         axle = self.assembly.held[end]
         kinds = {"brake": axle.torque_on("brakes"), "drive": axle.torque_on("drive")}
         torques = [
@@ -178,7 +169,7 @@ def rack_force(assembly: CarAssembly, states: Array, inputs: Array) -> Array:
     Parameters
     ----------
     assembly : CarAssembly
-        Of a car that drives, with a rack.
+        A car that drives, with a rack.
     states, inputs : ndarray, shape (n, states) and (n, inputs)
     """
     front = CarInMotion(assembly, states, inputs).axle("front")
@@ -188,7 +179,7 @@ def rack_force(assembly: CarAssembly, states: Array, inputs: Array) -> Array:
 
 
 def of_car(assembly: CarAssembly, states: Array, inputs: Array) -> xr.Dataset:
-    """Return the loads in some states of a car that drives, (n, states), as over time."""
+    """Return the loads in states of a car that drives, (n, states), over time."""
     motion = CarInMotion(assembly, states, inputs)
     return _together(
         {
@@ -199,15 +190,7 @@ def of_car(assembly: CarAssembly, states: Array, inputs: Array) -> xr.Dataset:
 
 
 def _named(found: xr.Dataset, end: str, origin: float) -> xr.Dataset:
-    """Return the loads of an axle by the names that they have in a car, in its axes.
-
-    Parameters
-    ----------
-    found : xarray.Dataset
-    end : str
-    origin : float
-        x of the origin of the axle's axes in those of the car [m].
-    """
+    """Return the loads of an axle with names and axes of the car, its origin at x = `origin`."""
     names = {
         key: [_name(str(name), end) for name in found[key].values]
         for key in (PART, "point", "by", "moving_part", MOUNT)
@@ -221,12 +204,10 @@ def _named(found: xr.Dataset, end: str, origin: float) -> xr.Dataset:
         MOUNT: names[MOUNT],
         WHEEL: found[WHEEL].copy(data=np.array(wheels)),
     }
-    moved = {}
+    moved, shift = {}, xr.DataArray([origin, 0.0, 0.0], dims=AXIS)
     for name in _AT:
-        shift = xr.DataArray([origin, 0.0, 0.0], dims=AXIS)
-        moved[name] = (
-            (found[name] + shift).transpose(*found[name].dims).assign_attrs(found[name].attrs)
-        )
+        at = found[name]
+        moved[name] = (at + shift).transpose(*at.dims).assign_attrs(at.attrs)
     by = [
         ", ".join(_name(one, end) for one in str(text).split(", "))
         for text in found["total_by"].values

@@ -1,21 +1,20 @@
-"""The forces in the joints: Newton and Euler for every part, linear in what the joints carry."""
+"""Loads on the joints: Newton's and Euler's equations of all parts, linear in these loads."""
 
 from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.named_types import Array
 from ....core.vectors import cross
 from ...assembly.load import Load, along_line
 from ...assembly.part_poses import CONTACT, PartPoses, touching, wrench_about
 from ...corner.corner import UP
-from ...corner.structure import GROUND, PartJoint
+from ...corner.structure import GROUND
 from ...models.reach import PositionError
 from .balance import DEAD_POINT, balanced, balanced_at_many, dense
 
-Array = NDArray[np.float64]
-
-# From so many positions on, one elimination for all of them takes less time than one for each.
+# With more positions, one sparse elimination for all takes less time than a dense one for each.
 _MANY = 200
 
 
@@ -26,19 +25,19 @@ class BalanceEquations:
     ----------
     poses : PartPoses
     holding : sequence of str, optional
-        The lines of what holds the suspension where it is, by a force along each: its springs. By
-        default a vertical force on each wheel at its contact does.
+        The lines along which forces hold the suspension: its springs. By default a vertical force
+        at the contact of each wheel holds it.
 
     Attributes
     ----------
     indeterminate : ndarray, shape (n, unknowns, k)
-        States of the unknowns that need no load, where parts are held more often than they move,
-        as by the five rods of a rigid axle. What is solved has none of them.
+        Unknowns in equilibrium without loads, if supports are redundant, as the five rods of a
+        rigid axle. Solutions have no part in these directions.
 
     Notes
     -----
-    The unknowns are what the joints carry and, last, the forces that hold the suspension; they are
-    zero where the loads are in equilibrium.
+    The unknowns are the loads of the joints, then the forces that hold the suspension, which are
+    zero if the loads are in equilibrium.
     """
 
     def __init__(self, poses: PartPoses, holding: Sequence[str] = ()) -> None:
@@ -49,7 +48,11 @@ class BalanceEquations:
         self._units = [
             joint.unit_loads(poses.points, poses.turned, poses.design) for joint in self.joints
         ]
-        held = [self.pushed(line) for line in holding] or self._upward()
+        upward = (
+            [Load(part, CONTACT, "road", UP, np.zeros(3), touching(wheel))]
+            for part, wheel in poses.wheels.items()
+        )
+        held = [self.pushed(line) for line in holding] or [*upward]
         rows, unknowns = 6 * len(self.parts), sum(u.shape[-1] for u in self._units) + len(held)
         self._shape = (rows, unknowns)
         self._entries = self._of_joints() | self._last([self.applied(loads) for loads in held])
@@ -57,15 +60,8 @@ class BalanceEquations:
         if unknowns > rows:
             self.indeterminate = np.linalg.svd(self._dense())[2][..., rows:, :].mT
 
-    def _upward(self) -> list[list[Load]]:
-        """Return a vertical force of 1 N on each wheel at its contact, or else at its centre."""
-        return [
-            [Load(part, CONTACT, "road", UP, np.zeros(3), touching(wheel))]
-            for part, wheel in self.poses.wheels.items()
-        ]
-
     def _of_joints(self) -> dict[tuple[int, int], Array]:
-        """Return what a unit of what each joint carries does: the entries that are not zero."""
+        """Return the non-zero entries of the columns of the joints."""
         found: dict[tuple[int, int], Array] = {}
         first = 0
         for joint, units in zip(self.joints, self._units, strict=True):
@@ -83,7 +79,7 @@ class BalanceEquations:
         return found
 
     def _last(self, held: list[Array]) -> dict[tuple[int, int], Array]:
-        """Return the entries of the last columns, of loads that hold what is loaded."""
+        """Return the non-zero entries of the last columns, of the forces that hold the wheels."""
         first = self._shape[1] - len(held)
         return {
             (int(row), first + place): loads[:, row]
@@ -102,7 +98,7 @@ class BalanceEquations:
         Raises
         ------
         PositionError
-            At a dead point, where what is carried has no bound.
+            At a dead point, where loads are unbounded.
         """
         found, sound = self.solved(applied)
         if not sound.all():
@@ -112,10 +108,7 @@ class BalanceEquations:
         return found
 
     def solved(self, applied: Array) -> tuple[Array, NDArray[np.bool_]]:
-        """Return the unknowns under loads on the parts, and where they mean something.
-
-        Where they do not is a dead point: there they are no numbers.
-        """
+        """Return the unknowns under loads on the parts, NaN at dead points, and where they hold."""
         if self.indeterminate.shape[-1] == 0 and len(applied) >= _MANY:
             return balanced_at_many(self._entries, applied)
         matrix = np.concatenate([self._dense(), self.indeterminate.mT], axis=-2)
@@ -143,39 +136,26 @@ class BalanceEquations:
         return along_line(self.poses, found, np.ones(self.poses.states.shape[:-1]))
 
     def carried(self, unknowns: Array) -> list[Load]:
-        """Return what the joints carry, on both of the parts of each."""
+        """Return the loads of the joints, on both parts of each."""
         loads = []
         for joint, at_points in zip(self.joints, self.at_joints(unknowns[..., None]), strict=True):
             for i, point in enumerate(joint.at):
-                wrench = at_points[..., i, :, 0]
-                loads += _on_both(joint, point, wrench, self.poses.points[point])
+                wrench, at = at_points[..., i, :, 0], self.poses.points[point]
+                force, moment = wrench[..., :3], wrench[..., 3:]
+                loads.append(Load(joint.second, point, joint.first, force, moment, at))
+                loads.append(Load(joint.first, point, joint.second, -force, -moment, at))
         return loads
 
     def at_joints(self, unknowns: Array) -> Iterator[Array]:
-        """Yield what each joint carries on its second part.
+        """Yield the loads of each joint on its second part, (n, touching points, 6, cases).
 
-        Parameters
-        ----------
-        unknowns : ndarray, shape (n, unknowns, cases)
-
-        Yields
-        ------
-        ndarray, shape (n, touching points, 6, cases)
+        The unknowns have the shape (n, unknowns, cases).
         """
         column = 0
         for units in self._units:
             carried = unknowns[:, column : column + units.shape[-1]]
             column += units.shape[-1]
             yield np.einsum("npru,nuc->nprc", units, carried)
-
-
-def _on_both(joint: PartJoint, point: str, wrench: Array, at: Array) -> list[Load]:
-    """Return what a joint carries at a point as loads on both parts."""
-    force, moment = wrench[..., :3], wrench[..., 3:]
-    return [
-        Load(joint.second, point, joint.first, force, moment, at),
-        Load(joint.first, point, joint.second, -force, -moment, at),
-    ]
 
 
 def _about(poses: PartPoses, part: str, point: str, units: Array) -> Array:

@@ -1,4 +1,4 @@
-"""Loads as tables that a person reads."""
+"""Loads as tables for the terminal and the report."""
 
 from collections.abc import Sequence
 
@@ -13,12 +13,12 @@ _ACTING = ("spring", "damper", "road", "drive", "steering", "bar")
 
 
 def acts(by: str) -> bool:
-    """Return whether something acts by itself, not between parts at a joint."""
+    """Return whether a load is applied, rather than that of a joint."""
     return without_side(by) in _ACTING
 
 
 def without_side(name: str) -> str:
-    """Return a name of an axle, or of a car, without its side and its end."""
+    """Return a name of an axle or a car without its side and its end."""
     without = name.removesuffix("_left").removesuffix("_right")
     return without.removesuffix("_front").removesuffix("_rear")
 
@@ -32,7 +32,7 @@ def overview(found: xr.Dataset, title: str, parts: Sequence[str] = ()) -> Tabula
         From `static`.
     title : str
     parts : sequence of str, optional
-        Loads on these parts, with all that act on them; by default each joint once. The part
+        Parts whose loads are all shown; by default the table has each joint once. The part
         ``total`` has the sums at all mounts.
     """
     found = flat(found)
@@ -54,7 +54,7 @@ def overview(found: xr.Dataset, title: str, parts: Sequence[str] = ()) -> Tabula
     sizes = np.linalg.norm(found["force"].values, axis=-1)
     for i in shown_rows(found, parts):
         part, point, by = (str(found[name].values[i]) for name in ("part", "point", "by"))
-        # a rod has its row, and the torque of a bar
+        # rods have their own rows
         if part not in rods and by not in rods and np.nan_to_num(sizes[:, i]).any():
             name = by if acts(by) else point
             name = f"{point}, total" if part == ALL else name
@@ -63,7 +63,7 @@ def overview(found: xr.Dataset, title: str, parts: Sequence[str] = ()) -> Tabula
 
 
 def _named(found: xr.Dataset, stem: str) -> list[str]:
-    """Return what there is of a wheel, or of both of an axle."""
+    """Return the names of a variable of one wheel or of both."""
     return [name for name in map(str, found) if without_side(name) == stem]
 
 
@@ -72,9 +72,9 @@ def _words(name: str) -> str:
 
 
 def shown_rows(found: xr.Dataset, parts: Sequence[str] = ()) -> list[int]:
-    """Return the loads that are shown: of what two parts exert on each other one, if not asked.
+    """Return the indices of the shown loads: all on some parts, or one of each pair of opposites.
 
-    Totals at mounts go with the loads on the chassis.
+    Totals at mounts are shown with the loads on the chassis.
     """
     given = [str(part) for part in found["part"].values]
     sizes = np.abs(found["force"].values) + np.abs(found["moment"].values)

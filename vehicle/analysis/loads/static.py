@@ -1,4 +1,4 @@
-"""The loads on every part of an assembly at rest under load cases."""
+"""Loads on every part of an assembly at rest under load cases."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ....core.named_types import Array
 from ....core.quantities import attributes, variable
 from ....core.validator import Validator
 from ...assembly.assembly import HeldAssembly
@@ -23,8 +24,6 @@ from .dataset import CASE, loads_of, over_cases, refuse_if_none
 from .reactions import BalanceEquations
 from .static_equilibrium import static_equilibrium
 
-Array = NDArray[np.float64]
-
 
 def static(
     subject: Any,
@@ -32,7 +31,7 @@ def static(
     *,
     static_load: float | None = None,
 ) -> xr.Dataset:
-    """Return the loads on every part in some load cases, each at rest.
+    """Return the loads on every part in load cases, each at rest.
 
     Parameters
     ----------
@@ -40,8 +39,8 @@ def static(
     cases : mapping, optional
         By name: ``contact_N`` and ``contact_Nm``, force and moment at the lowest point of the
         wheel, whose brake holds it; ``center_N`` and ``center_Nm``, force and moment at the wheel
-        centre, for torques that a brake or a final drive on the body reacts; all of them three
-        numbers in the axes of the tyre, y to the left. ``contact_g`` and ``center_g`` are fractions
+        centre, for torques of a brake or a final drive on the body; each has three numbers in the
+        axes of the tyre, y to the left. ``contact_g`` and ``center_g`` are fractions
         of the static load. ``rack_mm``; ``travel_mm``, a given travel of the wheel instead of a
         vertical force at the contact. For an axle they apply to both wheels; ``left`` and ``right``
         have those of one wheel. By default those of `standard_cases`.
@@ -51,12 +50,12 @@ def static(
     Returns
     -------
     xarray.Dataset
-        Over ``case``, ``load`` and ``axis``: ``force`` [N] and ``moment`` [N m] about the point at
-        which it acts (``at`` [m]), in chassis axes, and ``force_in_part`` and ``moment_in_part`` in
-        the axes that the part had at design, when its point was at ``at_in_part`` [m]. Every load
-        has the ``part`` on which it acts, its ``point``, and the neighbour ``by`` which it is
-        exerted. Forces between two parts occur twice, with both signs. Parts and points of both
-        sides of an axle end in ``_left`` and ``_right``.
+        Over ``case``, ``load`` and ``axis``: ``force`` [N] and ``moment`` [N m] about its point
+        ``at`` [m], in chassis axes, and ``force_in_part`` and ``moment_in_part`` in the axes of the
+        part at design, with its point at ``at_in_part`` [m]. Every load has the ``part`` on which
+        it acts, its ``point``, and the neighbour ``by`` which it is exerted. Forces between two
+        parts occur twice, with both signs. Parts and points of both sides of an axle end in
+        ``_left`` and ``_right``.
 
         Over ``case``, and of an axle over ``wheel``: ``travel`` [m], ``wheel_load`` [N], and
         ``holding_force`` [N], the residual of the vertical force at the contact: zero, to rounding.
@@ -69,28 +68,28 @@ def static(
         [m]), and ``total_by`` names the loads; the spring of a strut belongs to the mount of the
         strut.
 
-        A rack is held along its axis by ``steering``, and by the chassis, its guide, in all else:
-        at ``rack_guide``, where the tie rod of a corner ends, or at the ``rack_middle`` of an axle,
+        A rack is held along its axis by ``steering``, and in other directions by the chassis: at
+        ``rack_guide``, the end of the tie rod of a corner, or at the ``rack_middle`` of an axle,
         whose ``rack_force`` [N] is the force of the steering along the axis. ``bar_torque`` [N m]
-        is that of an anti-roll bar, positive with the left half turned the farther, or of a rigid
-        axle with the left wheel up; parts of an axle with a bar are ``drop_link_left``, ``_right``
-        and the ``anti_roll_bar``. A rod of a rigid axle touches the ``beam`` and the chassis at the
-        points ``NAME_axle`` and ``NAME_chassis``; ``rod_force`` [N] over ``rod`` is positive where
-        it pulls.
+        is that of an anti-roll bar, positive with the left half turned farther, or of a rigid axle
+        with the left wheel up; parts of an axle with a bar are ``drop_link_left``, ``_right`` and
+        the ``anti_roll_bar``. A rod of a rigid axle ends at the ``beam`` and the chassis, in the
+        points ``NAME_axle`` and ``NAME_chassis``; ``rod_force`` [N] over ``rod`` is positive in
+        tension.
 
     Raises
     ------
     InputError
         If an argument cannot be used.
     PositionError
-        If none of the cases can be carried.
+        If no case has an equilibrium.
 
     Notes
     -----
-    Equilibrium of every part, linear in the forces of the joints. Wheels go to the stable position
-    nearest to design in which springs, stops and bar carry the case, of those that a grid over
-    their travels shows; the wheels of a rigid axle go there from design. Two bearings of an arm on
-    one axis share the force along it equally: statics does not decide that.
+    The equilibrium of every part is linear in the forces of the joints. Springs, stops and bar
+    carry the case in the stable position nearest to design, of those on a grid over the travels of
+    the wheels; for a rigid axle it is searched from design. Two bearings of an arm on one axis
+    share the force along it equally: it is statically indeterminate.
 
     Examples
     --------
@@ -131,7 +130,7 @@ def static(
 def _at_rest_on_the_road(
     given: Validator, assembly: HeldAssembly, described: Mapping[str, Any]
 ) -> list[float]:
-    """Return the vertical forces on all wheels at rest, where a case needs them [N]."""
+    """Return the vertical forces on all wheels at rest [N]; zeros if no case needs them."""
     if not in_parts_of_it(described):
         return [0.0] * len(assembly.wheels)
     coordinates, (reason,) = static_equilibrium(
@@ -151,18 +150,9 @@ def _in_cases(
     coordinates: Array,
     reasons: list[str],
 ) -> xr.Dataset:
-    """Return the loads in load cases.
+    """Return the loads in named cases, with wheels at coordinates of shape (cases, wheels).
 
-    Parameters
-    ----------
-    assembly : HeldAssembly
-    names : sequence of str
-        Of the cases.
-    loads : AppliedLoads
-    coordinates : ndarray, shape (cases, wheels)
-        Positions of the wheels, see `HeldAssembly.at_wheel_coordinates`.
-    reasons : list of str
-        Why a case is not carried; empty where it is.
+    Reasons are those of cases without equilibrium; others are empty.
     """
     carried = np.array([row for row, reason in enumerate(reasons) if not reason], dtype=int)
     refuse_if_none(names, carried.tolist(), reasons)
@@ -180,11 +170,16 @@ def _in_cases(
         for row, words in zip(carried, refused, strict=True):
             explained[row] = words
         return _in_cases(assembly, names, loads, coordinates, explained)
-    # the road has what holds a wheel that is held; nothing has what is left of others
+    # the road exerts the force that holds a wheel at its travel; that of other wheels is a residual
     vertical = np.where(held, missing, 0.0)
     of_road = iter(vertical.T)
     pushed = {
-        suffix: [_with_upward(load, next(of_road)) if _is_road(load) else load for load in own]
+        suffix: [
+            replace(load, force=load.force + next(of_road)[:, None] * UP)
+            if _is_road(load)
+            else load
+            for load in own
+        ]
         for suffix, own in outside.items()
     }
     every = {s: [*one.carried, *acting[s], *pushed[s]] for s, one in balance.items()}
@@ -216,7 +211,7 @@ def _in_cases(
 
 
 def _outside(poses: Mapping[str, PartPoses], vectors: Array) -> dict[str, list[Load]]:
-    """Return the loads of road and drive by suffix, (n, wheels, 12) as `Case.vector`."""
+    """Return the loads of road and drive by suffix, of vectors (n, wheels, 12) as `Case.vector`."""
     found: dict[str, list[Load]] = {suffix: [] for suffix in poses}
     for place, (suffix, part, wheel) in enumerate(wheels_of(poses)):
         found[suffix] += road_and_drive(part, wheel, vectors[:, place])
@@ -225,24 +220,15 @@ def _outside(poses: Mapping[str, PartPoses], vectors: Array) -> dict[str, list[L
 
 @dataclass(frozen=True)
 class _Balance:
-    """What the joints of a group carry.
-
-    Attributes
-    ----------
-    carried : list of Load
-    missing : ndarray, shape (n, wheels)
-        Vertical force at each contact besides [N].
-    sound : ndarray of bool, shape (n,)
-        Where they mean something.
-    """
+    """Loads of the joints of a group, residual forces at the contacts, and where they are sound."""
 
     carried: list[Load]
-    missing: Array
+    missing: Array  # (n, wheels) [N]
     sound: NDArray[np.bool_]
 
     @classmethod
     def of(cls, group: PartPoses, loads: list[Load]) -> "_Balance":
-        """Return it under some loads."""
+        """Return the balance of a group under some loads."""
         equations = BalanceEquations(group)
         unknowns, sound = equations.solved(equations.applied(loads))
         return cls(equations.carried(unknowns), unknowns[:, -len(group.wheels) :], sound)
@@ -254,16 +240,9 @@ def _refused(
     missing: Array,
     held: NDArray[np.bool_],
 ) -> list[str]:
-    """Return why positions are none: a dead point, or a road that would have to pull.
+    """Return the reasons against equilibria: a dead point, or a road that would have to pull.
 
-    Parameters
-    ----------
-    assembly : HeldAssembly
-    dead : mapping
-        By suffix, where what is carried has no bound, (n,).
-    missing : ndarray, shape (n, wheels)
-        Vertical forces that the road exerts on wheels that are held [N].
-    held : ndarray of bool, shape (n, wheels)
+    Dead points are by suffix, (n,); forces of the road on held wheels have the shape (n, wheels).
     """
     heads = [f"{wheel}: " if len(assembly.wheels) > 1 else "" for wheel in assembly.wheels]
     found = []
@@ -285,7 +264,3 @@ def _refused(
 
 def _is_road(load: Load) -> bool:
     return load.by.startswith("road")
-
-
-def _with_upward(load: Load, vertical: Array) -> Load:
-    return replace(load, force=load.force + vertical[:, None] * UP)

@@ -1,51 +1,48 @@
-"""Positions of the wheels of an assembly under load cases.
+"""Equilibrium positions of the wheels of an assembly under load cases.
 
-Each wheel needs a vertical force of the road at every position, by virtual work. All wheels go to
-where they need none by Newton's method, in steps that are bounded and down to where it is stable: a
-single wheel between two positions of a grid over its travel, those nearest to design between which
-it is stable; several wheels from the cells of such a grid that are nearest to design, and from
-design where there are none.
+Virtual work gives the missing vertical force of the road on each wheel at every position. Newton's
+method with bounded steps finds a stable position at which no force is missing: for a single wheel
+between the two positions of a grid over its travel nearest to design that enclose one; for several
+wheels from the cells of such a grid nearest to design, or from design if there are none.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.named_types import Array
 from ...assembly.assembly import HeldAssembly
 from ...assembly.load import known
-from ...assembly.part_poses import PartPoses
 from ...assembly.rig import WheelReach
 from ...models.reach import PositionError
 from .applied_loads import AppliedLoads, wheels_of
 from .balance import DEAD_POINT
 from .virtual_work import VirtualWork
 
-Array = NDArray[np.float64]
 Booleans = NDArray[np.bool_]
 Rows = NDArray[np.int64]
 
-# Positions over the travel between which an equilibrium is looked for: every 2 mm or so. A linkage
-# that locks at the end of its reach carries anything, with forces that break it: the first and the
-# last are left out.
+# Positions over the travel, about 2 mm apart. The first and last are left out: a linkage that locks
+# at the end of its reach carries any load, with forces that break it.
 _GRID = 101
-# Steps for slopes: a tenth of the way that was made last, so that a stop which is hardly touched is
-# not smeared over the gap beside it, at most and at least [m or rad].
+# Steps of differences: a tenth of the last step, so that a stop just in contact does not affect
+# the gap beside it; at most and at least [m or rad].
 _WIDEST, _LEAST = 1e-5, 1e-10
-# Rounding of a missing force: of a coordinate, by what the rates are there, and of what acts.
+# Rounding of a missing force, as a part of the stiffness and of the loads.
 _ROUNDING, _PART = 1e-13, 1e-12
-# So much of it is none in any case [N].
+# A missing force below this is zero [N].
 _FOUND = 1e-7
-# No stiffness that is followed is less [N/m or N/rad], and no step of a wheel is longer [m or rad].
+# The least stiffness in a step [N/m or N/rad], and the longest step of a wheel [m or rad].
 _LEAST_RATE, _LONGEST = 100.0, 0.05
-# A way of 0.5 m, and what a stop that is hit takes besides; steps that lead out of the reach are
-# halved until they are shorter than this.
+# Most steps: for 0.5 m and contact with a stop; steps that lead out of the reach are halved until
+# they are shorter than this.
 _MOST, _SHORTEST = 60, 1e-4
-# Cells from which the search of several wheels begins, the nearest to design first.
+# Cells from which the search of several wheels begins.
 _TRIES = 20
-# Between so near positions a single wheel that needs a force either way is at a dead point [rad].
+# Positions of a wheel this close, with missing forces of either sign, are a dead point [rad].
 _POLE = 1e-9
 
 _LOCKED = (
@@ -60,7 +57,7 @@ _UNSTABLE = (
 
 
 def static_equilibrium(assembly: HeldAssembly, loads: AppliedLoads) -> tuple[Array, list[str]]:
-    """Return the positions of wheels under loads, and why there is none.
+    """Return the equilibrium positions of wheels under loads, or reasons why there is none.
 
     Parameters
     ----------
@@ -70,9 +67,9 @@ def static_equilibrium(assembly: HeldAssembly, loads: AppliedLoads) -> tuple[Arr
     Returns
     -------
     coordinates : ndarray, shape (n, wheels)
-        As of `HeldAssembly.at_wheel_coordinates`; not numbers in cases that are not carried.
+        As in `HeldAssembly.at_wheel_coordinates`; NaN in cases without equilibrium.
     reasons : list of str
-        Empty where a case is carried.
+        Empty for cases with an equilibrium.
     """
     found, why, first = [], [], 0
     for one in assembly.independent:
@@ -91,31 +88,19 @@ def static_equilibrium(assembly: HeldAssembly, loads: AppliedLoads) -> tuple[Arr
 
 @dataclass(frozen=True)
 class _Search:
-    """Cases on their way to the equilibrium of wheels that depend on each other.
-
-    Attributes
-    ----------
-    assembly : HeldAssembly
-    loads : AppliedLoads
-    coordinates, low, high : ndarray, shape (n, wheels)
-        Where they are, and between which they stay.
-    widths : ndarray, shape (n,)
-        Of the differences for slopes.
-    reasons : list of str
-        Why a case is not carried; empty where it is.
-    """
+    """The search for equilibria of coupled wheels in n cases, whose arrays change in place."""
 
     assembly: HeldAssembly
     loads: AppliedLoads
-    coordinates: Array
+    coordinates: Array  # (n, wheels), and their bounds
     low: Array
     high: Array
-    widths: Array
-    reasons: list[str]
+    widths: Array  # of differences, (n,)
+    reasons: list[str]  # why a case has no equilibrium
 
     @classmethod
     def of(cls, assembly: HeldAssembly, loads: AppliedLoads) -> "_Search":
-        """Begin at design, but with wheels that are held where they are."""
+        """Return a search that begins at design, or at the given travel of held wheels."""
         count = len(loads.racks)
         coordinates = np.tile(assembly.design_wheel_coordinates, (count, 1))
         ends = np.full((2, *coordinates.shape), np.inf)
@@ -137,16 +122,16 @@ class _Search:
 
     @property
     def _around(self) -> Array:
-        """Positions about one, by wheels: there, below it, and above it."""
+        """Directions of differences: none, down for each wheel, up for each wheel."""
         one = np.eye(len(self.assembly.wheels))
         return np.concatenate([0.0 * one[:1], -one, one])
 
     def open(self) -> Rows:
-        """Return the cases that are not given up."""
+        """Return the cases without a reason against them."""
         return np.array([i for i, reason in enumerate(self.reasons) if not reason], dtype=int)
 
     def go(self) -> None:
-        """Bring cases to equilibrium, or say why there is none."""
+        """Move the cases to equilibrium, or note the reasons why there is none."""
         self._bound()
         rows = self.open()
         for row in rows[~self.assembly.reached(self.coordinates[rows], self.loads.racks[rows])]:
@@ -157,10 +142,10 @@ class _Search:
         for row in rows[self.assembly.locked(self.coordinates[rows])]:
             self.reasons[row] = _LOCKED
 
-    # -- where they begin -------------------------------------------------------------------------
+    # -- start ------------------------------------------------------------------------------------
 
     def _bound(self) -> None:
-        """Keep free wheels within their reach, a single one where it is stable."""
+        """Set the bounds of free wheels: their reach, or about an equilibrium of a single one."""
         rows = self.open()
         rows = rows[self.loads.free[rows].any(axis=-1)]
         for rack in dict.fromkeys(self.loads.racks[rows]):
@@ -180,7 +165,7 @@ class _Search:
             self.low[own], self.high[own] = ends.T
 
     def _bracket(self, rows: Rows, reach: WheelReach) -> None:
-        """Put cases between the positions nearest to design between which they are stable."""
+        """Set the bounds of cases to the grid positions nearest to design about an equilibrium."""
         grid = np.linspace(*reach.coordinate, _GRID)[1:-1]
         racks = np.full(grid.shape, self.loads.racks[rows[0]])
         poses = self.assembly.at_wheel_coordinates(grid[:, None], racks)
@@ -188,7 +173,7 @@ class _Search:
         away = np.abs(grid[:-1] - self.assembly.design_wheel_coordinates)
         for row in rows:
             held = work.missing(self.loads.at(poses, np.full(grid.size, row)))[:, 0]
-            # from low to high the wheel needs more and more of a load to stay, where it is stable
+            # about a stable position the missing force increases with height
             stable = (held[:-1] <= 0.0) & (held[1:] > 0.0)
             if not stable.any():
                 self.reasons[row] = self._not_carried(reach, held)
@@ -197,13 +182,13 @@ class _Search:
             self.low[row], self.high[row] = grid[at], grid[at + 1]
             self.coordinates[row] = 0.5 * (grid[at] + grid[at + 1])
 
-    # -- their way --------------------------------------------------------------------------------
+    # -- iteration --------------------------------------------------------------------------------
 
     def _near_cells(self, rows: Rows) -> Rows:
-        """Bring cases to equilibrium within a cell of a grid; return those without one.
+        """Move cases of several wheels to equilibrium in a cell of a grid; return the others.
 
-        Of several wheels each of which has a reach of its own. The cells are those in which the
-        missing force of every free wheel changes its sign, the nearest to design first.
+        In these cells, the nearest to design first, the missing forces of all free wheels change
+        their signs.
         """
         if self.single or not np.isfinite(self.low[rows]).any():
             return rows
@@ -230,7 +215,7 @@ class _Search:
         together: dict[tuple[Any, ...], list[int]] = {}
         for row in rows:
             free = self.loads.free[row]
-            # a grid is that of all cases with one rack whose wheels are free
+            # all cases with free wheels and the same rack position have one grid
             alone = () if free.all() else (int(row),)
             together.setdefault((float(self.loads.racks[row]), *alone), []).append(int(row))
         return {
@@ -240,10 +225,10 @@ class _Search:
         }
 
     def _on_a_grid(self, rows: list[int]) -> Iterator[list[tuple[Array, Array]]]:
-        """Yield the cells of cases whose wheels are on one grid.
+        """Yield the cells of cases on one grid.
 
-        Each wheel misses on its own grid what it does without the bar, and more in proportion to
-        the torque of the bar, which depends on both.
+        The missing force of a wheel is that without the bar, which depends on its own coordinate,
+        plus the torque of the bar, which depends on both, times a factor.
         """
         first, free = rows[0], self.loads.free[rows[0]]
         ends = zip(self.low[first], self.high[first], self.coordinates[first], free, strict=True)
@@ -254,8 +239,11 @@ class _Search:
         racks = np.full(len(places), self.loads.racks[first])
         poses = self.assembly.at_wheel_coordinates(places, racks)
         alone = VirtualWork.of(poses, {suffix: known(group) for suffix, group in poses.items()})
-        by_torque = _on_mesh(self._by_torque(poses), shape)
-        torque = self._torque(poses, shape)
+        by_torque = VirtualWork.of(poses, self.assembly.bar_loads(poses)).missing()  # [1/m]
+        by_torque = _on_mesh(by_torque, shape)
+        assert self.assembly.bar is not None  # it couples the wheels
+        twists = np.stack([*self.assembly.bar_twist(poses).values()], axis=-1)
+        torque = self.assembly.bar.torque(_on_mesh(twists, shape).sum(axis=-1, keepdims=True))
         sizes = np.array([grid[1] - grid[0] if grid.size > 1 else 0.0 for grid in grids])
         for row in rows:
             missing = alone.missing(self.loads.at(poses, np.full(len(places), row)))
@@ -265,16 +253,6 @@ class _Search:
             away = ((middles - self.assembly.design_wheel_coordinates)[:, free] ** 2).sum(axis=-1)
             yield [(middles[i], sizes) for i in np.argsort(away, kind="stable")[:_TRIES]]
 
-    def _by_torque(self, poses: Mapping[str, PartPoses]) -> Array:
-        """Return what each wheel misses by a unit torque of the bar, (n, wheels) [1/m]."""
-        return VirtualWork.of(poses, self.assembly.bar_loads(poses)).missing()
-
-    def _torque(self, poses: Mapping[str, PartPoses], shape: tuple[int, ...]) -> Array:
-        """Return the torque of the bar on a mesh, (..., 1) [N m]."""
-        assert self.assembly.bar is not None  # nothing else joins them
-        twists = np.stack([*self.assembly.bar_twist(poses).values()], axis=-1)
-        return self.assembly.bar.torque(_on_mesh(twists, shape).sum(axis=-1, keepdims=True))
-
     def _walk(self, rows: Rows) -> None:
         for _ in range(_MOST):
             if rows.size == 0:
@@ -282,7 +260,7 @@ class _Search:
             missing, slopes = self._needs(rows)
             going = ~self._ended(rows, missing, slopes)
             rows, missing, slopes = rows[going], missing[going], slopes[going]
-            if self.single:  # what is on either side of the equilibrium
+            if self.single:  # the bounds on either side of the equilibrium
                 below = missing <= 0.0
                 self.low[rows] = np.where(below, self.coordinates[rows], self.low[rows])
                 self.high[rows] = np.where(below, self.high[rows], self.coordinates[rows])
@@ -290,16 +268,16 @@ class _Search:
             moved = self._moved(rows, steps) & ~at_end
             self.widths[rows] = np.clip(0.1 * np.abs(steps).max(axis=-1), _LEAST, _WIDEST)
             for row, force in zip(rows[~moved], missing[~moved], strict=True):
-                # what changes its sign without a zero is without bound between
+                # a force that changes its sign without a zero is unbounded in between
                 self.reasons[row] = DEAD_POINT if self.single else self._at_the_end(row, force)
             rows = rows[moved]
         for row in rows:
             self.reasons[row] = _UNSTABLE
 
     def _needs(self, rows: Rows) -> tuple[Array, Array]:
-        """Return the missing forces, (rows, wheels) [N], and their slopes by the coordinates.
+        """Return the missing forces, (rows, wheels) [N], and their derivatives in the coordinates.
 
-        A wheel that is held misses none, and does not ask for more than a soft spring does.
+        The missing force of a held wheel is zero, with the slope of a soft spring.
         """
         size, around = len(self.assembly.wheels), self._around
         widths = self.widths[rows][:, None, None]
@@ -317,7 +295,7 @@ class _Search:
         return missing, np.where(both, slopes, _LEAST_RATE * np.eye(size))
 
     def _ended(self, rows: Rows, missing: Array, slopes: Array) -> Booleans:
-        """Return which cases go no farther, and why those are not carried that are not."""
+        """Return which cases end, with reasons for those without equilibrium."""
         lost = np.asarray(~np.isfinite(missing).all(axis=-1))
         vectors = self.loads.vectors
         acting = np.zeros(len(rows)) if vectors is None else np.abs(vectors[rows]).max((-2, -1))
@@ -326,7 +304,6 @@ class _Search:
         still = np.asarray((np.abs(missing) < most).all(axis=-1))
         for row in rows[lost]:
             self.reasons[row] = DEAD_POINT
-        # less travel needs less force
         rates = np.linalg.eigvals(np.nan_to_num(slopes)).real
         stable = np.asarray((rates > 0.0).all(axis=-1))
         for row in rows[still & ~stable]:
@@ -337,7 +314,7 @@ class _Search:
         return ended
 
     def _within(self, rows: Rows, steps: Array) -> tuple[Array, Booleans]:
-        """Return steps, over an end as half the way to it, and where that is none."""
+        """Return steps, halfway to a bound instead of beyond it, and where that is too short."""
         here, low, high = self.coordinates[rows], self.low[rows], self.high[rows]
         free = self.loads.free[rows]
         aims, shortest = here + steps, _POLE if self.single else _SHORTEST
@@ -346,7 +323,7 @@ class _Search:
         return inside, np.asarray(((over | under) & (np.abs(inside) < shortest)).any(axis=-1))
 
     def _moved(self, rows: Rows, steps: Array) -> Booleans:
-        """Go as far along each step as the wheels reach, and return which have moved."""
+        """Move along each step within the reach of the wheels; return which cases moved."""
         if self.single:
             self.coordinates[rows] += steps
             return np.ones(rows.size, dtype=bool)
@@ -363,10 +340,10 @@ class _Search:
             waiting[which[there]], part = False, 0.5 * part
         return ~waiting
 
-    # -- why they are not carried -----------------------------------------------------------------
+    # -- reasons against an equilibrium -----------------------------------------------------------
 
     def _not_carried(self, reach: WheelReach, held: Array) -> str:
-        """Say why spring and stops of a single wheel do not carry a case, and what would help."""
+        """Return why spring and stops of a single wheel do not carry a case, with advice."""
         low, high = (1e3 * end for end in reach.height)
         if held[-1] < 0.0:
             problem = f"{-held[-1]:.4g} N too much for spring and stops even near the upper end"
@@ -380,7 +357,7 @@ class _Search:
         )
 
     def _at_the_end(self, row: int, missing: Array) -> str:
-        """Say why springs and stops of several wheels do not carry a case, and what would help."""
+        """Return why springs and stops of several wheels do not carry a case, with advice."""
         most = int(np.abs(missing).argmax())
         force = missing[most]
         problem = (
@@ -401,7 +378,7 @@ class _Search:
         )
 
     def _advice(self, wheel: int, *, pressed: bool, lifted: bool) -> str:
-        """Say what would help a wheel that is pressed or lifted too much."""
+        """Return advice for a wheel that is pressed or lifted too much."""
         name = self.assembly.wheels[wheel]
         if pressed and not self.assembly.has_stop(name, "bump_stop"):
             return "Give the file its [bump_stop], or the case its travel_mm."
@@ -411,7 +388,7 @@ class _Search:
 
 
 def _changes_sign(values: Array, axes: NDArray[np.int64]) -> Booleans:
-    """Return for each cell of a grid which values, (..., k), have a zero between its corners."""
+    """Return which values, (..., k), change their signs between the corners of each cell."""
     least = most = values
     for axis in axes:
         count = values.shape[axis] - 1
@@ -423,13 +400,13 @@ def _changes_sign(values: Array, axes: NDArray[np.int64]) -> Booleans:
 
 
 def _on_mesh(values: Array, shape: tuple[int, ...]) -> Array:
-    """Return what is along the grids of wheels, (n, wheels), on the mesh of them, (..., wheels)."""
+    """Return values along the grids of wheels, (n, wheels), on their mesh, (..., wheels)."""
     grids = (own[:size] for own, size in zip(values.T, shape, strict=True))
     return np.stack(np.meshgrid(*grids, indexing="ij"), axis=-1)
 
 
 def _steps(missing: Array, slopes: Array) -> Array:
-    """Return Newton's steps of all wheels, (n, wheels); where it is not stable, steps downhill."""
+    """Return Newton's steps, (n, wheels); steps of decreasing energy where it is not stable."""
     rates, ways = np.linalg.eigh(0.5 * (slopes + slopes.mT))
     downhill = (ways * np.maximum(np.abs(rates), _LEAST_RATE)[:, None]) @ ways.mT
     stable = np.asarray((rates > _LEAST_RATE).all(axis=-1))

@@ -1,31 +1,29 @@
-"""What loads do in the motions of a mechanism: virtual work, in which no joint appears."""
+"""Virtual work of loads in the motions of a mechanism, without the forces of joints."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ....core.named_types import Array
 from ....core.vectors import cross
 from ...assembly.load import Load
 from ...assembly.part_poses import PartPoses, touching, wheel_axes
 from ...corner.structure import GROUND
 
-Array = NDArray[np.float64]
-
 
 @dataclass(frozen=True)
 class VirtualWork:
-    """Power of loads in n positions, in each of k motions at unit rate; the assembly has k wheels.
+    """Power of loads in n positions and in k motions at unit rate, for an assembly with k wheels.
 
     Attributes
     ----------
     own : ndarray, shape (n, k)
-        Power of what acts without the wheels' loads.
+        Power of all loads but those on the wheels.
     units : ndarray, shape (n, k, k, 12)
-        By wheel and motion, that of unit loads on a wheel as of `Case.vector`.
+        By wheel and motion, power of unit loads on a wheel as in `Case.vector`.
     rise : ndarray, shape (n, k, k)
-        By wheel and motion, that of a vertical unit force at its contact.
+        By wheel and motion, power of a vertical unit force at its contact.
     """
 
     own: Array
@@ -36,14 +34,7 @@ class VirtualWork:
     def of(
         cls, poses: Mapping[str, PartPoses], acting: Mapping[str, Sequence[Load]]
     ) -> "VirtualWork":
-        """Return the work in the motions of all wheels.
-
-        Parameters
-        ----------
-        poses : mapping
-        acting : mapping of str to sequence of Load
-            What acts without the wheels' loads on each group.
-        """
+        """Return the power in the motions of all wheels, with loads on each group of parts."""
         count = len(next(iter(poses.values())).states)
         size = sum(len(group.wheels) for group in poses.values())
         own, rise = np.zeros((count, size)), np.zeros((count, size, size))
@@ -55,10 +46,8 @@ class VirtualWork:
             own[:, motions] = _power(group, twists, acting[suffix])
             for row, (part, wheel) in enumerate(group.wheels.items(), first):
                 contact = _velocity(group, twists, part, touching(wheel))
-                center, turning = (
-                    _velocity(group, twists, part, wheel.center),
-                    twists[part][..., :3],
-                )
+                center = _velocity(group, twists, part, wheel.center)
+                turning = twists[part][..., :3]
                 moved = np.stack([contact, turning, center, turning], axis=2)
                 turned = np.einsum("nij,nmpj->nmpi", wheel_axes(wheel), moved)
                 units[:, row, motions] = turned.reshape(*turned.shape[:2], 12)
@@ -67,17 +56,10 @@ class VirtualWork:
         return cls(own, units, rise)
 
     def missing(self, loads: Array | None = None) -> Array:
-        """Return the vertical force of the road that each wheel needs besides, (n, k) [N].
+        """Return the missing vertical force of the road on each wheel, (n, k) [N].
 
-        Parameters
-        ----------
-        loads : ndarray, shape (n or 1, k, 12), optional
-            What acts on the wheels, as `Case.vector`.
-
-        Returns
-        -------
-        ndarray
-            Not finite where no such force does work: at a dead point.
+        Loads on the wheels have the shape (n or 1, k, 12), as in `Case.vector`. The result is NaN
+        at a dead point, where a vertical force does no work.
         """
         power = self.own
         if loads is not None:
@@ -101,7 +83,7 @@ def _velocity(group: PartPoses, twists: Mapping[str, Array], part: str, at: Arra
 
 
 def _power(group: PartPoses, twists: Mapping[str, Array], loads: Sequence[Load]) -> Array:
-    """Return what loads do together in each motion, (n, motions)."""
+    """Return the power of loads in each motion, (n, motions)."""
     total = np.zeros((len(group.states), len(group.wheels)))
     for load in (load for load in loads if load.part not in GROUND):
         velocity = _velocity(group, twists, load.part, load.at)

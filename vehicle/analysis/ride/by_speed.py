@@ -4,8 +4,9 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ....core.named_types import Array
 from ....core.quantities import Display
 from ....core.validator import Validator
 from ...assembly.by_wheel import WHEEL, wheel_coordinate
@@ -23,8 +24,6 @@ from .linear import (
     weighted_root_mean_square,
 )
 from .subject import car_assembly
-
-Array = NDArray[np.float64]
 
 _PERCENT = Display("%", 100.0)
 _OF_BODY = (

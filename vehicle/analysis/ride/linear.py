@@ -16,6 +16,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
+from ....core.named_types import Array
 from ....core.quantities import variable
 from ....core.validator import Validator
 from ....datasets.columns import AS_COLUMNS
@@ -29,7 +30,6 @@ from .outputs import OUTPUTS_OF_WHEELS, body_outputs, upward, wheel_outputs
 from .subject import car_assembly
 from .weighting import weighting
 
-Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Responses = dict[str, Complex]
 """Responses of an output to the road under each wheel, by that wheel: (f,), or (wheels, f)."""

@@ -4,11 +4,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ....core.named_types import Array
 from ...assembly.car import CarAssembly
-
-Array = NDArray[np.float64]
 
 OUTPUTS_OF_WHEELS = {
     "load": ("force of the tyre in the plane of the wheel", "N"),

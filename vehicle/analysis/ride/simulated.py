@@ -4,7 +4,6 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from ....core.quantities import variable
 from ....core.validator import Validator
@@ -18,8 +17,6 @@ from ..run import Run
 from .outputs import OUTPUTS_OF_WHEELS, body_outputs, upward
 from .subject import car_assembly, riding_car
 from .weighting import weighted
-
-Array = NDArray[np.float64]
 
 # More outputs than this are a mistake in the step, and would fill the memory.
 _MOST_OUTPUTS = 2_000_000

@@ -3,14 +3,10 @@
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ....core.named_types import Array
 from ....systems.system import System
 from ...assembly.car import CarAssembly
 from ...assembly.of import car_assembly_of
-
-Array = NDArray[np.float64]
 
 
 def car_assembly(source: str, subject: Any, *, riding: bool = True) -> CarAssembly:

@@ -3,9 +3,9 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ....core.named_types import Array
 from ....core.validator import Validator
 
-Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 # Corner frequencies [Hz] and quality factors of W_k.

@@ -6,14 +6,12 @@ from typing import Any
 
 import numpy as np
 from markupsafe import Markup
-from numpy.typing import NDArray
 
+from ....core.named_types import Array
 from ....pages.embedded import asset, embedded, moving_script, page_environment
 from .charts import Chart
 from .picture import GRID, PER_NEWTON
 from .scene import LOOKED_AT, WIDTH, CarScene
-
-Array = NDArray[np.float64]
 
 
 def motion_page(scene: CarScene, charts: Sequence[Chart], title: str) -> str:

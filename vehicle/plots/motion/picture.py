@@ -10,16 +10,15 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
-from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
+from ....core.named_types import Array
 from ....pictures.animation import save_frames, seen_from, start_frame
 from .scene import LOOKED_AT, WIDTH, CarScene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-Array = NDArray[np.float64]
 Draws = Callable[[float], None]
 # Distance towards the viewer, and the function that draws.
 Item = tuple[float, Draws]

@@ -6,14 +6,13 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ....core.named_types import Array
 from ....core.quantities import display_of, displayed
 from ....core.vectors import cross, unit_vector
 from ....systems.skeleton import Skeleton
 from ...analysis.run import MovingCar, Run
 from ...corner.corner import UP
 from ...roads.road import Road
-
-Array = NDArray[np.float64]
 
 WIDTH = 0.62
 """Width of a wheel, by its radius."""

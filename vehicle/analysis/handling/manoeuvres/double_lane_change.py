@@ -6,7 +6,6 @@ from typing import ClassVar, Literal
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 from pydantic import Field
 
 from .....core.errors import InputError
@@ -23,8 +22,6 @@ from ..steady import Steady
 from .manoeuvre import Number as Judged
 from .manoeuvre import Progress
 from .simulated import TurningManoeuvre, greatest
-
-Array = NDArray[np.float64]
 
 # Lateral acceleration of the turn by which a driver knows the car [m/s^2].
 _GENTLE = 0.5

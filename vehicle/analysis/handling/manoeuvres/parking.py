@@ -14,11 +14,11 @@ from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 from pydantic import Field
 from scipy.interpolate import CubicSpline
 
 from .....core.errors import InputError, KintrafoError
+from .....core.named_types import Array
 from ....assembly.by_wheel import WHEEL, wheel_coordinate
 from ....assembly.equilibrium import equilibrium
 from ....input.section import AllowedRange, Number, Positive
@@ -26,8 +26,6 @@ from ..car import DrivingCar
 from ..driven import STEERING_TORQUE
 from ..result import HandlingResult, quantity
 from .manoeuvre import Manoeuvre, Progress
-
-Array = NDArray[np.float64]
 
 ALONG = "steering_wheel_angle"
 

@@ -4,9 +4,9 @@ from typing import Any, ClassVar, Literal
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 from pydantic import Field
 
+from .....core.named_types import Array
 from .....datasets.columns import AS_COLUMNS
 from ....input.section import Positive
 from ..car import DrivingCar
@@ -19,8 +19,6 @@ from ..steering import sine_sweep
 from .manoeuvre import Number, Progress
 from .simulated import greatest
 from .steered import SteeredManoeuvre
-
-Array = NDArray[np.float64]
 
 _SOURCES = ("simulated", "linear")
 

@@ -4,9 +4,9 @@ from typing import Any, ClassVar, Literal
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 from pydantic import Field
 
+from .....core.named_types import Array
 from ....input.section import Positive
 from ..car import DrivingCar
 from ..drivers import HeldTorque, OpenLoop
@@ -17,8 +17,6 @@ from ..steering import SteeringCourse, sine_with_dwell
 from .manoeuvre import Progress
 from .simulated import TurningManoeuvre, at_time
 from .slowly_increasing_steer import SlowlyIncreasingSteer
-
-Array = NDArray[np.float64]
 
 # The first amplitude, the step, and the last one, in reference angles (S7.9.3, S7.9.4).
 _FIRST, _STEP, _LAST = 1.5, 0.5, 6.5

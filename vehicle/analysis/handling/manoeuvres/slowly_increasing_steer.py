@@ -4,7 +4,6 @@ from typing import ClassVar, Literal
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 from pydantic import Field
 
 from .....core.errors import InputError
@@ -15,8 +14,6 @@ from ..result import HandlingResult
 from ..steering import ramp
 from .manoeuvre import Progress
 from .simulated import TurningManoeuvre, greatest
-
-Array = NDArray[np.float64]
 
 # Acceleration of gravity by which the standard counts [m/s^2].
 GRAVITY = 9.80665

@@ -1,8 +1,8 @@
-"""Loads as cards of programs for strength: one file for each part, in equilibrium.
+"""Load cards for strength programs: one file for each part, in equilibrium.
 
-`part`     what acts on a part, point by point
-`nastran`  as bulk data
-`abaqus`   as keywords
+`part`     loads on a part, point by point
+`nastran`  bulk data
+`abaqus`   keywords
 `write`    the files
 """
 

@@ -5,11 +5,11 @@ from collections.abc import Iterator
 from .sheet import CardSheet
 
 DIGITS = 13
-"""Of all numbers."""
+"""Significant digits of all numbers."""
 
 
 def lines_of(sheet: CardSheet) -> Iterator[str]:
-    """Yield the lines of the file of a part, to be included behind a model."""
+    """Yield the lines of the file of a part, to be included after a model."""
     nodes = sheet.nodes()
     for remark in sheet.remarks(DIGITS):
         yield f"** {remark}"
@@ -39,7 +39,7 @@ def lines_of(sheet: CardSheet) -> Iterator[str]:
 
 
 def _label(name: str) -> str:
-    """Return a name as Abaqus reads it: one that begins with no letter is quoted."""
+    """Return a name for Abaqus, in quotes if it does not begin with a letter."""
     return name if name[0].isalpha() else f'"{name}"'
 
 

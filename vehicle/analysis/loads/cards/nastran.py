@@ -1,6 +1,6 @@
 """Loads as bulk data of Nastran: GRID, FORCE and MOMENT in fields of 16 columns.
 
-A load set for each case. The coordinate system of all points and forces is one card, CORD2R, so
+Each case has a load set. One card, CORD2R, has the coordinate system of all points and forces, so
 that they can be moved into the axes of a model.
 """
 
@@ -8,13 +8,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from .sheet import FIRST_NODE, Array, CardSheet
+from .sheet import FIRST_NODE, CardSheet
 
 DIGITS = 10
-"""Of numbers in 16 columns."""
+"""Significant digits of numbers in 16 columns."""
 
 _SYSTEM = FIRST_NODE
-# On an axis, and in a plane, of the coordinate system: points of CORD2R.
+# Points of CORD2R on the z axis and in the plane of x and z.
 _ON_Z, _IN_XZ = np.array([0.0, 0.0, 1.0]), np.array([1.0, 0.0, 0.0])
 
 
@@ -41,17 +41,12 @@ def lines_of(sheet: CardSheet) -> Iterator[str]:
         yield f"$ {case}"
         for node in nodes:
             for name, vector in zip(("FORCE", "MOMENT"), node.loads.get(place, ()), strict=False):
-                if vector.any():
-                    yield from _vector(name, number, node.number, vector)
-
-
-def _vector(name: str, case: int, node: int, vector: Array) -> Iterator[str]:
-    """Yield a load: a factor of 1, and its components."""
-    yield from _card(name, case, node, _SYSTEM, 1.0, *vector)
+                if vector.any():  # a factor of 1, and its components
+                    yield from _card(name, number, node.number, _SYSTEM, 1.0, *vector)
 
 
 def _card(name: str, *values: float) -> Iterator[str]:
-    """Yield a card of four wide fields a line."""
+    """Yield a card with four wide fields in a line."""
     fields = [
         f"{value:16d}" if isinstance(value, int) else f"{value:16.{DIGITS - 1}E}"
         for value in values

@@ -1,34 +1,32 @@
-"""What acts on one part, point by point: the loads that meet at a point are summed."""
+"""Loads on one part, point by point: those at the same point are summed."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from .....core.named_types import Array
 from ....assembly.part_poses import wrench_about
 from ..dataset import CASE, LOAD
 from ..mounts import ALL, CHASSIS, with_totals
 
-Array = NDArray[np.float64]
-
-# Points that are nearer to each other than this are one [m]; rounding of coordinates is 1e-15.
+# Points closer than this are one [m]; rounding of coordinates is 1e-15.
 _SAME = 1e-9
-# A smaller value than this part of the greatest is a rounding error.
+# Values below this part of the greatest are rounding errors.
 _ROUNDING = 1e-12
 _FIELDS = ("force", "moment", "at")
 
 
 @dataclass(frozen=True)
 class LoadedPoint:
-    """A point of a part, and what acts there in each case.
+    """A point of a part with the loads there in each case.
 
     Attributes
     ----------
     name : str
     by : tuple of str
-        What acts.
+        Names of the loads.
     force, moment, at : ndarray, shape (cases, 3)
         [N], [N m], [m].
     """
@@ -41,26 +39,26 @@ class LoadedPoint:
 
     @property
     def fixed(self) -> bool:
-        """Whether it is at the same place in all cases."""
+        """Whether it is at the same position in all cases."""
         return bool((np.abs(self.at - self.at[0]) < _SAME).all())
 
 
 @dataclass(frozen=True)
 class LoadedPart:
-    """A part, and what acts on it in some load cases.
+    """A part with its loads in load cases.
 
     Attributes
     ----------
     part : str
     axes : str
-        ``part``: those of the part at design; ``vehicle``: of the vehicle, in which the part is
-        where the case has it.
+        ``part``, those of the part at design; or ``vehicle``, with the part in its position in each
+        case.
     cases : tuple of str
-        Names of those that are carried.
+        Names of the cases with an equilibrium.
     numbers : tuple of int
-        Of these among all cases, from 1.
+        Their numbers among all cases, from 1.
     left_out : tuple of str
-        The others, each with the reason.
+        The other cases, each with the reason.
     points : tuple of LoadedPoint
     """
 
@@ -73,7 +71,7 @@ class LoadedPart:
 
     @classmethod
     def of(cls, dataset: xr.Dataset, part: str, axes: str) -> "LoadedPart":
-        """Return a part of a dataset over cases; of the chassis, the totals at its mounts."""
+        """Return a part of a dataset over cases; the chassis has the totals at its mounts."""
         every, numbers, reasons = [str(name) for name in dataset[CASE].values], [], []
         for number, name in enumerate(every, 1):
             reason = str(dataset["reason"].values[number - 1]) if "reason" in dataset else ""
@@ -88,7 +86,7 @@ class LoadedPart:
 
 
 def _points(dataset: xr.Dataset, part: str, axes: str) -> list[LoadedPoint]:
-    """Return what acts on a part, each load by itself."""
+    """Return the loads on a part, each as a point."""
     with_sums = with_totals(dataset) if part == CHASSIS else dataset
     end = "_in_part" if axes == "part" else ""
     values = {name: with_sums[f"{name}{end}"].transpose(CASE, LOAD, "axis") for name in _FIELDS}
@@ -107,17 +105,17 @@ def _points(dataset: xr.Dataset, part: str, axes: str) -> list[LoadedPoint]:
 
 
 def _in_no_mount(dataset: xr.Dataset, rows: Sequence[int]) -> list[int]:
-    """Return the rows of totals, and of what acts on the chassis at no mount."""
+    """Return the rows of totals, and of loads on the chassis that are in no total."""
     part, by = ([str(name) for name in dataset[key].values] for key in ("part", "by"))
     counted = {each for row in rows if part[row] == ALL for each in by[row].split(", ")}
     return [row for row in rows if part[row] == ALL or by[row] not in counted]
 
 
 def _joined(points: Sequence[LoadedPoint]) -> list[LoadedPoint]:
-    """Return points, with all that acts at one of them together.
+    """Return points with the sums of the loads on them.
 
-    Points of other names stay by themselves, also where they coincide: a tie rod and the guide of a
-    rack are held by other nodes of a mesh.
+    Points with different names remain separate even if they coincide: a tie rod and the guide of a
+    rack have different nodes in a mesh.
     """
     found: dict[str, LoadedPoint] = {}
     for point in points:
@@ -130,13 +128,8 @@ def _joined(points: Sequence[LoadedPoint]) -> list[LoadedPoint]:
     return [*found.values()]
 
 
-def _plain(at: Array) -> Array:
-    """Return places without rounding errors of zero."""
-    return np.where(np.abs(at) < _SAME, 0.0, at)
-
-
 def _rounded(points: Sequence[LoadedPoint]) -> list[LoadedPoint]:
-    """Return points that carry something, with zeros for rounding errors."""
+    """Return points with loads, with zeros for rounding errors."""
     if not points:
         return []
     forces, moments = (
@@ -145,7 +138,12 @@ def _rounded(points: Sequence[LoadedPoint]) -> list[LoadedPoint]:
     forces[np.abs(forces) <= _ROUNDING * np.abs(forces).max(initial=0.0)] = 0.0
     moments[np.abs(moments) <= _ROUNDING * np.abs(moments).max(initial=0.0)] = 0.0
     return [
-        replace(point, force=force + 0.0, moment=moment + 0.0, at=_plain(point.at))
+        replace(
+            point,
+            force=force + 0.0,
+            moment=moment + 0.0,
+            at=np.where(np.abs(point.at) < _SAME, 0.0, point.at),
+        )
         for point, force, moment in zip(points, forces, moments, strict=True)
         if force.any() or moment.any()
     ]

@@ -1,4 +1,4 @@
-"""The numbers of a part as a program takes them: nodes, cases and units."""
+"""Nodes, cases and units of the load cards of a part."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -6,18 +6,16 @@ from textwrap import wrap
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from .....core.named_types import Array
 from ....assembly.part_poses import wrench_about
 from ..mounts import CHASSIS
 from .part import LoadedPart
 
-Array = NDArray[np.float64]
-
 LENGTHS = {"mm": 1e3, "m": 1.0}
-"""Units of length: the number of them in a metre."""
+"""Units of length, and their number in a metre."""
 
-# Higher than those of usual meshes, and below the most that Nastran has.
+# Above the numbers of usual meshes, and below the limit of Nastran.
 FIRST_NODE = 99_000_001
 
 _AXES = {
@@ -33,7 +31,7 @@ _WIDTH = 70
 
 
 class Node(NamedTuple):
-    """A node, and what acts there by the places of the cases; units of the file."""
+    """A node with its force and moment by the index of the case; units of the file."""
 
     number: int
     name: str
@@ -60,7 +58,7 @@ class CardSheet:
     source: str
 
     def nodes(self) -> list[Node]:
-        """Return a node for each point, or for each case of a point that moves on the part."""
+        """Return a node for each point, or for each case if the point moves on the part."""
         scale = LENGTHS[self.length]
         found: list[Node] = []
         for point in self.loaded.points:
@@ -79,13 +77,7 @@ class CardSheet:
         return found
 
     def remarks(self, digits: int) -> Iterator[str]:
-        """Yield lines about the numbers.
-
-        Parameters
-        ----------
-        digits : int
-            Of the numbers that are written.
-        """
+        """Yield remarks on units, axes and sums of numbers with some digits."""
         loaded, moment = self.loaded, f"N {self.length}"
         yield from wrap(f"Loads on the part {loaded.part} of {self.source}, by kintrafo.", _WIDTH)
         yield f"Units: N, {self.length}, {moment}."
@@ -100,15 +92,15 @@ class CardSheet:
             yield from wrap(f"Not carried: {line}", _WIDTH)
 
     def left(self, digits: int) -> tuple[float, float]:
-        """Return the greatest sum of forces and of moments of a case, as they are written."""
+        """Return the greatest sums of forces and of moments of a case, with numbers as written."""
+
+        def written(values: Array) -> Array:
+            return np.array([float(f"{value:.{digits - 1}e}") for value in values])
+
         sums = np.zeros((len(self.loaded.cases), 6))
         for node in self.nodes():
             for place, load in node.loads.items():
-                at, force, moment = (_written(values, digits) for values in (node.at, *load))
+                at, force, moment = (written(values) for values in (node.at, *load))
                 sums[place] += wrench_about(np.zeros(3), at, force, moment)
         forces, moments = (np.linalg.norm(part, axis=1) for part in (sums[:, :3], sums[:, 3:]))
         return float(forces.max(initial=0.0)), float(moments.max(initial=0.0))
-
-
-def _written(values: Array, digits: int) -> Array:
-    return np.array([float(f"{value:.{digits - 1}e}") for value in values])

@@ -43,20 +43,20 @@ def write_cards(
     force: bool = False,
     inputs: Paths = (),
 ) -> list[Path]:
-    """Write load cards for a strength program: a file for each part, in equilibrium.
+    """Write load cards for a strength program, and return the files, one for each part.
 
     Parameters
     ----------
     dataset : xarray.Dataset
-        From `static` or `along`; each output of a motion is a case, and a thousand are the most.
+        From `static` or `along`; each of at most 1000 outputs of a motion is a case.
     path : str or pathlib.Path
-        ``loads.bdf`` or ``loads.nas`` (Nastran), ``loads.inp`` (Abaqus): the name of a part goes
-        before the ending, ``loads_knuckle.bdf``.
+        ``loads.bdf`` or ``loads.nas`` (Nastran), ``loads.inp`` (Abaqus): the name of a part is
+        inserted before the ending, ``loads_knuckle.bdf``.
     parts : sequence of str, optional
         By default all, with the chassis, which has the totals at its mounts.
     axes : {"part", "vehicle"}, optional
-        Of points and components: those of the part, at the place where it is at design; or those
-        of the vehicle, with the part where each case has it.
+        Axes of points and components: those of the part at design, or those of the vehicle, with
+        the part in its position in each case.
     length : {"mm", "m"}, optional
         Unit of length. Forces are in N, moments in N mm or N m.
     source : str, optional
@@ -69,7 +69,7 @@ def write_cards(
     Returns
     -------
     list of pathlib.Path
-        The files, which are there only when all are complete.
+        The files. Either all are written or none.
 
     Raises
     ------
@@ -78,9 +78,9 @@ def write_cards(
 
     Notes
     -----
-    Loads at a point of one name are summed there, and weights and inertia act at the centre of
-    mass, so that the loads of a part in equilibrium have no sum but for rounding. A point that
-    moves on its part, as the end of a telescope or the contact of a wheel, has a node in each case.
+    Loads at points with the same name are summed, and weights and inertia act at the centre of
+    mass: the loads of a part in equilibrium have a sum of zero, to rounding. A point that moves on
+    its part, such as the end of a telescope or the contact of a wheel, has a node in each case.
     """
     with Validator("load cards") as given:
         given.instance("dataset", dataset, xr.Dataset, _NEEDED)
@@ -99,24 +99,21 @@ def write_cards(
     of_format = ENDINGS.get(Path(path).suffix.lower())
     refuse([path], endings=[*ENDINGS], force=True)
     assert of_format is not None
-    files = {part: _of_part(Path(path), part) for part in names}
+    begin, ending = Path(path).stem, Path(path).suffix
+    files = {part: Path(path).with_name(f"{begin}_{part}{ending}") for part in names}
     refuse(files.values(), force=force, inputs=inputs)
     with ExitStack() as stack:
         for part, file in files.items():
             temporary = stack.enter_context(replacing(file, force=force, inputs=inputs))
             sheet = CardSheet(LoadedPart.of(dataset, part, axes), length, source)
-            # programs of strength read ASCII
+            # strength programs read ASCII
             text = "".join(f"{line}\n" for line in of_format.lines(sheet))
             temporary.write_bytes(text.encode("ascii", "replace"))
     return [*files.values()]
 
 
-def _of_part(path: Path, part: str) -> Path:
-    return path.with_name(f"{path.stem}_{part}{path.suffix}")
-
-
 def _over_cases(given: Validator, dataset: xr.Dataset) -> xr.Dataset:
-    """Return loads over cases: of a motion, with a name for each output."""
+    """Return loads over cases; the cases of a motion are its outputs."""
     if TIME in dataset.dims and CASE not in dataset.dims:
         names = [f"output_{number}" for number in range(1, dataset.sizes[TIME] + 1)]
         dataset = dataset.rename({TIME: CASE}).assign_coords({CASE: np.array(names)})
