@@ -545,7 +545,7 @@ def test_a_file_has_its_bushes(kintrafo: Any, tmp_path: Path) -> None:
     assert re.search(rf"both to the left .*{re.escape(f'{shift:.5g}')}", out), out
     code, out, err = kintrafo("sheet", *soft, "-o", "sheet.csv")
     assert code == 0, err
-    assert "COMPLIANCE, THE CONTACT STAYS AT ITS HEIGHT" in out
+    assert "of each wheel, the contact stays at its height" in out
     told = (tmp_path / "sheet.csv").read_text(encoding="utf-8")
     assert "axle_lateral_by_lateral_parallel" in told
     for more in (["--over", "roll"], ["--under", "aligning", "--wheels", "opposed"]):

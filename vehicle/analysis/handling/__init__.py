@@ -1,7 +1,7 @@
-"""How a car handles: manoeuvres of the standards, and steady turns without a simulation.
+"""Handling of a car: manoeuvres of the standards, and steady turns without a simulation.
 
 `drive`           a manoeuvre, by name or by its file
-`circle`          steady turns of one speed or one radius
+`circle`          steady turns at constant speed, radius or steering wheel angle
 `dynamic_loads`   the loads on every part in a manoeuvre
 `load_manoeuvre`  the manoeuvre of a file
 """

@@ -1,8 +1,8 @@
-"""How the body of a car moves, in the terms of ISO 8855, from the states of its equations.
+"""Motion of the body of a car in the terms of ISO 8855, from the states of its equations.
 
 The axes of the heading are horizontal: x along the projection of the body's x axis onto the road, y
-to the left, z up. Velocities and accelerations are those of a point that is fixed to the body, the
-reference point.
+to the left, z up. Velocities and accelerations are those of a point of the body, the reference
+point.
 """
 
 from collections.abc import Sequence
@@ -31,18 +31,18 @@ QUANTITIES = {
 
 @dataclass(frozen=True)
 class ReferencePoint:
-    """The motion of a point that is fixed to a free body.
+    """A point of a free body, whose motion it computes.
 
     Parameters
     ----------
     names : sequence of str
-        Of the elements of the state.
+        Names of the states.
     center : ndarray, shape (3,)
-        Where the centre of mass of the body is at design [m].
+        Centre of mass of the body at design [m].
     reference : ndarray, shape (3,)
-        Where the point is at design [m].
+        The point at design [m].
     body : str, optional
-        What the names of the body's states begin with.
+        Beginning of the names of the body's states.
     """
 
     names: Sequence[str]
@@ -51,7 +51,7 @@ class ReferencePoint:
     body: str = "body"
 
     def rows(self, kinds: Sequence[str]) -> list[int]:
-        """Return the places of elements of the state, such as ``x`` or ``e0``."""
+        """Return the indices of states of the body, such as ``x`` or ``e0``."""
         return [self.names.index(f"{self.body}_{kind}") for kind in kinds]
 
     def of(self, states: Any, rates: Any) -> dict[str, Any]:
@@ -82,7 +82,7 @@ class ReferencePoint:
         tilt = np.sqrt(turn[0][0] ** 2 + turn[1][0] ** 2)
         forward = cosine * velocity[0] + sine * velocity[1]
         left = cosine * velocity[1] - sine * velocity[0]
-        # the yaw angle turns by the vertical rate and, where the body is pitched, by its roll
+        # the rate of the yaw angle has a part of the roll of a pitched body
         heading_rate = spun[2] - turn[2][0] / tilt**2 * (
             turn[0][0] * spun[0] + turn[1][0] * spun[1]
         )
@@ -118,7 +118,7 @@ def _rotation(quaternion: Any) -> list[list[Any]]:
 
 
 def _angle(above: Any, below: Any) -> Any:
-    """Return the angle of a tangent; of complex numbers to first order in the imaginary part."""
+    """Return the arc tangent of a quotient, to first order in imaginary parts."""
     found = np.arctan2(np.real(above), np.real(below))
     if np.iscomplexobj(above) or np.iscomplexobj(below):
         squared = np.real(above) ** 2 + np.real(below) ** 2

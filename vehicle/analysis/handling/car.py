@@ -1,4 +1,4 @@
-"""What handling asks of a car: its equations, what the driver works, and how its body moves."""
+"""The car of a manoeuvre: its equations, the controls of the driver, the motion of its body."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -26,28 +26,28 @@ class DrivingCar:
     rest : ndarray
         State at standstill.
     base : ndarray
-        Inputs that the driver does not work.
+        Inputs without those of the driver.
     controls : Controls
     motion : ReferencePoint
-        Of the centre of gravity of the whole car at design, as a point of the body.
+        The centre of gravity of the whole car at design, as a point of the body.
     wheels : sequence of str
-        Their names: front ones first, the left one of an axle before the right one.
+        Names of the wheels: front ones first, the left one of an axle before the right one.
     spins : sequence of str
-        The angles of the wheels among the states.
+        Names of the angles of the wheels among the states.
     radii : sequence of float
-        Rolling radii, by which a search for steady motion begins [m].
+        Rolling radii, a first guess in the search for steady motion [m].
     wheelbase : float
         [m]
     front : float
-        How far the front wheel centres are in front of the reference point at design [m].
+        Distance of the front wheel centres from the reference point at design, forward [m].
     mass : float
-        Of the whole car [kg].
+        Mass of the whole car [kg].
     steering_input : str
-        The input that the steering wheel moves; its rates are inputs, too.
+        The input that the steering wheel moves, whose rates are inputs, too.
     assembly : CarAssembly, optional
         The car with its linkages, for the forces in them.
     watched : callable, optional
-        Called with each `Run` of it.
+        Called with each `Run` of the car.
     """
 
     model: System
@@ -77,11 +77,11 @@ class DrivingCar:
 
     @property
     def brake_torque(self) -> float:
-        """Torque of all brakes together with the pedal down [N m]."""
+        """Torque of all brakes together at full pedal [N m]."""
         return float(np.abs(self._brakes).sum())
 
     def signal_rows(self, what: str, wheels: Sequence[str]) -> list[int]:
-        """Return the places of a signal of some wheels."""
+        """Return the indices of a signal of some wheels."""
         return [self.model.signal_names.index(f"{wheel}_{what}") for wheel in wheels]
 
     @cached_property
@@ -96,11 +96,11 @@ class DrivingCar:
         Parameters
         ----------
         angle, rate, acceleration : float
-            Of the steering wheel, positive to the left [rad, rad/s, rad/s^2].
+            Motion of the steering wheel, positive to the left [rad, rad/s, rad/s^2].
         drive : float
             Torque of all driven wheels together [N m].
         brake : float
-            Part of the greatest torque of the brakes.
+            Torque of the brakes as a part of the greatest one.
         """
         found = self.base + drive * self._drive if drive else self.base.copy()
         if brake:
@@ -118,7 +118,7 @@ class DrivingCar:
         Parameters
         ----------
         angles : ndarray, shape (n,)
-            Of the steering wheel [rad].
+            Angles of the steering wheel [rad].
         states, inputs : ndarray, shape (n, states) and (n, inputs)
         """
         if self.assembly is None:
@@ -128,12 +128,12 @@ class DrivingCar:
 
     @cached_property
     def _drive(self) -> Array:
-        """Inputs of a torque of 1 N m."""
+        """The inputs of a torque of 1 N m."""
         return self._by_name(self.controls.drive(1.0))
 
     @cached_property
     def _brakes(self) -> Array:
-        """Inputs with the pedal down."""
+        """The inputs of the full pedal."""
         return self._by_name(self.controls.brakes(1.0))
 
     def _by_name(self, values: Mapping[str, float]) -> Array:

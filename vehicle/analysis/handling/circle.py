@@ -1,8 +1,8 @@
-"""Steady-state circular driving (ISO 4138), found without a simulation.
+"""Steady-state circular driving (ISO 4138), without a simulation.
 
 The branch of steady turns is followed from straight running, in steps of lateral acceleration that
-become shorter where a turn is not found, up to the greatest lateral acceleration of a steady turn.
-Gradients are the tangents of the branch, exact at every point.
+become shorter if a turn is not found, up to the greatest lateral acceleration of a steady turn.
+Gradients are the exact tangents of the branch.
 """
 
 from collections.abc import Callable, Sequence
@@ -24,11 +24,11 @@ from .driven import STEERING_TORQUE
 from .result import HandlingResult, quantity
 from .steady import NoSteadyMotionError, Steady, SteadyCondition, SteadyMotion
 
-# How near the greatest lateral acceleration is found [m/s^2].
+# Accuracy of the greatest lateral acceleration [m/s^2].
 _RESOLVED = 1e-3
-# By which part the acceleration across the heading may be less than that across the path.
+# The part by which the acceleration across the heading may be less than that across the path.
 _OF_SIDESLIP = 0.02
-# More lateral acceleration than this has no car on tyres [m/s^2].
+# No car on tyres has more lateral acceleration than this [m/s^2].
 _MOST = 60.0
 # Lateral acceleration at which turns on a given radius begin [m/s^2].
 _GENTLE = 0.5
@@ -37,10 +37,10 @@ _SLOW, _FASTER = 2.0, 1.5
 # The greatest lateral acceleration of most cars is about this one [m/s^2].
 _USUAL = 10.0
 _IMAGINARY = 1e-30
-# Step of the lateral acceleration for the change of a torque, by a central difference: its error is
-# of the second power of the step, and rounding is 1e-12 of the forces over the step [m/s^2].
+# Step of the lateral acceleration in the central difference of a torque: the error is of the second
+# power of the step, and rounding is 1e-12 of the forces divided by it [m/s^2].
 _STEP = 1e-3
-# Turn of the steering wheel over which a ratio is taken [rad].
+# Steering wheel angle in the difference of the steering ratio [rad].
 _SMALL = 1e-4
 
 _PER = "rad s^2/m"
@@ -72,8 +72,6 @@ _OF_WHEELS = {
     "steer": "steer angle of the wheel to the body, positive to the left",
 }
 _UNITS = {"fx": "N", "fy": "N", "fz": "N", "slip": "1"}
-
-
 _OF_TORQUE = {
     "steering_torque": STEERING_TORQUE,
     "steering_torque_gradient": (
@@ -83,7 +81,7 @@ _OF_TORQUE = {
 
 
 def columns_of_turns(wheels: Sequence[str]) -> dict[str, Quantity]:
-    """Return the quantities of steady turns, by the names of the columns of a flat table."""
+    """Return the quantities of steady turns by the names of their columns."""
     every = {**_OF_DRIVER, **{name: QUANTITIES[name] for name in _OF_BODY}}
     every |= {name: (words, _PER) for name, words in _GRADIENTS.items()} | _OF_TORQUE
     found = {name: _column(name, *described) for name, described in every.items()}
@@ -102,32 +100,37 @@ def _column(name: str, meaning: str, units: str) -> Quantity:
 
 
 class Turns:
-    """Steady turns of a car, one after the other.
+    """The branch of steady turns of a car, followed from turn to turn.
 
     Parameters
     ----------
     car : DrivingCar
     first : SteadyCondition
-        What holds in all of them.
+        The condition that holds in all turns.
     sense : {1, -1}
         1 for turns to the left.
+
+    Attributes
+    ----------
+    reached : float
+        The greatest lateral acceleration that was found [m/s^2].
     """
 
     def __init__(self, car: DrivingCar, first: SteadyCondition, sense: int) -> None:
         self.car, self.first, self.sense = car, first, sense
         self.equations = SteadyMotion(car)
+        self.reached = 0.0
         self._unknown: Array | None = None
-        self._reached = 0.0
         self._tangent: Array | None = None
 
     def begin(self, acceleration: float) -> Steady:
-        """Return the turn from which the others are reached: straight running at a speed.
+        """Return the first turn: straight running at a speed, or a gentle turn.
 
         Parameters
         ----------
         acceleration : float
-            Lateral acceleration of the first turn at a given radius or steering wheel angle: more
-            than zero, since a car that does not move has no steady turn [m/s^2].
+            Lateral acceleration of the first turn at a given radius or steering wheel angle, more
+            than zero: a car at standstill has no steady turn [m/s^2].
         """
         straight = self.first.kind == "speed"
         begun = 0.0 if straight else self.sense * acceleration
@@ -141,11 +144,11 @@ class Turns:
             near, found = self._entered(_SLOW)
             near = self._faster(near, found, acceleration)
         unknown, found = self.equations.solve(near, self.first, last)
-        self._unknown, self._reached, self._tangent = unknown, last.value, found.tangent
+        self._unknown, self.reached, self._tangent = unknown, last.value, found.tangent
         return found
 
     def _entered(self, speed: float) -> tuple[Array, Steady]:
-        """Return the turn at a speed, in steps: a small circle is far from straight running."""
+        """Return the turn at a speed, in steps from straight running to a small circle."""
         near = self.equations.near_straight(speed)
         at = SteadyCondition("speed", speed)
         for share in (0.0, 0.5, 1.0):
@@ -171,12 +174,12 @@ class Turns:
         Raises
         ------
         NoSteadyMotionError
-            If there is none; turns up to `reached` are there.
+            If there is none; turns up to `reached` exist.
         """
-        step = abs(acceleration - self._reached)
+        step = abs(acceleration - self.reached)
         while True:
-            left = acceleration - self._reached
-            goal = self._reached + np.sign(left) * min(step, abs(left))
+            left = acceleration - self.reached
+            goal = self.reached + np.sign(left) * min(step, abs(left))
             try:
                 unknown, found = self._solve(float(goal))
             except (NoSteadyMotionError, ModelError):
@@ -184,18 +187,13 @@ class Turns:
                 if step < _RESOLVED:
                     raise NoSteadyMotionError(f"{acceleration:g} m/s^2") from None
                 continue
-            self._unknown, self._reached, self._tangent = unknown, float(goal), found.tangent
+            self._unknown, self.reached, self._tangent = unknown, float(goal), found.tangent
             if goal == acceleration:
                 return found
             step *= 1.5
 
     def to_speed(self, speed: float) -> Steady:
-        """Return the turn at a speed, where something else holds in all of them.
-
-        Parameters
-        ----------
-        speed : float
-            [m/s]
+        """Return the turn at a speed [m/s], if it is another quantity that all have in common.
 
         Raises
         ------
@@ -204,22 +202,17 @@ class Turns:
         """
         # the acceleration by the path is a bound of that across the heading
         near = speed * speed * self.first.value * (1.0 - _OF_SIDESLIP)
-        if abs(near) > abs(self._reached):
+        if abs(near) > abs(self.reached):
             self.to(near)
         assert self._unknown is not None
         _, found = self.equations.solve(self._unknown, self.first, SteadyCondition("speed", speed))
         return found
 
-    @property
-    def reached(self) -> float:
-        """The greatest lateral acceleration that was found [m/s^2]."""
-        return self._reached
-
     def _solve(self, acceleration: float) -> tuple[Array, Steady]:
         assert self._unknown is not None
         near = self._unknown
         if self._tangent is not None:
-            near = near + self._tangent * (acceleration - self._reached)
+            near = near + self._tangent * (acceleration - self.reached)
         last = SteadyCondition("lateral_acceleration", acceleration)
         return self.equations.solve(near, self.first, last)
 
@@ -239,13 +232,13 @@ def steady_turns(
     ----------
     car : DrivingCar
     first : SteadyCondition
-        Speed, curvature or steering wheel angle of all of them.
+        Speed, curvature or steering wheel angle of all turns.
     sense : {1, -1}, optional
         1 for turns to the left.
     step : float, optional
-        Between lateral accelerations, up to the greatest one of a steady turn [m/s^2].
+        Step of lateral accelerations, up to the greatest one of a steady turn [m/s^2].
     wanted : ndarray, optional
-        Instead, the lateral accelerations, positive and rising [m/s^2].
+        Lateral accelerations instead of steps, positive and rising [m/s^2].
     progress : callable, optional
         Called with the part that is done, up to 1.
 
@@ -281,19 +274,19 @@ def turns_at(car: DrivingCar, first: SteadyCondition, accelerations: Array) -> x
     ----------
     car : DrivingCar
     first : SteadyCondition
-        Speed, curvature or steering wheel angle of all of them, as in turns to the left.
+        Speed, curvature or steering wheel angle of all turns, with the sign of turns to the left.
     accelerations : ndarray, shape (n,)
         Lateral accelerations, positive in turns to the left [m/s^2].
 
     Returns
     -------
     xarray.Dataset
-        Curves over ``lateral_acceleration``, as of `steady_turns`.
+        Curves over ``lateral_acceleration``, as in `steady_turns`.
 
     Raises
     ------
     PositionError
-        If the tyres carry no such turn, or the car no such speed.
+        If the tyres do not allow such a turn, or the drive such a speed.
     """
     found: dict[float, Steady] = {}
     slowest: Steady | None = None
@@ -331,7 +324,7 @@ def _followed(
     asked: Array,
     progress: Callable[[float], None] | None,
 ) -> tuple[dict[float, Steady], float]:
-    """Return turns by lateral acceleration, and the greatest one where that is before the last."""
+    """Return turns by lateral acceleration, and the greatest one, NaN if all wanted are found."""
     far = min(_USUAL, float(asked[-1])) if asked.size else _USUAL
     for each in asked.tolist():
         if turns.sense * each == turns.reached:
@@ -348,12 +341,13 @@ def _followed(
 def _described(
     turns: Turns, slowest: Steady, found: dict[float, Steady], limit: float
 ) -> tuple[xr.Dataset, dict[str, xr.Dataset]]:
-    """Return the gradients of the first turn, and all curves.
-
-    The steering ratio is that of the slowest turn, for any that are asked for.
-    """
+    """Return the gradients of the first turn, and all curves; the ratio is of the slowest turn."""
     axis, steady = np.array(list(found)), list(found.values())
-    values, slopes = _columns([_of_turn(turns.car, one) for one in steady])
+    of_turns = [_of_turn(turns.car, one) for one in steady]
+    values, slopes = (
+        {name: np.array([each[which][name] for each in of_turns]) for name in of_turns[0][which]}
+        for which in (0, 1)
+    )
     ratio = steering_ratio(turns.car, slowest)
     ackermann = turns.car.wheelbase * slopes["curvature"]
     gradients = {
@@ -373,13 +367,14 @@ def _described(
     }
     torques = _torques(turns.car, steady)
     curves |= {name: quantity(along, torques[name], *_OF_TORQUE[name]) for name in torques}
-    by_turn = [_of_wheels(turns.car, one) for one in steady]
+    model, wheels = turns.car.model, turns.car.wheels
+    signals = np.array([model.evaluate("signals", one.state, one.inputs) for one in steady]).T
     for name, words in _OF_WHEELS.items():
-        rows = np.array([one[name] for one in by_turn]).T
+        rows = signals[turns.car.signal_rows(name, wheels)]
         curves[name] = quantity((WHEEL, along), rows, words, _UNITS.get(name, "rad"))
     coordinates = {
         along: quantity(along, axis, *QUANTITIES[along]),
-        WHEEL: wheel_coordinate(turns.car.wheels),
+        WHEEL: wheel_coordinate(wheels),
     }
     title = f"steady-state circle, {_words(turns.first)}"
     dataset = xr.Dataset(curves, coordinates, {"title": title})
@@ -387,7 +382,7 @@ def _described(
     for name in torques.keys() - {"steering_torque"}:
         metrics[name] = quantity((), torques[name][0], *_OF_TORQUE[name])
     metrics["steering_ratio"] = quantity((), ratio, "overall steering ratio, straight ahead", "1")
-    if np.isfinite(limit):  # else there may be turns beyond the last one that is asked for
+    if np.isfinite(limit):  # otherwise there may be turns beyond the last one wanted
         metrics["greatest_lateral_acceleration"] = quantity(
             (), limit, "greatest lateral acceleration of a steady turn", "m/s^2"
         )
@@ -416,18 +411,10 @@ def _words(first: SteadyCondition) -> str:
     return f"constant radius of {abs(1.0 / first.value):g} m"
 
 
-def _columns(
-    rows: list[tuple[dict[str, float], dict[str, float]]],
-) -> tuple[dict[str, Array], dict[str, Array]]:
-    """Return values and slopes by name, an array over the turns each."""
-    values, slopes = zip(*rows, strict=True)
-    return tuple({n: np.array([r[n] for r in each]) for n in each[0]} for each in (values, slopes))  # type: ignore[return-value]
-
-
 def _of_turn(car: DrivingCar, steady: Steady) -> tuple[dict[str, float], dict[str, float]]:
-    """Return values, and their slopes by lateral acceleration."""
+    """Return values of a turn, and their derivatives in lateral acceleration."""
     moved = steady.state + 1j * _IMAGINARY * steady.state_slope
-    # in the axes of the body no speed changes
+    # speeds are constant in the axes of the body
     body = car.motion.of(moved, np.zeros_like(moved))
     body["travel_speed"] = np.sqrt(body["speed"] ** 2 + body["lateral_velocity"] ** 2)
     body["curvature"] = body["yaw_rate"] / body["travel_speed"]
@@ -450,10 +437,7 @@ def _of_turn(car: DrivingCar, steady: Steady) -> tuple[dict[str, float], dict[st
 
 
 def _torques(car: DrivingCar, steady: Sequence[Steady]) -> dict[str, Array]:
-    """Return the torque of the steering wheel, and its change by lateral acceleration.
-
-    The result is empty for a car without linkages.
-    """
+    """Return the torque of the steering wheel and its gradient; empty without linkages."""
     steps = _STEP * np.array([0.0, 1.0, -1.0])[:, None]
     angles, states, inputs = (
         np.concatenate([np.atleast_1d(value) + steps * slope for value, slope in rows])
@@ -473,19 +457,14 @@ def _torques(car: DrivingCar, steady: Sequence[Steady]) -> dict[str, Array]:
     return dict(zip(_OF_TORQUE, (here, (more - less) / (2.0 * _STEP)), strict=True))
 
 
-def _of_wheels(car: DrivingCar, steady: Steady) -> dict[str, Array]:
-    signals = car.model.evaluate("signals", steady.state, steady.inputs)
-    return {name: signals[car.signal_rows(name, car.wheels)] for name in _OF_WHEELS}
-
-
 def steering_ratio(car: DrivingCar, steady: Steady) -> float:
-    """Return the overall steering ratio: steering wheel angle by the mean steer angle.
+    """Return the overall steering ratio in a steady motion: steering wheel angle by steer angle.
 
     Parameters
     ----------
     car : DrivingCar
     steady : Steady
-        Where it is taken. The body and the suspensions do not move.
+        The motion, with body and suspensions held in it.
     """
     rows = car.signal_rows("steer", car.steered)
     by_input = car.model.evaluate("signals_input_jacobian", steady.state, steady.inputs)[rows]

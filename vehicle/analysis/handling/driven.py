@@ -1,4 +1,4 @@
-"""A car that is driven: simulated in samples, between which the driver changes nothing."""
+"""Simulation of a car with a driver, whose actions are constant between samples."""
 
 import math
 from collections.abc import Callable
@@ -19,9 +19,9 @@ from .drivers import Observation, Pedals, Pushes, Steers
 from .result import quantity
 
 _METHOD: Literal["DormandPrince"] = "DormandPrince"
-# Cosine of the tilt of the body from which on the car overturns.
+# Below this cosine of the tilt of the body the car overturns.
 _FALLEN = 0.5
-# More samples than this are a mistake, and would fill the memory.
+# More samples would fill the memory: the step is probably wrong.
 _MOST_SAMPLES = 2_000_000
 
 OF_WHEELS = {
@@ -31,7 +31,7 @@ OF_WHEELS = {
     "slip": ("longitudinal slip, positive in driving", "1"),
     "slip_angle": ("slip angle, positive moving to the left", "rad"),
 }
-"""Of each wheel: meaning and unit."""
+"""Quantities of each wheel: meaning and unit."""
 
 STEERING_TORQUE = ("torque of the steering wheel, positive to the left", "N m")
 """Meaning and unit."""
@@ -44,14 +44,14 @@ _OF_DRIVER = {
 
 
 class Sampling(NamedTuple):
-    """How a simulation is sampled.
+    """Sampling of a simulation.
 
     Attributes
     ----------
     step : float
-        Between two samples [s].
+        Time between two samples [s].
     outputs : int
-        Every so many samples there is an output.
+        Number of samples from output to output.
     """
 
     step: float = 1e-3
@@ -69,11 +69,11 @@ def driven(
     until: Callable[[Observation], bool] | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
-    """Return the motion of a car that is driven.
+    """Return the motion of a car with a driver.
 
-    From sample to sample the equations are integrated by the method of Dormand and Prince, with the
-    tolerances of `kintrafo.Stepper`. What the driver does is decided at each sample: up to the next
-    one the rack moves with a constant acceleration, and torques are constant.
+    Between samples the equations are integrated by the method of Dormand and Prince, with the
+    tolerances of `kintrafo.Stepper`. The driver decides at each sample: up to the next one the
+    acceleration of the rack and all torques are constant.
 
     Parameters
     ----------
@@ -86,21 +86,21 @@ def driven(
         [s]
     samples : Sampling, optional
     until : callable, optional
-        Ends the simulation where it is true of what the driver sees.
+        Ends the simulation when it returns True for an observation of the driver.
     progress : callable, optional
         Called with the part that is done, up to 1.
 
     Returns
     -------
     xarray.Dataset
-        Over ``time``: the motion of the body, what the driver does, and of each wheel forces and
-        slips. The attribute ``not_valid`` lists in words where the motion leaves what the equations
-        describe; the simulation of a car that overturns ends there.
+        Over ``time``: the motion of the body, the actions of the driver, and forces and slips of
+        each wheel. The attribute ``not_valid`` describes where the motion leaves the validity of
+        the equations; the simulation of a car that overturns ends there.
 
     Raises
     ------
     SimulationError
-        If the motion cannot go on: it says when, where, and what to try.
+        If the integration cannot continue; the message has time, state and advice.
     """
     how = samples or Sampling()
     count = max(round(duration / how.step), 1)
@@ -137,7 +137,7 @@ def driven(
 
 
 def _look(car: DrivingCar) -> Callable[[float, Array], Observation]:
-    """Return the function that shows a driver the car."""
+    """Return a function of time and state that returns the observation of a driver."""
     motion = car.motion
     rows = motion.rows(("x", "y", "e0", "e1", "e2", "e3", "u", "v", "w", "p", "q", "r"))
     ax, ay, az = (motion.reference - motion.center).tolist()

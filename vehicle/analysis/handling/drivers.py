@@ -1,8 +1,8 @@
-"""Drivers: what turns the steering wheel and works the pedals while a car is simulated.
+"""Drivers: models of steering and pedals in the simulation of a car.
 
-A driver sees the car at equal times, the samples, and decides what the steering wheel and the
-pedals do until the next one. Drivers are therefore reproducible to the last bit, and independent of
-how the equations are integrated between two samples.
+A driver observes the car at equal times, the samples, and decides on steering wheel and pedals
+until the next one. Drivers are therefore reproducible to the last bit, and independent of the
+integration between two samples.
 """
 
 import math
@@ -15,8 +15,7 @@ import numpy as np
 from .paths import Path
 from .steering import SteeringCourse, SteeringMotion
 
-# The gradient of speed by distance is that of the last sample; this keeps a driver from dividing
-# by a speed of zero [m/s].
+# Least speed in the preview of a driver [m/s].
 _SLOWEST = 0.1
 
 
@@ -28,7 +27,7 @@ class Observation(NamedTuple):
     time : float
         [s]
     x, y : float
-        Place of the reference point [m].
+        Position of the reference point [m].
     yaw : float
         [rad]
     speed, lateral_velocity : float
@@ -50,7 +49,7 @@ class Observation(NamedTuple):
 
 
 class Pedals(NamedTuple):
-    """What the pedals ask for.
+    """The action of the pedals.
 
     Attributes
     ----------
@@ -65,7 +64,7 @@ class Pedals(NamedTuple):
 
 
 class Steers(Protocol):
-    """What turns the steering wheel."""
+    """A driver's model of steering."""
 
     def decide(self, seen: Observation, step: float) -> SteeringMotion:
         """Return angle and rate now, and the acceleration until the next sample."""
@@ -73,25 +72,22 @@ class Steers(Protocol):
 
 
 class Pushes(Protocol):
-    """What works the pedals."""
+    """A driver's model of the pedals."""
 
     def decide(self, seen: Observation, step: float) -> Pedals:
-        """Return what the pedals ask for until the next sample."""
+        """Return the action of the pedals until the next sample."""
         ...
-
-
-# -- steering -------------------------------------------------------------------------------------
 
 
 @dataclass
 class OpenLoop:
-    """Turns the steering wheel as a course over time says.
+    """Steering by a course over time.
 
     Parameters
     ----------
     course : SteeringCourse
     offset : float, optional
-        Angle to which those of the course are added [rad].
+        Added to the angles of the course [rad].
     """
 
     course: SteeringCourse
@@ -110,7 +106,7 @@ class OpenLoop:
 
 @dataclass
 class Fixed:
-    """Holds the steering wheel.
+    """A held steering wheel.
 
     Parameters
     ----------
@@ -121,38 +117,38 @@ class Fixed:
     angle: float = 0.0
 
     def decide(self, seen: Observation, step: float) -> SteeringMotion:
-        """Return the angle at which it is held."""
+        """Return the constant angle."""
         del seen, step
         return SteeringMotion(self.angle, 0.0, 0.0)
 
 
 @dataclass
 class PathFollower:
-    """Steers along a path with preview.
+    """Steering along a path with preview.
 
-    The driver knows that arms and car answer late, and begins with the place and the direction that
-    the car will have then, if its course turns on by the yaw rate. From there he looks at the point
-    of the path that is the preview time ahead, and asks for the circle that leads there, along the
-    direction of the car. With the point at x_p ahead and y_p to the left, its curvature is
-    ``2 y_p / (x_p^2 + y_p^2)``. The angle that a car needs for a curvature in steady state is known
-    to the driver. The arms follow the wanted angle as a filter of second order, critically damped,
-    whose acceleration is constant between samples: the rack's position and rate are continuous.
+    The driver anticipates the delay of arms and car: he starts from the position and direction that
+    the car will have after it at its present yaw rate. From there he looks at the point of the path
+    at the preview time ahead, and chooses the circle to it that is tangent to the direction of the
+    car. With the point at x_p ahead and y_p to the left, its curvature is
+    ``2 y_p / (x_p^2 + y_p^2)``. He knows the steering wheel angle for a curvature in steady state.
+    The arms follow this angle as a critically damped filter of second order, whose acceleration is
+    constant between samples: position and rate of the rack are continuous.
 
     Parameters
     ----------
     path : Path
     angle_by_curvature : callable
-        Steering wheel angle by curvature, in steady state, over speed [rad m].
+        A function of speed: steering wheel angle by curvature in steady state [rad m].
     preview : float
         [s]
     anticipation : float
-        Delay of arms and car that the driver makes up for [s].
+        Delay of arms and car that the driver compensates [s].
     bandwidth : float
         Natural frequency of the filter [Hz].
     largest : float
-        Steering wheel angle that is not exceeded [rad].
+        Limit of the steering wheel angle [rad].
     fastest : float
-        Rate of the steering wheel that is not exceeded [rad/s].
+        Limit of the rate of the steering wheel [rad/s].
     """
 
     path: Path
@@ -179,14 +175,14 @@ class PathFollower:
 
     @property
     def along(self) -> float:
-        """How far along the path the car was at the last sample [m]."""
+        """Position of the car along the path at the last sample [m]."""
         return self._along
 
     def _wanted(self, seen: Observation) -> float:
         speed = max(math.hypot(seen.speed, seen.lateral_velocity), _SLOWEST)
         turned = seen.yaw_rate * self.anticipation
         course = seen.yaw + math.atan2(seen.lateral_velocity, seen.speed)
-        # where the car is when it does what is decided now, if it turns on as it does
+        # the position of the car after the delay, at its present yaw rate
         way, towards = speed * self.anticipation, course + 0.5 * turned
         here_x, here_y = seen.x + way * math.cos(towards), seen.y + way * math.sin(towards)
         self._along = self.path.nearest(here_x, here_y, self._along)
@@ -196,21 +192,18 @@ class PathFollower:
         return self.angle_by_curvature(seen.speed) * 2.0 * left / (dx * dx + dy * dy)
 
 
-# -- pedals ---------------------------------------------------------------------------------------
-
-
 @dataclass
 class HeldTorque:
-    """Holds the torque of the drive from a time on.
+    """A torque of the drive with a ramp from one value to another.
 
     Parameters
     ----------
     before, after : float
         [N m]
     at : float
-        When it begins to change [s].
+        Start of the ramp [s].
     rise : float
-        How long it takes to change, evenly [s].
+        Duration of the ramp [s].
     """
 
     before: float
@@ -219,25 +212,25 @@ class HeldTorque:
     rise: float = 0.0
 
     def decide(self, seen: Observation, step: float) -> Pedals:
-        """Return the torque in the middle of the time until the next sample."""
+        """Return the torque halfway to the next sample."""
         share = _risen(seen.time + 0.5 * step - self.at, self.rise)
         return Pedals(self.before + share * (self.after - self.before), 0.0)
 
 
 @dataclass
 class Braking:
-    """Lets the drive go and pushes the brake.
+    """A change from drive to brakes.
 
     Parameters
     ----------
     before : float
-        Torque of the drive until then [N m].
+        Torque of the drive before it [N m].
     brake : float
-        Part of the greatest torque of the brakes.
+        Torque of the brakes after it, as a part of the greatest one.
     at : float
-        When it begins [s].
+        Start of the change [s].
     rise : float
-        How long it takes, evenly [s].
+        Duration of the change [s].
     """
 
     before: float
@@ -246,27 +239,25 @@ class Braking:
     rise: float
 
     def decide(self, seen: Observation, step: float) -> Pedals:
-        """Return drive and brake in the middle of the time until the next sample."""
+        """Return drive and brake halfway to the next sample."""
         share = _risen(seen.time + 0.5 * step - self.at, self.rise)
         return Pedals((1.0 - share) * self.before, share * self.brake)
 
 
 @dataclass
 class SpeedHeld:
-    """Holds a speed by the torque of the drive, which may brake, too.
-
-    A proportional and integral controller, with the torque of straight running to begin with.
+    """A constant speed by a proportional and integral control of the drive, which may also brake.
 
     Parameters
     ----------
     speed : float
         [m/s]
     torque : float
-        At the beginning [N m].
+        Torque at the beginning, that of straight running [N m].
     gain : float
-        Torque by speed [N m s/m].
+        Torque by difference of speed [N m s/m].
     reset : float
-        Time of the integral part [s].
+        Time constant of the integral part [s].
     """
 
     speed: float
@@ -283,7 +274,7 @@ class SpeedHeld:
 
 
 def _risen(time: float, rise: float) -> float:
-    """Return which part of an even change is done."""
+    """Return the done part of a ramp."""
     if rise <= 0.0:
         return 1.0 if time > 0.0 else 0.0
     return min(max(time / rise, 0.0), 1.0)

@@ -33,9 +33,9 @@ def drive(
     subject : Car or CarModel
         A car that drives, ``car = "full"`` in its file.
     manoeuvre : str, pathlib.Path, mapping or Manoeuvre
-        The name of one that comes with kintrafo, such as ``"step_steer"``, or a file.
+        The name of a manoeuvre of kintrafo, such as ``"step_steer"``, or a file.
     changes : mapping of str to Any, optional
-        Other values than those of the file, by key: ``{"speed_km_per_h": 100.0}``.
+        Values that replace those of the file, by key: ``{"speed_km_per_h": 100.0}``.
     progress : callable, optional
         Called with the part that is done, up to 1.
 
@@ -65,7 +65,7 @@ def drive(
         found.check(subject.car)
     runs: list[Run] = []
     car = replace(driving_car("drive", subject), watched=runs.append)
-    return found.run(car, progress or _nothing)._replace(runs=tuple(runs))
+    return found.run(car, progress or (lambda _: None))._replace(runs=tuple(runs))
 
 
 # Constant quantities of steady turns by argument: the condition, and the unit of the argument.
@@ -88,21 +88,21 @@ def circle(
 ) -> HandlingResult:
     """Return the steady turns of a car by lateral acceleration (ISO 4138).
 
-    Nothing is simulated: each turn is a solution of the equations of motion in which nothing
-    changes but place, yaw angle and the angles of the wheels.
+    Nothing is simulated: each turn is a solution of the equations of motion in which only position,
+    yaw angle and the angles of the wheels change.
 
     Parameters
     ----------
     subject : Car or CarModel
         A car that drives, ``car = "full"`` in its file.
     speed : float, optional
-        Constant speed [m/s]; one of the three is needed.
+        Constant speed [m/s]; one of these three is needed.
     radius : float, optional
         Constant radius of the path [m].
     steering_wheel : float, optional
         Constant angle of the steering wheel [rad].
     lateral_acceleration : array_like, optional
-        Those wanted, positive and rising; by default in equal steps up to the greatest one [m/s^2].
+        Positive and rising values; by default equal steps up to the greatest one [m/s^2].
     step : float, optional
         [m/s^2]
     turn : {'left', 'right'}
@@ -110,8 +110,8 @@ def circle(
     Returns
     -------
     HandlingResult
-        Curves over ``lateral_acceleration``: angles, gradients, forces, of each wheel too; and the
-        gradients of the straightest turn as metrics.
+        Curves over ``lateral_acceleration``: angles, gradients and forces, also of each wheel; and
+        the gradients of the straightest turn as metrics.
 
     Raises
     ------
@@ -138,7 +138,3 @@ def circle(
     kind, _ = _CONSTANT[name]
     first = SteadyCondition(kind, 1.0 / value if kind == "curvature" else value).turned(sense)
     return steady_turns(car, first, sense=sense, step=step, wanted=wanted)
-
-
-def _nothing(part: float) -> None:
-    del part

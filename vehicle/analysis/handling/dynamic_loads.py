@@ -32,7 +32,7 @@ def dynamic_loads(result: HandlingResult) -> xr.Dataset:
     InputError
         If nothing was simulated, as in steady turns and parking, or the car has no linkages.
     PositionError
-        If the motion comes to a dead point, where loads have no bound.
+        If the motion reaches a dead point, where loads are unbounded.
     """
     with Validator("dynamic_loads") as given:
         given.instance("result", result, HandlingResult, _NEEDED)

@@ -1,4 +1,4 @@
-"""The responses of a car to its steering wheel, from the exact linearisation of a steady motion."""
+"""Responses of a car to its steering wheel, from the exact linearisation of a steady motion."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,14 +11,14 @@ from .steady import Steady
 Complex = NDArray[np.complex128]
 
 _IMAGINARY = 1e-30
-# Turn of the steering wheel over which the slope of its ratio is taken [rad].
+# Steering wheel angle in the difference of the ratio [rad].
 _SMALL = 1e-4
 
 
 def steering_response(car: DrivingCar, steady: Steady, frequency: Array) -> dict[str, Complex]:
-    """Return how the motion of the body follows a small turn of the steering wheel, harmonically.
+    """Return the frequency response of the body's motion to the steering wheel angle.
 
-    Nothing is simulated. The torque of the drive is constant.
+    It follows from the linearised equations; the torque of the drive is constant.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ def steering_response(car: DrivingCar, steady: Steady, frequency: Array) -> dict
     Returns
     -------
     dict of str to ndarray
-        Of the quantities of `BodyMotion`, each by the angle of the steering wheel [SI / rad].
+        By the names of `body_motion.QUANTITIES`, per steering wheel angle [SI / rad].
     """
     model = car.model
     linear = linearise(model, steady.state, steady.inputs, outputs=[])
@@ -47,7 +47,7 @@ def steering_response(car: DrivingCar, steady: Steady, frequency: Array) -> dict
 
 
 def _slope(car: DrivingCar, steady: Steady) -> float:
-    """Return the change of the input that is steered by the angle of the steering wheel."""
+    """Return the derivative of the steered input in the steering wheel angle."""
     place = car.model.input_names.index(car.steering_input)
     angle = steady.unknowns["steering_wheel"]
     more, less = (car.inputs(angle + d, 0.0, 0.0, 0.0, 0.0)[place] for d in (_SMALL, -_SMALL))

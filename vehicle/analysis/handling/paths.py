@@ -10,9 +10,9 @@ from scipy.interpolate import CubicSpline, PPoly
 
 from ....core.named_types import Array
 
-# Between two lanes the path is drawn by so many points.
+# Points of a path between two lanes.
 _TRANSITION = 25
-# Points of a path are nearer to each other than this [m].
+# Greatest distance of points along a lane [m].
 _CLOSE = 0.5
 
 
@@ -23,21 +23,21 @@ class Path:
     Parameters
     ----------
     points : ndarray, shape (n, 2)
-        In order, no two of them in one place [m].
+        In order, no two of them coincident [m].
     """
 
     points: Array
 
     @cached_property
     def _curve(self) -> CubicSpline:
-        """The path over the length of the straight lines between its points."""
+        """The path as a function of the length of the chords between its points."""
         steps = np.hypot(*np.diff(self.points, axis=0).T)
         along = np.concatenate([[0.0], np.cumsum(steps)])
         return CubicSpline(along, self.points)
 
     @property
     def length(self) -> float:
-        """How long it is [m]."""
+        """The length of its chords [m]."""
         return float(self._curve.x[-1])
 
     @cached_property
@@ -45,7 +45,7 @@ class Path:
         return self._curve.derivative()
 
     def at(self, along: float) -> tuple[float, float]:
-        """Return a point of the path; beyond its ends it goes straight on [m]."""
+        """Return a point of the path [m]; beyond its ends it is straight."""
         inside = min(max(along, 0.0), self.length)
         x, y = self._curve(inside)
         if inside != along:
@@ -54,21 +54,13 @@ class Path:
         return float(x), float(y)
 
     def towards(self, along: float) -> tuple[float, float]:
-        """Return the direction of the path, of length one."""
+        """Return the direction of the path, a unit vector."""
         dx, dy = self._slope(min(max(along, 0.0), self.length))
         size = float(np.hypot(dx, dy))
         return float(dx) / size, float(dy) / size
 
     def nearest(self, x: float, y: float, near: float) -> float:
-        """Return how far along the path the nearest point is, looked for near another one [m].
-
-        Parameters
-        ----------
-        x, y : float
-            [m]
-        near : float
-            Where the search begins [m].
-        """
+        """Return the position along the path nearest to a point, searched from another one [m]."""
         along = near
         for _ in range(4):
             px, py = self.at(along)
@@ -77,7 +69,7 @@ class Path:
         return along
 
     def offsets(self, x: Array, y: Array) -> Array:
-        """Return how far points are from the path, positive to the left of it [m]."""
+        """Return the distances of points from the path, positive to its left [m]."""
         found, along = np.empty(x.size), 0.0
         for i, (px, py) in enumerate(zip(x.tolist(), y.tolist(), strict=True)):
             along = self.nearest(px, py, along)
@@ -106,7 +98,7 @@ class Lane:
 
     @property
     def length(self) -> float:
-        """How long it is [m]."""
+        """The length of the lane [m]."""
         return self.end - self.start
 
     @property
@@ -118,14 +110,14 @@ class Lane:
 def through(lanes: Sequence[Lane], *, before: float, after: float) -> Path:
     """Return the path along the centre lines of lanes, with smooth changes from one to the next.
 
-    A change has the shape 10 s^3 - 15 s^4 + 6 s^5, which has no curvature at its ends.
+    A change has the shape 10 s^3 - 15 s^4 + 6 s^5, without curvature at its ends.
 
     Parameters
     ----------
     lanes : sequence of Lane
         In order.
     before, after : float
-        How far it goes straight on before the first lane and behind the last one [m].
+        Straight lengths before the first lane and after the last one [m].
     """
     rows: list[tuple[float, float]] = [(lanes[0].start - before, lanes[0].center)]
 

@@ -11,9 +11,9 @@ Complex = NDArray[np.complex128]
 
 
 def first_crossing(time: Array, values: Array, level: float) -> float:
-    """Return when values first reach a level from below, or NaN where they never do.
+    """Return the time at which values first reach a level from below, by linear interpolation.
 
-    Between two times they are straight lines.
+    It is NaN if they never do.
 
     Parameters
     ----------
@@ -31,9 +31,9 @@ def first_crossing(time: Array, values: Array, level: float) -> float:
 
 
 def peak(time: Array, values: Array) -> tuple[float, float]:
-    """Return when values are greatest, and how great they are there.
+    """Return the time of the greatest value, and this value.
 
-    Inside the times they are a parabola through the greatest one and its neighbours.
+    They are those of a parabola through the greatest sample and its neighbours.
 
     Parameters
     ----------
@@ -59,11 +59,11 @@ class StepResponse(NamedTuple):
     steady : float
         The value at the end.
     response_time : float
-        From half of the step until 90 % of the steady value is first reached [s].
+        Time from half of the step until 90 % of the steady value is first reached [s].
     peak_time : float
-        From half of the step until the greatest value [s].
+        Time from half of the step until the greatest value [s].
     overshoot : float
-        The greatest value beyond the steady one, over the latter.
+        The greatest value minus the steady one, as a part of the latter.
     """
 
     steady: float
@@ -79,9 +79,9 @@ def step_response(time: Array, values: Array, begun: float, settled: float) -> S
     ----------
     time, values : ndarray, shape (n,)
     begun : float
-        When half of the step is done [s].
+        Time at half of the step [s].
     settled : float
-        From when on the values are taken as steady, by their mean [s].
+        Time after which the mean of the values is the steady value [s].
     """
     steady = float(np.mean(values[time >= settled]))
     towards = values * np.sign(steady)
@@ -91,7 +91,7 @@ def step_response(time: Array, values: Array, begun: float, settled: float) -> S
 
 
 def frequency_response(time: Array, cause: Array, effect: Array, frequency: Array) -> Complex:
-    """Return the response of an effect to a cause, by their Fourier integrals.
+    """Return the frequency response of an effect to a cause, by their Fourier integrals.
 
     Both must be at rest at the beginning and at the end.
 

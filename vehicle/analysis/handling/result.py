@@ -18,9 +18,9 @@ class HandlingResult(NamedTuple):
     metrics : xarray.Dataset
         Its metrics, each with unit and meaning.
     curves : dict of str to xarray.Dataset
-        Curves over time, lateral acceleration or frequency; by the ending of a file's name.
+        Curves over time, lateral acceleration or frequency, by the ending of the names of files.
     runs : sequence of Run
-        The simulations, with the states of the equations; none of steady turns.
+        The simulations, with the states of the equations; empty for steady turns.
     """
 
     metrics: xr.Dataset
@@ -36,7 +36,7 @@ class HandlingResult(NamedTuple):
 def quantity(
     dimensions: str | tuple[str, ...], values: Any, meaning: str, units: str
 ) -> xr.Variable:
-    """Return a variable with its description, read in the units of those who drive cars."""
+    """Return a variable with its description and with display units of vehicle dynamics."""
     found = variable(dimensions, values, meaning, units)
     if units in _READ:
         display, factor = _READ[units]
@@ -45,7 +45,7 @@ def quantity(
 
 
 _DEGREES = 180.0 / math.pi
-# By SI unit: that in which a person reads it here, and what a value is multiplied with.
+# Display units by SI unit, with the factor of values.
 _READ = {
     "m": ("m", 1.0),
     "m/s": ("km/h", 3.6),

@@ -1,17 +1,15 @@
-"""Steady motion of a car, straight ahead or along a circle, found without a simulation.
+"""Steady motion of a car, straight ahead or along a circle, without a simulation.
 
-Along a circle on a level road nothing changes but the place, the yaw angle and the angles of the
-wheels. Unknown are therefore the height, pitch and roll of the body, the coordinates of the
-suspensions, the velocities along and across the heading, the yaw rate, the rates of the wheels, the
-deflections of the contacts, and, of the driver, the steering wheel angle and the torque of the
-drive. There are as many equations: every speed of the state, in the axes of the body, and every
-deflection stays as it is, and two conditions of the driver hold. They are solved by Newton's method
-with the exact Jacobian of the equations of motion.
+Along a circle on a level road only position, yaw angle and the angles of the wheels change. The
+unknowns are height, pitch and roll of the body, the coordinates of the suspensions, the velocities
+along and across the heading, the yaw rate, the rates of the wheels, the deflections of the
+contacts, the steering wheel angle and the torque of the drive. The equations, as many, are zero
+rates of all speeds in the axes of the body and of all deflections, and two conditions. They are
+solved by Newton's method with the exact Jacobian of the equations of motion.
 """
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
@@ -21,11 +19,11 @@ from ....equations.errors import ModelError
 from .car import DrivingCar
 
 _MOST_STEPS, _HALVINGS = 40, 12
-# A step so small, beside 1 in SI units, changes nothing more but rounding.
+# A step this small, relative to 1 in SI units, is at the level of rounding.
 _LAST_STEP = 1e-11
-# Accelerations that are left, beside the greatest slope: rounding of what cancels.
+# Residual accelerations, relative to the greatest slope, from cancellation.
 _NOTHING = 1e-9
-# Turn of the steering wheel [rad] over which the slope of a ratio is taken.
+# Steering wheel angle in differences [rad].
 _SMALL = 1e-4
 _IMAGINARY = 1e-30
 
@@ -34,12 +32,12 @@ _DRIVER = ("steering_wheel", "drive")
 
 
 class NoSteadyMotionError(KintrafoError):
-    """There is no steady motion near where it was looked for."""
+    """There is no steady motion near the start of the search."""
 
 
 @dataclass(frozen=True)
 class SteadyCondition:
-    """What holds in a steady motion: a value of a function of the unknowns.
+    """A condition of a steady motion: the value of a function of the unknowns.
 
     Attributes
     ----------
@@ -57,7 +55,7 @@ class SteadyCondition:
         return self if self.kind == "speed" else SteadyCondition(self.kind, sense * self.value)
 
     def off(self, unknown: Mapping[str, float]) -> tuple[float, dict[str, float]]:
-        """Return how far it is from its value, and the derivatives by unknowns."""
+        """Return the residual of the condition, and its derivatives by the name of the unknown."""
         v, w, r = unknown["forward"], unknown["left"], unknown["yaw_rate"]
         size = float(np.hypot(v, w))
         if self.kind == "speed":
@@ -67,7 +65,7 @@ class SteadyCondition:
             own = {"forward": slope * v, "left": slope * w, "yaw_rate": 1.0 / size}
             return r / size - self.value, own
         if self.kind == "lateral_acceleration":
-            # nothing changes along the heading axes: what is left is their turn
+            # velocities along the heading axes are constant: only the axes turn
             return v * r - self.value, {"forward": r, "yaw_rate": v}
         return unknown["steering_wheel"] - self.value, {"steering_wheel": 1.0}
 
@@ -79,15 +77,15 @@ class Steady:
     Attributes
     ----------
     unknowns : dict of str to float
-        Of the body and the driver, SI units.
+        Unknowns of the body and the driver, SI units.
+    slopes : dict of str to float
+        Their derivatives in the value of the last condition.
     state, inputs : ndarray
         At yaw angle zero, above the origin of the road.
-    slopes : dict of str to float
-        How these change with the value of the last condition.
     tangent : ndarray
-        How all unknowns do.
+        Derivatives of all unknowns.
     state_slope, input_slope : ndarray
-        How state and inputs do.
+        Derivatives of state and inputs.
     """
 
     unknowns: Mapping[str, float]
@@ -126,34 +124,30 @@ class SteadyMotion:
         self._rows = motion.rows(("z", "e0", "e1", "e2", "e3", "u", "v", "w", "p", "q", "r"))
 
     def near_straight(self, speed: float) -> Array:
-        """Return unknowns to begin with: the rest of the car, rolling."""
+        """Return a first guess of the unknowns: the car at rest, but with rolling wheels."""
         rest = np.asarray(self._car.rest)
         found = np.zeros(len(self._unknown))
-        for name, row in zip(("height",), self._rows[:1], strict=True):
-            found[self._places[name]] = rest[row]
+        found[self._places["height"]] = rest[self._rows[0]]
         e0, e1, e2, e3 = rest[self._rows[1:5]]
         found[self._places["pitch"]] = np.arcsin(2.0 * (e0 * e2 - e3 * e1))
         found[self._places["roll"]] = np.arctan2(2.0 * (e0 * e1 + e2 * e3), 1 - 2 * (e1**2 + e2**2))
         found[self._places["forward"]] = speed
         for row in self._joints:
             found[self._places[self._car.model.state_names[row]]] = rest[row]
-        for row, radius in zip(self._spin_rates, self._radii, strict=True):
-            found[self._places[self._car.model.state_names[row]]] = speed / radius
+        radii = dict(zip(self._car.spins, self._car.radii, strict=True))
+        names = self._car.model.state_names
+        for spin, row in zip(self._turned, self._spin_rates, strict=True):
+            found[self._places[names[row]]] = speed / radii[names[spin]]
         return found
 
-    @cached_property
-    def _radii(self) -> list[float]:
-        by_spin = dict(zip(self._car.spins, self._car.radii, strict=True))
-        return [by_spin[self._car.model.state_names[row]] for row in self._turned]
-
     def state(self, unknown: Array) -> Array:
-        """Return the state of some unknowns, complex ones too."""
+        """Return the state of some unknowns, which may be complex."""
         z, pitch, roll, forward, left, yaw_rate = unknown[: len(_BODY)]
         cp, sp, cr, sr = (
             np.cos(0.5 * pitch), np.sin(0.5 * pitch), np.cos(0.5 * roll), np.sin(0.5 * roll),
         )  # fmt: skip
         c, s, k, m = np.cos(pitch), np.sin(pitch), np.cos(roll), np.sin(roll)
-        # the axes of the body turn by pitch about y, then by roll about x: its rows in the world
+        # rotation of the body by pitch about y, then by roll about x
         turn = np.array([[c, s * m, s * k], [0.0 * c, k, -m], [-s, c * m, c * k]])
         omega = turn.T @ np.array([0.0 * yaw_rate, 0.0 * yaw_rate, yaw_rate])
         at = turn.T @ np.array([forward, left, 0.0 * left])
@@ -179,14 +173,14 @@ class SteadyMotion:
         Parameters
         ----------
         near : ndarray
-            Unknowns to begin with.
+            First guess of the unknowns.
         first, last : SteadyCondition
-            Tangents are by the value of the last one.
+            Tangents are derivatives in the value of the last one.
 
         Raises
         ------
         NoSteadyMotionError
-            If there is none near.
+            If none is found.
         """
         unknown = np.array(near)
         left = self._left(unknown, (first, last))
@@ -222,7 +216,7 @@ class SteadyMotion:
     def _shortened(
         self, unknown: Array, left: Array, step: Array, conditions: Sequence[SteadyCondition]
     ) -> tuple[Array, Array, float]:
-        """Return where a step leads, halved until it leads nearer; or nowhere."""
+        """Return unknowns, residual and part after a step, halved until the residual decreases."""
         part = 1.0
         for _ in range(_HALVINGS):
             moved = unknown + part * step
@@ -240,7 +234,7 @@ class SteadyMotion:
         return {name: float(unknown[self._places[name]]) for name in (*_BODY, *_DRIVER)}
 
     def _left(self, unknown: Array, conditions: Sequence[SteadyCondition]) -> Array:
-        """Return the rates of speeds and deflections, and what conditions are off by."""
+        """Return the rates of speeds and deflections, and the residuals of the conditions."""
         rates = self._car.model.evaluate("rhs", self.state(unknown), self.inputs(unknown))
         known = self._known(unknown)
         first = self._car.model.layout.positions
@@ -260,7 +254,7 @@ class SteadyMotion:
         return np.concatenate([found, rows])
 
     def _directions(self, unknown: Array) -> tuple[Array, Array]:
-        """Return how state and inputs change with the unknowns."""
+        """Return the derivatives of state and inputs in the unknowns."""
         moved = np.zeros((len(self._car.model.state_names), len(unknown)))
         for i in range(len(_BODY)):
             ahead = unknown.astype(complex)

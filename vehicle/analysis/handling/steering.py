@@ -1,9 +1,8 @@
 """Steering wheel angles over time, with rate and acceleration.
 
-A rack is a prescribed position: its rate must not jump, which would need an infinite force. The
-angle is therefore a shape over a time of its own, whose rate rises from zero to one at the
-beginning and falls to zero at the end, both evenly within a short time: the eased time. Rate and
-acceleration of the angle follow exactly.
+A jump of the rate of a rack, whose position is prescribed, would need an infinite force. The angle
+is therefore a function of an eased time, whose rate rises linearly from zero to one in a short time
+at the beginning, and falls to zero at the end. Rate and acceleration of the angle are exact.
 """
 
 from collections.abc import Callable
@@ -17,25 +16,15 @@ from ....core.named_types import Array
 
 
 class SteeringMotion(NamedTuple):
-    """The steering wheel at a time.
+    """The motion of the steering wheel, positive to the left; numbers or arrays."""
 
-    Attributes
-    ----------
-    angle : ndarray or float
-        Positive to the left [rad].
-    rate : ndarray or float
-        [rad/s]
-    acceleration : ndarray or float
-        [rad/s^2]
-    """
-
-    angle: Any
-    rate: Any
-    acceleration: Any
+    angle: Any  # [rad]
+    rate: Any  # [rad/s]
+    acceleration: Any  # [rad/s^2]
 
 
 Shape = Callable[[Array], tuple[Array, Array, Array]]
-"""An angle over the eased time, with its first and second derivative."""
+"""An angle as a function of the eased time, with its first and second derivative."""
 
 
 @dataclass(frozen=True)
@@ -45,13 +34,13 @@ class SteeringCourse:
     Parameters
     ----------
     shape : callable
-        The angle over the eased time, with two derivatives.
+        The angle as a function of the eased time, with two derivatives.
     length : float
-        The eased time at which it ends [s].
+        The eased time at its end [s].
     start : float
-        When it begins [s].
+        Time of its beginning [s].
     ease : float
-        How long its rate takes to rise, and to fall [s]. Half of it is the delay.
+        Time in which the rate rises, and falls [s]; half of it is the delay.
     """
 
     shape: Shape
@@ -61,22 +50,16 @@ class SteeringCourse:
 
     @property
     def eased(self) -> float:
-        """How long the rate rises and falls: not longer than the whole takes [s]."""
+        """Time in which the rate rises, and falls, at most the length [s]."""
         return min(self.ease, self.length)
 
     @property
     def end(self) -> float:
-        """When it is completed [s]."""
+        """Time of its end [s]."""
         return self.start + self.length + self.eased
 
     def at(self, time: ArrayLike) -> SteeringMotion:
-        """Return the motion of the steering wheel.
-
-        Parameters
-        ----------
-        time : array_like
-            [s]
-        """
+        """Return the motion of the steering wheel at some times [s]."""
         ease, length = self.eased, self.length
         t = np.clip(np.asarray(time, dtype=float) - self.start, 0.0, length + ease)
         rising, falling = t < ease, t > length
@@ -96,7 +79,7 @@ class SteeringCourse:
 def ramp(
     amplitude: float, rate: float, *, start: float = 0.0, ease: float = 0.02
 ) -> SteeringCourse:
-    """Return a steering wheel angle that rises at a rate, and stays.
+    """Return a steering wheel angle that rises at a rate to a constant value.
 
     Parameters
     ----------
@@ -118,7 +101,7 @@ def ramp(
 def sine_with_dwell(
     amplitude: float, frequency: float, dwell: float, *, start: float = 0.0, ease: float = 0.02
 ) -> SteeringCourse:
-    """Return one period of a sine that rests at its second peak (FMVSS 126, S7.9).
+    """Return one period of a sine with a dwell at its second peak (FMVSS 126, S7.9).
 
     Parameters
     ----------
@@ -127,7 +110,7 @@ def sine_with_dwell(
     frequency : float
         [Hz]
     dwell : float
-        How long the second peak is held [s].
+        Duration of the second peak [s].
     start, ease : float, optional
         [s]
     """
@@ -151,9 +134,9 @@ def sine_sweep(
     start: float = 0.0,
     ease: float = 0.02,
 ) -> SteeringCourse:
-    """Return a sine whose frequency grows by equal factors in equal times.
+    """Return a sine with an exponentially growing frequency.
 
-    It ends with a whole period, and so takes a little longer than is asked for.
+    It ends with a complete period, and is therefore a little longer than the given duration.
 
     Parameters
     ----------

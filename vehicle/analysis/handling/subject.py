@@ -19,7 +19,7 @@ def car_that_drives(source: str, subject: Any) -> CarAssembly:
     Raises
     ------
     InputError
-        If it is none: if its body is held, or does not travel.
+        If the body is held, or does not travel.
     """
     found = car_assembly_of(source, subject, _NEEDED)
     found.require_driving()
@@ -27,14 +27,14 @@ def car_that_drives(source: str, subject: Any) -> CarAssembly:
 
 
 def driving_car(source: str, subject: Any) -> DrivingCar:
-    """Return a car that drives, or its equations, as handling sees it.
+    """Return a car that drives, or its equations, for analyses of handling.
 
     Raises
     ------
     InputError
-        If it is none: if its body is held, or does not travel.
+        If the body is held, or does not travel.
     PositionError
-        If it does not rest on its wheels.
+        If the car does not rest on its wheels.
     """
     if isinstance(subject, DrivingCar):
         return subject
@@ -63,20 +63,7 @@ def driving_car(source: str, subject: Any) -> DrivingCar:
 
 
 def require_controls(car: Car, *, brakes: bool = False) -> None:
-    """Refuse a car whose driver has no steering, drive or brakes.
-
-    Parameters
-    ----------
-    car : Car
-        One that drives.
-    brakes : bool, optional
-        Whether it needs brakes.
-
-    Raises
-    ------
-    InputError
-        If something is missing in its files; the message names it.
-    """
+    """Raise an `InputError` if the files of a car have no steering or drive, or no brakes."""
     controls = Controls(car)
     controls.rack(0.0)
     controls.drive(0.0)

@@ -1,9 +1,9 @@
-"""How a car rides: its rest, its modes, and what a road does to it.
+"""Ride of a car: its rest, its modes, and its motion on a road.
 
-`at_rest`    ride heights, corner weights and alignment where a car rests
+`at_rest`    ride heights, corner weights and alignment at rest
 `modes`      heave, pitch, roll, and hop and tramp of its axles, by the exact linearisation
 `response`   frequency responses to the road under each wheel, and spectra on a rough road
-`by_speed`   the metrics of a ride, over the speed
+`by_speed`   metrics of the ride over speed
 `over`       a simulation over a road, and its metrics
 `run`        the same with the states of the equations, for pictures of the motion
 """

@@ -1,4 +1,4 @@
-"""The metrics of the ride of a car over its speed, by the linear equations."""
+"""Metrics of the ride of a car over speed, by the linear equations."""
 
 from typing import Any
 
@@ -15,7 +15,6 @@ from ...assembly.quantity import SPEED, Quantity
 from ...roads.rough import roughness_of
 from .linear import (
     FREQUENCIES,
-    Responses,
     density,
     linear_at_rest,
     named_modes,
@@ -26,78 +25,60 @@ from .linear import (
 from .subject import car_assembly
 
 _PERCENT = Display("%", 100.0)
+_ALWAYS = "positive always"
 _OF_BODY = (
     Quantity(
-        "acceleration_rms",
-        "m/s^2",
-        "vertical acceleration, RMS",
+        "acceleration_rms", "m/s^2", "vertical acceleration, RMS",
         "root mean square over frequency of the vertical acceleration of a place of the body",
-        "positive always",
+        _ALWAYS,
     ),
     Quantity(
-        "weighted_rms",
-        "m/s^2",
-        "weighted vertical acceleration, RMS",
-        "the same, weighted by W_k of ISO 2631-1",
-        "positive always",
+        "weighted_rms", "m/s^2", "weighted vertical acceleration, RMS",
+        "the same, weighted by W_k of ISO 2631-1", _ALWAYS,
     ),
-)
+)  # fmt: skip
 OF_WHEELS = (
     Quantity(
-        "load_rms",
-        "N",
-        "variation of the wheel load, RMS",
-        "root mean square of the force of the tyre less that at rest",
-        "positive always",
+        "load_rms", "N", "variation of the wheel load, RMS",
+        "root mean square of the force of the tyre less that at rest", _ALWAYS,
     ),
     Quantity(
-        "load_variation",
-        "1",
-        "variation of the wheel load, as a part",
-        "root mean square of the force of the tyre less that at rest, over that at rest",
-        "positive always",
+        "load_variation", "1", "variation of the wheel load, as a part",
+        "root mean square of the force of the tyre less that at rest, over that at rest", _ALWAYS,
         _PERCENT,
     ),
     Quantity(
-        "travel_rms",
-        "m",
-        "wheel travel, RMS",
+        "travel_rms", "m", "wheel travel, RMS",
         "root mean square of the height of the wheel centre on the body less that at rest; three "
-        "times of it is the rattle space that is enough for 99.7 % of the time",
-        "positive always",
+        "times of it is the rattle space that is enough for 99.7 % of the time", _ALWAYS,
     ),
-)
+)  # fmt: skip
 _MODES = ("heave", "pitch", "roll", "hop", "front_hop", "front_tramp", "rear_hop", "rear_tramp")
 
 
 def _of_mode(name: str) -> tuple[Quantity, Quantity]:
     words = name.replace("_", " ")
+    definition = f"of the mode {words} at rest, the same at all speeds"
     return (
         Quantity(
-            f"{name}_frequency",
-            "Hz",
-            f"natural frequency of {words}",
-            f"undamped natural frequency of the mode {words} at rest, the same at all speeds",
-            "positive always",
+            f"{name}_frequency", "Hz", f"natural frequency of {words}",
+            f"undamped natural frequency {definition}", _ALWAYS,
         ),
         Quantity(
-            f"{name}_damping_ratio",
-            "1",
-            f"damping ratio of {words}",
-            f"damping ratio of the mode {words} at rest, the same at all speeds",
-            "positive where motions decay",
+            f"{name}_damping_ratio", "1", f"damping ratio of {words}",
+            f"damping ratio {definition}", "positive where motions decay",
         ),
-    )
+    )  # fmt: skip
 
 
 OF_CAR = {q.name: q for q in (*_OF_BODY, *(q for name in _MODES for q in _of_mode(name)))}
-"""The metrics of a car, by name; those of each wheel are `OF_WHEELS`."""
+"""Metrics of a car by name; those of each wheel are `OF_WHEELS`."""
 
 
 def by_speed(
     subject: Any, speeds: ArrayLike, roughness: str | float = "B", *, seat: str | None = None
 ) -> xr.Dataset:
-    """Return the metrics of the ride of a car, over its speed.
+    """Return the metrics of the ride of a car over speed.
 
     Parameters
     ----------
@@ -105,7 +86,7 @@ def by_speed(
     speeds : array_like, shape (n,)
         [m/s]
     roughness : str or float, optional
-        As of `response`.
+        As in `response`.
     seat : str, optional
         The `[seats.NAME]` of the accelerations; by default the body's centre of mass.
 
@@ -113,7 +94,7 @@ def by_speed(
     -------
     xarray.Dataset
         Over ``speed``: ``acceleration_rms`` and ``weighted_rms`` (W_k of ISO 2631-1) [m/s^2]; of
-        each wheel ``load_rms`` [N], ``load_variation``, which is that over the load at rest, and
+        each wheel ``load_rms`` [N], ``load_variation``, the same divided by the load at rest, and
         ``travel_rms`` [m]; of each mode ``heave_frequency`` [Hz] and ``heave_damping_ratio``, by
         the names of `modes`, the same at all speeds.
 
@@ -141,11 +122,13 @@ def by_speed(
             given.among("seat", seat, seats)
     linear = linear_at_rest(assembly)
     found = responses_by_wheel(assembly, linear, FREQUENCIES)
+    place = "body_acceleration" if seat is None else f"{seat}_acceleration"
+    wanted = {"acceleration": place, "load": "load", "travel": "travel"}
     spectra = {
         name: np.stack(
-            [density(assembly, rows, FREQUENCIES, v, at_reference) for v in chosen.tolist()]
+            [density(assembly, found[of], FREQUENCIES, v, at_reference) for v in chosen.tolist()]
         )
-        for name, rows in _chosen(found, seat).items()
+        for name, of in wanted.items()
     }
     at_rest = [
         linear.outputs[linear.output_names.index(f"{assembly.names_of(w).signals}tyre_force")]
@@ -158,13 +141,8 @@ def by_speed(
     return _dataset(assembly, chosen, values)
 
 
-def _chosen(found: dict[str, Responses], seat: str | None) -> dict[str, Responses]:
-    place = "body_acceleration" if seat is None else f"{seat}_acceleration"
-    return {"acceleration": found[place], "load": found["load"], "travel": found["travel"]}
-
-
 def _of_spectra(spectra: dict[str, Array], at_rest: Array) -> dict[str, Array]:
-    """Return metrics by name, (speeds,) each, of wheels (wheels, speeds)."""
+    """Return metrics by name, of shape (speeds,), or (wheels, speeds)."""
     loads, travels = (root_mean_square(spectra[n], FREQUENCIES).T for n in ("load", "travel"))
     return {
         "acceleration_rms": root_mean_square(spectra["acceleration"], FREQUENCIES),

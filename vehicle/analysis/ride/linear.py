@@ -1,13 +1,12 @@
-"""The modes of a car, and its responses to the road, by the exact linearisation at rest.
+"""Modes of a car, and its responses to the road, by the exact linearisation at rest.
 
-With H_w the response of an output to the road under the wheel w, which meets it later by the time
-tau_w, an output on a rough road that does not change along the way has the one-sided density ::
+With H_w the response of an output to the road under the wheel w, which reaches it with the delay
+tau_w, the one-sided density of an output on a stationary rough road is ::
 
     G_y(f) = (|Y_L|^2 + |Y_R|^2 + 2 g Re(Y_L* Y_R)) G(n) / v,    n = f / v
     Y_side(f) = sum over its wheels of H_w(f) exp(-2 pi i f tau_w)
 
-with g the normalised cross-spectrum of the two tracks (`kintrafo.road_profiles`). Nothing is
-simulated.
+with g the normalised cross-spectrum of the two tracks (`kintrafo.road_profiles`).
 """
 
 from typing import Any
@@ -32,20 +31,20 @@ from .weighting import weighting
 
 Complex = NDArray[np.complex128]
 Responses = dict[str, Complex]
-"""Responses of an output to the road under each wheel, by that wheel: (f,), or (wheels, f)."""
+"""Responses of an output, (f,) or (wheels, f), by the wheel on the road."""
 
 FREQUENCIES = np.arange(0.2, 50.0 + 1e-9, 0.02)
 """The usual frequencies of spectra [Hz]."""
 
 
 def linear_at_rest(assembly: CarAssembly) -> Linearisation:
-    """Return the linear equations at rest, without friction, which has no rate there."""
+    """Return the linear equations at rest, without friction."""
     smooth = assembly.without_friction()
     return linearise(smooth.model, equilibrium(smooth.model))
 
 
 def modes(subject: Any) -> xr.Dataset:
-    """Return the modes of a car at rest by their names.
+    """Return the modes of a car at rest.
 
     Parameters
     ----------
@@ -55,17 +54,17 @@ def modes(subject: Any) -> xr.Dataset:
     -------
     xarray.Dataset
         Over ``mode``: ``frequency``, undamped [Hz], and ``damping_ratio``, without friction;
-        ``energy``, the part of its kinetic energy that is in the motion of its name. Names are
-        ``heave``, ``pitch`` and ``roll`` of the body; ``front_hop`` and ``rear_hop``,
-        both wheels of an axle together, and ``front_tramp`` and ``rear_tramp``, oppositely; of a
-        quarter car ``heave`` and ``hop``.
+        ``energy``, the part of its kinetic energy in the motion of its name. Names are ``heave``,
+        ``pitch`` and ``roll`` of the body; ``front_hop`` and ``rear_hop``, both wheels of an axle
+        together, and ``front_tramp`` and ``rear_tramp``, oppositely; of a quarter car ``heave`` and
+        ``hop``.
 
     Notes
     -----
-    A mode is named by where its kinetic energy is: that of the body in heave, pitch and roll, and
-    that of the wheels in their heights above the road, together and oppositely. Names are assigned
-    together, so that the sum of these parts is greatest. Near one half, as between heave and pitch
-    of a car with much damping, two modes share two motions, and small changes exchange the names.
+    Modes are named by their kinetic energy: of the body in heave, pitch and roll, and of the wheels
+    in their heights above the road, together and oppositely. The assignment of names has the
+    greatest sum of these parts. For parts near one half, as of heave and pitch of a car with much
+    damping, two modes share two motions, and small changes exchange the names.
 
     Examples
     --------
@@ -93,7 +92,7 @@ _OF_MODES = {
 
 
 def named_modes(assembly: CarAssembly, linear: Linearisation) -> dict[str, tuple[Mode, float]]:
-    """Return the modes at rest by the name of a motion, with the part of the energy in it."""
+    """Return the modes at rest by name, with the part of the energy in the motion of the name."""
     motions = assembly.mode_motions(linear.state)
     names = linear.state_names
     rows = np.array([[row.get(name, 0.0) for name in names] for _, row in motions.values()])
@@ -108,7 +107,7 @@ def response(
     *,
     frequency: ArrayLike | None = None,
 ) -> xr.Dataset:
-    """Return the response of a car to a rough road, by its linear equations.
+    """Return the response of a car to a rough road by its linear equations.
 
     Parameters
     ----------
@@ -116,19 +115,19 @@ def response(
     speed : float
         [m/s]
     roughness : str or float, optional
-        A class of ISO 8608, or G(n0) [m^3]: of an isotropic road under both tracks.
+        Class of ISO 8608, or G(n0) [m^3], of an isotropic road under both tracks.
     frequency : array_like, optional
         Rising [Hz]; by default 0.2 to 50 Hz in steps of 0.02 Hz.
 
     Returns
     -------
     xarray.Dataset
-        Over ``frequency``: of each output its one-sided power spectral density, the name with
-        ``_psd`` behind, and over ``road_wheel`` the size of its response to the road under each
-        wheel alone, with ``_by_road``. Outputs are those of `over`: ``body_acceleration``, that of
-        each seat, ``load`` and ``travel`` of each wheel. Their RMS over these frequencies are
-        attributes of the spectra, ``rms`` and, of accelerations, ``weighted_rms`` by W_k of ISO
-        2631-1. What lifts off, touches a stop or rubs is not linear: see `over`.
+        Over ``frequency``: the one-sided power spectral density of each output, its name followed
+        by ``_psd``, and over ``road_wheel`` the size of its response to the road under one wheel,
+        followed by ``_by_road``. Outputs are those of `over`: ``body_acceleration``, that of each
+        seat, ``load`` and ``travel`` of each wheel. Their RMS over these frequencies are attributes
+        of the spectra, ``rms`` and, for accelerations, ``weighted_rms`` by W_k of ISO 2631-1.
+        Lift-off, stops and friction are not linear: see `over`.
 
     Examples
     --------
@@ -161,15 +160,11 @@ def response(
         variables[f"{name}_psd"] = spectrum_of
         sizes = np.stack([np.abs(row) for row in rows.values()])
         by_road = f"size of {words} by the height of the road under a wheel"
-        unit_by_road = f"{whole}/m"
-        variables[f"{name}_by_road"] = variable(("road_wheel", *dims), sizes, by_road, unit_by_road)
+        variables[f"{name}_by_road"] = variable(("road_wheel", *dims), sizes, by_road, f"{whole}/m")
+    of_road = {"long_name": "wheel on the road"} | AS_COLUMNS
     coordinates = {
         "frequency": ("frequency", frequencies, {"units": "Hz", "long_name": "frequency"}),
-        "road_wheel": (
-            "road_wheel",
-            list(assembly.wheels),
-            {"long_name": "wheel on the road"} | AS_COLUMNS,
-        ),
+        "road_wheel": ("road_wheel", list(assembly.wheels), of_road),
         WHEEL: wheel_coordinate(assembly.wheels),
     }
     return xr.Dataset(variables, coordinates, {"title": "response to a rough road, linear"})
@@ -182,7 +177,7 @@ def _described(assembly: CarAssembly) -> dict[str, tuple[str, str]]:
 def responses_by_wheel(
     assembly: CarAssembly, linear: Linearisation, frequencies: Array
 ) -> dict[str, Responses]:
-    """Return the responses of every output to the road under each wheel."""
+    """Return the responses of all outputs to the road under each wheel."""
     roads = [assembly.names_of(wheel).road for wheel in assembly.wheels]
     states, signals = linear.responses(frequencies, roads)
     by_wheel = {
@@ -202,7 +197,7 @@ def _outputs(
     states: Complex,
     outputs: Complex,
 ) -> dict[str, Complex]:
-    """Return the response of every output to the road under a wheel: (f,), or (wheels, f)."""
+    """Return the responses of all outputs to the road under a wheel, (f,) or (wheels, f)."""
     signals = dict(zip(linear.output_names, np.moveaxis(outputs, -1, 0), strict=True))
     half = len(linear.state_names) // 2
     position = dict(
@@ -231,7 +226,7 @@ def density(
     speed: float,
     at_reference: float,
 ) -> Array:
-    """Return the density of an output from its responses to each wheel."""
+    """Return the spectral density of an output from its responses to the road under each wheel."""
     track, behind = assembly.track, assembly.behind()
     sides: dict[str, Complex] = {}
     for wheel, row in rows.items():

@@ -1,4 +1,4 @@
-"""What a ride is judged by: accelerations of the body, loads and travels of the wheels."""
+"""Outputs of a ride: accelerations of the body, loads and travels of the wheels."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -12,11 +12,11 @@ OUTPUTS_OF_WHEELS = {
     "load": ("force of the tyre in the plane of the wheel", "N"),
     "travel": ("height of the wheel centre on the body above that at design", "m"),
 }
-"""Of each wheel: words and unit."""
+"""Outputs of each wheel: words and unit."""
 
 
 def body_outputs(assembly: CarAssembly) -> dict[str, tuple[str, str]]:
-    """Return the accelerations of the body that are felt: words and unit by name."""
+    """Return the accelerations of the centre of mass and of seats: words and unit by name."""
     words = {"body_acceleration": "vertical acceleration of the body's centre of mass"}
     words |= {
         f"{name}_acceleration": f"vertical acceleration at the place of the {name}"
@@ -31,7 +31,7 @@ def wheel_outputs(
     coordinates: Mapping[str, Any],
     slopes: Mapping[str, Mapping[str, float]],
 ) -> dict[str, Sequence[Any]]:
-    """Return loads and travels of the wheels to first order, each by wheel.
+    """Return first-order loads and travels of the wheels, each in the order of the wheels.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ def wheel_outputs(
     signals, coordinates : mapping
         Changes of signals and coordinates, by name.
     slopes : mapping
-        Of the travel of each wheel by coordinates.
+        Derivatives of the travel of each wheel in the coordinates.
     """
     names = {wheel: assembly.names_of(wheel).signals for wheel in assembly.wheels}
     return {
@@ -57,9 +57,9 @@ def upward(motion: Mapping[str, tuple[Any, Any, Any]], place: Array) -> Any:
     Parameters
     ----------
     motion : mapping of str to tuple of ndarray or float
-        Position, rate and acceleration of ``heave``, ``pitch`` and ``roll``, as far as there are.
+        Position, rate and acceleration of ``heave``, and of ``pitch`` and ``roll`` if they exist.
     place : ndarray, shape (3,)
-        From the centre of mass, axes of the body [m].
+        The point relative to the centre of mass, axes of the body [m].
     """
     none = 0.0 * motion["heave"][0]
     pitch, d_pitch, dd_pitch = motion.get("pitch", (none, none, none))

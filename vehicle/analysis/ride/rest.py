@@ -1,4 +1,4 @@
-"""Where a car rests: ride heights, corner weights, alignment."""
+"""Rest of a car: ride heights, corner weights, alignment."""
 
 from typing import Any
 
@@ -30,8 +30,8 @@ def at_rest(subject: Any) -> xr.Dataset:
     xarray.Dataset
         Over ``wheel``: ``load``, the vertical force of the road [N]; ``travel``, height of the
         wheel centre on the body above that at design [m]; ``camber`` and ``toe`` of the wheel in
-        level axes along the heading of the body [rad]. Of the body, as far as it moves so:
-        ``heave``, ``pitch`` and ``roll``.
+        level axes along the heading of the body [rad]. Of the body ``heave``, ``pitch`` and
+        ``roll``, if it has these coordinates.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""A car over a road, simulated, and what the ride is judged by."""
+"""Simulation of a car over a road, with metrics of the ride."""
 
 from typing import Any
 
@@ -18,14 +18,14 @@ from .outputs import OUTPUTS_OF_WHEELS, body_outputs, upward
 from .subject import car_assembly, riding_car
 from .weighting import weighted
 
-# More outputs than this are a mistake in the step, and would fill the memory.
+# More outputs would fill the memory: the step is probably wrong.
 _MOST_OUTPUTS = 2_000_000
-# Between outputs accelerations are taken to be straight lines: at this step, weighted ones of a
-# wheel hop at 12 Hz are some 3 % too small, at longer ones more [s].
+# With linear interpolation between outputs at this step, the weighted acceleration of a wheel hop
+# at 12 Hz is some 3 % too small [s].
 _LONGEST_STEP = 0.01
 # The start from rest on a rough road has decayed after this time [s].
 _SETTLED = 2.0
-# A tyre that carries less than this is off the road [N].
+# A tyre with less load is off the road [N].
 _OFF = 1e-6
 
 
@@ -39,20 +39,20 @@ def over(
     output_step: float = 0.005,
     **options: Any,
 ) -> xr.Dataset:
-    """Return the motion of a car over a road, from rest at the beginning of it.
+    """Return the motion of a car over a road, from rest at its beginning.
 
     Parameters
     ----------
     subject : Car or CarModel
     road : Road
-        Under the left and the right wheels; rear wheels meet it later by the wheelbase.
+        The road under the left and right wheels; rear wheels reach it later by the wheelbase.
     speed : float
         [m/s]
     duration : float, optional
-        [s]; by default as long as the road is under the rear wheels.
+        [s]; by default until the rear wheels reach the end of the road.
     settle : float, optional
-        Metrics begin after this time [s]; by default 2 s on a road that is rough all
-        along, and 0 on others, whose bump may come at once.
+        Start of the metrics [s]; by default 2 s on a stationary rough road, and 0 on other roads,
+        which may begin with a bump.
     output_step : float, optional
         0.01 s at most, so that accelerations can be weighted [s].
     **options
@@ -62,20 +62,20 @@ def over(
     -------
     xarray.Dataset
         Over ``time``: ``body_acceleration`` of the centre of mass, upward, and that of each seat
-        [m/s^2]; the coordinates of the body; over ``wheel``, too, ``load``, the force of the tyre
-        [N], ``travel`` of the wheel centre on the body from design, and ``road`` [m]. Each variable
-        has ``rms`` about its mean, ``smallest`` and ``largest`` after `settle` as attributes;
-        accelerations also ``weighted_rms`` by W_k of ISO 2631-1, loads ``off_the_road``, the part
-        of that time in which the tyre carries nothing. The attribute ``not_valid`` lists in words
-        where the motion leaves what the equations describe, as a tyre that pulls at the road
-        because its file does not say that it lifts off.
+        [m/s^2]; the coordinates of the body; also over ``wheel`` the ``load``, the force of the
+        tyre [N], ``travel`` of the wheel centre on the body from design, and ``road`` [m]. Each
+        variable has ``rms`` about its mean, ``smallest`` and ``largest`` after `settle` as
+        attributes; accelerations also ``weighted_rms`` by W_k of ISO 2631-1, loads
+        ``off_the_road``, the part of that time without load. The attribute ``not_valid`` describes
+        where the motion leaves the validity of the equations, such as tension in a tyre without
+        lift-off in its file.
 
     Raises
     ------
     PositionError
         If the car does not rest at the beginning of the road.
     SimulationError
-        If the motion cannot be finished.
+        If the integration cannot continue.
     """
     how = {"duration": duration, "settle": settle, "output_step": output_step, **options}
     return run(subject, road, speed, **how).motion
@@ -93,12 +93,12 @@ def run(
 ) -> Run:
     """Return the simulation of a car over a road, with the states of its equations.
 
-    Parameters, errors and the motion are those of `over`; pictures need the states, too.
+    Errors are those of `over`.
 
     Parameters
     ----------
     subject, road, speed, duration, settle, output_step, **options
-        As of `over`.
+        As in `over`.
 
     Returns
     -------
@@ -198,7 +198,7 @@ def _dataset(assembly: CarAssembly, result: Simulation) -> xr.Dataset:
 
 
 def _judged(found: xr.Dataset, begin: float) -> xr.Dataset:
-    """Give each variable what it is judged by."""
+    """Return the motion with the metrics of each variable as attributes."""
     times = found["time"].values
     after, step = times >= begin, float(times[1] - times[0])
     for name, data in found.data_vars.items():

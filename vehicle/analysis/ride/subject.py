@@ -10,19 +10,12 @@ from ...assembly.of import car_assembly_of
 
 
 def car_assembly(source: str, subject: Any, *, riding: bool = True) -> CarAssembly:
-    """Return a car, or its equations, as an assembly; refuse assemblies whose body is held.
-
-    Parameters
-    ----------
-    source : str
-        The function, for messages.
-    subject : Any
-    riding : bool, optional
-        Whether a car that drives is refused, too: its body travels.
+    """Return a car, or its equations, as an assembly.
 
     Raises
     ------
     InputError
+        If the body is held; for `riding` also if it travels, as of a car that drives.
     """
     found = car_assembly_of(source, subject, _NEEDED)
     if riding:
@@ -32,7 +25,7 @@ def car_assembly(source: str, subject: Any, *, riding: bool = True) -> CarAssemb
 
 @dataclass(frozen=True)
 class RidingCar:
-    """A car whose equations hold its body at one place of the road, for pictures of its motion.
+    """A car whose body does not travel along the road, for pictures of its motion.
 
     Attributes
     ----------
@@ -64,14 +57,7 @@ class RidingCar:
 
 
 def riding_car(assembly: CarAssembly, state: Array, inputs: Array) -> RidingCar:
-    """Return a car for pictures of its motion.
-
-    Parameters
-    ----------
-    assembly : CarAssembly
-    state, inputs : ndarray
-        Of rest.
-    """
+    """Return a car for pictures of its motion, from state and inputs at rest."""
     names = [assembly.names_of(wheel) for wheel in assembly.wheels]
     heights = assembly.model.signals(state, inputs)
     roads = [float(inputs[assembly.model.input_names.index(own.road)]) for own in names]

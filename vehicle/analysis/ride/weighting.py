@@ -67,9 +67,9 @@ def weighted(acceleration: ArrayLike, step: float) -> Array:
     Parameters
     ----------
     acceleration : array_like, shape (n,)
-        At equal times, straight between them [m/s^2]. The filter begins at rest.
+        At equally spaced times, linear in between [m/s^2]. The filter begins at rest.
     step : float
-        Between two times [s].
+        Time between two values [s].
     """
     with Validator("weighted") as given:
         values = given.array("acceleration", acceleration, "m/s^2", dimensions=[1])

@@ -1,6 +1,7 @@
-"""Manoeuvres: one file each, by the word for it in a file of a manoeuvre.
+"""Manoeuvres: one module each, with the keys of its file.
 
-Adding one is adding a module with a class that has a key ``manoeuvre``, and a packaged file.
+A further manoeuvre is a module with a class that has a key ``manoeuvre``, its line in `loading`,
+and a packaged file.
 """
 
 from .acceleration import Acceleration
@@ -19,19 +20,7 @@ from .slowly_increasing_steer import SlowlyIncreasingSteer
 from .step_steer import StepSteer
 
 __all__ = [
-    "MANOEUVRES",
-    "Acceleration",
-    "BrakingInTurn",
-    "Circle",
-    "CoastDown",
-    "DoubleLaneChange",
-    "Manoeuvre",
-    "Parking",
-    "PathFollowing",
-    "SineSweep",
-    "SineWithDwell",
-    "SlowlyIncreasingSteer",
-    "StepSteer",
-    "StraightBraking",
-    "load_manoeuvre",
-]
+    "MANOEUVRES", "Acceleration", "BrakingInTurn", "Circle", "CoastDown", "DoubleLaneChange",
+    "Manoeuvre", "Parking", "PathFollowing", "SineSweep", "SineWithDwell", "SlowlyIncreasingSteer",
+    "StepSteer", "StraightBraking", "load_manoeuvre",
+]  # fmt: skip

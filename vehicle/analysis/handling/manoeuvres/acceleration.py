@@ -17,7 +17,7 @@ from .until_speed import UntilSpeed
 
 
 class Acceleration(UntilSpeed):
-    """The drive gives a torque, and the car runs straight ahead up to a speed."""
+    """A car accelerates straight ahead with a constant torque of the drive, up to a speed."""
 
     TITLE: ClassVar[str] = "acceleration"
     SLOWS: ClassVar[bool] = False
@@ -31,7 +31,7 @@ class Acceleration(UntilSpeed):
     duration_s: Positive = Field(default=60.0, description="longest duration of the simulation")
 
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
-        """Return times, the way and the greatest acceleration, and the motion."""
+        """Return time, distance and greatest acceleration, and the motion."""
         _, straight = self.straight(car)
         end = self.end_speed
         pushes = HeldTorque(straight.unknowns["drive"], self.torque_Nm, 0.0, self.rise_s)

@@ -1,4 +1,4 @@
-"""What manoeuvres with brakes have in common."""
+"""The base of manoeuvres with brakes."""
 
 import xarray as xr
 from pydantic import Field
@@ -12,7 +12,7 @@ from .simulated import SimulatedManoeuvre
 
 
 class BrakingManoeuvre(SimulatedManoeuvre):
-    """A manoeuvre in which the brake is pushed."""
+    """A manoeuvre with braking."""
 
     pedal: Positive | None = Field(
         default=None, description="position of the pedal, 1 with all torque of the brakes"
@@ -34,7 +34,7 @@ class BrakingManoeuvre(SimulatedManoeuvre):
         return found
 
     def check(self, car: Car) -> None:
-        """Refuse a car that cannot drive it, or has no brakes."""
+        """Raise an error for a car that cannot drive the manoeuvre, or has no brakes."""
         require_controls(car, brakes=True)
         super().check(car)
 
@@ -55,7 +55,7 @@ class BrakingManoeuvre(SimulatedManoeuvre):
         return self.deceleration_m_per_s2 / most
 
     def see_that_it_ends(self, motion: xr.Dataset, key: str, speed: float) -> None:
-        """Refuse a motion that did not become so slow in time."""
+        """Raise an error for a motion whose last speed is above a limit [m/s]."""
         last = float(motion["speed"][-1])
         if last > speed:
             problem = (

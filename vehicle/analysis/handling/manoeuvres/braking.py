@@ -17,7 +17,7 @@ from .until_speed import UntilSpeed
 
 
 class StraightBraking(UntilSpeed, BrakingManoeuvre):
-    """The brake is pushed while the car runs straight ahead, the steering wheel held."""
+    """A car brakes straight ahead, with the steering wheel held."""
 
     TITLE: ClassVar[str] = "braking in a straight line"
 

@@ -1,4 +1,4 @@
-"""Braking in a turn (ISO 7975), open loop: the steering wheel is held."""
+"""Braking in a turn (ISO 7975), open loop."""
 
 from typing import ClassVar, Literal
 
@@ -18,12 +18,12 @@ from .manoeuvre import Number, Progress
 from .simulated import TurningManoeuvre, at_time, greatest
 from .until_speed import UntilSpeed
 
-# After the brake is pushed: where the motion is compared [s].
+# Time of the comparison after the start of braking [s].
 _AFTER = 1.0
 
 
 class BrakingInTurn(UntilSpeed, BrakingManoeuvre, TurningManoeuvre):
-    """The brake is pushed in a steady turn, the steering wheel held."""
+    """A car brakes in a steady turn, with the steering wheel held."""
 
     TITLE: ClassVar[str] = "braking in a turn"
 
@@ -33,7 +33,7 @@ class BrakingInTurn(UntilSpeed, BrakingManoeuvre, TurningManoeuvre):
     start_s: NonNegative = Field(default=0.5, description="when the brake is pushed")
 
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
-        """Return yaw rate, lateral acceleration and sideslip beside the turn, and the motion."""
+        """Return metrics of the motion relative to the steady turn, and the motion."""
         turn = self._steady(car)
         pushes = Braking(turn.unknowns["drive"], self.pedal_of(car), self.start_s, self.rise_s)
         motion = self.simulated(
@@ -44,13 +44,11 @@ class BrakingInTurn(UntilSpeed, BrakingManoeuvre, TurningManoeuvre):
         return HandlingResult(self.judged(self._numbers(motion) | greatest(motion)), {"": motion})
 
     def _steady(self, car: DrivingCar) -> Steady:
-        """Return the turn in which it begins."""
+        """Return the turn at the beginning."""
         acceleration = self.speed**2 / self.radius_m
         turns = Turns(car, SteadyCondition("curvature", self.sense / self.radius_m), self.sense)
         try:
             turns.begin(min(1.0, acceleration))
-            # the radius and the speed are those of the path: so is this acceleration, but for the
-            # cosine of the sideslip angle
             return turns.to_speed(self.speed)
         except NoSteadyMotionError:
             problem = (
@@ -107,7 +105,7 @@ class BrakingInTurn(UntilSpeed, BrakingManoeuvre, TurningManoeuvre):
         }  # fmt: skip
 
     def _outside(self, motion: xr.Dataset, begun: float, x: float, y: float) -> float:
-        """Return how far a point is outside the circle of the steady turn [m]."""
+        """Return the distance of a point from the circle of the steady turn, outward [m]."""
         course = at_time(motion, "yaw_angle", begun) + at_time(motion, "sideslip_angle", begun)
         out = self.sense * self.radius_m
         cx = at_time(motion, "x", begun) - out * np.sin(course)

@@ -12,12 +12,12 @@ from ..result import HandlingResult
 from ..steady import SteadyCondition
 from .manoeuvre import Manoeuvre, Progress
 
-# The finest step makes some ten thousand turns, the coarsest one or two [m/s^2].
+# The smallest step makes some ten thousand turns, the largest one or two [m/s^2].
 _STEPS = 1e-3, 5.0
 
 
 class Circle(Manoeuvre):
-    """Steady turns of one speed, radius or steering wheel angle, up to the limit of the tyres."""
+    """Steady turns at constant speed, radius or steering wheel angle, up to the limit of tyres."""
 
     TITLE: ClassVar[str] = "steady-state circle"
     TRAVELS: ClassVar[bool] = False

@@ -1,4 +1,4 @@
-"""Coast down: the drive gives no torque."""
+"""Coast down: deceleration without drive."""
 
 from typing import ClassVar, Literal
 
@@ -16,7 +16,7 @@ from .until_speed import UntilSpeed
 
 
 class CoastDown(UntilSpeed):
-    """The car runs straight ahead without drive, down to a speed."""
+    """A car runs straight ahead without drive, down to a speed."""
 
     TITLE: ClassVar[str] = "coast down"
 
@@ -25,7 +25,7 @@ class CoastDown(UntilSpeed):
     duration_s: Positive = Field(default=300.0, description="longest duration of the simulation")
 
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
-        """Return time, way and driving resistance, and the motion."""
+        """Return time, distance and driving resistance, and the motion."""
         _, straight = self.straight(car)
         end = self.end_speed
         motion = self.simulated(
@@ -42,7 +42,7 @@ class CoastDown(UntilSpeed):
             )
             raise InputError([problem], self.TITLE)
         reached = first_crossing(time, -speed, -end)
-        # F = constant + by_square v^2, of the car with its wheels: a least-squares fit
+        # F = constant + by_square v^2, with the mass of the wheels: a least-squares fit
         slowing = car.mass * -np.gradient(speed, time)
         by_square, constant = np.polyfit(speed[_SETTLED:] ** 2, slowing[_SETTLED:], 1)
         numbers: dict[str, Number] = {

@@ -21,15 +21,15 @@ from ..result import HandlingResult, quantity
 from ..steady import Steady
 from .manoeuvre import Number as Judged
 from .manoeuvre import Progress
-from .simulated import TurningManoeuvre, greatest
+from .simulated import TurningManoeuvre, greatest, place_from
 
-# Lateral acceleration of the turn by which a driver knows the car [m/s^2].
+# Lateral acceleration of the turn that gives the driver's steering characteristic [m/s^2].
 _GENTLE = 0.5
-# Frequency of steering in a lane change, at which the delay of the car is taken [Hz].
+# Frequency of steering in a lane change, at which the delay of the car is computed [Hz].
 _SWERVING = 0.5
-# A car that needs so many times the usual time is not waited for.
+# The simulation ends after this multiple of the usual time.
 _PATIENT = 2.0
-# Distance of the cones of a lane, at most [m].
+# Greatest distance of the cones of a lane [m].
 _SPACING = 3.0
 
 
@@ -69,13 +69,13 @@ class Driver(Section):
     )
 
     def along(self, path: Path, turns: Turns, straight: Steady) -> PathFollower:
-        """Return the driver on a path, who knows the car.
+        """Return the driver on a path, with the steering characteristic and delay of the car.
 
         Parameters
         ----------
         path : Path
         turns : Turns
-            Of the car at the speed of the manoeuvre.
+            Steady turns of the car at the speed of the manoeuvre.
         straight : Steady
         """
         anticipation = self.anticipation_s
@@ -89,7 +89,7 @@ class Driver(Section):
 
 
 class DoubleLaneChange(TurningManoeuvre):
-    """A driver steers through lanes between cones."""
+    """A driver steers a car through lanes between cones."""
 
     TITLE: ClassVar[str] = "double lane change"
     CURVES: ClassVar[tuple[str, ...]] = ("", "_cones")
@@ -128,7 +128,7 @@ class DoubleLaneChange(TurningManoeuvre):
         return found
 
     def check(self, car: Car) -> None:
-        """Refuse a car that cannot drive it, or is larger than the dimensions in the file."""
+        """Raise an error for a car that cannot drive it, or exceeds the dimensions in the file."""
         super().check(car)
         centers = np.array([car.wheel_centers[wheel] for wheel in car.wheels])
         track = float(2.0 * np.abs(centers[:, 1]).max())
@@ -171,11 +171,11 @@ class DoubleLaneChange(TurningManoeuvre):
         return found
 
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
-        """Return how near the car comes to the cones, and the motion."""
+        """Return the distances of the car from the cones, and the motion."""
         turns, straight = self.straight(car)
         lanes = self.placed()
         reach = car.front + in_metres(self.front_overhang_mm, "mm")
-        # the front of the car begins so far before the first cones
+        # the front of the car starts at this distance before the first cones
         origin = car.motion.reference[:2] + np.array([self.before_m + reach, 0.0])
         path = through(list(lanes.values()), before=self.before_m + reach, after=self.after_m)
         end = list(lanes.values())[-1].end
@@ -192,8 +192,7 @@ class DoubleLaneChange(TurningManoeuvre):
             self.holding(car, torque) if self.holds_speed else HeldTorque(torque, 0.0),
             _PATIENT * way / self.speed, until=ended, progress=progress,
         )  # fmt: skip
-        for name, value in zip(("x", "y"), origin.tolist(), strict=True):
-            motion[name] = motion[name].copy(data=motion[name].values - value)
+        place_from(motion, origin)
         cones = self._cones(motion, lanes, (reach, length))
         numbers = self._numbers(motion, cones, path)
         return HandlingResult(self.judged(numbers), {"": motion, "_cones": cones})
@@ -201,9 +200,9 @@ class DoubleLaneChange(TurningManoeuvre):
     def _cones(
         self, motion: xr.Dataset, lanes: dict[str, Lane], reaches: tuple[float, float]
     ) -> xr.Dataset:
-        """Return the cones, and how far from each the side of the car passes.
+        """Return the cones, and the distance of the side of the car from each.
 
-        Attributes are the size of the car, and how far it is in front of the reference point [m].
+        Attributes are the size of the car, and its length in front of the reference point [m].
         """
         rows = [
             (name, x, side, y)
@@ -256,10 +255,9 @@ class DoubleLaneChange(TurningManoeuvre):
 
 
 def _knowing(turns: Turns, straight: Steady) -> Callable[[float], float]:
-    """Return the steering characteristic of a driver: wheel angle by curvature, over speed.
+    """Return a function of speed: the steering wheel angle by curvature of a gentle turn [rad m].
 
-    It is that of a gentle turn at the speed of the manoeuvre, in which the part that grows with the
-    square of the speed is that of the understeer gradient.
+    Its part by understeer grows with the square of the speed.
     """
     turn = turns.to(turns.sense * _GENTLE)
     speed = turns.first.value
@@ -272,6 +270,6 @@ def _knowing(turns: Turns, straight: Steady) -> Callable[[float], float]:
 
 
 def _delay(car: DrivingCar, straight: Steady) -> float:
-    """Return how late the lateral acceleration follows the steering wheel [s]."""
+    """Return the delay of the lateral acceleration after the steering wheel [s]."""
     found = steering_response(car, straight, np.array([_SWERVING]))["lateral_acceleration"]
     return float(-np.angle(found[0]) / (2.0 * np.pi * _SWERVING))

@@ -1,4 +1,4 @@
-"""Reading the file of a manoeuvre."""
+"""Reading of files of manoeuvres."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -38,7 +38,7 @@ _CLASSES: tuple[type[Manoeuvre], ...] = (
 MANOEUVRES: Mapping[str, type[Manoeuvre]] = {
     get_args(one.model_fields[_KEY].annotation)[0]: one for one in _CLASSES
 }
-"""The kinds of manoeuvres, by the word for each in a file."""
+"""Manoeuvres by their names in files."""
 
 
 def load_manoeuvre(
@@ -49,17 +49,16 @@ def load_manoeuvre(
     Parameters
     ----------
     path_or_name : str, pathlib.Path or mapping
-        The file; as a string, the name of one that comes with kintrafo, such as ``"step_steer"``;
-        or its content.
+        The file; as a string, also the name of a packaged one, such as ``"step_steer"``; or its
+        content.
     changes : mapping of str to Any, optional
-        Other values, by section and key with dots between them: ``speed_km_per_h``. None removes an
-        optional key.
+        Values that replace those of the file, by section and key with dots between them:
+        ``speed_km_per_h``. None removes an optional key.
 
     Raises
     ------
     InputError
-        If the file cannot be read, or nothing can be driven like this; it lists everything that is
-        wrong.
+        If the file cannot be read, or has wrong values; the message lists all of them.
 
     Examples
     --------

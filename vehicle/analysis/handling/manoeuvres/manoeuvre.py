@@ -21,31 +21,14 @@ class Manoeuvre(Section):
     TITLE: ClassVar[str]
     """The manoeuvre in a few words."""
     CURVES: ClassVar[tuple[str, ...]] = ("",)
-    """The ending of a file's name for each of its datasets with curves."""
+    """The endings of the names of files with its curves."""
     TRAVELS: ClassVar[bool] = True
     """Whether the car drives along a path that can be drawn."""
 
     def check(self, car: Car) -> None:
-        """Refuse a car that cannot drive it, before its equations are derived.
-
-        Parameters
-        ----------
-        car : Car
-            One that drives.
-
-        Raises
-        ------
-        InputError
-        """
+        """Raise an `InputError` for a car that cannot drive it, before equations are derived."""
         require_controls(car)
 
     @abstractmethod
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
-        """Return the metrics of a car in it, and curves.
-
-        Parameters
-        ----------
-        car : DrivingCar
-        progress : callable
-            Called with the part that is done, up to 1.
-        """
+        """Return metrics and curves of a car; `progress` is called with the done part, up to 1."""

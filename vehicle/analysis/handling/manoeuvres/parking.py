@@ -1,9 +1,9 @@
 """Parking: the torque of the steering wheel of a stationary car.
 
-The torque has two parts. Steering lifts the car and leans it: this part follows exactly from the
-linkages, by the states of rest over the angle. The tyres also turn on the road. The Magic Formula
-tyres here have no turn slip; a law of friction takes its place. A round contact under the inflation
-pressure p (R. S. Sharp and R. Granger, Proc. IMechE D 217, 2003) slides with the moment
+The torque has two parts. Steering lifts and leans the car: this part follows exactly from the
+linkages, by the states of rest over the angle. The tyres also turn on the road: the Magic Formula
+tyres here have no turn slip, so a law of friction describes this part. A circular contact under the
+inflation pressure p (R. S. Sharp and R. Granger, Proc. IMechE D 217, 2003) slides with the moment
 
     M = 2/3 mu F_z sqrt(F_z / (pi p))
 
@@ -29,10 +29,10 @@ from .manoeuvre import Manoeuvre, Progress
 
 ALONG = "steering_wheel_angle"
 
-# Most steps to a side: that many states of rest take seconds.
+# Most steps to a side, whose states of rest take seconds.
 _MOST_STEPS = 1000
 
-# From tyres of karts to those of trucks; a value in bar is outside.
+# From tyres of karts to those of trucks; values in bar are outside.
 _Pressure = Annotated[
     Number,
     Field(ge=20.0, le=2000.0),
@@ -62,7 +62,7 @@ _GREATEST = {
 
 
 class Parking(Manoeuvre):
-    """The steering wheel of a stationary car is turned from side to side, slowly."""
+    """The steering wheel of a stationary car turns slowly from side to side."""
 
     TITLE: ClassVar[str] = "parking"
     TRAVELS: ClassVar[bool] = False
@@ -123,12 +123,12 @@ class Parking(Manoeuvre):
         return HandlingResult(xr.Dataset(metrics, attrs={"title": title}), {"": found})
 
     def moments(self, steer: Array, loads: Array) -> Array:
-        """Return the moments of wheels that turn on the road, positive to the left [N m].
+        """Return the friction moments of wheels on the road, positive to the left [N m].
 
         Parameters
         ----------
         steer : ndarray, shape (wheels, n)
-            Steer angles in sequence; at the first one the contacts are relaxed [rad].
+            Successive steer angles, the first one with relaxed contacts [rad].
         loads : ndarray, shape (wheels, n)
             Vertical forces of the road [N].
         """
@@ -148,7 +148,7 @@ class Parking(Manoeuvre):
     ) -> tuple[Array, Array, Array]:
         """Return steer angles and loads of the steered wheels, (wheels, n), and the torque, (n,).
 
-        The car has come to rest: the tyres have no forces along the road.
+        The tyres have no forces along the road.
         """
         assert car.assembly is not None  # a car from a file has linkages
         racks = car.controls.rack(angles)[car.steering_input]

@@ -13,11 +13,11 @@ from ..result import HandlingResult
 from .double_lane_change import Driver
 from .manoeuvre import Number as Judged
 from .manoeuvre import Progress
-from .simulated import SimulatedManoeuvre, greatest
+from .simulated import SimulatedManoeuvre, greatest, place_from
 
 
 class PathFollowing(SimulatedManoeuvre):
-    """A driver follows a path, at constant speed."""
+    """A driver follows a path at constant speed."""
 
     TITLE: ClassVar[str] = "path following"
 
@@ -48,7 +48,7 @@ class PathFollowing(SimulatedManoeuvre):
         return found
 
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
-        """Return how near the car is to the path, and the motion."""
+        """Return the distances of the car from the path, and the motion."""
         turns, straight = self.straight(car)
         origin = car.motion.reference[:2]
         path = Path(np.array([self.x_m, self.y_m]).T)
@@ -63,8 +63,7 @@ class PathFollowing(SimulatedManoeuvre):
             car, straight, steers, self.holding(car, straight.unknowns["drive"]), self.duration_s,
             until=ended, progress=progress,
         )  # fmt: skip
-        for name, value in zip(("x", "y"), origin.tolist(), strict=True):
-            motion[name] = motion[name].copy(data=motion[name].values - value)
+        place_from(motion, origin)
         offsets = path.offsets(motion["x"].values, motion["y"].values)
         numbers: dict[str, Judged] = {
             "time": (float(motion["time"][-1]), "time", "s"),

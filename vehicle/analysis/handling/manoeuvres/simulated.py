@@ -1,4 +1,4 @@
-"""The base of simulated manoeuvres: the common keys of their files, and their beginning."""
+"""The base of simulated manoeuvres: common keys of their files, and steady starts."""
 
 from collections.abc import Callable
 from typing import Any, Literal
@@ -8,6 +8,7 @@ import xarray as xr
 from pydantic import Field
 
 from .....core.errors import InputError
+from .....core.named_types import Array
 from ....input.section import Positive
 from ..car import DrivingCar
 from ..circle import Turns
@@ -17,7 +18,7 @@ from ..result import quantity
 from ..steady import NoSteadyMotionError, Steady, SteadyCondition
 from .manoeuvre import Manoeuvre, Number, Progress
 
-# Time in which a driver that holds a speed halves a deviation, about [s].
+# Approximate time in which a driver halves a deviation from the speed [s].
 _PATIENCE = 1.0
 _KM_PER_H = 3.6
 
@@ -40,8 +41,6 @@ class SimulatedManoeuvre(Manoeuvre):
             return [problem]
         return []
 
-    # -- the beginning ----------------------------------------------------------------------------
-
     @property
     def speed(self) -> float:
         """Speed at the beginning [m/s]."""
@@ -49,12 +48,12 @@ class SimulatedManoeuvre(Manoeuvre):
 
     @property
     def sense(self) -> int:
-        """1 where the car turns to the left, -1 to the right."""
+        """1 for turns to the left, -1 to the right."""
         return 1
 
     @property
     def samples(self) -> Sampling:
-        """How the simulation is sampled."""
+        """The sampling of the simulation."""
         return Sampling(self.step_ms / 1e3, round(self.output_step_ms / self.step_ms))
 
     @property
@@ -63,7 +62,7 @@ class SimulatedManoeuvre(Manoeuvre):
         return f"{self.TITLE}, {self.speed_km_per_h:g} km/h"
 
     def straight(self, car: DrivingCar) -> tuple[Turns, Steady]:
-        """Return straight running, and the turns that are reached from there."""
+        """Return the branch of turns from straight running, and straight running."""
         turns = Turns(car, SteadyCondition("speed", self.speed), self.sense)
         try:
             return turns, turns.begin(0.0)
@@ -75,7 +74,7 @@ class SimulatedManoeuvre(Manoeuvre):
             raise InputError([problem], self.TITLE) from None
 
     def turned(self, turns: Turns, key: str, acceleration: float) -> Steady:
-        """Return the steady turn with a lateral acceleration that a key of the file names."""
+        """Return the steady turn with the lateral acceleration [m/s^2] of a key of the file."""
         try:
             return turns.to(self.sense * acceleration)
         except NoSteadyMotionError:
@@ -86,14 +85,7 @@ class SimulatedManoeuvre(Manoeuvre):
             raise InputError([problem], self.TITLE) from None
 
     def holding(self, car: DrivingCar, torque: float) -> SpeedHeld:
-        """Return a driver that holds the speed.
-
-        Parameters
-        ----------
-        car : DrivingCar
-        torque : float
-            Of straight running [N m].
-        """
+        """Return a driver that holds the speed, with the torque of straight running [N m]."""
         radius = float(np.mean(car.radii))
         return SpeedHeld(self.speed, torque, car.mass * radius / _PATIENCE, 2.0 * _PATIENCE)
 
@@ -138,12 +130,12 @@ class TurningManoeuvre(SimulatedManoeuvre):
 
     @property
     def sense(self) -> int:
-        """1 where the car turns to the left, -1 to the right."""
+        """1 for turns to the left, -1 to the right."""
         return 1 if self.turn == "left" else -1
 
 
 def greatest(motion: xr.Dataset) -> dict[str, Number]:
-    """Return the extremes of a motion, which are metrics of every manoeuvre."""
+    """Return the extremes of a motion, common metrics of manoeuvres."""
 
     def size(name: str) -> float:
         return float(np.abs(motion[name]).max())
@@ -159,6 +151,12 @@ def greatest(motion: xr.Dataset) -> dict[str, Number]:
         ),
         "smallest_load": (float(motion["fz"].min()), "smallest load of a wheel", "N"),
     }  # fmt: skip
+
+
+def place_from(motion: xr.Dataset, origin: Array) -> None:
+    """Make the position of a motion relative to an origin on the road, (2,) [m]."""
+    for name, value in zip(("x", "y"), origin.tolist(), strict=True):
+        motion[name] = motion[name].copy(data=motion[name].values - value)
 
 
 def at_time(motion: xr.Dataset, name: str, time: float) -> float:

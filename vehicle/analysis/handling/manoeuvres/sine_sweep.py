@@ -24,7 +24,7 @@ _SOURCES = ("simulated", "linear")
 
 
 class SineSweep(SteeredManoeuvre):
-    """The steering wheel swings, faster and faster."""
+    """Sinusoidal steering with increasing frequency."""
 
     TITLE: ClassVar[str] = "sine sweep"
     CURVES: ClassVar[tuple[str, ...]] = ("", "_response")
@@ -110,7 +110,7 @@ class SineSweep(SteeredManoeuvre):
         return xr.Dataset(found, {"frequency": axis, "source": sources}, {"title": title})
 
 
-# Outputs in a period: 20, in ms Hz.
+# 20 outputs in a period [ms Hz].
 _COARSE = 50.0
 _FOLLOWING = {
     "yaw_rate": ("yaw velocity", "1/s"),

@@ -12,7 +12,6 @@ from ..car import DrivingCar
 from ..drivers import HeldTorque, OpenLoop
 from ..responses import first_crossing
 from ..result import HandlingResult, quantity
-from ..steady import Steady
 from ..steering import SteeringCourse, sine_with_dwell
 from .manoeuvre import Progress
 from .simulated import TurningManoeuvre, at_time
@@ -20,22 +19,22 @@ from .slowly_increasing_steer import SlowlyIncreasingSteer
 
 # The first amplitude, the step, and the last one, in reference angles (S7.9.3, S7.9.4).
 _FIRST, _STEP, _LAST = 1.5, 0.5, 6.5
-# The last amplitude is this at least, and at most [deg].
+# Limits of the last amplitude [deg].
 _LEAST, _MOST = 270.0, 300.0
-# Lateral displacement and yaw rates are required from this amplitude on (S5.2).
+# Least amplitude with required lateral displacement, in reference angles (S5.2).
 _REQUIRED = 5.0
-# Steering begins where the angle reaches this (S7.11.8) [deg].
+# Angle at the beginning of steering (S7.11.8) [deg].
 _BEGUN = 5.0
-# After the beginning of steering: where the lateral displacement is read [s].
+# Time of the lateral displacement after the beginning of steering [s].
 _DISPLACED = 1.07
-# After its completion: where the yaw rate is read, and which part of its peak is allowed.
+# Times of the yaw rate after the end of steering [s], and the allowed parts of its peak.
 _YAW = ((1.0, 0.35), (1.75, 0.20))
-# Displacement that is required, of cars up to 3,500 kg and of heavier ones [m].
+# Required displacement of cars up to 3,500 kg and of heavier ones [m].
 _FAR, _FAR_HEAVY, _HEAVY = 1.83, 1.52, 3500.0
 
 
 class SineWithDwell(TurningManoeuvre):
-    """One period of a sine that rests at its second peak, with growing amplitudes, coasting."""
+    """One period of a sine with a dwell at its second peak, with growing amplitudes, coasting."""
 
     TITLE: ClassVar[str] = "sine with dwell"
 
@@ -71,7 +70,11 @@ class SineWithDwell(TurningManoeuvre):
                 self.sense * np.deg2rad(amplitude), self.frequency_Hz, self.dwell_s,
                 ease=self.ease_ms / 1e3,
             )  # fmt: skip
-            motions.append((course, self._swerved(car, straight, course, done)))
+            motion = self.simulated(
+                car, straight, OpenLoop(course, straight.unknowns["steering_wheel"]),
+                HeldTorque(0.0, 0.0), course.end + _YAW[-1][0] + 0.25, progress=done,
+            )  # fmt: skip
+            motions.append((course, motion))
         numbers = [judge(motion, course, self.sense) for course, motion in motions]
         return HandlingResult(
             self._judged(numbers, amplitudes, reference, car.mass),
@@ -88,14 +91,6 @@ class SineWithDwell(TurningManoeuvre):
         )  # fmt: skip
         found = slow.run(car, lambda part: progress(_SHARE * part))
         return float(np.rad2deg(found.metrics["reference_angle"]))
-
-    def _swerved(
-        self, car: DrivingCar, straight: Steady, course: SteeringCourse, progress: Progress
-    ) -> xr.Dataset:
-        return self.simulated(
-            car, straight, OpenLoop(course, straight.unknowns["steering_wheel"]),
-            HeldTorque(0.0, 0.0), course.end + _YAW[-1][0] + 0.25, progress=progress,
-        )  # fmt: skip
 
     def _judged(
         self, numbers: list[dict[str, float]], amplitudes: Array, reference: float, mass: float
@@ -121,12 +116,12 @@ class SineWithDwell(TurningManoeuvre):
         return xr.Dataset(found, {"amplitude": _axis(amplitudes)}, {"title": self.title})
 
 
-# Part of the time that slowly increasing steer takes.
+# Part of the progress for slowly increasing steer.
 _SHARE = 0.15
 
 
 def _key(after: float) -> str:
-    """Return how a time after steering is written in a name."""
+    """Return a time after steering as a part of a name."""
     return f"{after:.2f}".replace(".", "_")
 
 
@@ -169,9 +164,8 @@ def judge(motion: xr.Dataset, course: SteeringCourse, sense: int) -> dict[str, f
     ----------
     motion : xarray.Dataset
     course : SteeringCourse
-        The steering.
     sense : int
-        1 where it begins to the left.
+        1 if steering begins to the left, -1 to the right.
     """
     time = motion["time"].values
     steered = sense * (motion["steering_wheel_angle"] - motion["steering_wheel_angle"][0]).values
@@ -193,10 +187,7 @@ def judge(motion: xr.Dataset, course: SteeringCourse, sense: int) -> dict[str, f
 
 
 def _first_peak(values: Array) -> float:
-    """Return the first positive local maximum, or the greatest value if there is none.
-
-    The result is NaN if no value is positive: the car does not turn back.
-    """
+    """Return the first positive local maximum, or else the greatest value; NaN if not positive."""
     inner = (values[1:-1] > 0.0) & (values[1:-1] >= values[:-2]) & (values[1:-1] > values[2:])
     places = np.flatnonzero(inner)
     found = float(values[1 + places[0]] if places.size else values.max())
@@ -208,7 +199,7 @@ def _axis(amplitudes: Array) -> xr.Variable:
 
 
 def _together(motions: list[xr.Dataset], amplitudes: Array) -> xr.Dataset:
-    """Return the motions over amplitude, too."""
+    """Return the motions with the further dimension ``amplitude``."""
     index = xr.DataArray(_axis(amplitudes), name="amplitude")
     found = xr.concat(motions, index, join="outer", combine_attrs="override")
     degrees = [f"{amplitude:g} deg" for amplitude in amplitudes]

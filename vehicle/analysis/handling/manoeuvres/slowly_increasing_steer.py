@@ -15,9 +15,9 @@ from ..steering import ramp
 from .manoeuvre import Progress
 from .simulated import TurningManoeuvre, greatest
 
-# Acceleration of gravity by which the standard counts [m/s^2].
+# Acceleration of gravity in the standard [m/s^2].
 GRAVITY = 9.80665
-# Lateral accelerations between which the angle is fitted, and that of the reference angle [g].
+# Range of lateral accelerations of the fitted angle, and that of the reference angle [g].
 _FROM, _TO, _REFERENCE = 0.1, 0.375, 0.3
 
 

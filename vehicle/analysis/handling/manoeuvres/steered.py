@@ -28,14 +28,7 @@ class SteeredManoeuvre(TurningManoeuvre):
         return found
 
     def amplitude(self, turns: Turns, straight: Steady) -> float:
-        """Return the steering wheel angle from straight running, positive to the left [rad].
-
-        Parameters
-        ----------
-        turns : Turns
-            Those that are reached from straight running.
-        straight : Steady
-        """
+        """Return the steering wheel angle relative to straight running, positive left [rad]."""
         wanted = self.lateral_acceleration_m_per_s2
         if wanted is None:
             return float(self.sense * np.deg2rad(self.steering_wheel_deg or 0.0))

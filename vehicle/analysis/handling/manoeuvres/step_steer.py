@@ -18,7 +18,7 @@ from .steered import SteeredManoeuvre
 
 
 class StepSteer(SteeredManoeuvre):
-    """The steering wheel is turned quickly, and held."""
+    """The steering wheel turns quickly to an angle, and is held there."""
 
     TITLE: ClassVar[str] = "step steer"
 
