@@ -51,11 +51,12 @@ class ConstantStage:
 
     def contains(self, expression: sp.Expr) -> bool:
         """Return whether an expression depends on parameters only."""
-        return all(s in self.steps or s in self._given for s in symbols_of(expression))
+        return self._fixed.issuperset(symbols_of(expression))
 
     @cached_property
-    def _given(self) -> frozenset[sp.Symbol]:
-        return frozenset(self.parameters)
+    def _fixed(self) -> set[sp.Symbol]:
+        """Parameters, and the symbols of all steps."""
+        return {*self.parameters, *self.steps}
 
     def insert_derived(self, expression: sp.Expr) -> sp.Expr:
         """Write an expression without derived symbols."""
@@ -69,7 +70,7 @@ class ConstantStage:
         Parameters of a copy count, since they are replaced wherever their names are read.
         """
         symbol = sp.Symbol(name)
-        known = (self.steps, self._given, self.derived)
+        known = (self._fixed, self.derived)
         return any(symbol in names for names in known) or name in self.reserved
 
     def note(self, name: str) -> None:
@@ -89,6 +90,7 @@ class ConstantStage:
             return -self._known[negative]
         symbol = first_free(name, lambda n: self.has(n) or n in self._varying)
         self.steps[symbol] = Step(symbol, expression, section)
+        self._fixed.add(symbol)
         self._known[form] = symbol
         return symbol
 

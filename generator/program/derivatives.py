@@ -6,8 +6,10 @@ from operator import attrgetter
 from typing import TYPE_CHECKING
 
 import sympy as sp
+from sympy.core.cache import cacheit
 
 from .symbols import symbols_of
+from .vectors import product
 
 if TYPE_CHECKING:
     from collections.abc import Container, Iterator, Mapping
@@ -25,7 +27,8 @@ def chain_rule(
     tangent
         The derivative of each symbol that varies.
     """
-    return sp.Add(*(partial * tangent[s] for s, partial in partials(expression, tangent, symbol)))
+    found = partials(expression, tangent, symbol)
+    return sp.Add(*(product(partial, tangent[s]) for s, partial in found))
 
 
 def partials(
@@ -55,18 +58,30 @@ def partials(
 def _partials(
     expression: sp.Expr, moving: Container[sp.Symbol]
 ) -> Iterator[tuple[sp.Symbol, sp.Expr]]:
-    """Yield each moving symbol of an expression with the derivative with respect to it.
+    """Yield each moving symbol of an expression with the derivative with respect to it."""
+    for s, terms in _terms_by_symbol(expression):
+        if s in moving:
+            yield s, _derivative(terms, s)
 
-    Of a sum, only the terms with the symbol are differentiated: the equation of motion of a long
+
+@cacheit  # type: ignore[untyped-decorator]  # SymPy has no types
+def _terms_by_symbol(expression: sp.Expr) -> list[tuple[sp.Symbol, tuple[sp.Expr, ...]]]:
+    """Return the symbols of an expression by name, each with the terms that have it.
+
+    Of a sum, only the terms with a symbol are differentiated: the equation of motion of a long
     chain is one sum over all of its bodies.
     """
     having: dict[sp.Symbol, list[sp.Expr]] = {}
     for term in sp.Add.make_args(expression):
         for s in symbols_of(term):
-            if s in moving:
-                having.setdefault(s, []).append(term)
-    for s in sorted(having, key=attrgetter("name")):
-        yield s, sp.Add(*(_partial(term, s) for term in having[s]))
+            having.setdefault(s, []).append(term)
+    return [(s, tuple(having[s])) for s in sorted(having, key=attrgetter("name"))]
+
+
+@cacheit  # type: ignore[untyped-decorator]
+def _derivative(terms: tuple[sp.Expr, ...], s: sp.Symbol) -> sp.Expr:
+    """Return the derivative of a sum; a program asks again for each of its directions."""
+    return sp.Add(*(_partial(term, s) for term in terms))
 
 
 def _partial(expression: sp.Expr, s: sp.Symbol) -> sp.Expr:

@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from .function import Function
-from .functions import Guarded, Iterated
+from .functions import Iterated
 from .sharing import drop_dead
+from .symbols import guarded_in
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -42,7 +43,7 @@ def function_of(
     expressions = list(results.values())
     alive = drop_dead([*steps], expressions)
     read = [*(step.expression for step in alive), *expressions]
-    guarded = {g.args[0] for expression in read for g in expression.atoms(Guarded)}
+    guarded = set().union(*map(guarded_in, read))
     called = {e.args[0].name for e in read if isinstance(e, Iterated)}
     return Function(
         name,

@@ -12,12 +12,13 @@ from __future__ import annotations
 
 import re
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
+from .dependencies import Dependencies
 from .derivatives import chain_rule
 from .floors import SMALLEST
 from .functions import Component, Frozen, Guarded, Iterated
@@ -55,6 +56,8 @@ class Program:
     # outputs of narrow parts with their inputs, and the derivatives with respect to these
     _narrow: dict[sp.Symbol, tuple[sp.Symbol, ...]] = field(default_factory=dict)
     _partials: dict[tuple[sp.Symbol, sp.Symbol], sp.Expr] = field(default_factory=dict)
+    # what derivatives follow: through estimates that are corrected afterwards, none
+    _dependencies: Dependencies = field(default_factory=Dependencies)
 
     def section(self, title: str) -> None:
         """Begin a section of the derivation, to which the next steps belong."""
@@ -77,17 +80,19 @@ class Program:
         if self._spells:
             expression = self._spelled(name, expression)
         expression = self.constants.insert_derived(sp.sympify(expression))
-        if expression.is_Atom or (-expression).is_Symbol:
+        if expression.is_Atom or (expression.is_Mul and (-expression).is_Symbol):
             return expression
         if self.constants.contains(expression):
             return self.constants.define(name, expression, self._section)
         if expression in self._known:
             return self._known[expression]
-        if -expression in self._known:
-            return -self._known[-expression]
+        if (opposite := -expression) in self._known:
+            return -self._known[opposite]
         symbol = first_free(name, self._has)
         self.constants.note(symbol.name)
         self.steps[symbol] = Step(symbol, expression, self._section)
+        read = () if isinstance(expression, Frozen) else symbols_of(expression)
+        self._dependencies.add(symbol, read)
         self._known[expression] = symbol
         return symbol
 
@@ -271,22 +276,15 @@ class Program:
         Outputs of a narrow part are differentiated with respect to its inputs, but for those in
         `through`.
         """
-        moving = {
-            symbol: step
-            for symbol, step in self.steps.items()
-            if symbol not in tangent and not isinstance(step.expression, Frozen)
-        }
-        for output, inputs in self._narrow.items():
-            if output in moving and output not in through:
-                moving[output] = replace(moving[output], expression=sp.Add(*inputs))
-        needed = ancestors(moving, targets)
-        for step in [s for s in moving.values() if s.symbol in needed]:
-            if step.symbol in self._narrow and step.symbol not in through:
-                derivative = self._by_inputs(step.symbol, tangent)
+        narrow = {s: inputs for s, inputs in self._narrow.items() if s not in through}
+        ends = {s for target in targets for s in symbols_of(target)}
+        for symbol in self._dependencies.changing(tangent, ends, narrow):
+            if symbol in narrow:
+                derivative = self._by_inputs(symbol, tangent)
             else:
-                derivative = chain_rule(step.expression, tangent, step.symbol)
+                derivative = chain_rule(self.steps[symbol].expression, tangent, symbol)
             if derivative != 0:
-                tangent[step.symbol] = self.define(f"{step.symbol}__{label}", derivative)
+                tangent[symbol] = self.define(f"{symbol}__{label}", derivative)
 
     def substitute(
         self, replacements: Mapping[sp.Symbol, sp.Expr], targets: Iterable[sp.Expr], label: str
@@ -384,4 +382,5 @@ class Program:
                 rest = [a for a in arguments if a not in constant]
                 group = self.constants.collect(expression.func(*constant))
                 return expression.func(group, *rest)
-        return expression.func(*arguments)
+        unchanged = all(new is old for new, old in zip(arguments, expression.args, strict=True))
+        return expression if unchanged else expression.func(*arguments)

@@ -6,8 +6,8 @@ from operator import attrgetter
 from typing import TYPE_CHECKING
 
 import sympy as sp
-from sympy.simplify.cse_main import opt_cse
 
+from .regrouping import regrouped
 from .steps import Step
 from .symbols import symbols_of
 
@@ -78,7 +78,7 @@ class _Common:
         self._names = names
         self._named: dict[sp.Expr, sp.Symbol] = {}
         # sums and products in which parts of others are grouped
-        self._regrouped = opt_cse(expressions)
+        self._regrouped = regrouped(expressions)
         self._seen: set[sp.Expr] = set()
         self._repeated: set[sp.Expr] = set()
         self._changes: dict[sp.Expr, bool] = {}

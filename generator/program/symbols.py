@@ -1,10 +1,12 @@
-"""The symbols of expressions."""
+"""The symbols of expressions, and what is guarded in them."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from sympy.core.cache import cacheit
+
+from .functions import Guarded
 
 if TYPE_CHECKING:
     import sympy as sp
@@ -20,3 +22,10 @@ def symbols_of(expression: sp.Expr) -> frozenset[sp.Symbol]:
     if expression.is_Symbol:
         return frozenset((expression,))
     return frozenset().union(*map(symbols_of, expression.args))
+
+
+@cacheit  # type: ignore[untyped-decorator]
+def guarded_in(expression: sp.Expr) -> frozenset[sp.Expr]:
+    """Return the quantities that are guarded in an expression, collected like its symbols."""
+    own = (expression.args[0],) if isinstance(expression, Guarded) else ()
+    return frozenset(own).union(*map(guarded_in, expression.args))

@@ -16,6 +16,19 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 
+def product(a: Any, b: Any) -> Any:
+    """Return a product; with zero it is zero.
+
+    SymPy would first find out whether the other factor is finite, from all of its parts.
+
+    Parameters
+    ----------
+    a, b
+        Expressions or numbers.
+    """
+    return sp.S.Zero if a is sp.S.Zero or b is sp.S.Zero else a * b
+
+
 @dataclass(frozen=True)
 class Vector:
     """Three components along some right-handed axes."""
@@ -42,18 +55,18 @@ class Vector:
         return Vector(-self.x, -self.y, -self.z)
 
     def __mul__(self, factor: Any) -> Vector:
-        return Vector(self.x * factor, self.y * factor, self.z * factor)
+        return Vector(*(product(component, factor) for component in self))
 
     def dot(self, other: Vector) -> sp.Expr:
         """Return the scalar product."""
-        return self.x * other.x + self.y * other.y + self.z * other.z
+        return product(self.x, other.x) + product(self.y, other.y) + product(self.z, other.z)
 
     def cross(self, other: Vector) -> Vector:
         """Return the vector product ``self x other``."""
         return Vector(
-            self.y * other.z - self.z * other.y,
-            self.z * other.x - self.x * other.z,
-            self.x * other.y - self.y * other.x,
+            product(self.y, other.z) - product(self.z, other.y),
+            product(self.z, other.x) - product(self.x, other.z),
+            product(self.x, other.y) - product(self.y, other.x),
         )
 
     @property
@@ -155,7 +168,7 @@ class SymmetricTensor:
         return SymmetricTensor(*(a + b for a, b in zip(self, other, strict=True)))
 
     def __mul__(self, factor: Any) -> SymmetricTensor:
-        return SymmetricTensor(*(element * factor for element in self))
+        return SymmetricTensor(*(product(element, factor) for element in self))
 
     @property
     def columns(self) -> tuple[Vector, Vector, Vector]:
@@ -173,11 +186,7 @@ class SymmetricTensor:
         return SymmetricTensor(yy + zz, xx + zz, xx + yy, -xy, -xz, -yz)
 
     def __matmul__(self, v: Vector) -> Vector:
-        return Vector(
-            self.xx * v.x + self.xy * v.y + self.xz * v.z,
-            self.xy * v.x + self.yy * v.y + self.yz * v.z,
-            self.xz * v.x + self.yz * v.y + self.zz * v.z,
-        )
+        return Vector(*(column.dot(v) for column in self.columns))
 
     def in_axes(self, axes: tuple[Vector, Vector, Vector]) -> SymmetricTensor:
         """Return the components along other unit axes, given in the present ones."""
