@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from .simulation.simulate import simulate
     from .simulation.stepper import Stepper
     from .systems.compile import CompilerError, MechanismError, proposals, write_derivation
-    from .systems.compile import compile_mechanism as compile  # noqa: A004 (what the user calls it)
+    from .systems.compile import compile_mechanism as compile  # noqa: A004 (the public name)
     from .systems.derivatives import derivative, design_derivative, gradient
     from .systems.linearisation import Linearisation, linearise
     from .systems.modes import Mode
@@ -109,8 +109,8 @@ __all__ = [
     "write_derivation",
 ]
 
-# Names are loaded when they are first used: the generator is part of this package, and must run
-# where no model has been generated or compiled yet.
+# Names are loaded at first use: the generator is part of this package and must run where no model
+# has been generated or compiled yet.
 _MODULES = {
     ".vehicle.assembly.equilibrium": ("equilibrium",),
     ".vehicle.assembly.of": ("model_of",),
@@ -158,11 +158,11 @@ _MODULES = {
     ".targets.export": ("export_model",),
 }
 _HOMES = {name: module for module, names in _MODULES.items() for name in names}
-# Where this name would hide one of Python's at home.
+# Public names that would hide one of Python's in their own module.
 _OTHER_NAMES = {"compile": "compile_mechanism"}
 
 
-# Modules that are themselves part of the interface, and where they are.
+# Public modules by name.
 _INTERFACES = {
     "adams_car": ".vehicle.files.adams_car",
     "characteristics": ".vehicle.analysis.characteristics",

@@ -1,6 +1,6 @@
 """``python -m kintrafo``, and the command ``kintrafo``.
 
-What the command line imports takes a part of a second, in which Ctrl-C ends it as quietly as later.
+Importing the command line takes a part of a second; Ctrl-C during it ends the program quietly, too.
 """
 
 import sys
@@ -15,8 +15,8 @@ def run() -> None:
         from .core import interrupts  # noqa: PLC0415 (inside, to be guarded)
 
         interrupts.heed()
-        # where dask is installed, xarray imports it for 0.3 s to see whether it has arrays of it
-        sys.modules.setdefault("dask", None)  # type: ignore[arg-type]  # None: not there
+        # xarray imports an installed dask, which takes 0.3 s, to recognise its arrays
+        sys.modules.setdefault("dask", None)  # type: ignore[arg-type]  # None: not installed
         try:
             from .vehicle.cli import run as run_command_line  # noqa: PLC0415 (inside, to be guarded)
 

@@ -1,12 +1,12 @@
-"""Numbers of a whole batch where code was written for one.
+"""Numbers of a whole batch for code that was written for one number.
 
-A `BatchNumber` takes the place of a float: it has a number for each member of a batch, and
-arithmetic with it is that of each. A comparison has one answer, since code branches on it: that of
-the first member. Members with another answer are taken out of the `BatchMask`, and are computed one
-by one. So code for one runs once for many, and no member has a result of a branch of others.
+A `BatchNumber` is used instead of a float: it has a number for each member of a batch, and
+arithmetic acts on each. A comparison has one answer, since code branches on it: that of the first
+member. The `BatchMask` excludes members with another answer, and these are computed one by one. So
+code for one runs once for many, and no member has a result of a branch of others.
 
-The functions below are those of `math` and NumPy for floats, to the last bit, and go through every
-element of a batch with the same functions of `math`.
+The functions below are those of `math` and NumPy for floats, with the same bits, and apply the same
+functions of `math` to every element of a batch.
 """
 
 import math
@@ -20,34 +20,34 @@ Array = NDArray[np.float64]
 
 
 class BatchMask:
-    """Which members of a batch are computed together.
+    """The members of a batch that are computed together.
 
     Parameters
     ----------
     count : int
-        How many members there are.
+        Number of members.
 
     Attributes
     ----------
     valid : ndarray of bool, shape (count,)
-        False for those that took another branch than the first.
+        False for members that took another branch than the first.
     """
 
     def __init__(self, count: int) -> None:
         self.valid = np.ones(count, dtype=bool)
 
     def decide(self, answers: NDArray[np.bool_]) -> bool:
-        """Return the answer of the first, and take out those with another one."""
+        """Return the answer of the first member, and exclude those with another one."""
         self.valid &= answers == answers[0]
         return bool(answers[0])
 
 
 def _arithmetic(operation: Callable[[Any, Any], Any]) -> Callable[[Any, Any], Any]:
     def method(self: "BatchNumber", other: Any) -> Any:
-        # of an array and a number of a batch NumPy makes an array of such numbers
+        # NumPy then makes an array of batch numbers
         if isinstance(other, np.ndarray):
             return NotImplemented
-        with np.errstate(all="ignore"):  # as floats, but that what is wrong is taken out later on
+        with np.errstate(all="ignore"):  # members with NaN or infinity are excluded later
             return self.of(operation(self.values, other_values(other)))
 
     return method
@@ -99,7 +99,7 @@ class BatchNumber:
     __ge__ = _comparison(np.greater_equal)
     __eq__ = _comparison(np.equal)
     __ne__ = _comparison(np.not_equal)
-    __hash__ = None  # type: ignore[assignment] # equal for some, and not for others
+    __hash__ = None  # type: ignore[assignment] # some members may be equal, others not
 
     def __neg__(self) -> "BatchNumber":
         return self.of(-self.values)
@@ -112,7 +112,7 @@ class BatchNumber:
 
 
 def other_values(other: Any) -> Any:
-    """Return the numbers of a batch, or what else it is."""
+    """Return the values of a batch number, or any other operand unchanged."""
     return other.values if isinstance(other, BatchNumber) else other
 
 
@@ -121,7 +121,7 @@ def _of_a_batch(values: Iterable[Any]) -> BatchNumber | None:
 
 
 def each(function: Callable[..., float], *values: Any) -> Any:
-    """Return a function of floats, of each member where an argument is a number of a batch."""
+    """Return a function of floats, in a batch for each member."""
     column = _of_a_batch(values)
     if column is None:
         return function(*values)
@@ -129,7 +129,7 @@ def each(function: Callable[..., float], *values: Any) -> Any:
     rows = [np.broadcast_to(other_values(value), count).tolist() for value in values]
     try:
         return column.of(np.fromiter(map(function, *rows), np.float64, count))
-    except (ValueError, OverflowError):  # as math does; who it is has to be found one by one
+    except (ValueError, OverflowError):  # of some member
         return column.of(np.array([_or_nan(function, *row) for row in zip(*rows, strict=True)]))
 
 
@@ -141,7 +141,7 @@ def _or_nan(function: Callable[..., float], *values: float) -> float:
 
 
 def number(value: Any) -> Any:
-    """Return a float, or a number of a batch as it is."""
+    """Return a float, or a batch number unchanged."""
     return value if isinstance(value, BatchNumber) else float(value)
 
 
@@ -171,7 +171,7 @@ def degrees(angle: Any) -> Any:
 
 
 def length(vector: Any) -> Any:
-    """Return the length of a vector: that of NumPy for floats."""
+    """Return the length of a vector; of floats that of `numpy.linalg.norm`."""
     if _of_a_batch(vector) is None:
         return float(np.linalg.norm(vector))
     square: Any = sum(component * component for component in vector)
@@ -179,7 +179,7 @@ def length(vector: Any) -> Any:
 
 
 def greatest(values: Iterable[Any]) -> Any:
-    """Return the greatest of some numbers; in a batch that of each member."""
+    """Return the greatest of some numbers, in a batch for each member."""
     found = list(values)
     column = _of_a_batch(found)
     if column is None:
@@ -188,7 +188,7 @@ def greatest(values: Iterable[Any]) -> Any:
 
 
 def sorted_moments(matrix: Any) -> tuple[Any, Any, Any]:
-    """Return the eigenvalues of a symmetric matrix of three rows, the smallest first."""
+    """Return the eigenvalues of a symmetric 3 x 3 matrix in ascending order."""
     column = _of_a_batch(value for row in matrix for value in row)
     low: Any
     middle: Any
@@ -202,14 +202,14 @@ def sorted_moments(matrix: Any) -> tuple[Any, Any, Any]:
 
 
 def least_singular_value(matrix: Any) -> Any:
-    """Return the least singular value of a matrix."""
+    """Return the smallest singular value of a matrix."""
     column = _of_a_batch(value for row in matrix for value in row)
     least = np.linalg.svd(stacked(matrix), compute_uv=False)[..., -1]
     return float(least) if column is None else column.of(np.array(least))
 
 
 def stacked(values: Any) -> Array:
-    """Return an array of the shape of some values; of a batch with (count,) in front of it."""
+    """Return values as an array of their shape, in a batch with (count,) in front of it."""
     array = np.asarray(values)
     if array.dtype != object:
         return array.astype(np.float64, copy=False)
@@ -221,6 +221,6 @@ def stacked(values: Any) -> Array:
 
 
 def spread(values: Any) -> Array:
-    """Return what is broadcast over the positions of each member: of a batch (count, 1, ...)."""
+    """Return values with shape (count, 1, ...) in a batch, to broadcast over positions."""
     array = stacked(values)
     return array if array.ndim == np.ndim(values) else array[:, None]

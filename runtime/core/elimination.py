@@ -1,9 +1,9 @@
-"""Linear equations with few entries, at many positions: one elimination for all of them.
+"""Sparse linear equations at many positions, solved by one elimination for all of them.
 
-The entries of a matrix are columns over the positions, and what is zero is none. Pivots are chosen
-once, so that few entries appear besides (Markowitz) and none is much smaller than others that could
-be; each step is then a few operations on columns. Where that was not accurate for some position is
-seen from what is left of its equations.
+An entry of the matrix is an array over the positions; entries that are zero everywhere are left
+out. Pivots are chosen once: few entries fill in (Markowitz) and no pivot is much smaller than other
+candidates. Each step is then a few operations on arrays. The residual of the equations shows the
+positions at which the result is not accurate.
 """
 
 from collections.abc import Mapping
@@ -16,18 +16,19 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 Entries = Mapping[tuple[int, int], Array]
-"""By row and column, over the positions."""
+"""Entries over the positions, by row and column."""
 
-# A pivot has this part of the largest entry in its column (Duff, Erisman & Reid's usual threshold).
+# A pivot is at least this part of the largest entry of its column (the usual threshold of Duff,
+# Erisman & Reid).
 _THRESHOLD = 0.1
-# What may be left of the equations, of the largest sum of the sizes of terms in one: with pivots of
-# its own for each position some 1e-16 is left for each of some tens of unknowns.
+# Largest residual, relative to the largest sum of magnitudes of the terms of an equation: with
+# pivots of its own for each position it is some 1e-16 for each of some tens of unknowns.
 _LEFT = 1e-13
 
 
 @dataclass(frozen=True)
 class _Step:
-    """A pivot, the rows from which it goes, and the columns of its own row that are left."""
+    """A pivot, the rows from which it is eliminated, and the remaining columns of its own row."""
 
     row: int
     column: int
@@ -41,16 +42,16 @@ def eliminated(entries: Entries, right: Array) -> tuple[Array, Flags]:
     Parameters
     ----------
     entries : mapping
-        Those of a square matrix that are not zero everywhere, each of shape (n,).
+        Entries of a square matrix that are not zero everywhere, each of shape (n,).
     right : ndarray, shape (m, k, n)
-        Right sides, of which there are k.
+        k right sides.
 
     Returns
     -------
     solutions : ndarray, shape (m, k, n)
     accurate : ndarray of bool, shape (n,)
-        Whether they fulfil the equations to rounding. Where not, which includes equations that
-        have no solution, they mean nothing.
+        Whether they fulfil the equations to rounding. Where False, for singular equations too, the
+        solutions are meaningless.
 
     Examples
     --------
@@ -66,7 +67,7 @@ def eliminated(entries: Entries, right: Array) -> tuple[Array, Flags]:
     work, left = dict(entries), right.copy()
     steps = _plan(sample, {*entries})
     found = np.full_like(right, np.nan)
-    with np.errstate(all="ignore"):  # what becomes infinite is seen at the end
+    with np.errstate(all="ignore"):  # infinite results are not accurate
         for step in steps:
             _eliminate(step, work, left)
         for step in reversed(steps):
@@ -77,7 +78,7 @@ def eliminated(entries: Entries, right: Array) -> tuple[Array, Flags]:
 
 
 def _plan(sample: Array, there: set[tuple[int, int]]) -> list[_Step]:
-    """Return the order of elimination, from one position; nothing where it is singular there."""
+    """Return the order of elimination for the matrix of one position; empty if it is singular."""
     size = len(sample)
     sample, held = sample.copy(), np.zeros((size, size), dtype=bool)
     held[tuple(np.transpose([*there]))] = True
@@ -102,7 +103,7 @@ def _plan(sample: Array, there: set[tuple[int, int]]) -> list[_Step]:
 
 
 def _eliminate(step: _Step, work: dict[tuple[int, int], Array], left: Array) -> None:
-    """Take an unknown out of the equations that are left, and divide its own by its pivot."""
+    """Eliminate an unknown from the other equations, and divide its own by its pivot."""
     row, column = step.row, step.column
     inverse = 1.0 / work[row, column]
     left[row] *= inverse
@@ -118,7 +119,7 @@ def _eliminate(step: _Step, work: dict[tuple[int, int], Array], left: Array) -> 
 
 
 def _fulfilled(entries: Entries, right: Array, found: Array) -> Flags:
-    """Return where solutions fulfil their equations."""
+    """Return at which positions solutions fulfil their equations."""
     left, terms, term = -right, np.abs(right), np.empty_like(right[0])
     for (row, column), values in entries.items():
         np.multiply(values, found[column], out=term)

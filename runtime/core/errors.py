@@ -1,7 +1,7 @@
-"""The exceptions that kintrafo raises on purpose.
+"""Base classes of the exceptions that kintrafo raises on purpose.
 
-Each of them derives from `KintrafoError`, so that one ``except`` clause catches them all: those of
-the generator and of the generated code too. So this file depends on the form of texts alone.
+All of them derive from `KintrafoError`, so that one ``except`` clause catches them, also those of
+the generator and of generated code.
 """
 
 from collections.abc import Iterable
@@ -12,7 +12,7 @@ from .legible import readable, short
 __all__ = ["InputError", "KintrafoError"]
 
 
-# How much of a file is repeated in messages.
+# Number of problems in an error, and characters of each.
 _MOST_PROBLEMS, _LONGEST = 100, 2000
 
 
@@ -26,18 +26,18 @@ class InputError(KintrafoError, ValueError):
     Parameters
     ----------
     problems : iterable of str
-        One sentence or more for each problem: section and key, value with unit, what is allowed,
-        what to change.
+        A sentence or more for each problem: section and key, value with unit, the allowed values,
+        and the change that is needed.
     source : str, optional
-        Where the data come from, usually the name of the file.
+        Origin of the data, usually the name of the file.
 
     Attributes
     ----------
     problems : tuple of str
-        The problems, in the order of the file's sections: the first hundred, each of 2,000
-        characters at most, without what no terminal can show.
+        The first hundred problems in the order of the file's sections, each cut to 2,000
+        characters, with escapes for characters that no terminal can show.
     source : str
-        Where the data come from.
+        Origin of the data.
 
     Examples
     --------
@@ -60,7 +60,7 @@ class InputError(KintrafoError, ValueError):
 
 
 def _bounded(problems: Iterable[str]) -> list[str]:
-    """Return the first problems, shortened, and that there are more; of what it returns, all."""
+    """Return the first problems, shortened, and a note of more; its own result unchanged."""
     first = islice(problems, _MOST_PROBLEMS + 1)
     listed = [short(readable(problem[: _LONGEST + 1]), _LONGEST) for problem in first]
     if len(listed) > _MOST_PROBLEMS:

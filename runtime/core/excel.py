@@ -12,7 +12,7 @@ from .optional import require
 from .reading import MIB, MOST_OF_DATA
 
 ROWS, COLUMNS = 1_048_576, 16_384
-"""What a sheet of Excel holds at most, the heading included (its file format)."""
+"""Most rows and columns of a sheet of Excel, the heading included (limits of the file format)."""
 
 _MOST_ROWS, _MOST_COLUMNS = 10_000, 256
 _MOST_SHEETS = 100
@@ -22,9 +22,9 @@ _MOST_UNPACKED = 32 * MIB  # texts that repeat are packed to a thousandth
 
 @dataclass(frozen=True)
 class Page:
-    """A sheet: what it is called, whether it is hidden, and its rows with their numbers.
+    """A sheet: its name, whether it is hidden, and its rows with their numbers.
 
-    A cell has a number, a text, a truth value, a time, or None; a formula has its last value.
+    A cell is a number, a text, a truth value, a time, or None; that of a formula its last value.
     """
 
     name: str
@@ -33,12 +33,12 @@ class Page:
 
 
 def pages_of(file: Path) -> list[Page]:
-    """Return the sheets of a workbook, without rows that are empty.
+    """Return the sheets of a workbook without empty rows.
 
     Raises
     ------
     InputError
-        If it cannot be read, or a cell is farther out than any table of a suspension goes.
+        If it cannot be read, or a cell is beyond the limits of rows and columns.
     MissingPackageError
     """
     require("openpyxl", purpose="Reading Excel files", extra="excel")
@@ -66,11 +66,11 @@ _NO_WORKBOOK = "the file is not a readable Excel workbook. Save it as .xlsx or .
 
 
 def _refuse_large(file: Path) -> None:
-    """Refuse a workbook that is large, or would be once it is unpacked."""
+    """Refuse a workbook that is too large, packed or unpacked."""
     try:
         packed = file.stat().st_size
         with ZipFile(file) as archive:
-            # at most this is unpacked of a member
+            # an upper bound of the unpacked size
             unpacked = sum(member.file_size for member in archive.infolist())
     except OSError as error:
         raise InputError([f"the file cannot be read: {reason(error)}"], str(file)) from None
@@ -85,8 +85,8 @@ def _refuse_large(file: Path) -> None:
 
 
 def _rows(sheet: Any, file: Path) -> Iterator[tuple[int, list[Any]]]:
-    """Yield the rows that are not empty; a row that is far away is no reason to wait."""
-    sheet.reset_dimensions()  # what the sheet says of its own size need not be so
+    """Yield the rows that are not empty; refuse a row or cell beyond the limits."""
+    sheet.reset_dimensions()  # the size that a file states may be wrong
     held = 0
     for number, cells in enumerate(sheet.iter_rows(values_only=True), 1):
         if number > ROWS:

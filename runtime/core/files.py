@@ -1,8 +1,8 @@
-"""Writing files whole or not at all, and never over those of other programs.
+"""Writing files completely or not at all, and never over those of other programs.
 
-One rule for all of this package: a file that is there is replaced only if this program wrote it
-and it has not changed since, or if it is empty, or if ``force`` says so. A file that is read is
-never written, and neither is anything that is no ordinary file.
+One rule holds for the whole package: an existing file is replaced only if kintrafo wrote it and it
+has not changed since, or if it is empty, or with ``force``. A file that is read is never written,
+and neither is anything that is not an ordinary file.
 """
 
 import errno
@@ -30,16 +30,15 @@ _REMEDIES = {
 
 @contextmanager
 def replacing(path: str | Path, *, force: bool = False, inputs: Paths = ()) -> Iterator[Path]:
-    """Let a caller write a file that appears only when it is complete.
+    """Yield a temporary file that replaces the target once it is complete.
 
-    Where two write the same file at a time, each has a temporary one of its own, and the file is
-    at any time what one of them wrote.
+    Where two programs write the same file at a time, each has a temporary one of its own.
 
     Parameters
     ----------
     path : str or pathlib.Path
-        The file to write; its folder is made if there is none. A file that is there already stays
-        as it was if anything goes wrong. Through a link, what it points to is written.
+        The target; its folder is created if necessary. Of a link, the file it points to is written.
+        An existing file stays as it was if anything goes wrong.
     force : bool, optional
         Whether a file that kintrafo did not write is replaced.
     inputs : iterable of str or pathlib.Path, optional
@@ -48,13 +47,13 @@ def replacing(path: str | Path, *, force: bool = False, inputs: Paths = ()) -> I
     Yields
     ------
     pathlib.Path
-        A temporary file of the same name, to be written: in a folder beside the target that no
-        other user may enter.
+        A temporary file of the same name, in a folder beside the target that no other user may
+        enter.
 
     Raises
     ------
     InputError
-        If the file must not be written (see `refuse`), or the system does not let it be written.
+        If the file must not be written (see `refuse`), or the system does not allow it.
 
     Examples
     --------
@@ -65,19 +64,18 @@ def replacing(path: str | Path, *, force: bool = False, inputs: Paths = ()) -> I
     ...     [file.name for file in Path(folder).iterdir()]
     ['curves.csv']
     """
-    _, read = _paths([path], inputs, force)  # looked at twice, and may be handed over only once
+    _, read = _paths([path], inputs, force)  # `inputs` may be an iterator, and is used twice
     refuse([path], force=force, inputs=read)
     with as_input_errors(path):
         target = _resolved(Path(path))
         target.parent.mkdir(parents=True, exist_ok=True)
-        # a name that cannot be predicted, made by us and open to us alone
-        folder = None
+        folder = None  # with an unpredictable name and access for this user alone
         try:
             with interrupts.held():
                 folder = Path(tempfile.mkdtemp(prefix=".kintrafo-", dir=target.parent))
             temporary = folder / target.name
             yield temporary
-            # what has appeared in the meantime is not replaced either
+            # nor is a file replaced that has appeared in the meantime
             refuse([path], force=force, inputs=read)
             interrupts.check()
             with interrupts.held():
@@ -94,25 +92,22 @@ def replacing(path: str | Path, *, force: bool = False, inputs: Paths = ()) -> I
 def refuse(
     paths: Paths, *, force: bool = False, inputs: Paths = (), endings: Sequence[str] = ()
 ) -> None:
-    """Refuse to write files that are not this program's to write; all problems at once.
+    """Refuse to write files that kintrafo may not replace, with all problems in one error.
 
     Parameters
     ----------
     paths : iterable of str or pathlib.Path
         Files to be written.
-    force : bool, optional
-        Whether files that kintrafo did not write are replaced.
-    inputs : iterable of str or pathlib.Path, optional
-        Files that are read, and never replaced.
+    force, inputs
+        As for `replacing`.
     endings : sequence of str, optional
-        What a name may end in; anything by default.
+        Allowed endings of names; any by default.
 
     Raises
     ------
     InputError
-        If a file is there that is not empty and not as this program wrote it, and `force` does not
-        say that it is replaced; if it is read; if it is no ordinary file; if its name ends wrongly;
-        if it is named twice.
+        If a file exists, is neither empty nor as kintrafo wrote it, and `force` is False; if it is
+        read; if it is not an ordinary file; if its name has another ending; if it is named twice.
     """
     wanted, read = _paths(paths, inputs, force)
     found = {}
@@ -132,10 +127,10 @@ def refuse(
 
 
 def _paths(paths: Paths, inputs: Paths, force: object) -> tuple[list[Path], list[str | Path]]:
-    """Return what is written and what is read; refuse what are no paths.
+    """Return the files that are written and those that are read; refuse objects that are not paths.
 
-    A text would be one path for each of its letters. `Validator` would do it, and is slow to load:
-    commands that only print their help read this file, too.
+    A text would be one path for each of its letters. (`Validator` is slow to load, and commands
+    that only print their help import this file.)
     """
     listed = {"path": _listed(paths), "inputs": _listed(inputs)}
     problems = [
@@ -157,7 +152,7 @@ def _paths(paths: Paths, inputs: Paths, force: object) -> tuple[list[Path], list
 
 
 def _listed(some: Paths) -> list[str | Path]:
-    """Return what is in a list, or what was given in its place."""
+    """Return the elements of a list, or the argument if it is not one."""
     try:
         return list(some)
     except TypeError:
@@ -165,7 +160,7 @@ def _listed(some: Paths) -> list[str | Path]:
 
 
 def _resolved(path: Path) -> Path:
-    """Return where a file is, through all links."""
+    """Return the location of a file, with all links resolved."""
     if "\0" in str(path):
         raise OSError(errno.EINVAL, "a zero byte is not allowed in a name")
     try:
@@ -182,7 +177,7 @@ def _wrong_ending(path: Path, endings: Sequence[str]) -> str:
 
 
 def _in_the_way(target: Path, force: bool, inputs: Paths) -> str:
-    """Say why a file must not be replaced; empty if it may."""
+    """Return why a file must not be replaced; empty if it may."""
     if not target.exists():
         return ""
     if not target.is_file():
@@ -199,20 +194,7 @@ def _in_the_way(target: Path, force: bool, inputs: Paths) -> str:
 
 @contextmanager
 def as_input_errors(path: str | Path, what: str = "cannot be written") -> Iterator[None]:
-    """Say in words what the system does not let be done with a file.
-
-    Parameters
-    ----------
-    path : str or pathlib.Path
-        The file.
-    what : str, optional
-        What cannot be done.
-
-    Raises
-    ------
-    InputError
-        Instead of any `OSError`.
-    """
+    """Raise an `InputError` about a file and the failed operation instead of any `OSError`."""
     try:
         yield
     except OSError as error:
@@ -220,7 +202,7 @@ def as_input_errors(path: str | Path, what: str = "cannot be written") -> Iterat
 
 
 def reason(error: OSError) -> str:
-    """Return what the system says, and what to do about it, as sentences."""
+    """Return the message of the system, and advice, as sentences."""
     said = error.strerror or str(error) or type(error).__name__
     remedy = _REMEDIES.get(error.errno or 0, "Check its name and folder.")
     return f"{said.rstrip('.')}. {remedy}"

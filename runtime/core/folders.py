@@ -1,6 +1,6 @@
-"""Where this program keeps things between two runs, and who else could have written there.
+"""The folder of compiled mechanisms, and checks that no other user could have written to it.
 
-What is kept is run again, so that it must come from the user who runs it: folders and files that
+Its files are run again, so they must come from the user who runs them: folders and files that
 others own, or can write to, are refused.
 """
 
@@ -14,77 +14,40 @@ from platformdirs import user_cache_path
 from .errors import InputError
 
 VARIABLE = "KINTRAFO_CACHE"
-"""Environment variable that names another folder."""
+"""Environment variable with the name of another folder."""
 
 _OF_OTHERS = stat.S_IWGRP | stat.S_IWOTH
 
 
 def cache_folder() -> Path:
-    """Return the folder of what is kept, which need not exist.
-
-    Compiled mechanisms are in it, and `kintrafo.core.written` notes there which files were written.
-    """
+    """Return the folder of compiled mechanisms and of the register of written files."""
     named = os.environ.get(VARIABLE)
     return Path(named) if named else user_cache_path("kintrafo")
 
 
 def make_folder(folder: Path) -> None:
-    """Make a folder that its owner alone can write to, with any umask; one that is there stays.
-
-    Parameters
-    ----------
-    folder : Path
-        Those above it are made, too.
-
-    Raises
-    ------
-    OSError
-        If the system does not let it be made.
-    """
+    """Create a folder, and those above it, with write permission for its owner alone."""
     if not folder.is_dir():
         folder.mkdir(parents=True, exist_ok=True)
         keep_to_owner(folder)
 
 
 def keep_to_owner(path: Path) -> None:
-    """Let only the owner write to a file or a folder.
-
-    Parameters
-    ----------
-    path : Path
-        It exists.
-    """
+    """Remove the write permission of others from a file or a folder."""
     path.chmod(stat.S_IMODE(path.stat().st_mode) & ~_OF_OTHERS)
 
 
 def shared(*paths: Path) -> str:
-    """Return which of some files and folders another user may have written to.
+    """Return which of some files and folders another user may have written to, and who.
 
-    Parameters
-    ----------
-    *paths : Path
-        One that does not exist has no owner. Of a link, both ends count.
-
-    Returns
-    -------
-    str
-        Which, and who; empty if the user alone, or the system's administrator, can have done so.
+    The text is empty if only the user or the administrator can have done so. A path that does not
+    exist is not shared; of a link, both ends count.
     """
     return next((text for path in paths if (text := _shared(path))), "")
 
 
 def refuse_shared(*paths: Path) -> None:
-    """Refuse files and folders that another user may have written to.
-
-    Parameters
-    ----------
-    *paths : Path
-        As of `shared`.
-
-    Raises
-    ------
-    InputError
-    """
+    """Raise an InputError for files and folders that another user may have written to."""
     problem = shared(*paths)
     if problem:
         text = (
@@ -100,7 +63,7 @@ def _shared(path: Path) -> str:
     for look in (os.lstat, os.stat):
         try:
             found = look(path)
-        except OSError:  # it is not there, or cannot be read either
+        except OSError:  # it does not exist, or cannot be read
             return ""
         if found.st_uid not in (os.geteuid(), 0):
             return f"{path} belongs to {_user(found.st_uid)}"
@@ -114,9 +77,9 @@ def _shared(path: Path) -> str:
 
 
 def _by_owner_alone(found: os.stat_result) -> bool:
-    """Return whether what a group may write to is of a group in which its owner is alone.
+    """Return whether the group that may write to a file has its owner as the only member.
 
-    Many systems give every user a group of the same name, and let it write by default.
+    Many systems create such a group for every user, and let it write by default.
     """
     import grp  # noqa: PLC0415 (Windows has none)
     import pwd  # noqa: PLC0415 (Windows has none)
@@ -125,7 +88,7 @@ def _by_owner_alone(found: os.stat_result) -> bool:
         return False
     try:
         group, user = grp.getgrgid(found.st_gid), pwd.getpwuid(found.st_uid).pw_name
-    except KeyError:  # neither has an entry
+    except KeyError:  # the group or the user has no entry
         return False
     return group.gr_name == user and set(group.gr_mem) <= {user}
 

@@ -1,8 +1,8 @@
-"""Ctrl-C: none is lost, and what must not be left half done is done first.
+"""Ctrl-C: no interrupt is lost, and operations that must not be half done are completed first.
 
-Python raises KeyboardInterrupt wherever a program happens to be. In a callback that cannot raise
-(of a weak reference, which imports have; ``__del__``; one from C) Python prints a traceback and
-goes on, and so does a clause of a library that catches everything.
+Python raises KeyboardInterrupt at any place of a program. In a callback that cannot raise (of a
+weak reference, which imports have; ``__del__``; one from C) Python prints a traceback and goes on,
+and so does a clause of a library that catches everything.
 """
 
 import signal
@@ -16,18 +16,18 @@ from queue import Empty, SimpleQueue
 from types import FrameType
 from typing import Any
 
-# How long a program may tidy up after an interrupt before it is raised again [s].
+# Time in which a program may clean up before an interrupt is raised again [s].
 _PATIENCE = 1.0
-# Until a callback in which one was lost has ended [s].
+# Time in which a callback that lost an interrupt has ended [s].
 _MOMENT = 0.005
 
 
 class _Heard:
-    """The interrupts of a program."""
+    """The interrupts of a program that have occurred."""
 
     def __init__(self) -> None:
         self.any = False
-        # the one queue that may be written to where a signal is handled
+        # the only queue that a signal handler may write to
         self.events: SimpleQueue[str] = SimpleQueue()
 
     def handle(self, _number: int, _frame: FrameType | None) -> None:
@@ -37,14 +37,14 @@ class _Heard:
         raise KeyboardInterrupt
 
     def lost(self, unraisable: Any) -> None:
-        """Note an interrupt that could not be raised; Python prints what else could not."""
+        """Note an interrupt that could not be raised; Python prints any other exception."""
         if issubclass(unraisable.exc_type, KeyboardInterrupt):
             self.events.put("lost")
         else:
             sys.__unraisablehook__(unraisable)
 
     def raise_again(self) -> None:
-        """Raise an interrupt that was lost again; in a thread of its own, until the end."""
+        """Raise lost interrupts again; runs in a thread of its own until the end."""
         patience = None  # forever, for the first
         while True:
             try:
@@ -63,10 +63,9 @@ _heard = _Heard()
 
 
 def heed() -> None:
-    """From here on see that the first Ctrl-C ends this program; for its main thread.
+    """Ensure from now on that the first Ctrl-C ends this program; called in its main thread.
 
-    The process that started it may have asked that Ctrl-C be ignored, as shells do in the
-    background.
+    If the parent process asked that Ctrl-C be ignored, as shells do in the background, it stays so.
     """
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         threading.Thread(target=_heard.raise_again, daemon=True).start()
@@ -75,7 +74,7 @@ def heed() -> None:
 
 
 def end() -> None:
-    """Ignore Ctrl-C from here on, as the program has ended; raise one that did not end it."""
+    """Ignore Ctrl-C from now on, as the program has ended; raise one that did not end it."""
     if signal.getsignal(signal.SIGINT) == _heard.handle:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         sys.unraisablehook = sys.__unraisablehook__
@@ -84,14 +83,14 @@ def end() -> None:
 
 
 def check() -> None:
-    """Raise KeyboardInterrupt if there was one: nothing is written after it."""
+    """Raise KeyboardInterrupt if one has occurred: nothing is written after it."""
     if _heard.any:
         raise KeyboardInterrupt
 
 
 @contextmanager
 def held() -> Iterator[None]:
-    """Let Ctrl-C wait until this is done: a file put in its place, a process that is noted."""
+    """Delay Ctrl-C until the block ends: a file put in its place, a process that is noted."""
     handler = signal.getsignal(signal.SIGINT)
     if threading.current_thread() is not threading.main_thread() or not callable(handler):
         yield  # signals are handled by the main thread

@@ -3,24 +3,16 @@
 import re
 from typing import Any
 
-# Control characters, and halves of characters: bytes of a file's name that are not UTF-8 are such.
+# Control characters, and surrogates: bytes of a file's name that are not UTF-8 are such.
 _STRANGE = re.compile("[\x00-\x1f\x7f-\x9f\ud800-\udfff]")
-# The same without what stands between the lines and words of a text.
+# The same without tabs and ends of lines.
 _STRANGE_IN_TEXTS = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ud800-\udfff]")
 _MOST_KEYS = 20_000
-_BYTES = range(0xDC80, 0xDD00)  # how Python keeps bytes from 0x80 on that are not UTF-8 (PEP 383)
+_BYTES = range(0xDC80, 0xDD00)  # Python's form of bytes from 0x80 on that are not UTF-8 (PEP 383)
 
 
 def legible(text: str) -> str:
-    r"""Return a text with what cannot be shown as Python would write it.
-
-    Parameters
-    ----------
-    text : str
-
-    Returns
-    -------
-    str
+    r"""Return a text with escapes of Python for characters that cannot be shown, ends of lines too.
 
     Examples
     --------
@@ -31,17 +23,7 @@ def legible(text: str) -> str:
 
 
 def short(text: str, most: int = 80) -> str:
-    """Return the beginning of a text that is too long to be read.
-
-    Parameters
-    ----------
-    text : str
-    most : int, optional
-        So many characters are the most.
-
-    Returns
-    -------
-    str
+    """Return a text, or its beginning if it has more than `most` characters.
 
     Examples
     --------
@@ -52,14 +34,14 @@ def short(text: str, most: int = 80) -> str:
 
 
 def readable(text: str) -> str:
-    """Return a text of one or more lines with what cannot be shown as Python would write it."""
+    """Return a text of one or more lines with escapes for characters that cannot be shown."""
     return _STRANGE_IN_TEXTS.sub(_escaped, text)
 
 
 def strange(data: Any) -> str:
-    r"""Say which text or key of nested data has what cannot be shown; empty if none has.
+    r"""Return a message if nested data have a text or key that cannot be shown; else an empty text.
 
-    Data of more than 20,000 keys are strange, too: each of those that are wrong costs a message.
+    Data of more than 20,000 keys have a message, too: each key that is wrong costs one.
 
     Examples
     --------

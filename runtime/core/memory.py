@@ -1,4 +1,4 @@
-"""How much memory there is, so that what does not fit is refused before it is begun."""
+"""Free memory, so that results which do not fit are refused before they are computed."""
 
 import os
 from collections.abc import Iterator, Sequence, Sized
@@ -14,22 +14,14 @@ from .validator import Validator
 Array = NDArray[np.float64]
 
 _EACH = 4096
-"""What curves take for each position, of the kinds that there are 800 to 5500 [bytes]."""
+"""Memory of all curves of a position, rounded up: there are 800 to 5500 curves [bytes]."""
 _UNITS = (("TB", 1e12), ("GB", 1e9), ("MB", 1e6))
 
 
 def refuse_beyond(given: Validator, needed: float, what: str, instead: str) -> bool:
-    """Refuse what needs more memory than there is, and return whether it does.
+    """Refuse a computation that needs more memory than is free, and return whether it does.
 
-    Parameters
-    ----------
-    given : Validator
-    needed : float
-        [bytes]
-    what : str
-        What needs it, with its sizes; a plural.
-    instead : str
-        What to do: a sentence.
+    `needed` is in bytes; `what` names the data, with sizes, in the plural; `instead` is advice.
     """
     there = free()
     if needed > there:
@@ -48,15 +40,7 @@ def positions_given(
 ) -> Array:
     """Return positions as an array, or refuse those whose curves do not fit into memory.
 
-    Parameters
-    ----------
-    given : Validator
-    name, values, unit
-        The argument.
-    dimensions : sequence of int, optional
-        How many dimensions it may have.
-    times : int, optional
-        How many positions there are for each of the values.
+    `dimensions` are the allowed numbers of dimensions; there are `times` positions for each value.
     """
     size = getattr(values, "size", None)
     count = size if isinstance(size, int) else len(values) if isinstance(values, Sized) else 1
@@ -67,7 +51,7 @@ def positions_given(
 
 
 def free() -> float:
-    """Return how much memory this process can still take, as far as the system shows [bytes]."""
+    """Return the memory that this process can still allocate, as the system reports it [bytes]."""
     return min(_limits(), default=float("inf"))
 
 
@@ -85,7 +69,7 @@ def _limits() -> Iterator[float]:
         pages = Path("/proc/self/statm").read_text(encoding="ascii").split()[0]
         if limit != resource.RLIM_INFINITY:
             yield float(limit - int(pages) * os.sysconf("SC_PAGE_SIZE"))
-    with suppress(OSError, ValueError, AttributeError):  # what is there at all
+    with suppress(OSError, ValueError, AttributeError):  # all memory of the machine
         yield float(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE"))
 
 
@@ -99,6 +83,6 @@ def _table(path: str) -> dict[str, float]:
 
 
 def _size(count: float) -> str:
-    """Return a number of bytes, for people."""
+    """Return a number of bytes with a unit, as a text."""
     unit, scale = next((one for one in _UNITS if count >= one[1]), _UNITS[-1])
     return f"{count / scale:.3g} {unit}"

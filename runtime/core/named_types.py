@@ -1,11 +1,11 @@
-"""Types that the signatures of public functions call by their names, rather than spell out."""
+"""Types with a short name in the signatures of public functions."""
 
 import numpy as np
 import numpy.typing as npt
 from typing_extensions import TypeAliasType
 
 ArrayLike = TypeAliasType("ArrayLike", npt.ArrayLike)
-"""What `numpy.asarray` makes an array of: numbers, sequences of them, arrays."""
+"""Any argument of `numpy.asarray`: a number, a sequence of numbers, an array."""
 
 Array = npt.NDArray[np.float64]
 """An array of floating-point numbers of double precision."""

@@ -1,4 +1,4 @@
-"""Packages that only some results need, and what to say where they are not installed."""
+"""Packages that only some results need, and the message where they are not installed."""
 
 from importlib import import_module
 from types import ModuleType
@@ -7,7 +7,7 @@ from .errors import KintrafoError
 
 
 class MissingPackageError(KintrafoError, ImportError):
-    """Something was asked for that needs a package which is not installed."""
+    """A result needs a package that is not installed."""
 
 
 def require(module: str, *, purpose: str, extra: str) -> ModuleType:
@@ -18,13 +18,9 @@ def require(module: str, *, purpose: str, extra: str) -> ModuleType:
     module : str
         Its import name.
     purpose : str
-        What needs it: the beginning of a sentence.
+        The purpose: the beginning of a sentence.
     extra : str
         The extra of this project that installs it.
-
-    Returns
-    -------
-    module
 
     Raises
     ------

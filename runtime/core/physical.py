@@ -1,7 +1,7 @@
-"""What the parameters of a mechanism can be: ranges, and the inertia that some body has.
+"""Ranges of a mechanism's parameters, and inertia tensors that a body can have.
 
-A declaration is held against it with its defaults, and a compiled model with every set of
-parameters. Depends on nothing else of this project.
+The defaults of a declaration are checked with these functions, and every parameter set of a
+compiled model. This file depends on nothing else of the project.
 """
 
 from collections.abc import Iterator, Mapping
@@ -13,28 +13,23 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 ELEMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
-"""Elements of an inertia tensor, by the ends of their parameters' names."""
+"""Ends of the names of parameters for the elements of an inertia tensor."""
 
-# What rounding may do to a principal moment of inertia, relative to the largest.
+# Rounding error of a principal moment of inertia, relative to the largest.
 _ROUNDING = 1e-9
 
 
 def out_of_range(
     values: Mapping[str, float], described: Mapping[str, Mapping[str, Any]]
 ) -> list[str]:
-    """Find values that are outside of the ranges of their parameters.
+    """Return a text for each parameter out of its range, with name, value, unit and range.
 
     Parameters
     ----------
     values : mapping
         Finite numbers by name, SI units.
     described : mapping
-        By name: the unit, and ``least``, ``above`` and ``most`` as far as there are such bounds.
-
-    Returns
-    -------
-    list of str
-        One text for each, with name, value, unit and range.
+        By name: the unit, and those of the bounds ``least``, ``above`` and ``most`` that exist.
 
     Examples
     --------
@@ -61,38 +56,20 @@ def out_of_range(
 
 
 def inertia_of_no_body(values: Mapping[str, float]) -> list[str]:
-    """Find inertia tensors that no body can have.
+    """Return a text for each inertia tensor that no body can have, from parameters by name (SI).
 
-    The principal moments of a body are none above the sum of the others. What is not given as a
-    whole is not looked at: in a plane only one moment counts. The moment of a rotor about its axis
-    has no bound: a shaft that turns with it adds to this one alone.
-
-    Parameters
-    ----------
-    values : mapping
-        Parameters by name: those that end in ``_inertia_xx`` and so on, SI units.
-
-    Returns
-    -------
-    list of str
-        One text for each body.
+    No principal moment of a body exceeds the sum of the other two. A tensor with missing elements
+    is not checked: in a plane only one moment counts. The moment of a rotor about its axis has no
+    bound, since that of a shaft that turns with it may be included.
     """
     return list(_impossible_tensors(values))
 
 
 def rotors_of_no_body(values: Mapping[str, float]) -> list[str]:
-    """Find bodies of revolution that are flatter than a disc.
+    """Return a text for each body of revolution that is flatter than a disc.
 
-    Parameters
-    ----------
-    values : mapping
-        Parameters by name: those that end in ``_inertia_spin`` and ``_inertia_diametral``, SI
-        units, of the bodies alone, without shafts.
-
-    Returns
-    -------
-    list of str
-        One text for each body.
+    Parameters, by name in SI units, that end in ``_inertia_spin`` and ``_inertia_diametral`` are
+    moments of the bodies alone, without shafts.
     """
     return [
         f"parameter '{body}_inertia_spin' = {spin:g} kg m^2 is more than twice "
@@ -106,16 +83,16 @@ def rotors_of_no_body(values: Mapping[str, float]) -> list[str]:
 def impossible(
     values: Mapping[str, Any], described: Mapping[str, Mapping[str, Any]], count: int
 ) -> NDArray[np.bool_]:
-    """Return which of many parameter sets `out_of_range` or `inertia_of_no_body` has a word about.
+    """Return which of many parameter sets `out_of_range` or `inertia_of_no_body` refuses.
 
     Parameters
     ----------
     values : mapping
-        By name: a number, or an array of shape (count,); SI units, finite.
+        By name: a finite number, or an array of shape (count,); SI units.
     described : mapping
-        As of `out_of_range`.
+        As for `out_of_range`.
     count : int
-        Of the sets.
+        Number of sets.
 
     Returns
     -------
@@ -132,7 +109,7 @@ def impossible(
 
 
 def tensors(values: Mapping[str, Any]) -> Iterator[tuple[str, list[Any]]]:
-    """Yield the bodies whose inertia is given as a whole, with the elements."""
+    """Yield name and elements of each inertia tensor of which all elements are given."""
     for name in values:
         body = name.removesuffix("_inertia_xx")
         elements = [values.get(f"{body}_inertia_{e}") for e in ELEMENTS]
@@ -141,7 +118,7 @@ def tensors(values: Mapping[str, Any]) -> Iterator[tuple[str, list[Any]]]:
 
 
 def _moments(elements: list[Any]) -> Array:
-    """Return the principal moments, in order, in the last dimension."""
+    """Return the principal moments in ascending order along the last dimension."""
     xx, yy, zz, xy, xz, yz = np.broadcast_arrays(*elements)
     tensors = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     moments: Array = np.linalg.eigvalsh(np.moveaxis(tensors, (0, 1), (-2, -1)))
@@ -155,7 +132,7 @@ def _of_no_body(moments: Array) -> NDArray[np.bool_]:
 
 
 def _rotors(values: Mapping[str, float]) -> Iterator[tuple[str, float, float]]:
-    """Yield the bodies of revolution, with their moments about the axis and across."""
+    """Yield the name of each body of revolution, with its moments about the axis and across it."""
     for name, spin in values.items():
         body = name.removesuffix("_inertia_spin")
         across = values.get(f"{body}_inertia_diametral")

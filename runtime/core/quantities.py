@@ -1,7 +1,7 @@
-"""How quantities are described and shown: SI inside, degrees and millimetres for people.
+"""Descriptions of quantities: SI units inside, degrees and millimetres in display.
 
-A variable of a dataset carries its description as attributes: ``units`` (SI), ``long_name``,
-``sign``, and the unit in which a person reads it, ``display_units = units * display_factor``.
+A variable of a dataset has its description as attributes: ``units`` (SI), ``long_name``, ``sign``,
+``display_units`` and ``display_factor``: a value in SI units times the factor is in display units.
 """
 
 import math
@@ -18,14 +18,14 @@ Array = NDArray[np.float64]
 
 
 class Display(NamedTuple):
-    """A display unit: that in which a person reads a quantity.
+    """A unit for display, such as mm for a length.
 
     Attributes
     ----------
     units : str
         As it is printed.
     factor : float
-        What a value in SI units is multiplied with.
+        Value in this unit divided by the value in SI units.
     """
 
     units: str
@@ -47,7 +47,7 @@ def attributes(meaning: str, units: str) -> dict[str, Any]:
     Parameters
     ----------
     meaning : str
-        What it is; behind a comma and the word "positive", its sign.
+        Name in words; its sign follows ", positive".
     units : str
         SI unit; "1" for a pure number.
 
@@ -82,7 +82,7 @@ def variable(
 
 
 def display_of(attrs: Mapping[str, Any]) -> Display:
-    """Return the unit in which a person reads a variable with these attributes."""
+    """Return the display unit of a variable with these attributes."""
     units = str(attrs.get("units", ""))
     known = _DISPLAYS.get(units, Display(units, 1.0))
     given = attrs.get("display_units", known.units), attrs.get("display_factor", known.factor)
@@ -90,7 +90,7 @@ def display_of(attrs: Mapping[str, Any]) -> Display:
 
 
 def unit_or_stroke(attrs: Mapping[str, Any]) -> str:
-    """Return the unit in which a person reads a variable, for a table; a stroke where it has none.
+    """Return the display unit of a variable for a table; "-" for a pure number.
 
     Examples
     --------
@@ -114,17 +114,17 @@ def bracketed(name: str, attrs: Mapping[str, Any]) -> str:
 
 
 def long_name(data: "xr.DataArray") -> str:
-    """Return what a variable is called in words."""
+    """Return the name of a variable in words."""
     return str(data.attrs.get("long_name") or str(data.name).replace("_", " "))
 
 
 def heading_of(data: "xr.DataArray") -> str:
-    """Return what a variable is called in words, with its display unit."""
+    """Return the name of a variable in words, with its display unit."""
     return bracketed(long_name(data), data.attrs)
 
 
 def distinct(labels: Sequence[str]) -> list[str]:
-    """Return labels that differ: one that came before gets a number.
+    """Return labels with a number added to each that has occurred before.
 
     Examples
     --------

@@ -1,7 +1,7 @@
-"""Reading files of others: how large they may be, and how they are decoded.
+"""Reading files of users and of other programs: limits of size, and decoding.
 
-The limits are here, for all readers: a file of a suspension has some thousand bytes, and a
-measurement of an hour at 1 kHz some ten million. What is larger is another file.
+A file of a suspension has some thousand bytes, and a measurement of an hour at 1 kHz some ten
+million. The limits for all readers are here.
 """
 
 from importlib.resources.abc import Traversable
@@ -12,25 +12,13 @@ from .files import reason
 
 MIB = 1 << 20
 MOST_OF_DATA = 4 * MIB
-"""Bytes of a file that describes a suspension or a study: TOML, JSON, TeimOrbit, points."""
+"""Most bytes of a file that describes a suspension or a study: TOML, JSON, TeimOrbit, points."""
 MOST_OF_MEASUREMENTS = 256 * MIB
-"""Bytes of a table of measurements."""
+"""Most bytes of a table of measurements."""
 
 
 def bytes_of(file: str | Path | Traversable, most: int = MOST_OF_DATA) -> bytes:
-    """Return what is in a file, of which no more than the limit is read.
-
-    Parameters
-    ----------
-    file : str, pathlib.Path or importlib.resources.abc.Traversable
-    most : int, optional
-        So many bytes at most.
-
-    Raises
-    ------
-    InputError
-        If it cannot be read, or is larger.
-    """
+    """Return the contents of a file; InputError if it is unreadable or exceeds `most` bytes."""
     try:
         with (Path(file) if isinstance(file, str) else file).open("rb") as opened:
             content: bytes = opened.read(most + 1)
@@ -47,18 +35,12 @@ def bytes_of(file: str | Path | Traversable, most: int = MOST_OF_DATA) -> bytes:
 
 
 def text_of(file: str | Path | Traversable, most: int = MOST_OF_DATA) -> str:
-    """Return the text of a file in UTF-8, without the byte order mark of some Windows editors.
-
-    Parameters
-    ----------
-    file : str, pathlib.Path or importlib.resources.abc.Traversable
-    most : int, optional
-        So many bytes at most.
+    """Return the text of a UTF-8 file, without the byte order mark of some Windows editors.
 
     Raises
     ------
     InputError
-        If it cannot be read, is larger or is no text in UTF-8.
+        If the file cannot be read, has more than `most` bytes or is not a text in UTF-8.
     """
     content = bytes_of(file, most)
     try:

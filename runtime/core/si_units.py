@@ -1,8 +1,8 @@
-"""Units of declared quantities: SI without prefixes and factors, as text.
+"""Units of declared quantities: SI units without prefixes and factors, as text.
 
-A unit is a product of names with whole powers over others: ``N m``, ``m/s^2``, ``N s/m``; ``1`` is
-that of a pure number. All numbers that equations read are in such units, so that one with a factor,
-a degree or a millimetre, would be read as another number.
+A unit is a product of names with integer powers over others: ``N m``, ``m/s^2``, ``N s/m``; ``1``
+is the unit of a pure number. Equations read all numbers in such units; a number in degrees or
+millimetres would be taken for one in radians or metres.
 """
 
 import re
@@ -12,17 +12,13 @@ COHERENT = (
     *("m", "kg", "s", "A", "K", "mol", "cd", "rad", "sr"),
     *("Hz", "N", "Pa", "J", "W", "C", "V", "F", "ohm", "S", "Wb", "T", "H", "lm", "lx", "Bq"),
 )
-"""Names of units without a factor, those of mass, length and time first."""
+"""Names of units without a factor, those of length, mass and time first."""
 
 _FACTOR = re.compile(r"([A-Za-z]+)(?:\^(-?[0-9]{1,2}))?")
 
 
 def powers_of(unit: str) -> dict[str, int] | None:
-    """Return the powers in a unit by name; None if it is no unit of SI without a factor.
-
-    Parameters
-    ----------
-    unit : str
+    """Return the powers in a unit by name; None if it is not an SI unit without a factor.
 
     Examples
     --------
@@ -43,11 +39,7 @@ def powers_of(unit: str) -> dict[str, int] | None:
 
 
 def problem_of(unit: str) -> str:
-    """Say that a unit has a factor, or is none; empty if it is one of SI.
-
-    Parameters
-    ----------
-    unit : str
+    """Return a message about a unit that has a factor or is unknown; empty for an SI unit.
 
     Examples
     --------
@@ -63,12 +55,7 @@ def problem_of(unit: str) -> str:
 
 
 def rate_of(unit: str) -> str:
-    """Return the unit of a rate.
-
-    Parameters
-    ----------
-    unit : str
-        One of SI.
+    """Return the unit of the time derivative of a quantity in an SI unit.
 
     Examples
     --------

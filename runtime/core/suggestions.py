@@ -1,25 +1,13 @@
-"""Guessing the name that was meant by a misspelt one."""
+"""Suggestions for a misspelt name."""
 
 import difflib
 from collections.abc import Iterable
 
-_LONGEST = 100  # characters of a name: what is longer was never meant to be one
+_LONGEST = 100  # characters; a longer text is not a name
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
-    """Return the known name that resembles a word most.
-
-    Parameters
-    ----------
-    word : str
-        What was written.
-    known : iterable of str
-        The names that would have been right.
-
-    Returns
-    -------
-    str
-        One of `known`; empty if none resembles the word.
+    """Return the known name that resembles a word most; empty if none does.
 
     Examples
     --------
@@ -34,19 +22,7 @@ def nearest(word: str, known: Iterable[str]) -> str:
 
 
 def suggestion(word: str, known: Iterable[str]) -> str:
-    """Return a sentence that names the nearest known name, or all of them.
-
-    Parameters
-    ----------
-    word : str
-        What was written.
-    known : iterable of str
-        The names that would have been right.
-
-    Returns
-    -------
-    str
-        The sentence.
+    """Return a sentence that names the known name nearest to a word, or all of them.
 
     Examples
     --------

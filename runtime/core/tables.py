@@ -1,9 +1,9 @@
-"""Tables of people, with names and units in any usual form: CSV files, rows of spreadsheets.
+"""Tables of users, with names and units in any usual form: CSV files, rows of spreadsheets.
 
 Every table is read by the same rules. Capitals, blanks, hyphens and underscores in names do not
 matter. The unit of a column follows its name, ``wheel travel [mm]``, ``Wheel Travel (mm)``
-or ``wheel_travel_mm``; or in a row of units below the names; or in a comment line, ``# units: mm,
-deg``, for all columns of that kind. Units that contradict each other are refused.
+or ``wheel_travel_mm``; or it is in a row of units below the names; or in a comment line,
+``# units: mm, deg``, for all columns of such quantities. Contradictory units are refused.
 """
 
 import csv
@@ -31,7 +31,7 @@ _MOST_ROWS, _MOST_COLUMNS = 5_000_000, 1000
 _BRACKETS = re.compile(r"(.*?)\s*(?:\[([^\[\]]*)\]|\(((?:[^()]|\([^()]*\))*)\))\s*")
 _BETWEEN = re.compile(r"[\s_,/]+(?:in\s+)?")
 _STROKE_OR_NUMBER = re.compile(r"[\[(]?[\d.,eE+\s-]*[\])]?")
-# what states units, in a comment line
+# a comment line that states units
 _STATES = re.compile(
     r"\W*(?:all\s+)?(?:(?:units?|lengths?|coordinates?|dimensions?|points?|values?|everything)\s*)?"
     r"(?:(?:are|is|given|measured|stated)\s+)*(?:in\s+|(?<=\w)\s*[:=])(.*)",
@@ -40,7 +40,7 @@ _STATES = re.compile(
 
 
 def key(name: str) -> str:
-    """Return what is the same for all spellings of a name.
+    """Return a form of a name that is the same for all spellings.
 
     Examples
     --------
@@ -51,7 +51,7 @@ def key(name: str) -> str:
 
 
 class ColumnHeading(NamedTuple):
-    """The name of a column, and its unit as it is written; None where there is none."""
+    """A cell of the first row: its text, the name of the column, and its unit or None."""
 
     text: str
     label: str
@@ -59,7 +59,7 @@ class ColumnHeading(NamedTuple):
 
     @classmethod
     def of(cls, cell: Any) -> "ColumnHeading":
-        """Return what a cell of the first row says."""
+        """Return the heading in a cell of the first row."""
         text = legible(" ".join(str("" if cell is None else cell).split()))
         found = _BRACKETS.fullmatch(text) if len(text) < 500 else None
         if found is None or not found[1]:
@@ -67,7 +67,7 @@ class ColumnHeading(NamedTuple):
         return cls(text, found[1], found[3] if found[2] is None else found[2])
 
     def among(self, known: Mapping[str, str]) -> tuple[str, str | None] | None:
-        """Return which of the known names this is, by their keys, and the unit; None if none is."""
+        """Return the known name, by its key, and the unit of this column; None if unknown."""
         name = known.get(key(self.label))
         if name or self.unit is not None:
             return (name, self.unit) if name else None
@@ -86,7 +86,7 @@ class Column(NamedTuple):
     ----------
     name : str
     at : int
-        Which of the columns it is.
+        Index of the column.
     unit : str or None
         As it is in the table; None where there is none.
     """
@@ -103,12 +103,12 @@ class Table:
     Attributes
     ----------
     source : str
-        Where it comes from, for messages.
+        Origin, for messages.
     headings : tuple of ColumnHeading
     rows : list of (int, list)
-        What follows, with the numbers of the lines.
+        The cells of each row, with the number of its line.
     units : tuple of (str or None)
-        Those of the row of units, one for each column; None where it has none.
+        Units in the row of units, one for each column; None where it has none.
     stated : tuple of str
         Units that comment lines state for all columns.
     commas : bool
@@ -126,15 +126,14 @@ class Table:
     def of(
         cls, source: str, rows: Sequence[Row], comments: Iterable[Row] = (), *, commas: bool = False
     ) -> "Table":
-        """Return the table whose first row names the columns.
+        """Return the table of one row or more, of which the first names the columns.
 
         Parameters
         ----------
         source : str
         rows : sequence of (int, list)
-            One or more.
         comments : iterable of (int, list)
-            Comment lines by their cells, without the hash.
+            Cells of comment lines, without the hash.
         commas : bool, optional
         """
         (_, names), *others = rows
@@ -155,11 +154,11 @@ class Table:
 
     @property
     def names(self) -> list[str]:
-        """What the first row has."""
+        """Texts of the first row."""
         return [heading.text for heading in self.headings]
 
     def columns(self, known: Iterable[str]) -> list[Column]:
-        """Return the columns of known names, in their order, each with its unit."""
+        """Return the columns with known names, in the order of the table, each with its unit."""
         by_key = {key(name): name for name in known}
         return [
             Column(found[0], i, self.units[i] if found[1] is None else found[1])
@@ -168,7 +167,7 @@ class Table:
         ]
 
     def unit_problem(self, column: Column, unit: str) -> str:
-        """Say why the unit of a column does not fit a quantity in an SI unit; empty if it does."""
+        """Return why a column's unit does not fit a quantity in an SI unit; empty if it does."""
         given, heading = self.unit_for(column, unit), self.headings[column.at]
         if in_si(given or "")[0] != unit:
             return (
@@ -185,20 +184,20 @@ class Table:
         return ""
 
     def unit_for(self, column: Column, unit: str) -> str | None:
-        """Return the unit of a column: its own, or the one stated for all of this SI unit."""
+        """Return the unit of a column: its own, or the one a comment states for this SI unit."""
         if column.unit is not None:
             return column.unit
         return next((stated for stated in self.stated if in_si(stated)[0] == unit), None)
 
     def numbers(self, wanted: Sequence[int], may_be_empty: Collection[int] = ()) -> Array:
-        """Return the numbers of some columns, in the order in which they are wanted.
+        """Return the numbers of some columns, shape (rows, wanted).
 
         Parameters
         ----------
         wanted : sequence of int
-            The columns that are read.
+            Indices of the columns.
         may_be_empty : collection of int, optional
-            Those of them in which a cell may have nothing, or what is infinite: NaN.
+            Those of them in which a cell may be empty or infinite: it becomes NaN.
 
         Raises
         ------
@@ -222,7 +221,7 @@ class Table:
         return values
 
     def mixed_marks(self, wanted: Collection[int]) -> list[str]:
-        """Refuse numbers with points and with commas: one of them may be that of thousands."""
+        """Return a message if numbers have points and commas; one may separate thousands."""
         if not self.commas:
             return []
         marks = {
@@ -246,7 +245,7 @@ class Table:
         if isinstance(cell, int | float):
             return float(cell) if abs(cell) < 1e300 else math.inf
         text = str("" if cell is None else cell).strip()
-        if "_" in text:  # Python's own way to group digits, and a slip of the pen in a file
+        if "_" in text:  # `float` accepts it between digits; in a file it is a mistake
             return math.nan
         try:
             return float(text.replace(",", ".") if self.commas else text)
@@ -260,7 +259,7 @@ class Table:
         wanted: Sequence[int],
         may_be_empty: Collection[int],
     ) -> str:
-        """Put the numbers of a row into an array; return what is wrong, empty if nothing is."""
+        """Put the numbers of a row into an array; return a message, empty if nothing is wrong."""
         if len(cells) != len(self.headings):
             counts = f"has {len(cells)} values; the first line names {len(self.headings)} columns."
             return f"{counts} Separate them alike."
@@ -304,13 +303,7 @@ def csv_rows(
 
 
 def read_table(path: str | Path) -> Table:
-    """Return the table of a CSV file, whose first line names the columns.
-
-    Raises
-    ------
-    InputError
-        If there is nothing to be read.
-    """
+    """Return the table of a CSV file, whose first line names the columns; refuse an empty one."""
     rows, comments, commas = csv_rows(path)
     if not rows:
         raise InputError(["the file is empty. The first line names the columns."], str(path))
@@ -318,7 +311,7 @@ def read_table(path: str | Path) -> Table:
 
 
 def _delimiter_of(heading: str) -> str:
-    """Return what separates the columns: a tab, a semicolon or a comma, outside of quotes."""
+    """Return the delimiter of columns, outside of quotes: a tab, a semicolon or a comma."""
     outside_quotes = re.sub(r'"[^"]*"', "", heading)
     return next((mark for mark in _DELIMITERS if mark in outside_quotes), ",")
 
@@ -333,7 +326,7 @@ def _cells_of(line: str, delimiter: str) -> list[Any]:
 
 
 def _units_row(cells: Sequence[Any], count: int) -> list[str | None] | None:
-    """Return the units of a row that has nothing else, one for each column; None if it has."""
+    """Return the units of a row that has nothing else, one for each column; else None."""
     texts = ["" if cell is None else str(cell).strip() for cell in cells]
     texts += [""] * (count - len(texts))
     if len(texts) != count or not any(_names_unit(text) for text in texts):
@@ -345,7 +338,7 @@ def _units_row(cells: Sequence[Any], count: int) -> list[str | None] | None:
 
 
 def _names_unit(text: str) -> bool:
-    """Return whether a text is a unit, and neither a number nor a stroke for nothing."""
+    """Return whether a text is a unit, and neither a number nor a dash."""
     return len(text) < 40 and not _STROKE_OR_NUMBER.fullmatch(text) and bool(in_si(text)[0])
 
 

@@ -1,9 +1,9 @@
-"""Tables as a person reads them, for the terminal and for a page alike."""
+"""Tables of texts, for the terminal and for a page."""
 
 import math
 from dataclasses import dataclass
 
-# Smaller than this, a number is a rounding error in every unit of the tables.
+# A smaller number is a rounding error in every unit of the tables.
 _ROUNDING = 1e-9
 
 
@@ -19,7 +19,7 @@ class Tabulated:
     rows : tuple of tuple of str
         A cell for each column.
     words : frozenset of int
-        The columns that are words; the others are numbers.
+        Indices of the columns of words; the others have numbers.
     """
 
     title: str
@@ -29,12 +29,12 @@ class Tabulated:
 
 
 def number(value: float) -> str:
-    """Return a number for a column of a table: three decimals, and no minus before a zero."""
+    """Return a number with three decimals, without a minus before zero."""
     return _special(value) or (f"{value:.3f}" if abs(value) >= 5e-4 else "0.000")
 
 
 def significant(value: float, digits: int = 5) -> str:
-    """Return a number of unknown size for a table; rounding errors are zero."""
+    """Return a number with some significant digits; zero for a rounding error."""
     return _special(value) or (f"{value:.{digits}g}" if abs(value) > _ROUNDING else "0")
 
 

@@ -1,7 +1,7 @@
-"""Work in several threads, and matrices in one.
+"""Parts of a task in several threads, and linear algebra in one thread.
 
-Libraries of linear algebra share the work on a matrix out to threads. Where it has some tens of
-rows these only wait for each other, on a busy machine a hundred times as long as one of them needs.
+Libraries of linear algebra distribute the work on a matrix over threads. For a matrix of some tens
+of rows these only wait for each other, on a busy machine a hundred times as long as one needs.
 """
 
 from collections.abc import Callable, Iterable
@@ -23,17 +23,11 @@ def shared_out(
     take: Callable[[Found], None],
     threads: int | None = None,
 ) -> None:
-    """Work on parts in threads; an interruption, or an error of one of them, ends all.
+    """Process parts in threads; an interruption, or an error of one of them, ends all.
 
-    Parameters
-    ----------
-    do : callable
-        Called with a part, and a function that returns whether its result is not needed any more.
-    parts : iterable
-    take : callable
-        Called with each result as it comes, in the thread of the caller.
-    threads : int, optional
-        By default some more than there are cores.
+    `do` is called with a part, and a function that returns whether its result is no longer needed;
+    `take` with each result as it comes, in the thread of the caller. By default there are some more
+    threads than cores.
     """
     unwanted = False
     with ThreadPoolExecutor(threads) as pool:
@@ -47,9 +41,9 @@ def shared_out(
 
 
 def in_one_thread(function: Callable[Given, Found]) -> Callable[Given, Found]:
-    """Return a function while which libraries of linear algebra start no threads.
+    """Return a function during which libraries of linear algebra start no threads.
 
-    Of calls that overlap in threads, the first limits them for all.
+    Of overlapping calls in threads, the first sets the limit for all.
     """
 
     @wraps(function)
@@ -62,6 +56,6 @@ def in_one_thread(function: Callable[Given, Found]) -> Callable[Given, Found]:
 
 @cache
 def _libraries() -> ThreadpoolController:
-    """Return those that are loaded; SciPy brings one of its own."""
+    """Return the loaded libraries of linear algebra, with that of SciPy."""
     import_module("scipy.linalg")
     return ThreadpoolController()

@@ -1,4 +1,4 @@
-"""Units as people write them, and what they are in SI units."""
+"""Units as people write them, and their factors to SI units."""
 
 import math
 from fractions import Fraction
@@ -11,7 +11,7 @@ LENGTHS = {
     "in": Fraction(254, 10000),
     "ft": Fraction(3048, 10000),
 }
-"""Units of length, in metres; those of the inch are exact."""
+"""Units of length in metres; those of the inch are exact."""
 
 _UNITS = {
     **{name: ("m", float(length)) for name, length in LENGTHS.items()},
@@ -62,7 +62,7 @@ _KNOWN = {name.lower(): name for name in _UNITS} | {
 
 
 def unit_of(text: str) -> str:
-    """Return the usual spelling of a single unit, ``in`` of ``Inches``; empty if it is not known.
+    """Return the usual spelling of a single unit; empty if it is not known.
 
     Examples
     --------
@@ -74,7 +74,7 @@ def unit_of(text: str) -> str:
 
 
 def in_si(text: str) -> tuple[str, float]:
-    """Return the SI unit of one for people, and the factor to it; empty if it is not known.
+    """Return the SI unit of a written unit, and the factor to it; ("", nan) if it is not known.
 
     Examples
     --------
@@ -100,12 +100,12 @@ def in_si(text: str) -> tuple[str, float]:
 
 
 def length_in(value: float, given: str, wanted: str) -> float:
-    """Return a length in another unit: the double that is nearest for the units of `LENGTHS`.
+    """Return a length in another unit of `LENGTHS`: the nearest double.
 
     Examples
     --------
     >>> length_in(205.0, "mm", "m"), length_in(4.078, "in", "mm")
     (0.205, 103.5812)
     """
-    # of the digits that one reads, and rounded once, at the end: 4.078 in are 103.5812 mm
+    # exact arithmetic on the printed digits, rounded once: 4.078 in are 103.5812 mm
     return float(Fraction(repr(float(value))) * LENGTHS[given] / LENGTHS[wanted])

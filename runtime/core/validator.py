@@ -1,6 +1,6 @@
 """Checks of arguments, the same for every public function.
 
-What is wrong is collected, so that one error lists all of it::
+One error lists all wrong arguments of a call::
 
     with Validator("equilibrium") as given:
         given.instance("model", model, Model, Model.NEEDED)
@@ -25,12 +25,11 @@ Array = NDArray[np.float64]
 
 _LONGEST = 60
 _MOST_PROBLEMS = 200
-# What `float` would take for a number.
-_NOT_A_NUMBER = bool, np.bool_, str, bytes
+_NOT_A_NUMBER = bool, np.bool_, str, bytes  # although `float` accepts them
 
 
 def shown(value: Any) -> str:
-    """Return a value as a message shows it, cut where it is long."""
+    """Return a value as a message shows it, cut to 60 characters."""
     try:
         text = " ".join(repr(value).split())
     except Exception:  # noqa: BLE001 (errors of a foreign __repr__ are not the problem)
@@ -41,13 +40,13 @@ def shown(value: Any) -> str:
 class Validator:
     """The arguments of one call; raises one `InputError` for all that are wrong.
 
-    Each check returns the argument as it is used, or something harmless where it is wrong: what is
-    computed from it between the checks cannot fail for that reason, and is never seen.
+    Each check returns the argument as it is used, or a harmless value where it is wrong:
+    computations between the checks do not fail because of it, and their results are never seen.
 
     Parameters
     ----------
     source : str
-        What was called.
+        Name of the function that was called.
     """
 
     def __init__(self, source: str) -> None:
@@ -67,15 +66,14 @@ class Validator:
             raise InputError(self._problems, self._source) from None
 
     def fail(self, problem: str) -> None:
-        """Note what is wrong."""
-        enough = len(self._problems) > _MOST_PROBLEMS  # of which the error shows fewer
-        # of a section each of its numbers has the same one
-        if not enough and problem not in self._problems:
+        """Add a problem."""
+        # the numbers of one section may all have the same problem
+        if len(self._problems) <= _MOST_PROBLEMS and problem not in self._problems:
             self._problems.append(problem)
 
     @property
     def failed(self) -> bool:
-        """Whether anything is wrong."""
+        """Whether an argument is wrong."""
         return bool(self._problems)
 
     # -- numbers --------------------------------------------------------------------------------
@@ -105,7 +103,7 @@ class Validator:
         return max(least, 1.0) if math.isinf(below) else below / 2.0
 
     def step(self, name: str, value: Any, unit: str = "") -> float:
-        """Return a number above zero, which may be infinite."""
+        """Return a number above zero; infinity is allowed."""
         number = _as_float(value)
         if not number > 0.0:
             unit = f" {unit}" if unit else ""
@@ -114,11 +112,11 @@ class Validator:
         return number
 
     def count(self, name: str, value: Any, *, most: int) -> int:
-        """Return a whole number from one on, where infinity represents the greatest."""
+        """Return an integer from 1 to `most`, which infinity represents."""
         return most if _as_float(value) == math.inf else self.whole(name, value, most=most)
 
     def whole(self, name: str, value: Any, *, least: int = 1, most: float = math.inf) -> int:
-        """Return a whole number within a range."""
+        """Return an integer within a range."""
         number = _as_float(value)
         if math.isfinite(number) and number == int(number) and least <= number <= most:
             return int(number)
@@ -144,7 +142,7 @@ class Validator:
         name, values, unit
             The argument.
         dimensions
-            How many dimensions it may have.
+            Allowed numbers of dimensions.
         last
             Length of the last one.
         empty
@@ -185,7 +183,7 @@ class Validator:
         return next(iter(names), "")
 
     def names(self, name: str, values: Any, known: Iterable[str]) -> tuple[str, ...]:
-        """Return a row of names, each of which is known."""
+        """Return a sequence of known names."""
         if isinstance(values, str) or not np.iterable(values):
             self.fail(f"{name} = {shown(values)}: a list of names is needed.")
             return ()
@@ -193,7 +191,7 @@ class Validator:
         return tuple(self.among(name, value, every) for value in values)
 
     def labels(self, name: str, labels: Iterable[Any]) -> None:
-        """Refuse labels that an array of texts or of numbers cannot distinguish from each other."""
+        """Refuse labels that are the same in an array of texts or of numbers."""
         known: dict[Any, Any] = {}
         for label in labels:
             number = _as_float(label)
@@ -214,11 +212,11 @@ class Validator:
         return bool(isinstance(value, bool | np.bool_) and value)
 
     def text(self, name: str, value: Any) -> None:
-        """Refuse what is no text."""
+        """Refuse an argument that is not a text."""
         self.instance(name, value, str, "a text is needed")
 
     def paths(self, name: str, values: Any) -> None:
-        """Refuse what are no paths of files."""
+        """Refuse an argument that is not a list of paths."""
         if not isinstance(values, list | tuple):
             self.fail(f"{name} = {shown(values)}: a list of paths is needed.")
             return
@@ -232,30 +230,19 @@ class Validator:
             return {}
         return value
 
-    def by_name(
-        self, name: str, value: Any, of: str, kinds: type | tuple[type, ...], needed: str
-    ) -> Mapping[str, Any]:
-        """Return a dict of some of a kind, by names that are beside what is found of each."""
-        several = self.mapping(name, value, f"names and {of}")
-        for known, one in several.items():
-            self.text(f"name in {name}", known)
-            self.instance(name.removesuffix("s"), one, kinds, needed)
-        self.labels(name, several)
-        return several
-
     def instance(self, name: str, value: Any, kinds: type | tuple[type, ...], needed: str) -> Any:
-        """Return something of a certain class."""
+        """Return an instance of a class; `needed` ends the message otherwise."""
         if not isinstance(value, kinds):
             given = "a class, not one of its instances" if isinstance(value, type) else shown(value)
             self.fail(f"{name} = {given}: {needed}.")
         return value
 
     def path(self, name: str, value: Any) -> None:
-        """Refuse what is no path of a file or folder."""
+        """Refuse an argument that is not the path of a file or folder."""
         self.instance(name, value, (str, PurePath), "the path of a file or folder is needed")
 
     def dataset(self, value: Any, *, over: str = "") -> None:
-        """Refuse what is no dataset, or one that is not over what it must be."""
+        """Refuse an argument that is not a dataset, or has no coordinate `over`."""
         from xarray import Dataset  # noqa: PLC0415 (slow to import)
 
         self.instance("dataset", value, Dataset, "an xarray.Dataset is needed")
@@ -263,13 +250,13 @@ class Validator:
             self.fail(f"dataset: it has no coordinate {over!r}, over which its variables must be.")
 
     def function(self, name: str, value: Any) -> None:
-        """Refuse what is neither a function nor None."""
+        """Refuse an argument that is neither a function nor None."""
         if not (value is None or callable(value)):
             self.fail(f"{name} = {shown(value)}: a function, or None, is needed.")
 
 
 def _as_float(value: Any) -> float:
-    """Return a number; NaN for what is none."""
+    """Return a number; NaN for anything else."""
     if isinstance(value, _NOT_A_NUMBER):
         return math.nan
     try:
@@ -279,7 +266,7 @@ def _as_float(value: Any) -> float:
 
 
 def _as_array(values: Any) -> Array | None:
-    """Return an array of numbers; nothing for what is none."""
+    """Return an array of numbers; None for anything else."""
     try:
         array = np.asarray(values)
         if array.dtype.kind == "O":
@@ -293,7 +280,7 @@ def _as_array(values: Any) -> Array | None:
 
 
 def _plain(value: Any) -> str:
-    """Return a number in few digits, and anything else as it is shown."""
+    """Return a number in few digits, and any other value as `shown`."""
     number = isinstance(value, int | float | np.number) and not isinstance(value, bool)
     try:
         return f"{value:g}" if number else shown(value)

@@ -1,4 +1,4 @@
-"""Small helpers for vectors in space."""
+"""Vectors in space."""
 
 from collections.abc import Sequence
 
@@ -11,15 +11,7 @@ Vector = NDArray[np.float64]
 
 
 def cross(first: ArrayLike, second: ArrayLike) -> Vector:
-    """Return the vector product: that of NumPy, its bits too, in less than half of the time.
-
-    Parameters
-    ----------
-    first, second : array_like, shape (..., 3)
-
-    Returns
-    -------
-    numpy.ndarray, shape (..., 3)
+    """Return the vector product of vectors (..., 3), with the bits of `numpy.cross`, twice as fast.
 
     Examples
     --------
@@ -38,17 +30,7 @@ def cross(first: ArrayLike, second: ArrayLike) -> Vector:
 
 
 def turned(rotations: Vector, vector: Vector) -> Vector:
-    """Return a vector, or one for each of many rotations, turned by them.
-
-    Parameters
-    ----------
-    rotations : ndarray, shape (..., 3, 3)
-    vector : ndarray, shape (3,) or (..., 3)
-
-    Returns
-    -------
-    ndarray, shape (..., 3)
-    """
+    """Return a vector (3,), or one for each rotation (..., 3), turned by rotations (..., 3, 3)."""
     if vector.ndim == 1:
         return rotations @ vector
     found: Vector = (rotations @ vector[..., None])[..., 0]
@@ -56,50 +38,30 @@ def turned(rotations: Vector, vector: Vector) -> Vector:
 
 
 def unit_vector(vector: Sequence[float] | Vector) -> Vector:
-    """Return the vector of length one in the direction of `vector`.
-
-    Parameters
-    ----------
-    vector : sequence of float
-        Three components, in any unit, not all of them zero.
-
-    Returns
-    -------
-    numpy.ndarray
-        The unit vector (without unit).
+    """Return the unit vector (3,) in the direction of a vector, which is not zero.
 
     Examples
     --------
     >>> unit_vector([0.0, 3.0, 4.0]).tolist()
     [0.0, 0.6, 0.8]
     """
-    # hypot neither overflows nor underflows, and is exact along a coordinate axis.
+    # hypot neither overflows nor underflows, and is exact along a coordinate axis
     array = np.asarray(vector)
-    if array.dtype != object:  # unless columns stand in it
+    if array.dtype != object:  # of batch numbers
         array = array.astype(np.float64, copy=False)
     unit: Vector = array / hypot(*vector)
     return unit
 
 
 def angle_between_lines(first: Vector, second: Vector) -> float:
-    """Return the angle between two lines, whichever way their vectors point.
-
-    Parameters
-    ----------
-    first, second : numpy.ndarray
-        Vectors along the lines, not zero.
-
-    Returns
-    -------
-    float
-        The angle in degrees, 0 to 90.
+    """Return the angle between two lines [deg], 0 to 90, from any vectors along them.
 
     Examples
     --------
     >>> angle_between_lines(np.array([0.0, 0.0, 1.0]), np.array([0.0, -1.0, -1.0]))
     45.0
     """
-    # The arc tangent keeps its accuracy near 0 degrees, where the arc cosine loses it.
+    # near 0 degrees the arc tangent is accurate, and the arc cosine is not
     across = hypot(*cross(first, second))
     along = abs(number(first @ second))
     angle: float = degrees(atan2(across, along))
@@ -107,19 +69,7 @@ def angle_between_lines(first: Vector, second: Vector) -> float:
 
 
 def distance_from_line(point: Vector, start: Vector, end: Vector) -> float:
-    """Return the distance of a point from the line through two others.
-
-    Parameters
-    ----------
-    point : numpy.ndarray
-        The point, in m.
-    start, end : numpy.ndarray
-        Two different points of the line, in m.
-
-    Returns
-    -------
-    float
-        The distance in m.
+    """Return the distance of a point from the line through two other points [m].
 
     Examples
     --------
@@ -131,19 +81,7 @@ def distance_from_line(point: Vector, start: Vector, end: Vector) -> float:
 
 
 def components(name: str, vector: Vector) -> dict[str, float]:
-    """Name the components of a vector.
-
-    Parameters
-    ----------
-    name : str
-        The vector's name.
-    vector : numpy.ndarray
-        The vector, in any unit.
-
-    Returns
-    -------
-    dict of str to float
-        The components as ``name_x``, ``name_y`` and ``name_z``, in the unit of `vector`.
+    """Return the components of a vector as ``name_x``, ``name_y`` and ``name_z``.
 
     Examples
     --------

@@ -1,10 +1,9 @@
-"""Which files this program wrote, so that it replaces no other.
+"""Register of the files that kintrafo wrote, so that it replaces no other.
 
-Every file that is written is noted by a hash of its place and its content: a file that is there is
-this program's own as long as it lies where it was written, unchanged. No name and no
-content is kept, and nothing is added to the files themselves, of which some have no room for a
-mark. Where nothing can be noted, or the note is lost, or others could have written it, a file
-counts as foreign: it is kept.
+Every written file is noted by a hash of its path and its contents: an existing file is kintrafo's
+own if it is unchanged where it was written. No name and no contents are kept, and nothing is added
+to the files themselves. Where a note cannot be made, is lost, or could be another user's, a file
+counts as foreign and is kept.
 """
 
 import hashlib
@@ -15,20 +14,12 @@ from pathlib import Path
 from .folders import cache_folder, make_folder, shared
 
 _NAME = "written"
-# 64 digits and the end of a line for each file: the last 30,000 files or more are known.
+# 64 digits and an end of line for each file: at least the last 30,000 files are known
 _MOST_BYTES = 4_000_000
 
 
 def note(target: Path, content: Path) -> None:
-    """Remember that a file is being written.
-
-    Parameters
-    ----------
-    target : Path
-        Where it will be, without links.
-    content : Path
-        Where its content is now.
-    """
+    """Note a file that is being written to `target`; its contents are now in `content`."""
     register = cache_folder() / _NAME
     entry = _entry(target, content)
     with suppress(OSError):
@@ -36,7 +27,7 @@ def note(target: Path, content: Path) -> None:
         if shared(register.parent, register):
             return
         _shorten(register)
-        # appended in one piece, also if other processes do so
+        # one write appends as a whole, also if other processes append
         flags = os.O_WRONLY | os.O_APPEND | os.O_CREAT
         descriptor = os.open(register, flags, 0o644)
         try:
@@ -46,13 +37,7 @@ def note(target: Path, content: Path) -> None:
 
 
 def known(target: Path) -> bool:
-    """Return whether a file is as this program wrote it.
-
-    Parameters
-    ----------
-    target : Path
-        A file that is there, without links.
-    """
+    """Return whether an existing file, a path without links, is as kintrafo wrote it."""
     register = cache_folder() / _NAME
     try:
         ours = register.is_file() and not shared(register.parent, register)
@@ -68,7 +53,7 @@ def _entry(target: Path, content: Path) -> bytes:
 
 
 def _shorten(register: Path) -> None:
-    """Forget the older half where there is too much."""
+    """Delete the older half of a register that is too long."""
     if register.exists() and register.stat().st_size > _MOST_BYTES:
         lines = register.read_bytes().splitlines(keepends=True)
         register.write_bytes(b"".join(lines[len(lines) // 2 :]))

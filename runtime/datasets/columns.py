@@ -11,7 +11,7 @@ AS_COLUMNS = {"in_tables": "columns"}
 
 
 def flat(dataset: xr.Dataset) -> xr.Dataset:
-    """Return a dataset as tables have it, see `with_columns`."""
+    """Return a dataset without its dimensions of names, see `with_columns`."""
     marked = [n for n, c in dataset.coords.items() if AS_COLUMNS.items() <= c.attrs.items()]
     for name in marked:
         dataset = with_columns(dataset, str(name))
@@ -21,17 +21,9 @@ def flat(dataset: xr.Dataset) -> xr.Dataset:
 def with_columns(dataset: xr.Dataset, dimension: str) -> xr.Dataset:
     """Return a dataset without a dimension of names.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-    dimension : str
-
-    Returns
-    -------
-    xarray.Dataset
-        Where there is ``camber`` over a dimension of ``left`` and ``right`` there are
-        ``camber_left`` and ``camber_right``; all else is as it is. A single name, a coordinate
-        without a dimension, is left out.
+    ``camber`` over a dimension of ``left`` and ``right`` becomes ``camber_left`` and
+    ``camber_right``; other variables are unchanged. A single name, which is a coordinate without a
+    dimension, is left out.
     """
     if dimension not in dataset.dims:
         return dataset.drop_vars(dimension, errors="ignore")

@@ -1,9 +1,9 @@
 """Datasets as files: CSV and Excel for people, netCDF, Parquet and MATLAB for programs.
 
-CSV and Excel have one line of names with units, such as ``camber [deg]``, and values in display
-units. The others keep SI units, all digits, and the description of every variable. All but
-netCDF are flat tables: what is over a dimension of names, as both wheels of an axle, has a column
-for each, ``camber_left`` and ``camber_right``.
+CSV and Excel files have one line of names with units, such as ``camber [deg]``, and values in
+display units. The others have SI units, all digits, and the description of every variable. All but
+netCDF are flat tables: a variable over a dimension of names, such as the wheels of an axle, has a
+column for each name, ``camber_left`` and ``camber_right``.
 """
 
 import re
@@ -23,13 +23,12 @@ from ..core.validator import Validator, shown
 from . import matlab, workbook
 from .columns import flat
 
-# Enough for a micrometre in a kilometre, and still short enough to read.
-_CSV_DIGITS = "%.9g"
-# What a spreadsheet may run begins with one of these (OWASP, "CSV injection").
+_CSV_DIGITS = "%.9g"  # a micrometre in a kilometre
+# First characters of texts that a spreadsheet may execute (OWASP, "CSV injection").
 _FORMULAS = ("=", "+", "-", "@", "\t", "\r")
-# What is smaller than this part of its column is a rounding error, and a zero for people.
+# A number smaller than this part of the largest in its column is a rounding error, shown as zero.
 _ROUNDING = 1e-12
-# Names of sheets that Excel opens.
+# Valid names of sheets in Excel.
 _SHEET = re.compile(r"[^][:*?/\\'\x00-\x1f]{1,31}")
 _NAMED = "1 to 31 characters are needed, and none of [ ] : * ? / \\ '"
 
@@ -42,7 +41,7 @@ def write(
     inputs: Paths = (),
     sheets: Mapping[str, xr.Dataset] | None = None,
 ) -> Path:
-    """Write a dataset; the ending of the file's name is its format.
+    """Write a dataset to a file, whose ending determines the format.
 
     Parameters
     ----------
@@ -55,18 +54,18 @@ def write(
     inputs : iterable of str or pathlib.Path, optional
         Files that are never replaced.
     sheets : mapping of str to xarray.Dataset, optional
-        What is on the sheets of an Excel workbook, by their names; by default `dataset` alone.
+        Sheets of an Excel workbook by their names; by default `dataset` alone.
 
     Returns
     -------
     pathlib.Path
-        The file, which is there only when it is complete.
+        The file, which appears only when it is complete.
 
     Raises
     ------
     InputError
-        If the ending is not known, or the file must not or cannot be written; if a sheet of Excel
-        cannot hold so many rows.
+        If the ending is not known, or the file must not or cannot be written; if the dataset has
+        too many rows for a sheet of Excel.
     MissingPackageError
         If the format needs a package that is not installed.
     """
@@ -86,14 +85,15 @@ def write(
     ending = check_format(path)
     with replacing(path, force=force, inputs=inputs) as temporary:
         if ending == ".xlsx":
-            _write_excel(sheets, temporary)
+            frames = {name: _for_people(_legible(sheet)) for name, sheet in sheets.items()}
+            workbook.write(frames, temporary)
         else:
             _WRITERS[ending](_legible(dataset), temporary)
     return Path(path)
 
 
 def check_format(path: str | Path) -> str:
-    """Return the ending of a file's name, or refuse it where no such file can be written."""
+    """Return the ending of a file's name; refuse one of which no file can be written."""
     with Validator("export") as given:
         given.path("path", path)
     ending = Path(path).suffix.lower()
@@ -147,13 +147,13 @@ def _frame(dataset: xr.Dataset) -> Any:
 
 
 def _for_people(dataset: xr.Dataset) -> Any:
-    """Return a data frame in display units, with names that say them."""
+    """Return a data frame in display units, which are part of the names of columns."""
     dataset = flat(dataset)
     frame = _frame(dataset)
     for name in frame.select_dtypes("number").columns:
         values = frame[name] * display_of(dataset[name].attrs).factor
         greatest = values[np.isfinite(values)].abs().max()
-        # what is no number stays none, and what is infinite says nothing about rounding
+        # NaN stays NaN; infinite values do not count as the greatest
         frame[name] = values.mask(values.abs() <= _ROUNDING * greatest, 0.0)
     frame.columns = [bracketed(name, dataset[name].attrs) for name in frame.columns]
     return frame
@@ -167,14 +167,10 @@ def _write_csv(dataset: xr.Dataset, path: Path) -> None:
     frame.to_csv(path, index=False, float_format=_CSV_DIGITS, lineterminator="\n")
 
 
-def _write_excel(sheets: Mapping[str, xr.Dataset], path: Path) -> None:
-    workbook.write({name: _for_people(_legible(sheet)) for name, sheet in sheets.items()}, path)
-
-
 def _harmless(text: str) -> str:
-    """Return a text that no spreadsheet takes for a formula: such a one gets an apostrophe."""
+    """Return a text that no spreadsheet takes for a formula: a formula gets an apostrophe."""
     if not text.startswith(_FORMULAS) or not re.search(r"[\w(]", text):
-        return text  # a stroke that stands for nothing is no formula
+        return text  # such as a dash for a missing value
     try:
         float(text)
     except ValueError:
@@ -190,10 +186,6 @@ def _legible(dataset: xr.Dataset) -> xr.Dataset:
         if data.dtype.kind in "OU" and data.ndim == 1
     }
     return dataset.assign_coords(texts) if texts else dataset
-
-
-def _write_netcdf(dataset: xr.Dataset, path: Path) -> None:
-    dataset.to_netcdf(path, engine="scipy", format="NETCDF3_64BIT")
 
 
 def _write_parquet(dataset: xr.Dataset, path: Path) -> None:
@@ -224,7 +216,7 @@ def _texts(attrs: dict[Any, Any]) -> dict[str, str]:
 
 _WRITERS: dict[str, Callable[[xr.Dataset, Path], None]] = {
     ".csv": _write_csv,
-    ".nc": _write_netcdf,
+    ".nc": lambda data, path: data.to_netcdf(path, engine="scipy", format="NETCDF3_64BIT"),
     ".parquet": _write_parquet,
     ".mat": _write_matlab,
 }

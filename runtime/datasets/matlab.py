@@ -1,7 +1,7 @@
 """Tables as files of MATLAB: a struct of columns, and structs that describe them.
 
-`scipy.io.savemat` writes version 5 of the format. The same data give the same bytes: the head of
-the file has no time of writing.
+`scipy.io.savemat` writes version 5 of the format. The same data give the same bytes: the header has
+no time of writing.
 """
 
 import re
@@ -16,7 +16,7 @@ from scipy.io.matlab import MatWriteError
 from ..core.errors import InputError
 
 LONGEST = 63
-"""Characters of a name in MATLAB."""
+"""Most characters of a name in MATLAB."""
 
 _HEAD = b"MATLAB 5.0 MAT-file, by kintrafo".ljust(116)
 _KEYWORD = re.compile(
@@ -28,24 +28,22 @@ _KEYWORD = re.compile(
 def write(frame: Any, described: Mapping[str, Mapping[str, Any]], about: Any, path: Path) -> None:
     """Write a data frame.
 
+    ``data`` has the columns, ``units`` and ``meanings`` describe them, and ``names`` has their
+    original names. Texts are rows of characters, for ``string(data.load)``.
+
     Parameters
     ----------
     frame : pandas.DataFrame
     described : mapping
-        By column: ``units``, ``long_name`` and ``sign``, which end up in structs.
+        By column: ``units``, ``long_name`` and ``sign``.
     about : mapping
-        What describes all of them.
+        Attributes of the whole table.
     path : pathlib.Path
 
     Raises
     ------
     InputError
-        If a column is larger than the format can have.
-
-    Notes
-    -----
-    ``data`` has the columns, ``units`` and ``meanings`` describe them, and ``names`` has what they
-    are called elsewhere. Texts are rows of characters, for ``string(data.load)``.
+        If a column is larger than the format allows.
     """
     names = valid_names(map(str, frame.columns))
     columns = dict(zip(frame.columns, names, strict=True))
@@ -66,7 +64,7 @@ def write(frame: Any, described: Mapping[str, Mapping[str, Any]], about: Any, pa
 
 
 def valid_names(names: Iterable[str]) -> list[str]:
-    """Return names that MATLAB takes, each once and in the same order.
+    """Return valid and distinct names for MATLAB in the same order.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What a simulation returned as a dataset over time, and its statistics."""
+"""A simulation as a dataset over time, and its statistics."""
 
 from dataclasses import dataclass
 
@@ -23,7 +23,7 @@ def dataset_of(model: System, result: Simulation) -> xr.Dataset:
     Parameters
     ----------
     model : System or Model
-        The one that was simulated.
+        The simulated model.
     result : Simulation
 
     Returns
@@ -62,7 +62,7 @@ def dataset_of(model: System, result: Simulation) -> xr.Dataset:
 
 @dataclass(frozen=True)
 class Statistics:
-    """One signal over a simulation, in its SI unit.
+    """Statistics of a signal over a simulation, in its SI unit.
 
     Attributes
     ----------
@@ -80,16 +80,7 @@ class Statistics:
 
 
 def statistics(dataset: xr.Dataset) -> dict[str, Statistics]:
-    """Return the statistics of every variable over time.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        Over ``time`` [s].
-
-    Returns
-    -------
-    dict of str to Statistics
+    """Return the statistics of every variable of a dataset over ``time`` [s], by name.
 
     Examples
     --------

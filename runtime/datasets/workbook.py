@@ -12,27 +12,17 @@ from typing import Any
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from ..core.errors import InputError
+from ..core.excel import COLUMNS, ROWS
 from ..core.legible import legible
 from ..core.optional import require
 
-ROWS, COLUMNS = 1_048_576, 16_384
-"""What a sheet of Excel holds at most, the heading included (its file format)."""
-
-_FIRST = 1980, 1, 1
-"""The first date that there is in an archive, which every file gets for its time of writing."""
-
-_WIDEST = 60  # characters of a column: longer texts are there, and cut by the next cell
-_MEASURED = 200  # rows that say how wide a column is
+_FIRST = 1980, 1, 1  # the earliest date in an archive: the time of writing of every member
+_WIDEST = 60  # characters of a column: longer texts are cut by the next cell
+_MEASURED = 200  # rows that determine the width of a column
 
 
 def write(frames: Mapping[str, Any], path: Path) -> None:
-    """Write data frames as sheets with a heading that stays in sight.
-
-    Parameters
-    ----------
-    frames : mapping of str to pandas.DataFrame
-        By the name of their sheet.
-    path : pathlib.Path
+    """Write data frames, by names of sheets, each with a heading that stays in sight.
 
     Raises
     ------
@@ -48,7 +38,7 @@ def write(frames: Mapping[str, Any], path: Path) -> None:
         _check(name, *frame.shape)
     book = Workbook(write_only=True)
     book.properties.creator = "kintrafo"
-    book.properties.created = book.properties.modified = datetime(*_FIRST)  # noqa: DTZ001 (it is to have none)
+    book.properties.created = book.properties.modified = datetime(*_FIRST)  # noqa: DTZ001 (a date without a zone)
     for name, frame in frames.items():
         _fill(book.create_sheet(name), frame)
     with path.open("wb") as file, _Timeless(file, "w", ZIP_DEFLATED) as archive:
@@ -73,7 +63,7 @@ def _fill(sheet: Any, frame: Any) -> None:
 
     def text(words: object) -> Any:
         cell = WriteOnlyCell(sheet, legible(str(words)))
-        cell.data_type = "s"  # a text, also where it begins as a formula
+        cell.data_type = "s"  # a text, even if it looks like a formula
         return cell
 
     heading = [text(name) for name in frame.columns]
@@ -92,19 +82,19 @@ def _fill(sheet: Any, frame: Any) -> None:
 
 
 def _width(name: object, column: Any) -> float:
-    """Return how wide a column is, in characters: numbers need about twelve."""
+    """Return the width of a column in characters: numbers need about twelve."""
     texts = column[:_MEASURED] if column.dtype.kind == "O" else ["x" * 12]
     return 2.0 + min(_WIDEST, max(len(str(text)) for text in (name, *texts)))
 
 
 def _cells(column: Any, text: Any) -> Iterable[Any]:
-    """Return a column as what a sheet holds; what is no number is an empty cell."""
+    """Return a column as cells of a sheet; NaN becomes an empty cell."""
     values = column.to_numpy()
     if values.dtype.kind in "iub":
         return list(values.tolist())
     if values.dtype.kind != "f":
         return (text(value) if value != "" else None for value in values)
-    # a sheet has no infinite numbers
+    # infinite numbers become texts
     return (
         value if math.isfinite(value) else None if math.isnan(value) else text(value)
         for value in values.tolist()

@@ -1,4 +1,4 @@
-"""Systems that an explicit method cannot do are done again, one by one, by an implicit one."""
+"""Second simulations, by an implicit method, of systems that the explicit method did not finish."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -17,12 +17,12 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Again:
-    """How systems of a problem are done again.
+    """Simulation of single systems of a problem by an implicit method.
 
     Attributes
     ----------
     problem : Problem
-        Whose outcome is overwritten where that succeeds.
+        Its outcome is overwritten where the simulation succeeds.
     method : str
         Of `kintrafo.simulate`.
     """
@@ -39,12 +39,12 @@ class Again:
         samples : ndarray, shape (number of series, number of times)
             Overwritten where this succeeds.
         stopped : callable
-            Returns whether the caller wants an end.
+            Returns whether the caller wants to stop.
 
         Returns
         -------
         str
-            Why it did not come to an end; empty if it did.
+            Why the simulation failed; empty if it succeeded.
         """
         problem, systems, outcome = self.problem, self.problem.systems, self.problem.outcome
         drive = systems.drives[systems.drive_of[place]]
@@ -82,7 +82,7 @@ class Again:
         return System(model.equations, dict(zip(names, values.tolist(), strict=True)))
 
     def _reduced(self, values: Array) -> Array:
-        """Return what is kept on the way, as lanes keep it."""
+        """Return the reductions that lanes keep during integration."""
         wanted = self.problem.wanted
         found = np.empty(len(wanted.reductions))
         for place, (item, kind, _, level) in enumerate(wanted.reductions):
@@ -91,7 +91,7 @@ class Again:
         return found
 
     def _beyond(self, values: Array, place: int) -> Array:
-        """Return the values furthest beyond the bounds."""
+        """Return the values farthest beyond the bounds; NaN where none is passed."""
         wanted = self.problem.wanted
         limits = _row(wanted.limits, place)
         found = np.full(limits.size, np.nan)
@@ -103,13 +103,13 @@ class Again:
 
 
 def _row(rows: Array, place: int) -> Array:
-    """Return the row of a system; there may be one for all."""
+    """Return the row of a system, or the only row, which is that of all."""
     row: Array = rows[place if len(rows) > 1 else 0]
     return row
 
 
 def _time_above(series: Array, _weights: Array, times: Array, level: float) -> float:
-    """Return how long straight lines between outputs are above a level [s]."""
+    """Return the time for which straight lines between outputs are above a level [s]."""
     by = series - level
     up, size = np.maximum(by, 0.0), np.abs(by)
     both = size[:-1] + size[1:]

@@ -1,4 +1,4 @@
-"""What is gathered of systems as soon as they are done, so that series need not stay."""
+"""Results that are collected from systems as soon as they are done; series need not be kept."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -16,18 +16,18 @@ Array = NDArray[np.float64]
 
 @dataclass
 class Collected:
-    """What stays of the series, and who found them; called with some systems when they are done.
+    """Series and reductions of an ensemble; called with some systems when they are done.
 
     Attributes
     ----------
     samples : ndarray, shape (count, number of signals, number of times)
-        Of what is kept at all times; NaN behind the end of what did not come to an end.
+        Signals kept at all times; NaN after the last time that a system reached.
     of_series : dict
-        What was asked for of whole series: of shape (count,) or (count, number of frequencies).
+        Reductions of whole series, shape (count,) or (count, number of frequencies).
     solvers : ndarray of str
-        The method by which the results of each system were found; empty for what never began.
+        The method that found the results of each system; empty for a system that never began.
     reasons : dict
-        Why systems that were done again did not come to an end that way either; or nothing.
+        Why the second simulation of a system failed; empty if it succeeded.
     """
 
     problem: Problem
@@ -45,15 +45,15 @@ class Collected:
         self.solvers = np.full(count, "", dtype=object)
 
     def __call__(self, first: int, last: int, samples: Array, stopped: Callable[[], bool]) -> None:
-        """Gather what came of some systems.
+        """Collect the results of some systems.
 
         Parameters
         ----------
         first, last : int
-            The first of them, and the one behind the last.
+            The first of them, and the one after the last.
         samples : ndarray, shape (last - first, number of series, number of times)
         stopped : callable
-            Returns whether the caller wants an end.
+            Returns whether the caller wants to stop.
         """
         outcome = self.problem.outcome
         began = outcome.ends[first:last] != End.PARAMETERS
@@ -77,10 +77,10 @@ class Collected:
 
 
 EXPLICIT = "DormandPrince"
-"""The method in lanes, as `kintrafo.simulate` calls it."""
+"""Name of the method in lanes, as in `kintrafo.simulate`."""
 
 BEYOND_IT = (End.MANY_STEPS, End.SMALL_STEP, End.STIFF)
-"""How systems end that an implicit method may do."""
+"""Ends of systems that an implicit method may finish."""
 
 
 def _shape(reduced: Reduced, asked: OutputSpec) -> tuple[int, ...]:

@@ -1,4 +1,4 @@
-"""What the inputs of many systems do over time."""
+"""Inputs of many systems over time."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -17,14 +17,14 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class InputSets:
-    """What inputs do.
+    """Inputs over time, and which of them each system has.
 
     Attributes
     ----------
     different : tuple of TimeInputs
-        In all of them the same inputs vary.
+        The same inputs vary in all of them.
     of : ndarray, shape (count,)
-        Which of them each system has.
+        Index into `different` for each system.
     constant : ndarray, shape (count or 1, number of inputs)
         Values of the inputs that do not vary.
     """
@@ -43,20 +43,20 @@ def drives_of(
     held: Array | None,
     max_step: float,
 ) -> InputSets:
-    """Bring the inputs of many systems into one form.
+    """Return the inputs of many systems in one form.
 
     Parameters
     ----------
     model : System
     inputs : mapping
-        As of `kintrafo.simulate`; or by label, where systems have different ones.
+        As for `kintrafo.simulate`; or by label, where systems have different ones.
     variants : Variants
     t_span : tuple of float
         First and last time [s].
     held : ndarray or None
         Values of the inputs that are not given.
     max_step : float
-        As of `time_inputs`.
+        As for `time_inputs`.
     """
     rows, of = _combinations(variants)
     different = []
@@ -74,7 +74,7 @@ def drives_of(
 
 
 def _combinations(variants: Variants) -> tuple[list[dict[str, Any]], NDArray[np.int64]]:
-    """Return the labels of the inputs that occur together, and which of them each system has."""
+    """Return the combinations of labels that occur, and the index of that of each system."""
     of = np.zeros(variants.count, dtype=np.int64)
     rows: list[dict[str, Any]] = [{}]
     for name, labels in variants.labels.items():
@@ -86,7 +86,7 @@ def _combinations(variants: Variants) -> tuple[list[dict[str, Any]], NDArray[np.
 
 
 def _alike(drives: list[TimeInputs]) -> tuple[TimeInputs, ...]:
-    """Let the same inputs vary in all, in the same order: a number is a course that stays."""
+    """Let the same inputs vary in all, in the same order; a constant becomes a spline."""
     targets = {s.targets for drive in drives for g in drive.segments for s in g.splines}
 
     def completed(drive: TimeInputs, segment: Segment) -> Segment:

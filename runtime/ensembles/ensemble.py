@@ -1,4 +1,4 @@
-"""Simulate many systems at once."""
+"""Simulation of many systems at once."""
 
 from collections.abc import Callable, Mapping
 from contextlib import nullcontext
@@ -34,8 +34,8 @@ from .wanted import OutputSpec, asked_of
 Array = NDArray[np.float64]
 
 _OUTPUTS = 201
-# Steps in lanes that cost about what BDF does for a system: what is stiff is tried for so long.
-# ``make benchmark-stiff`` measures both.
+# Steps in lanes that take about the time of BDF for a system (``make benchmark-stiff``): after as
+# many, a stiff system goes to BDF.
 _STIFF_AFTER = 10_000
 _MOST_THREADS = 1024
 
@@ -64,84 +64,86 @@ def ensemble(
 ) -> xr.Dataset:
     """Simulate many systems of one model, each with parameters, start and inputs of its own.
 
-    They are integrated by Dormand and Prince's method of order 5 in the lanes of vectors, each with
-    a step size of its own, on all cores. The results are the same to the last bit however many
-    lanes, threads and workers there are, and any other systems.
+    Dormand and Prince's method of order 5 integrates them in the lanes of vectors, each with a step
+    size of its own, on all cores. The results of a system have the same bits for any number of
+    lanes, threads and workers, and beside any other systems.
 
     Parameters
     ----------
     model : System or Model
     variants : mapping or xarray.Dataset
-        What the systems have of their own: parameters, elements of the state at the start, inputs
-        that do not vary with time, by name; SI units. Rows of numbers are over the dimension
-        ``car``; of a dataset, all combinations along its dimensions are simulated.
+        Values that differ between systems, by name, SI units: parameters, elements of the initial
+        state, inputs that do not vary with time. Rows of numbers are over the dimension ``car``;
+        of a dataset, all combinations along its dimensions are simulated.
     t_span : tuple of float
         First and last time [s].
     y0 : array_like, optional
-        Initial state of all, or one row for each; by default each has its own design position.
+        Initial state of all, or one row for each system; by default each begins in its own design
+        position, at rest.
     inputs : mapping, optional
-        Inputs by name, as `kintrafo.simulate` takes them, for all systems; or several of them by
-        label, of which ``variants`` says by that label which one each system has.
+        Inputs by name, as for `kintrafo.simulate`, for all systems; or several time series by
+        label, where ``variants`` has the label for each system under the name of the input.
     signals : sequence of str, optional
-        Signals, or elements of the state, that are kept at the times ``t_eval``.
+        Signals, or elements of the state, that the result has at the times ``t_eval``.
     reductions : mapping, optional
-        What is kept of signals, over the times ``t_eval``: 'max', 'min', 'mean', 'rms' (about the
-        mean); ('above', level), the time for which the straight lines between the outputs are
-        above a level; ('percentile', percent) of the outputs, between two of them by the straight
-        line; or the power spectral density by Welch's method, 'psd' or ('psd', outputs in a
-        segment), over ``frequency``. One or a list of them for each signal.
+        One reduction, or a list of them, for each signal, over the times ``t_eval``: 'max', 'min',
+        'mean', 'rms' (about the mean); ('above', level), the time for which straight lines between
+        the outputs are above a level, in the unit of the signal; ('percentile', percent) of the
+        outputs, linearly interpolated; or the power spectral density by Welch's method, 'psd' or
+        ('psd', outputs in a segment), over ``frequency`` [Hz].
     t_eval : array_like, optional
-        Times of the outputs, by default 201 from the first to the last.
+        Times of the outputs [s], by default 201 from the first to the last.
     rtol, atol : float, array_like, optional
-        Relative tolerance, and absolute tolerances: one, or one for each element of the state.
+        Relative tolerance, and absolute tolerance: one number, or one for each element of the
+        state in its SI unit.
     max_step, first_step : float, optional
-        [s]
+        Largest step, and first step [s].
     max_steps : int, optional
-        A system that takes more ends with a reason, or is done again, see `stiff`.
+        A system that takes more ends with a reason, or is simulated again, see `stiff`.
     stiff : str or None, optional
-        By default, what the explicit method cannot do within its steps, and what is stiff after
-        10,000 of them, is done again by 'BDF' of `kintrafo.simulate`. With None it ends with a
-        reason, and stability is not asked for.
+        By default, systems that the explicit method does not finish within `max_steps`, and those
+        that are stiff after 10,000 steps, are simulated again by 'BDF' of `kintrafo.simulate`.
+        With None such a system ends with a reason, and stiffness is not checked.
     threads : int, optional
-        By default as many as there are cores.
+        By default one for each core.
     lanes : int, optional
-        How many systems a vector holds, 2, 4 or 8; by default as many as the processor can.
+        Number of systems in a vector, 2, 4 or 8; by default the most that the processor supports.
     cluster : int, str or dask.distributed.Client, optional
-        Where it runs: by default in threads of this process; in so many local processes, which
-        share the threads; by the workers of a scheduler of Dask at an address such as
-        'tcp://10.0.0.1:8786', or of a client. They need the same versions as are here.
+        By default the systems are simulated in threads of this process. A number: in as many local
+        processes, which share the threads. An address such as 'tcp://10.0.0.1:8786', or a client:
+        by the workers of that scheduler of Dask, which need the same versions of packages.
     kept : str or Path, optional
-        A folder in which what was found is kept as it comes, some thousand systems a file. After
-        an interruption, a call with the same arguments, wherever it runs, goes on from there.
+        A folder for results as they come, some thousand systems a file. After an interruption, a
+        call with the same arguments, on any machine, continues from them.
     progress : bool, optional
-        Whether to show how far it is.
+        Whether to show a progress bar.
 
     Returns
     -------
     xarray.Dataset
         Over the dimensions of the variants: the signals over ``time``, the reductions,
-        ``final_state``, ``end_time``, ``steps``, and by which ``solver`` they were found;
-        ``success``, and ``reason`` where that is false;
-        ``valid`` where besides no output passes a bound of what the model describes, and what was
-        passed in ``beyond``. What did not reach the end has NaN from there on, and in its
-        reductions.
+        ``final_state``, ``end_time`` [s], ``steps``, and the ``solver`` that found them;
+        ``success``, and the ``reason`` where it is False; ``valid``, which is True where a
+        simulation succeeded and no output passed a bound of the model, and the values that passed
+        one in ``beyond``. A system that did not reach the end has NaN after its ``end_time``, and
+        in its reductions.
 
     Raises
     ------
     InputError
-        If an argument cannot be used, a folder is of another ensemble, or workers have other
-        versions. Parameters of no mechanism are no such error: they are the reason of their system.
+        If an argument cannot be used, the folder is of another ensemble, or workers have other
+        versions. Impossible parameters of a system are not an error, but its ``reason``.
     MissingPackageError
         If the packages of the extra "cluster" are not installed.
     ClusterError
-        If a scheduler is lost, or several workers are lost one after another with the same systems.
-        What a lost worker had to do is done by another.
+        If the scheduler is lost, or several workers in a row with the same systems. The systems of
+        a single lost worker are simulated by another.
 
     Notes
     -----
-    The method is an explicit one. Friction and stops, which are stiff, take it many steps: such
-    systems go to BDF, by the same tolerances, inputs and times. ``rtol`` and ``atol`` are those of
-    an explicit method by default; BDF damps what swings by a part of its error.
+    An explicit method takes many steps for friction and stops, which are stiff: such systems are
+    simulated by BDF with the same tolerances, inputs and times. The default tolerances are those
+    of an explicit method; BDF damps oscillations by a part of its error.
 
     Examples
     --------
@@ -221,14 +223,14 @@ def _start(given: Validator, model: System, y0: Any) -> Array:
 def _check_together(
     model: System, y0: Any, courses: Mapping[str, Any], own: Variants, asked: OutputSpec
 ) -> None:
-    """Refuse arguments that are right each for itself."""
+    """Refuse arguments that contradict each other."""
     with Validator("ensemble") as given:
         _check_rows(given, model, y0, {*courses, *own.inputs, *own.labels})
         _check_results(given, asked, own)
 
 
 def _check_rows(given: Validator, model: System, y0: Any, names: set[str]) -> None:
-    """Refuse rows of states that were found under inputs that are not known."""
+    """Refuse rows of states that were found under inputs which are not given."""
     for row in y0 if isinstance(y0, list | tuple) else ():
         held = inputs_of(row, model.names_of_states)
         moved = [] if held is None else [model.input_names[i] for i in np.flatnonzero(held)]
@@ -242,7 +244,7 @@ def _check_rows(given: Validator, model: System, y0: Any, names: set[str]) -> No
 
 
 def _check_results(given: Validator, asked: OutputSpec, own: Variants) -> None:
-    """Refuse results that are called as what varies."""
+    """Refuse results with the name of a variant."""
     varied = {*own.parameters, *own.inputs, *own.labels, *map(str, own.coordinates)}
     results = {*asked.signals, *(reduced.name for reduced in asked.reduced)}
     for name in sorted(varied & results):
@@ -260,7 +262,7 @@ def _span(given: Validator, t_span: Any) -> tuple[float, float]:
 
 
 def _width(given: Validator, model: System, lanes: Any) -> int:
-    """Return how many lanes are used; equations that have none are refused at once."""
+    """Return the number of lanes; refuse equations that have none."""
     there = library.widths()
     width = there[-1] if there else 0
     try:
@@ -282,13 +284,13 @@ def _width(given: Validator, model: System, lanes: Any) -> int:
 
 
 def _systems(model: System, own: Variants, state: Array, drives: InputSets) -> Systems:
-    """Return what the systems have of their own as arrays."""
-    names = model.equations.PARAMETERS
+    """Return the values of each system as arrays."""
+    names = [*model.equations.PARAMETERS]
     return Systems(
         count=own.count,
         parameters=np.array([model.parameters[name] for name in names]),
-        varied=_places(own.parameters, names),
-        variants=_table(own.parameters, own.count),
+        varied=np.array([names.index(name) for name in own.parameters], dtype=np.int32),
+        variants=np.array([*own.parameters.values()]).reshape(-1, own.count).T,
         states=_states(model, state, own),
         inputs=drives.constant,
         drives=drives.different,
@@ -297,17 +299,8 @@ def _systems(model: System, own: Variants, state: Array, drives: InputSets) -> S
     )
 
 
-def _places(columns: Mapping[str, Array], names: Mapping[str, Any]) -> NDArray[np.int32]:
-    order = list(names)
-    return np.array([order.index(name) for name in columns], dtype=np.int32)
-
-
-def _table(columns: Mapping[str, Array], count: int) -> Array:
-    return np.stack([*columns.values()], axis=1) if columns else np.zeros((count, 0))
-
-
 def _states(model: System, state: Array, own: Variants) -> Array:
-    """Return the initial states with what each system has of its own."""
+    """Return the initial states with the elements that systems have of their own."""
     if not own.states:
         return state
     states = np.broadcast_to(state, (own.count, state.shape[1])).copy()
@@ -317,7 +310,7 @@ def _states(model: System, state: Array, own: Variants) -> Array:
 
 
 def _shown_progress(count: int, *, wanted: bool) -> Any:
-    """Return what shows how far it is, while it lasts; or nothing that does nothing."""
+    """Return a context that shows progress; without `wanted`, one that does nothing."""
     if not wanted:
         return nullcontext()
     from .progress import bar  # noqa: PLC0415 (slow to import)

@@ -1,4 +1,4 @@
-"""How far many simulations are, on the screen."""
+"""A progress bar of simulations on the terminal."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -8,7 +8,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 @contextmanager
 def bar(count: int) -> Iterator[Callable[[int], None]]:
-    """Show a bar while something lasts; the function handed over takes how many are done."""
+    """Show a bar inside a block; the yielded function takes the number of finished systems."""
     columns = (TextColumn("simulating"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Progress(*columns, transient=True) as shown:
         task = shown.add_task("", total=count)

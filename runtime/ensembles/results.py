@@ -1,4 +1,4 @@
-"""What came of many simulations, as a labelled dataset."""
+"""The results of an ensemble as a labelled dataset."""
 
 from collections.abc import Hashable, Iterator
 from typing import Any
@@ -20,7 +20,7 @@ Data = dict[Hashable, Any]
 
 
 def dataset_of(model: System, variants: Variants, collected: Collected) -> xr.Dataset:
-    """Return everything by name, over the dimensions of the variants."""
+    """Return all results by name, over the dimensions of the variants."""
     asked, outcome = collected.asked, collected.problem.outcome
     reasons = _reasons(model, variants, collected)
     done = outcome.ends == End.DONE
@@ -68,7 +68,7 @@ def dataset_of(model: System, variants: Variants, collected: Collected) -> xr.Da
 
 
 def _varied(model: System, variants: Variants, wide: Any) -> Data:
-    """Return what the systems have of their own, as far as it is no coordinate already."""
+    """Return the values of the variants that are not coordinates."""
     equations = model.equations
     described = {**equations.PARAMETERS, **equations.STATE, **equations.INPUTS}
     columns = {**variants.parameters, **variants.states, **variants.inputs, **variants.labels}
@@ -96,7 +96,7 @@ def _message(done: NDArray[np.bool_], passed: NDArray[np.bool_]) -> str:
 
 
 def _reasons(model: System, variants: Variants, collected: Collected) -> NDArray[np.object_]:
-    """Say why systems did not reach the end: nothing for those that did."""
+    """Return why systems did not reach the end; empty texts for those that did."""
     outcome = collected.problem.outcome
     max_steps = collected.problem.accuracy.max_steps
     reasons = np.full(outcome.ends.size, "", dtype=object)
@@ -138,7 +138,7 @@ def _in_words(model: System, end: End, code: int, max_steps: int) -> str:
 
 
 def _acting(model: System, status: int) -> Iterator[str]:
-    """Yield what the bits of a status word say."""
+    """Yield the meanings of the bits of a status word."""
     if status & NOT_FINITE:
         return
     for place, (_, meaning) in enumerate(model.equations.GUARDS):

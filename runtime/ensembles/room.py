@@ -1,4 +1,4 @@
-"""The memory that an ensemble needs, known before anything is simulated."""
+"""The memory that an ensemble needs, computed before anything is simulated."""
 
 from dataclasses import dataclass
 
@@ -10,23 +10,22 @@ from .series import TOGETHER
 from .wanted import OutputSpec
 
 _BYTES = 8
-# Of a system: how it ended, when, why, by what; four times what it has of its own, which is read,
-# checked and put into a table; its start and its end.
+# Numbers of a system: its end (kind, time, reason, solver); four copies of its own values, which
+# are read, checked and put into a table; its initial and final states.
 _OTHERS, _OF_COLUMN, _OF_STATE = 12, 4, 2
 
 
 @dataclass(frozen=True)
 class Room:
-    """What fills the memory besides what the systems have of their own.
+    """The memory of results, which comes on top of the variants.
 
     Attributes
     ----------
     model : System
     asked : OutputSpec
     threads : int
-        How many work at a time.
     width : int
-        How many systems a vector holds, whose series are there at a time.
+        Number of systems in a vector, whose series are in memory together.
     """
 
     model: System
@@ -35,7 +34,7 @@ class Room:
     width: int
 
     def refuse_beyond(self, given: Validator, count: int, columns: int) -> None:
-        """Refuse so many systems with so many columns of their own, if they need too much."""
+        """Refuse a number of systems, with columns of their own, that needs too much memory."""
         states = len(self.model.state_names)
         of_one = self.asked.numbers + _OTHERS + _OF_COLUMN * columns + _OF_STATE * states
         refuse_beyond(
@@ -48,10 +47,10 @@ class Room:
         )
 
     def _of_series(self, count: int) -> float:
-        """Return the numbers of whole series that are there at a time, in all threads."""
+        """Return the numbers of whole series that are in memory together, in all threads."""
         outputs, signals = self.asked.times.size, len(self.asked.sampled)
         some = max(SAMPLES / (_BYTES * max(1, outputs * signals)), self.width)
-        # of those of one signal there is a copy, and of a spectrum what its transform needs
+        # a copy of the series of one signal; for a spectrum also the data of its transform
         copies = {"percentile": some, "psd": some + 4 * TOGETHER}
         beside = max((copies[r.kind] for r in self.asked.of_series), default=0.0)
         rows = min(self.threads * some, count) * signals + min(self.threads * beside, 5.0 * count)

@@ -1,7 +1,6 @@
-"""What is found of whole series of outputs: percentiles, and spectra by Welch's method.
+"""Percentiles, and spectra by Welch's method, of whole series of outputs.
 
-Each series is reckoned by itself, by the same operations in the same order: the bits do not
-depend on the series beside it.
+The operations on a series and their order do not depend on other series, nor do its bits.
 """
 
 import numpy as np
@@ -10,23 +9,23 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 USUAL_SEGMENT, LEAST_SEGMENT = 256, 8
-"""Outputs in a segment of a spectrum: as SciPy has them, and the fewest that show anything."""
+"""Outputs in a segment of a spectrum: the default, as in SciPy, and the least allowed."""
 
-# Parts of a step by which times may be off; a spectrum is off by less than that part.
+# Largest error of times at equal distances, relative to a step; that of a spectrum is smaller.
 _OFF = 1e-6
-# Series that a transform takes together: always as many, since how it groups them depends on that.
+# Series of one transform: a fixed number, since the grouping within a transform depends on it.
 TOGETHER = 64
 
 
 def uniform_step(times: Array) -> float | None:
-    """Return the distance of times that are at equal distances [s]; None for others."""
+    """Return the step of times at equal distances [s]; None for other times."""
     step = (times[-1] - times[0]) / (times.size - 1)
     off = np.abs(times - (times[0] + step * np.arange(times.size))).max()
     return float(step) if off <= _OFF * step else None
 
 
 def frequencies(times: Array, segment: int) -> Array:
-    """Return the frequencies of a spectrum, from zero to half of the rate of the outputs [Hz]."""
+    """Return the frequencies of a spectrum, from zero to half of the sampling rate [Hz]."""
     step = uniform_step(times)
     assert step is not None  # the arguments have been checked
     return np.arange(segment // 2 + 1) / (segment * step)
@@ -45,7 +44,7 @@ def spectra(series: Array, times: Array, segment: int) -> Array:
     times : ndarray
         At equal distances [s].
     segment : int
-        Outputs in one.
+        Number of outputs in a segment.
 
     Returns
     -------
@@ -70,9 +69,6 @@ def spectra(series: Array, times: Array, segment: int) -> Array:
 
 
 def percentile(series: Array, percent: float) -> Array:
-    """Return a percentile of each series, between two outputs by the straight line.
-
-    The series are in another order then, which saves a copy of them.
-    """
+    """Return a percentile of each series, linearly interpolated; the series are reordered."""
     values: Array = np.percentile(series, percent, axis=-1, overwrite_input=True)
     return values

@@ -1,4 +1,4 @@
-"""What each of many systems has of its own: parameters, elements of its start, inputs, labels."""
+"""Variants of a system: its own parameters, elements of the initial state, inputs and labels."""
 
 import math
 from collections.abc import Hashable, Mapping
@@ -19,32 +19,32 @@ from .room import Room
 Array = NDArray[np.float64]
 
 CAR = "car"
-"""Name of the dimension of what is given as plain rows of numbers."""
+"""Dimension of variants that are given as rows of numbers."""
 
 TIME, STATE, BOUND, FREQUENCY = "time", "state_element", "bound", "frequency"
-"""Dimensions of what is kept of each."""
+"""Dimensions of the results of each system."""
 
 RESULTS = ("success", "valid", "reason", "end_time", "steps", "solver", "final_state", "beyond")
 """The variables that every result has."""
 
-# What the parameters of a body's mass are called, behind its name.
+# Ends of the names of parameters that describe the mass of a body.
 _OF_MASS = ("_mass", "_com_x", "_com_y", "_com_z", "_inertia_")
 
 
 @dataclass(frozen=True)
 class Variants:
-    """What differs between the systems.
+    """The values that differ between systems.
 
     Attributes
     ----------
     shape : dict
-        Dimensions and their lengths; the systems are all combinations, the last one changes first.
+        Dimensions and their lengths; the systems are all combinations, the last dimension fastest.
     coordinates : dict
-        Those of the dataset that was given.
+        Coordinates of the given dataset.
     parameters, states, inputs : dict
         By name, each of shape (count,).
     labels : dict
-        By input: which of its courses each system has.
+        By input: the label of its time series for each system.
     """
 
     shape: dict[Hashable, int]
@@ -56,25 +56,25 @@ class Variants:
 
     @property
     def count(self) -> int:
-        """How many systems there are."""
+        """Number of systems."""
         return int(np.prod(list(self.shape.values()), dtype=np.int64))
 
 
 def variants_of(
     model: System, given: Any, courses: Mapping[str, Any], rows: int | None, room: Room
 ) -> Variants:
-    """Read what differs between the systems, or refuse it.
+    """Return the values that differ between systems.
 
     Parameters
     ----------
     model : System
     given : mapping, xarray.Dataset or None
     courses : mapping
-        What inputs do over time: one course for all, or several by label.
+        Inputs over time: one series for all systems, or several by label.
     rows : int or None
-        How many rows the start has; None where it has one for all.
+        Number of initial states; None if there is one for all.
     room : Room
-        What is kept of the systems.
+        Memory of the results.
     """
     choices = {name: several for name, several in courses.items() if isinstance(several, Mapping)}
     with Validator("ensemble") as arguments:
@@ -106,13 +106,13 @@ def variants_of(
 
 
 def impossible_sets(model: System, variants: Variants) -> NDArray[np.bool_]:
-    """Return which systems have parameters out of their ranges, as `equations.prepare` would."""
+    """Return which systems have parameters out of range, by the rules of `equations.prepare`."""
     values = {**model.parameters, **variants.parameters}
     return impossible(values, model.equations.PARAMETERS, variants.count)
 
 
 def numbered(labels: NDArray[Any]) -> tuple[list[Any], NDArray[np.int64]]:
-    """Return the different ones of some labels, of any kinds, and which of these each one is."""
+    """Return the distinct labels, of any types, and the index of each label among them."""
     listed = labels.tolist()
     places = {label: place for place, label in enumerate(dict.fromkeys(listed))}
     return list(places), np.array([places[label] for label in listed], dtype=np.int64)
@@ -124,11 +124,11 @@ def numbered(labels: NDArray[Any]) -> tuple[list[Any], NDArray[np.int64]]:
 def _columns(
     arguments: Validator, model: System, given: Any, choices: Mapping[str, Any]
 ) -> dict[str, xr.DataArray]:
-    """Return what was given as labelled arrays by name."""
+    """Return the given variants as labelled arrays by name."""
     if given is None:
         return {}
     if isinstance(given, xr.Dataset):
-        # coordinates of the dataset may be what varies; others only label the systems
+        # coordinates with the name of a variable vary it; others only label the systems
         known = _described(model)
         names = [*given.data_vars, *(name for name in given.coords if name in known)]
         return {str(name): given[name].reset_coords(drop=True) for name in names}
@@ -150,19 +150,15 @@ def _columns(
 
 
 def _described(model: System) -> dict[str, Any]:
-    """Return what the manifest says of everything that can vary."""
+    """Return the descriptions of everything that can vary, from the manifest."""
     equations = model.equations
     return {**equations.PARAMETERS, **equations.STATE, **equations.INPUTS}
 
 
 def _row(values: Any, *, exact: bool) -> NDArray[Any] | None:
-    """Return what is one value or a row of them; nothing for anything else.
+    """Return one value or a row of values as an array; None for anything else.
 
-    Parameters
-    ----------
-    values
-    exact : bool
-        Whether they are labels, which stay as they are: an array of texts has "1" instead of 1.
+    With `exact` they are labels and stay as they are: an array of texts has "1" instead of 1.
     """
     if np.ma.is_masked(values):
         return None
@@ -173,9 +169,8 @@ def _row(values: Any, *, exact: bool) -> NDArray[Any] | None:
             array = given
     except (TypeError, ValueError, OverflowError):
         return None
-    # numbers, or labels of any kinds
-    kinds = str | float | int | np.generic
-    plain = array.dtype != object or all(isinstance(v, kinds) for v in array.flat)
+    labels = str | float | int | np.generic
+    plain = array.dtype != object or all(isinstance(v, labels) for v in array.flat)
     return array if array.ndim < 2 and plain else None
 
 
@@ -210,7 +205,7 @@ def _check_units(
     columns: Mapping[str, xr.DataArray],
     choices: Mapping[str, Any],
 ) -> None:
-    """Refuse numbers that say that they are in another unit; labels have none."""
+    """Refuse numbers with an attribute of another unit; labels have none."""
     described = _described(model)
     for name, column in columns.items():
         text, unit = column.attrs.get("units"), described[name]["unit"]
@@ -221,7 +216,7 @@ def _check_units(
 def _check_coordinates(
     arguments: Validator, model: System, given: Any, columns: Mapping[str, xr.DataArray]
 ) -> None:
-    """Refuse dimensions and coordinates that are called as results are."""
+    """Refuse dimensions and coordinates with the name of a result."""
     arrays = [given] if isinstance(given, xr.Dataset) else [*(given or {}).values()]
     labelled = [a for a in arrays if isinstance(a, xr.Dataset | xr.DataArray)]
     taken = {TIME, STATE, BOUND, FREQUENCY, *RESULTS, *model.signal_names}
@@ -234,7 +229,7 @@ def _check_coordinates(
 def _check_dimensions(
     arguments: Validator, model: System, given: xr.Dataset, columns: Mapping[str, xr.DataArray]
 ) -> None:
-    """Refuse dimensions over which nothing goes: what is meant there has another name."""
+    """Refuse dimensions that no variable has: the name is probably misspelt."""
     over = {dimension for column in columns.values() for dimension in column.dims}
     for dimension in given.dims:
         if dimension not in over:
@@ -245,7 +240,7 @@ def _check_dimensions(
 
 
 def without_mass(model: System, name: str) -> str:
-    """Return the body whose mass a parameter describes, and the equations leave out."""
+    """Return the body whose mass a parameter describes, if the equations leave it out; or ""."""
     equations = model.equations
     out = [body for body in equations.BODIES if body not in equations.MASSIVE_BODIES]
     return next((b for b in out if name.startswith(tuple(f"{b}{end}" for end in _OF_MASS))), "")
@@ -257,7 +252,7 @@ def _broadcast(
     """Return the columns over all dimensions, and these with their lengths."""
     start = {} if rows is None else {"": xr.DataArray(np.zeros(rows), dims=CAR)}
     try:
-        # labels in another order would bring rows of the start to other systems
+        # labels in another order would assign initial states to other systems
         alike = xr.align(*start.values(), *columns.values(), join="exact")
         together = xr.broadcast(*alike)
     except ValueError as error:
@@ -280,7 +275,7 @@ def _broadcast(
 def _coordinates(
     arguments: Validator, model: System, given: Any, columns: Mapping[str, xr.DataArray]
 ) -> dict[Hashable, Any]:
-    """Return the labels of the systems, as far as they were given; refuse those that mislead."""
+    """Return the given labels of systems; refuse contradictory and misleading ones."""
     arrays = [given] if isinstance(given, xr.Dataset) else [*(given or {}).values()]
     labelled = [array for array in arrays if isinstance(array, xr.Dataset | xr.DataArray)]
     found: dict[Hashable, Any] = {}

@@ -1,4 +1,4 @@
-"""What is kept of many motions: signals at times, reductions on the way, and what passes bounds."""
+"""Results of an ensemble: signals at times, reductions during integration, and bounds."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ REDUCTIONS = (*ON_THE_WAY, *OF_SERIES)
 
 @dataclass(frozen=True)
 class Reduced:
-    """What is kept of a signal: a number, or of 'psd' one for each frequency.
+    """A reduction of a signal: a number, or for 'psd' one for each frequency.
 
     Attributes
     ----------
@@ -31,7 +31,7 @@ class Reduced:
     kind : str
         One of `REDUCTIONS`.
     level : float
-        Of 'above'; which percentile; or how many outputs a segment of 'psd' has.
+        The level of 'above', the percentage of 'percentile', the outputs in a segment of 'psd'.
     """
 
     signal: str
@@ -40,7 +40,7 @@ class Reduced:
 
     @property
     def name(self) -> str:
-        """What the variable of the dataset is called."""
+        """Name of the variable in the dataset."""
         if self.kind not in ("above", "percentile"):
             return f"{self.signal}_{self.kind}"
         short = f"{self.level:g}"
@@ -48,25 +48,23 @@ class Reduced:
         return f"{self.signal}_{self.kind}_{exact}"
 
     def words(self, unit: str) -> str:
-        """Return what it is, for a person, by the unit of the signal."""
+        """Return a description in words, from the unit of the signal."""
+        display = display_of({"units": unit})
+        # with all digits that a user may have given
+        level = f"{self.level * display.factor:.12g} {display.units}".removesuffix(" 1").strip()
         texts = {
             "max": "greatest value of {}",
             "min": "smallest value of {}",
             "mean": "mean of {} over time",
             "rms": "rms of {} about its mean",
-            "above": f"time for which {{}} is above {self._level(unit)}",
+            "above": f"time for which {{}} is above {level}",
             "percentile": "value of {} that {:g} % of the outputs are below",
             "psd": "power spectral density of {}, one-sided",
         }
         return texts[self.kind].format(self.signal.replace("_", " "), self.level)
 
-    def _level(self, unit: str) -> str:
-        """Return the level in the display unit, with all digits that a user may have given."""
-        shown = display_of({"units": unit})
-        return f"{self.level * shown.factor:.12g} {shown.units}".removesuffix(" 1").strip()
-
     def unit(self, unit: str) -> str:
-        """Return its unit, by that of the signal."""
+        """Return the unit of the reduction, from that of the signal."""
         if self.kind == "psd":
             plain = {"1": "1/Hz"}
             alone = f"({unit})" if set(unit) & set(" /^*") else unit
@@ -76,7 +74,7 @@ class Reduced:
 
 @dataclass(frozen=True)
 class OutputSpec:
-    """What was asked for, and what is watched.
+    """The requested results, and the bounds that are checked.
 
     Attributes
     ----------
@@ -86,7 +84,7 @@ class OutputSpec:
         Kept at all times.
     reduced : tuple of Reduced
     bounds : tuple of Bound
-        What signals must not pass.
+        Bounds of the model on signals.
     """
 
     times: Array
@@ -96,35 +94,35 @@ class OutputSpec:
 
     @property
     def items(self) -> tuple[str, ...]:
-        """All signals that are looked at, those first of which whole series are needed."""
+        """All signals that are evaluated, beginning with those of which whole series are needed."""
         return tuple(dict.fromkeys([*self.sampled, *(r.signal for r in self.reduced)]))
 
     @property
     def of_series(self) -> tuple[Reduced, ...]:
-        """What is found of whole series, when a motion is done."""
+        """Reductions of whole series, which are computed at the end of a motion."""
         return tuple(r for r in self.reduced if r.kind in OF_SERIES)
 
     @property
     def sampled(self) -> tuple[str, ...]:
-        """Signals of which whole series are needed, those that are kept first."""
+        """Signals of which whole series are needed, beginning with those that are kept."""
         return tuple(dict.fromkeys([*self.signals, *(r.signal for r in self.of_series)]))
 
     @property
     def numbers(self) -> int:
-        """How many numbers are kept of one system."""
+        """Count of the numbers that are kept for each system."""
         spectra = sum(int(r.level) // 2 + 1 for r in self.of_series if r.kind == "psd")
         others = sum(r.kind == "percentile" for r in self.of_series) + len(self.places())
         return len(self.signals) * self.times.size + spectra + others
 
     @property
     def weights(self) -> Array:
-        """Weight of each output in time: half of the time to those beside it [s]."""
+        """Weights of the outputs in an integral over time by the trapezoidal rule [s]."""
         steps = np.diff(self.times, prepend=self.times[0], append=self.times[-1])
         weights: Array = (steps[:-1] + steps[1:]) / 2.0
         return weights
 
     def places(self) -> dict[tuple[str, Kind, float], int]:
-        """Return what is kept on the way, each once, in the order in which C keeps it."""
+        """Return the numbers that C accumulates during integration, each with its place."""
         found: dict[tuple[str, Kind, float], int] = {}
         for reduced in self.reduced:
             for kind in _KEPT.get(reduced.kind, ()):
@@ -132,7 +130,7 @@ class OutputSpec:
         return found
 
     def for_c(self, model: System) -> LaneOutputs:
-        """Return the same as C takes it."""
+        """Return the specification in the form that C reads."""
         names = (*model.signal_names, *model.state_names)
         items, places = self.items, self.places()
         limits = [np.atleast_1d(bound.limit) for bound in self.bounds]
@@ -151,7 +149,7 @@ class OutputSpec:
         )
 
     def on_the_way(self, outcome: Outcome) -> Iterator[tuple[Reduced, Array]]:
-        """Yield what was asked for and found on the way, from what C has kept."""
+        """Yield the reductions that follow from the numbers that C accumulated."""
         places, total = self.places(), float(self.times[-1] - self.times[0])
 
         def kept(reduced: Reduced, kind: Kind) -> Array:
@@ -172,7 +170,7 @@ class OutputSpec:
                 yield reduced, kept(reduced, _KEPT[reduced.kind][0])
 
 
-# What C keeps for each; sums are of what differs from the first value.
+# Numbers that C accumulates for each; sums are of differences from the first value.
 _KEPT = {
     "max": (Kind.GREATEST,),
     "min": (Kind.LEAST,),
@@ -180,14 +178,14 @@ _KEPT = {
     "rms": (Kind.FIRST, Kind.SUM, Kind.SQUARES),
     "above": (Kind.ABOVE, Kind.LAST),
 }
-# What each of them is reckoned from.
+# The number from which each of them is computed.
 _ORIGIN = dict.fromkeys(Kind, Kind.FIRST) | {Kind.ABOVE: Kind.LAST}
 
 
 def asked_of(
     given: Validator, model: System, times: Array, signals: Any, reductions: Any
 ) -> OutputSpec:
-    """Check what was asked for; the bounds are not known yet."""
+    """Return the requested results, checked; without bounds, which are not known yet."""
     known = (*model.signal_names, *model.state_names)
     described = {**model.equations.SIGNALS, **model.equations.STATE}
     names = given.names("signals", signals, known)
@@ -204,7 +202,7 @@ def asked_of(
 
 
 def _check_spectra(given: Validator, times: Array, segments: set[float]) -> None:
-    """Refuse times of which there are no spectra, and segments that do not fit them."""
+    """Refuse times that are unfit for spectra, and segments that do not fit the times."""
     if not segments or given.failed:
         return
     if len(segments) > 1:

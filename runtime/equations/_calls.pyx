@@ -1,5 +1,5 @@
 # cython: language_level=3, boundscheck=False, cdivision=True
-"""Calls the compiled functions of a model for one state or for arrays of states."""
+"""Calls of the compiled functions of a model for one state or for arrays of states."""
 
 import numpy as np
 
@@ -21,7 +21,7 @@ ctypedef int (*prepare_pointer)(const double *parameters, double *constants) noe
 
 
 cdef class Function:
-    """One result of a compiled function of a model: all of what that computes, or a part of it.
+    """One result of a compiled function of a model: all elements that it computes, or some of them.
 
     Attributes
     ----------
@@ -92,7 +92,7 @@ cdef class Function:
 
     cdef _fill(self, list arrays, tuple lead, result):
         cdef Py_ssize_t steps[3]
-        cdef Py_ssize_t runs[3]  # how many calls in a row take the same
+        cdef Py_ssize_t runs[3]  # consecutive calls with the same values
         flat = []
         for i, array in enumerate(arrays):
             steps[i] = self._widths[i] if array.ndim > 1 else 0
@@ -130,14 +130,14 @@ cdef class Function:
 
     cdef int _one(self, const double *constants, const double *state, const double *inputs,
                   double *whole, double *out) noexcept nogil:
-        """Fill the result for one state; return the status bits that are about it."""
+        """Fill the result for one state; return the status bits that concern it."""
         cdef function_pointer function = <function_pointer> self._pointer
         cdef Py_ssize_t i
         if whole == NULL:
             return function(constants, state, inputs, out) & self._mask
         cdef int status = function(constants, state, inputs, whole) & self._mask
         memcpy(out, whole + self._start, self._out * sizeof(double))
-        if status & self._not_finite:  # it may be another part that is not finite
+        if status & self._not_finite:  # another part may not be finite
             for i in range(self._out):
                 if not isfinite(out[i]):
                     return status
@@ -153,7 +153,7 @@ cdef class Function:
 
 
 def call_prepare(address, const double[::1] parameters, double[::1] constants):
-    """Fill the constants; return 0, or what is wrong with them (see the header of the model)."""
+    """Fill the constants; return 0 or the number of an error (see the header of the model)."""
     return (<prepare_pointer><uintptr_t> address)(&parameters[0], &constants[0])
 
 

@@ -1,8 +1,7 @@
-"""Calls the functions of a model that has no C code: the same programs, over NumPy arrays.
+"""Calls of the functions of a model that has no C code: the same programs, over NumPy arrays.
 
-The functions of such a model
-take constants, state and inputs with any leading dimensions, and return their results with what
-their guards say: place of the guard to whether its quantity is positive enough.
+The functions of such a model take constants, state and inputs with any leading dimensions. They
+return their results, and by the number of each guard whether its quantity is positive.
 """
 
 from collections.abc import Callable
@@ -66,7 +65,7 @@ class Function:
         lead = np.broadcast_shapes(*(array.shape[:-1] for array in arrays))
         everything, status = _run(self._code, lead, self._whole, arrays)
         values = everything[..., self._part]
-        finite = np.isfinite(values).all(axis=-1)  # it may be another part that is not
+        finite = np.isfinite(values).all(axis=-1)  # another part may not be finite
         status &= np.where(finite, self._mask & ~NOT_FINITE, self._mask)
         for found in np.argwhere(status):
             index = tuple(map(int, found))
@@ -81,7 +80,7 @@ def _run(
     """Return results and status words, both with the leading dimensions in front."""
     values = np.empty((*lead, count))
     status = np.zeros(lead, dtype=np.int64)
-    with np.errstate(all="ignore"):  # what is wrong is in the status
+    with np.errstate(all="ignore"):  # the status has the errors
         results, holds = code(*arrays)
         for k, result in enumerate(results):
             values[..., k] = result
@@ -98,8 +97,8 @@ def _fill(code: Code, arrays: list[Array], out: Array) -> int:
 
 
 def call_prepare(code: Code, parameters: Array, constants: Array) -> int:
-    """Fill the constants; return 0, or what is wrong with them, as the C code does."""
-    with np.errstate(all="ignore"):  # what is wrong is returned
+    """Fill the constants; return 0 or the number of an error, as the C code does."""
+    with np.errstate(all="ignore"):
         constants[:], holds = code(parameters)
     broken = [place for place, good in holds.items() if not good]
     if broken:

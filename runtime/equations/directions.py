@@ -1,6 +1,6 @@
-"""Calls of the derivatives of a model: along directions, and of weighted sums of results.
+"""Derivatives of the functions of a model: along directions, and of weighted sums of results.
 
-The compiled functions read directions and weights behind the values in the same arrays; see
+The compiled functions read directions and weights after the values in the same arrays; see
 `kintrafo.generator.equations.parameter_derivatives`.
 """
 
@@ -15,23 +15,23 @@ from .errors import ModelError, place_of
 Array = NDArray[np.float64]
 
 TANGENTS, ADJOINTS = "tangents", "adjoints"
-"""Parts of the emitted code that have such functions."""
+"""Parts of the emitted code that have these functions."""
 
 _GEOMETRY = ("m", "rad", "1")
-# A step along a direction, as a part of the greatest length. What is assumed to be zero is checked
-# to 1e-9: a direction that leaves the assumption is off by some 1e-6 then, one that follows it
-# by the square of that.
+# A step along a direction, relative to the greatest length. Quantities that are assumed to be zero
+# are checked to 1e-9: a direction that breaks the assumption changes one by some 1e-6, and a
+# direction that keeps it by the square of that.
 _STEP = 1e-6
 
 
 class WiderArrays:
-    """What a derivative knows of its model: its arrays have more than values.
+    """The model of a derivative, whose arrays have more elements than the values.
 
     Parameters
     ----------
     model : Equations
     more : tuple of int
-        How many numbers follow the constants, the state and the inputs.
+        Numbers of elements that follow the constants, the state and the inputs.
     """
 
     def __init__(self, model: Any, more: tuple[int, ...]) -> None:
@@ -48,24 +48,24 @@ class WiderArrays:
         inputs: Array,
         index: tuple[int, ...],
     ) -> None:
-        """Raise the error of a status word, about the values alone."""
+        """Raise the error of a status word with the values alone."""
         arrays = zip((constants, state, inputs), self._model.widths, strict=True)
         self._model.refuse(function, status, *(array[:width] for array, width in arrays), index)
 
 
 class Directions:
-    """The derivatives of a model by everything that its functions read.
+    """Derivatives of a model with respect to everything that its functions read.
 
     Parameters
     ----------
     model : Equations
     calls : mapping
-        The functions; none where they were not asked for.
+        The compiled functions; empty if the model was compiled without derivatives.
 
     Attributes
     ----------
     of : tuple of str
-        The functions that there are derivatives of.
+        Names of the functions that have derivatives.
     """
 
     def __init__(self, model: Any, calls: Mapping[str, Any]) -> None:
@@ -75,7 +75,7 @@ class Directions:
         self._zero = [a["meaning"] for a in model.manifest["assumptions"] if "least" not in a]
 
     def of_parameters(self, function: str, parameters: Array, behind: Array, size: int) -> Array:
-        """Return what a function makes of parameters, for one or many directions or weights.
+        """Return the results of a function of parameters, shape (..., size).
 
         Parameters
         ----------
@@ -85,16 +85,7 @@ class Directions:
         behind : ndarray, shape (..., n)
             Directions or weights.
         size : int
-            Number of results.
-
-        Returns
-        -------
-        ndarray, shape (..., size)
-
-        Raises
-        ------
-        ModelError
-            If a result is not finite.
+            Number of results; a ModelError is raised if one is not finite.
         """
         found = np.empty((*behind.shape[:-1], size))
         for index in np.ndindex(behind.shape[:-1]):
@@ -114,14 +105,14 @@ class Directions:
         ----------
         function : str
         values, directions : tuple of ndarray
-            Constants, state and inputs, and how they change; leading dimensions are broadcast.
+            Constants, state and inputs, and their changes; leading dimensions are broadcast.
         """
         constants, state, inputs = map(_joined, values, directions)
         found: Array = self._calls[f"{function}_tangent"](state, inputs, constants)
         return found
 
     def adjoint(self, function: str, values: tuple[Array, ...], weights: Array) -> list[Array]:
-        """Return the derivatives of a weighted sum by constants, state and inputs.
+        """Return derivatives of a weighted sum of results by constants, state and inputs.
 
         Parameters
         ----------
@@ -136,19 +127,19 @@ class Directions:
         return np.split(found, np.cumsum(self._model.widths)[:-1], axis=-1)
 
     def bound(self, parameters: Array) -> NDArray[np.bool_]:
-        """Return which parameters cannot move alone, (parameters,): only with others."""
+        """Return which parameters, shape (parameters,), can change only with others."""
         units = np.eye(parameters.size)
         if not self._zero:
             return np.zeros(parameters.size, dtype=bool)
         return np.array([bool(self.broken(parameters, unit)) for unit in units])
 
     def broken(self, parameters: Array, direction: Array) -> str:
-        """Say what the equations take to be zero and a direction does not keep; nothing if all.
+        """Return the assumption of the equations that a direction breaks; empty if it keeps all.
 
         Parameters
         ----------
         parameters, direction : ndarray, shape (parameters,)
-            The latter of what is `bound`: it would be too small to be seen beside the rest.
+            The direction changes only `bound` parameters: beside others they could be too small.
         """
         if not self._zero or not direction.any():
             return ""
@@ -166,7 +157,7 @@ class Directions:
 
 
 def _joined(values: Array, behind: Array) -> Array:
-    """Return values with something behind them, along the last axis."""
+    """Return values followed by others along the last axis."""
     lead = np.broadcast_shapes(values.shape[:-1], behind.shape[:-1])
     parts = [np.broadcast_to(array, (*lead, array.shape[-1])) for array in (values, behind)]
     return np.concatenate(parts, axis=-1)

@@ -1,4 +1,4 @@
-"""Everything that one manifest describes, ready to be called."""
+"""The equations of one mechanism: names from its manifest, and calls of its functions."""
 
 import json
 from collections.abc import Callable, Iterator, Mapping
@@ -20,16 +20,16 @@ Array = NDArray[np.float64]
 Code = Mapping[str, int | Callable[..., Any]]
 """The functions by name: addresses of C functions, or functions over NumPy arrays."""
 
-# Whose guards an integration has to know: what it evaluates, what it puts out, what places bodies.
+# Functions whose guards an integration needs: those of the motion, of outputs, of poses.
 _OF_A_SIMULATION = ("rhs", "forces", "signals", "positions", "orientations")
-# Constants that are one over the mass or inertia that a coordinate moves, before its name.
+# Beginning of the names of constants that are one over the mass or inertia of a coordinate.
 _OF_MASS = "inverse_pivot_"
 
 
 def _result(
     shape: tuple[int, ...], operations: Mapping[str, int], described: Mapping[str, Any]
 ) -> str:
-    """Say of what shape the result of a function is, and what a call of it costs."""
+    """Return a text about the shape of a result and the operations of a call."""
     kinds = ", ".join(f"{n} {kind}" for kind, n in operations.items() if n and kind != "total")
     text = f"Result (..., {', '.join(map(str, shape))}); {operations['total']} operations"
     text += f" ({kinds or 'none'})"
@@ -41,16 +41,16 @@ def _result(
 
 
 class Equations:
-    """The compiled equations of one mechanism: what its manifest says, and calls of its functions.
+    """Compiled equations of one mechanism: contents of its manifest, and calls of its functions.
 
-    Several results may come from one compiled function, which computes what they share once: the
-    poses together, mass matrix with bias and forces, and so on. Each is offered by itself, and
-    refuses a state for nothing but its own guards.
+    One compiled function may have several results, which share computations: the poses together,
+    mass matrix with bias and forces, and so on. Each result can be called separately, and then
+    refuses a state only for its own guards.
 
     Parameters
     ----------
     manifest : mapping
-        What ``NAME.json`` holds.
+        The contents of ``NAME.json``.
     code : mapping
         The functions that the manifest names.
 
@@ -60,16 +60,16 @@ class Equations:
     name : str
     parameter_names, state_names, input_names, relative_names, constant_names : tuple of str
     layout : StateLayout
-        Which elements of the state are positions, and which speeds.
+        Positions, speeds and internal states in the state.
     guards : tuple of dict
         ``name``, ``meaning`` and ``unit`` of each.
     addresses : dict
-        Addresses of the C functions, for native callers; empty where there is no C.
+        Addresses of the C functions, for native callers; empty without C code.
     default_constants : ndarray
-        Those of the default parameters.
+        Constants of the default parameters.
     functions : dict
-        Every result by its name, and every stage with all of its results, ready to be called with
-        arrays of states.
+        Every result by its name, and every stage with all of its results: callables over arrays of
+        states.
     """
 
     def __init__(self, manifest: Mapping[str, Any], code: Code) -> None:
@@ -84,7 +84,7 @@ class Equations:
         self.guards = tuple(manifest["guards"])
         self.addresses = {n: at for n, at in code.items() if isinstance(at, int)}
         self._code = code
-        # the compiled one only where C is there to be called
+        # the compiled module only for C code
         self._calls: Any = import_module("._calls" if self.addresses else ".arrays", __package__)
         self.widths = (len(self.constant_names), len(self.state_names), len(self.input_names))
         self.no_inputs = np.zeros(len(self.input_names))
@@ -92,7 +92,10 @@ class Equations:
             {key: entry["default"] for key, entry in manifest["parameters"].items()}
         )
         self._acting = {n: tuple(f["guards"]) for n, f in manifest["functions"].items()}
-        self._acting |= {name: self._acting_in(name) for name in manifest["stages"]}
+        self._acting |= {
+            stage: tuple(sorted({g for part in self._parts_of(stage) for g in self._acting[part]}))
+            for stage in manifest["stages"]
+        }
         names = [*manifest["functions"], *manifest["stages"]]
         made = {name: self._function(name) for name in names if name != "residuals"}
         self.functions = {name: f for name, f in made.items() if not self._behind(name)}
@@ -101,7 +104,7 @@ class Equations:
 
     @classmethod
     def beside(cls, module: str, code: Code, mechanism: str) -> "Equations":
-        """Return the equations whose manifest lies beside a module.
+        """Return the equations whose manifest is in the folder of a module.
 
         Parameters
         ----------
@@ -115,14 +118,14 @@ class Equations:
         Raises
         ------
         ModelError
-            If the manifest is that of other equations: calls would write beside their arrays.
+            If the manifest is that of other equations: calls would write outside of their arrays.
         """
         manifest = json.loads(Path(module).with_suffix(".json").read_text(encoding="utf-8"))
         if mechanism != manifest["mechanism"]:
             problem = (
                 f"{manifest['name']}: its compiled code is that of other equations than its "
                 f"manifest describes, {mechanism} and {manifest['mechanism']}. Build it again: "
-                "`make build`, or install the package anew."
+                "`make build`, or reinstall the package."
             )
             raise ModelError(problem)
         return cls(manifest, code)
@@ -130,10 +133,10 @@ class Equations:
     def __repr__(self) -> str:
         return f"<Equations of {self.name}>"
 
-    # -- what a module of equations has -----------------------------------------------------------
+    # -- the module of a mechanism ----------------------------------------------------------------
 
     def names(self) -> dict[str, Any]:
-        """Return what the module of the mechanism offers, by name."""
+        """Return the names of the mechanism's module with their values."""
         manifest = self.manifest
         functions = manifest["functions"]
         return {
@@ -175,7 +178,7 @@ class Equations:
         }
 
     def _described(self) -> Iterator[str]:
-        """Yield the lines that describe the module."""
+        """Yield the lines of the module's docstring."""
         manifest, (constants, states, inputs) = self.manifest, self.widths
         yield f"{manifest['title']}."
         yield from ("", manifest["note"], "") if manifest["note"] else ("",)
@@ -197,16 +200,12 @@ class Equations:
     # -- functions --------------------------------------------------------------------------------
 
     def _parts_of(self, stage: str) -> dict[str, Mapping[str, Any]]:
-        """Return the results that come from one compiled function, in their order."""
+        """Return the results of one compiled function in their order."""
         functions = self.manifest["functions"]
         return {n: f for n, f in functions.items() if f.get("stage", n) == stage}
 
-    def _acting_in(self, stage: str) -> tuple[int, ...]:
-        """Return the places of the guards that act in a compiled function."""
-        return tuple(sorted({g for part in self._parts_of(stage) for g in self._acting[part]}))
-
     def _function(self, name: str) -> Any:
-        """Return one of the results, or all of a stage, ready to be called with arrays."""
+        """Return a callable for one result, or all results of a stage, over arrays of states."""
         stages = self.manifest["stages"]
         described = stages[name] if name in stages else self.manifest["functions"][name]
         stage: str = described.get("stage", name)
@@ -237,7 +236,7 @@ class Equations:
         return any("iterates" in text for text in self.manifest["functions"].values())
 
     def _behind(self, name: str) -> tuple[int, ...]:
-        """Return how much a function reads behind constants, state and inputs; none of most."""
+        """Return the numbers of values after constants, state and inputs; () for most functions."""
         parts = [*self._parts_of(name).values()] or [self.manifest["functions"][name]]
         part = parts[0].get("part")
         if part == TANGENTS:
@@ -248,18 +247,12 @@ class Equations:
         return ()
 
     def call_of_parameters(self, function: str, given: Array, found: Array) -> int:
-        """Fill what a function makes of parameters, and return what is wrong, if anything is."""
+        """Fill the result of a function of parameters; return 0 or the number of an error."""
         failed: int = self._calls.call_prepare(self._code[function], given, found)
         return failed
 
     def design_state(self, parameters: Mapping[str, float]) -> Array:
-        """Return the state at the design position of some parameters, at rest.
-
-        Parameters
-        ----------
-        parameters : mapping
-            Values by name, SI units.
-        """
+        """Return the state at rest in the design position of parameters by name (SI units)."""
         given = np.array([parameters[name] for name in self.parameter_names], dtype=np.float64)
         state = np.empty(len(self.state_names))
         self.call_of_parameters("design_state", given, state)
@@ -319,7 +312,7 @@ class Equations:
         -------
         constants, states : ndarray, shape (count, ...)
         failed : ndarray of bool, shape (count,)
-            Of what `prepare` would refuse; their constants mean nothing.
+            True for sets that `prepare` refuses; their constants are meaningless.
         """
         count = len(parameters)
         constants = np.empty((count, len(self.constant_names)))
@@ -343,7 +336,7 @@ class Equations:
         return [parameters[name] for name in self.parameter_names]
 
     def _unusable(self, failed: int, constants: Array) -> str:
-        """Say what `prepare` has found wrong with the constants."""
+        """Return a message for the error number of `prepare`."""
         if failed <= len(self.constant_names):
             name = self.constant_names[failed - 1]
             if name.startswith(_OF_MASS):
@@ -388,7 +381,7 @@ class Equations:
     ) -> None:
         """Raise the error of a status word, with the quantities that explain it.
 
-        It returns where the status is about a guard that does not act in the function, but shares
+        It returns if the status is that of a guard which does not act in the function, but shares
         the last bit with one that does.
         """
         where = f"{self.name}.{function}"
@@ -438,7 +431,7 @@ def labels_of(described: Mapping[str, Any]) -> list[str]:
 
 
 def _amount_off(value: float, unit: str) -> str:
-    """Return a distance, an angle given by its sine, or what else it is, as a person reads it."""
+    """Return a value in a display unit: a length, the sine of an angle, or any other quantity."""
     if unit == "m":
         return f"{1e3 * value:.3g} mm"
     if unit != "1":

@@ -22,7 +22,7 @@ WEIGHTLESS = (
     "that forces would accelerate it without end"
 )
 HEAVIER = "give what moves then a mass above 0 kg or an inertia above 0 kg m^2"
-"""What a mass matrix that is singular means of one of its coordinates, and what to do then."""
+"""Explanation of a singular mass matrix, with the name of a coordinate, and advice."""
 
 
 class ModelError(KintrafoError, ValueError):
@@ -33,22 +33,17 @@ class ParameterError(ModelError):
     """A parameter set from which no model can be made."""
 
 
-def _with_unit(value: float, unit: str) -> str:
-    """Return a number with its unit; a pure number has none."""
-    return f"{value:.3g}" if unit == "1" else f"{value:.3g} {unit}"
-
-
 class ClosureError(ModelError):
     """A loop of the mechanism cannot close, or a formula has left its range.
 
     Attributes
     ----------
     reasons : tuple of str
-        What is wrong, one text for each status bit.
+        A text for each status bit that is set.
     margins : dict
         The quantities concerned, which must be positive (SI units).
     coordinates : dict
-        State and inputs at which it happened, by name (SI units).
+        State and inputs at which the error occurred, by name (SI units).
     index : tuple of int
         Position in the leading dimensions of the arrays given; empty for a single state.
     """
@@ -77,8 +72,8 @@ class ClosureError(ModelError):
             described,
         )
         wrong = "; ".join(
-            f"{reason} ({name} = {_with_unit(value, units.get(name, '1'))}, "
-            f"must {'stay' if value > 0.0 else 'be'} positive)"  # it does at the end of a motion
+            f"{reason} ({name} = {value:.3g}{_unit(units.get(name, '1'))}, "
+            f"must {'stay' if value > 0.0 else 'be'} positive)"  # a motion ends before zero
             for reason, (name, value) in zip(self.reasons, self.margins.items(), strict=True)
         )
         shown = located(self.coordinates, described or {})
@@ -89,20 +84,22 @@ class ClosureError(ModelError):
 
 
 def located(values: Mapping[str, float], described: Mapping[str, Mapping[str, Any]]) -> str:
-    """Return where something is: names with values, and units as far as they are known.
-
-    A name that is a symbol has its meaning, too.
+    """Return names with values and known units; a symbol has its meaning, too.
 
     Examples
     --------
     >>> located({"beta1": 1.5}, {"beta1": {"unit": "rad", "meaning": "arm angle (Eq. 6)"}})
     'beta1 = 1.5 rad (arm angle)'
     """
-    return ", ".join(f"{n} = {v:.6g}{_said(n, described.get(n, {}))}" for n, v in values.items())
+    return ", ".join(
+        f"{n} = {v:.6g}{_unit(described.get(n, {}).get('unit', '1'))}"
+        + named(n, described).removeprefix(n)
+        for n, v in values.items()
+    )
 
 
 def named(name: str, described: Mapping[str, Mapping[str, Any]]) -> str:
-    """Return a name; one that is a symbol has its meaning: ``beta1 (arm angle)``."""
+    """Return a name; a symbol with its meaning: ``beta1 (arm angle)``."""
     meaning = re.split(r"[;,(]| from | of | relative ", described.get(name, {}).get("meaning", ""))[
         0
     ]
@@ -110,12 +107,11 @@ def named(name: str, described: Mapping[str, Mapping[str, Any]]) -> str:
     return f"{name} ({meaning.strip()})" if symbol and meaning.strip() else name
 
 
-def _said(name: str, entry: Mapping[str, Any]) -> str:
-    """Return the unit of a value, and what its name means where that is a symbol."""
-    unit = entry.get("unit", "1")
-    return ("" if unit == "1" else f" {unit}") + named(name, {name: entry}).removeprefix(name)
+def _unit(unit: str) -> str:
+    """Return a unit after a space; empty for that of a pure number."""
+    return "" if unit == "1" else f" {unit}"
 
 
 def place_of(index: tuple[int, ...]) -> str:
-    """Say which element of the arrays given it is; nothing for a single state."""
+    """Return a text with the index in the given arrays; empty for a single state."""
     return f" (element {list(index)} of the arrays given)" if index else ""

@@ -1,6 +1,6 @@
-"""How functions over NumPy arrays follow loops that are solved by iteration.
+"""Iterative solution of loops without a closed form, for functions over NumPy arrays.
 
-It is what ``follow.c`` does, for all states at a time. The limits are those of both.
+It does the same as ``follow.c``, for all states together, with the same limits.
 """
 
 from collections.abc import Callable, Sequence
@@ -12,21 +12,21 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 ITERATIONS = 400
-"""Most iterations of a call. Within the travel of a suspension it takes five to seven."""
+"""Most iterations of a call. Within the travel of a suspension five to seven are needed."""
 CONVERGED = 1e-13
-"""Length of a correction that ends the iterations: that of its rounding."""
+"""Length of a correction that ends the iterations: its rounding error."""
 STALLED = 1e-6
-"""Greatest length that rounding may have next to a dead point."""
+"""Largest rounding error of a correction next to a dead point."""
 LONGEST = 0.5
-"""Farthest that a coordinate, or all unknowns together, may go in a stage."""
+"""Largest change of a coordinate, or of all unknowns together, in a stage."""
 TURNED = 0.5
-"""Most that J may change in a stage, of itself."""
+"""Largest relative change of J in a stage."""
 CLOSE = 0.05
-"""Longest correction with which a stage ends, of the stage; the last one converges."""
+"""Longest last correction of a stage, relative to the stage; the last stage converges."""
 SHORTEST = 1e-9
-"""Shortest stage, of the way: where it ends, so does the branch."""
+"""Shortest stage, relative to the whole way: the branch ends where a shorter one is needed."""
 CLOSED = 1e-6
-"""How far from the design position a full turn ends that leads back to it."""
+"""Largest distance from the design position after a full turn that leads back to it."""
 
 _FULL_TURN = 2.0 * np.pi
 
@@ -36,9 +36,9 @@ def _square(values: Array) -> Any:
 
 
 def _even(went: Array, first: Array, last: Array) -> Any:
-    """Return where unknowns have gone as their tangents at both ends of a stage lead.
+    """Return where the unknowns follow the tangents at both ends of a stage.
 
-    At a dead point within it, the last one leads elsewhere by far more than the first one does.
+    At a dead point within the stage, the last tangent differs by far more than the first one does.
     """
     ahead, back = _square(went - first), _square(went - last)
     bent = np.fmax(4.0 * ahead, _square(last) / 4.0)
@@ -54,10 +54,10 @@ def _follow(
     end: Array,
     unit: Array,
 ) -> tuple[Array, NDArray[np.bool_]]:
-    """Follow loops straight from the design position to other coordinates, all states at a time.
+    """Follow loops straight from the design position to other coordinates, all states together.
 
-    Everything is an array with a column for each state. Return what is found, and in which states
-    the loops have arrived.
+    Each array has a column for each state. Return the solutions, and the states in which the loops
+    have reached the end.
     """
     n, place, count = unknowns, unknowns + elements, given.shape[1]
     base, left, slope, move, step, gone = (np.zeros((n, count)) for _ in range(6))
@@ -130,9 +130,9 @@ def follow_turns(
     once : callable
         One iteration.
     unknowns, elements : int
-        How many unknowns the loops have, and elements the inverse of their Jacobian.
+        Numbers of the unknowns of the loops, and of the elements of the inverse of their Jacobian.
     turns : sequence of bool
-        Which coordinates are angles.
+        Whether each coordinate is an angle.
     given : sequence of array_like
         Constants.
     along : sequence of tuple
@@ -141,7 +141,7 @@ def follow_turns(
     Returns
     -------
     tuple of ndarray
-        What is found; the last is one where the loops have not arrived, else zero.
+        The solutions; the last array is one where the loops have not reached the end, else zero.
     """
     shape = np.broadcast_shapes(*map(np.shape, (*given, *(v for values in along for v in values))))
 

@@ -1,4 +1,4 @@
-"""The state of a mechanism: positions q, then speeds v, with q' = N(q) v, then internal states."""
+"""The state of a mechanism: positions q, speeds v with q' = N(q) v, and internal states."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -9,29 +9,29 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-# Of a free body: its displacement, and then its unit quaternion.
+# Numbers of displacements, and of all positions, of a free body: a unit quaternion follows.
 _AXES, _POSITIONS = 3, 7
 
 
 @dataclass(frozen=True)
 class StateLayout:
-    """How a state is made up.
+    """The order of the elements of a state.
 
     Most coordinates are positions whose rates are speeds. A body that moves freely in the world has
-    seven positions, of which the last four are a quaternion, and six speeds in its own axes. Behind
-    the speeds come internal states of forces.
+    seven positions, of which the last four are a quaternion, and six speeds in its own axes.
+    Internal states of forces follow the speeds.
 
     Attributes
     ----------
     positions, speeds : int
-        How many there are; they come in this order.
+        Their numbers; they come in this order.
     speed_of : tuple of int or None
-        Of each position, the place among the speeds of the one that changes it most directly: the
-        rate of a coordinate, the velocity along the same axis of a free body, its angular velocity
-        about it for a component of the quaternion. None where there is none: of the scalar part,
-        and where constraints give the speed.
+        For each position the index of the speed that changes it most directly: the rate of a
+        coordinate, the velocity of a free body along the same axis, its angular velocity about it
+        for a component of the quaternion. None for the scalar part, and where constraints determine
+        the rate.
     free : tuple of int
-        Where the seven positions of each free body begin.
+        Index of the first of the seven positions of each free body.
     """
 
     positions: int
@@ -51,30 +51,26 @@ class StateLayout:
 
     @property
     def rates_are_speeds(self) -> bool:
-        """Whether each speed is the rate of the position in its place."""
+        """Whether each speed is the rate of the position with the same index."""
         return self.speed_of == tuple(range(self.speeds)) and not self.free
 
     @property
     def joints(self) -> tuple[int, ...]:
-        """Places of the positions that belong to no free body."""
+        """Indices of the positions that belong to no free body."""
         of_free = {at + i for at in self.free for i in range(_POSITIONS)}
         return tuple(i for i in range(self.positions) if i not in of_free)
 
     @property
     def directions(self) -> dict[int, int]:
-        """Of each position, its place among the directions of `basis`; the scalar part has none."""
+        """Index of each position among the directions of `basis`; scalar parts have none."""
         scalar = {at + _AXES for at in self.free}
         found = (i for i in range(self.positions) if i not in scalar)
         return {position: place for place, position in enumerate(found)}
 
     def normalised(self, state: Array) -> Array:
-        """Return a state, or positions, with quaternions of length one.
+        """Return a state or positions, shape (..., n), with quaternions of length one.
 
-        Zeros stay as they are: equations refuse them.
-
-        Parameters
-        ----------
-        state : ndarray, shape (..., positions or more)
+        A quaternion of zeros is unchanged: equations refuse it.
         """
         found = state.copy()
         for at in self.free:
@@ -84,7 +80,7 @@ class StateLayout:
         return found
 
     def basis(self, state: Array) -> Array:
-        """Return in which directions positions can change.
+        """Return the directions in which positions can change, shape (positions, directions).
 
         Displacements and small turns of free bodies are in their own axes.
 
@@ -92,10 +88,6 @@ class StateLayout:
         ----------
         state : ndarray, shape (states,)
             With quaternions of length one.
-
-        Returns
-        -------
-        ndarray, shape (positions, directions)
         """
         found = self._of_free(
             (at, rotation(e), turning(e)) for at in self.free for e in [self._quaternion(state, at)]
@@ -105,7 +97,7 @@ class StateLayout:
         return found
 
     def turned(self, state: Array, rate: Array) -> Array:
-        """Return how fast `basis` changes, given the rate of the state."""
+        """Return the time derivative of `basis`, given the rate of the state."""
 
         def blocks(at: int) -> tuple[int, Array, Array]:
             e, change = self._quaternion(state, at), self._quaternion(rate, at)
@@ -141,12 +133,12 @@ def rotation(quaternion: Array) -> Array:
 
 
 def turning(quaternion: Array) -> Array:
-    """Return how a quaternion changes with small turns about the axes that it turns, 4 x 3."""
+    """Return the derivative of a quaternion with respect to small turns about body axes, 4 x 3."""
     e0, e1, e2, e3 = 0.5 * quaternion
     return np.array([[-e1, -e2, -e3], [e0, -e3, e2], [e3, e0, -e1], [-e2, e1, e0]])
 
 
 def _cross(v: Array) -> Array:
-    """Return the matrix of the vector product with v from the left."""
+    """Return the matrix of the vector product with v on the left."""
     x, y, z = v
     return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

@@ -15,7 +15,7 @@ class Residuals:
     """Closure residuals g(beta, q) of given relative coordinates (Eqs. 4 to 13).
 
     Called as ``residuals(given, state, inputs=None, constants=None)``; ``given`` and the result are
-    in the order and units of ``RELATIVE_COORDINATES``, behind the leading dimensions. For an angle
+    in the order and units of ``RELATIVE_COORDINATES``, after the leading dimensions. For an angle
     that the paper gives by its sine, the residual is that of the sine.
     """
 

@@ -8,12 +8,12 @@ import numpy as np
 class Arithmetic(Protocol):
     """Functions of numbers, of arrays or of symbols.
 
-    Sums, products and quotients are those of Python. What has a corner is written by `positive`,
-    so that derivatives at it are known.
+    Sums, products and quotients are those of Python. Functions with a corner are written with
+    `positive`, so that derivatives at it are known.
     """
 
     def define(self, name: str, value: Any) -> Any:
-        """Return a value; of symbols, the step of this name that holds it."""
+        """Return a value; for symbols, the step of this name with that value."""
 
     def sqrt(self, x: Any) -> Any:
         """Return the square root."""
@@ -41,7 +41,7 @@ class Arithmetic(Protocol):
 
 
 class _Arrays:
-    """Functions of NumPy, of numbers and arrays."""
+    """Functions of NumPy for numbers and arrays."""
 
     sqrt, sin, cos, atan = np.sqrt, np.sin, np.cos, np.arctan
     exp, log, sign = np.exp, np.log, np.sign
@@ -59,7 +59,7 @@ class _Arrays:
 
 
 ARRAYS: Arithmetic = _Arrays()
-"""Of numbers and NumPy arrays, which broadcast."""
+"""Functions of numbers and NumPy arrays, which broadcast."""
 
 
 def magnitude(a: Arithmetic, x: Any) -> Any:

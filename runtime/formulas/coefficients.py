@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 
 def keys(text: str) -> tuple[str, ...]:
-    """Return the names in a text, of which ``PDX1-3`` means three."""
+    """Return the names in a text, in which ``PDX1-3`` represents three."""
     names: list[str] = []
     for word in text.split():
         stem, _, last = word.partition("-")
@@ -20,7 +20,7 @@ SCALES = keys(
     "LFZO LCZ LCX LMUX LEX LKX LHX LVX LGAX LCY LMUY LEY LKY LHY LVY LGAY LKYC LKZC LTR LRES LGAZ "
     "LXAL LYKA LVYKA LS LSGKP LSGAL LMX LVMX LMY"
 )
-"""Scaling factors, one unless the file says otherwise."""
+"""Scaling factors, one by default."""
 
 OF_FORCES = keys(
     "PCX1 PDX1-3 PEX1-4 PKX1-3 PHX1-2 PVX1-2 PPX1-4 RBX1-3 RCX1 REX1-2 RHX1 "
@@ -40,10 +40,10 @@ NEUTRAL: Mapping[str, float] = {
     "Q_RE0": 1.0,
     "QSY7": 1.0,
 }
-"""What each of them is where it has no effect."""
+"""Values with which coefficients have no effect."""
 
 IN_EQUATIONS = tuple(key for key in NEUTRAL if key not in keys("Q_V1-2 Q_FCX Q_FCY Q_FZ3"))
-"""Those that equations of motion have: not the load by speed and forces."""
+"""Coefficients in equations of motion: those of the load by speed and forces are left out."""
 
 ODD = keys("PHY1-2 PVY1-2 PEY3 RBY3 RHX1 RVY1-2 QHZ1-2 QBZ4 QDZ3 QDZ6-7 QEZ4 SSZ1 QSX1")
-"""Those that change their signs in the mirror image of a tyre."""
+"""Coefficients with another sign in the mirror image of a tyre."""

@@ -1,7 +1,8 @@
-"""Forces of a rolling contact that are linear in slip up to the friction, which they approach.
+"""Forces of a rolling contact that are linear in small slips and approach the friction limit.
 
 With F = (C_x kappa, -C_y tan(alpha) - C_gamma sin(gamma)), the force is
-F / sqrt(1 + |F|^2 / (mu F_z)^2): F where that is small, and mu F_z along it where it is large.
+F / sqrt(1 + |F|^2 / (mu F_z)^2): about F where that is small, and about mu F_z in its direction
+where it is large.
 """
 
 from collections.abc import Mapping
@@ -24,19 +25,7 @@ COEFFICIENTS: Mapping[str, tuple[str, str]] = {
 
 
 def forces(a: Arithmetic, p: Mapping[str, Any], c: Contact, radius: Any) -> Forces:
-    """Return forces and moments.
-
-    Parameters
-    ----------
-    a
-        Functions.
-    p
-        Coefficients.
-    c
-        What the tyre rolls with; the lateral slip is a tangent.
-    radius
-        Of the tyre [m], for rolling resistance.
-    """
+    """Return forces and moments; the slip of `c` is a tangent, `radius` that of the tyre [m]."""
     fx = a.define("fx_linear", p["slip_stiffness"] * c.longitudinal)
     fy = -p["cornering_stiffness"] * c.lateral - p["camber_stiffness"] * c.inclination * c.rolling
     fy = a.define("fy_linear", fy)

@@ -3,13 +3,13 @@
 Equations and their numbers (4.E..) are those of H. B. Pacejka, Tire and Vehicle Dynamics, 3rd
 edition, Butterworth-Heinemann 2012, section 4.3.2; (A..) are those of I. J. M. Besselink,
 A. J. C. Schmeitz and H. B. Pacejka, An improved Magic Formula/Swift tyre model that can handle
-inflation pressure changes, Vehicle System Dynamics 48 (2010), S1. Both differ in the pneumatic
+inflation pressure changes, Vehicle System Dynamics 48 (2010), S1. The two differ in the pneumatic
 trail: property files have the coefficients of the second (QBZ4, QDZ3: camber with its sign), which
-is used. PAC2002 has another shift by camber and another force behind the aligning moment, those of
-the book's first edition (2002).
+is used. PAC2002 has another shift by camber and another force in the aligning moment, those of the
+book's first edition (2002).
 
-Nothing is singular. Stiffnesses and peaks are computed per load, so that no load of zero divides;
-what is even in a slip is written in its square, so that no sign of a slip is needed.
+No expression is singular. Stiffnesses and peaks are computed per load, so that a load of zero does
+not divide; even functions of a slip are written with its square, without its sign.
 """
 
 from collections.abc import Mapping
@@ -25,12 +25,12 @@ _SMALL_SQUARE = 1e-16  # added to the square of a slip under a root
 _NEAR_ZERO = 1e-4  # slip at which a force over its slip passes into the slope at zero
 
 Coefficients = Mapping[str, Any]
-"""Numbers or symbols, by the names that property files give them."""
+"""Numbers or symbols by their names in property files."""
 
 
 @dataclass(frozen=True)
 class Contact:
-    """What a tyre rolls with, in the axes of its contact (ISO 8855): x forward, y left, z up.
+    """The state of a contact in its axes (ISO 8855): x forward, y left, z up.
 
     Attributes
     ----------
@@ -46,7 +46,7 @@ class Contact:
     direction
         cos'(alpha) = Vcx / |Vc| (4.E6): negative rolling backward.
     rolling
-        Sign of Vcx; near standstill something smooth between -1 and 1.
+        Sign of Vcx; near standstill a smooth value between -1 and 1.
     speed
         Vcx / V0 with its sign.
     pressure
@@ -65,14 +65,15 @@ class Contact:
 
 @dataclass(frozen=True)
 class Form:
-    """Which formulas a property file needs.
+    """The variant of the formulas for a property file.
 
     Attributes
     ----------
     newer : bool
-        MF 6.1 and 6.2: camber shifts the lateral slip by its own stiffness (4.E27), and the force
-        behind the aligning moment is that of an upright wheel (4.E74). Else PAC2002: PHY3 times
-        inclination, and the force less its part that slip induces.
+        MF 6.1 and 6.2: camber shifts the lateral slip by its own stiffness (4.E27), and the
+        aligning moment has the lateral force of an upright wheel (4.E74). Else PAC2002: the shift
+        is PHY3 times inclination, and the moment has the lateral force without the part that slip
+        induces.
     weighted : bool
         Combined slip by weighting functions (4.E50 to 4.E67), else by the friction ellipse of
         Adams/Tire, for files without their coefficients.
@@ -87,7 +88,7 @@ class Form:
 
 @dataclass(frozen=True)
 class Forces:
-    """What the road does to the tyre at the contact, and stiffnesses at zero slip.
+    """Forces and moments of the road on the tyre at the contact, and stiffnesses at zero slip.
 
     Attributes
     ----------
@@ -98,7 +99,7 @@ class Forces:
     slip_stiffness, cornering_stiffness
         dFx/dkappa and dFy/dalpha at zero slip [N]; the latter is negative.
     trail
-        Pneumatic trail: how far behind the contact the lateral force is [m].
+        Pneumatic trail: distance of the lateral force behind the contact [m].
     """
 
     fx: Any
@@ -112,19 +113,7 @@ class Forces:
 
 
 def forces(a: Arithmetic, p: Coefficients, c: Contact, form: Form) -> Forces:
-    """Return forces and moments of a tyre.
-
-    Parameters
-    ----------
-    a
-        Functions of numbers, arrays or symbols.
-    p
-        Coefficients, all of them.
-    c
-        What the tyre rolls with.
-    form
-        Which formulas the file needs.
-    """
+    """Return forces and moments of a contact by one variant of the formulas."""
     dfz = a.define("load_change", (c.load - _nominal(p)) / _nominal(p))  # (4.E2a)
     x = _longitudinal(a, p, c, dfz, form)
     y = _lateral(a, p, c, dfz, c.inclination * p["LGAY"], form, "y")
@@ -153,17 +142,7 @@ def forces(a: Arithmetic, p: Coefficients, c: Contact, form: Form) -> Forces:
 
 
 def stiffnesses(a: Arithmetic, p: Coefficients, c: Contact) -> tuple[Any, Any]:
-    """Return slip stiffness and cornering stiffness [N], which no slip changes.
-
-    Parameters
-    ----------
-    a
-        Functions.
-    p
-        Coefficients.
-    c
-        What the tyre rolls with.
-    """
+    """Return slip stiffness and cornering stiffness of a contact at zero slip [N]."""
     dfz = a.define("load_change", (c.load - _nominal(p)) / _nominal(p))
     leaning = c.inclination * p["LGAY"]
     along = a.define("x_stiffness", _slip_stiffness(a, p, c, dfz))
@@ -173,7 +152,7 @@ def stiffnesses(a: Arithmetic, p: Coefficients, c: Contact) -> tuple[Any, Any]:
 
 @dataclass(frozen=True)
 class _Side:
-    """A force at pure slip along one axis, all of it per load.
+    """A force at pure slip along one axis; forces are per load.
 
     Attributes
     ----------
@@ -184,7 +163,7 @@ class _Side:
     slip, shift
         Slip with its horizontal shift, and that shift.
     friction, vertical
-        What the sine gives, and the vertical shift; the force is their sum.
+        The sine term and the vertical shift; the force is their sum.
     """
 
     stiffness: Any
@@ -207,12 +186,12 @@ def _nominal(p: Coefficients) -> Any:
 
 
 def _of_pressure(p: Coefficients, c: Contact, first: str, second: str) -> Any:
-    """Return one and what a polynomial of the pressure adds to it."""
+    """Return the factor of inflation pressure, 1 + p1 dpi + p2 dpi^2."""
     return 1 + c.pressure * (p[first] + p[second] * c.pressure)
 
 
 def _of_shift(p: Coefficients, name: str, form: Form) -> Any:
-    """Return the scale of friction for a vertical shift: less of it on slippery roads (4.E8)."""
+    """Return the scale of friction for a vertical shift, which is less on slippery roads (4.E8)."""
     scale = p[name]
     return _DEGRESSION * scale / (1 + (_DEGRESSION - 1) * scale) if form.newer else scale
 
@@ -307,7 +286,7 @@ def _weighted(
 def _weight(
     a: Arithmetic, name: str, width: Any, slip: Any, shift: Any, curvature: Any, shape: Any
 ) -> Any:
-    """Return a weighting function: a cosine, over the same without slip."""
+    """Return a weighting function: a cosine, divided by its value at zero slip."""
     width = a.define(f"{name}_width", width)
     curvature = a.define(f"{name}_curvature", at_most(a, curvature, 1))
     here = a.cos(_bent(a, name, width * (slip + shift), curvature, shape))
@@ -326,9 +305,10 @@ def _ellipse(
 ) -> tuple[Any, Any, Any]:
     """Return both weights by the friction ellipse of Adams/Tire, which induces no force.
 
-    With k and s the slips from where the forces vanish, each force is that of pure slip times
-    k / sqrt(k^2 + (s mu_x / mu_y,max)^2), and the same with the axes exchanged. Below slips of
-    some 1e-3 the ratio of force and slip passes into the stiffness, so that all of it is smooth.
+    With k and s the slips measured from the zeros of the forces, each force is that of pure slip
+    times k / sqrt(k^2 + (s mu_x / mu_y,max)^2), and the same with the axes exchanged. Below slips
+    of some 1e-3 the ratio of force and slip passes into the stiffness, so that the result is
+    smooth.
     """
     del p, c, dfz
     along = a.define("ellipse_x", x.slip + x.vertical / x.stiffness)
@@ -411,8 +391,8 @@ def _overturning(a: Arithmetic, p: Coefficients, c: Contact, fy: Any) -> Any:
 def _rolling_resistance(a: Arithmetic, p: Coefficients, c: Contact, fx: Any) -> Any:
     """Return the moment of rolling resistance, negative rolling forward.
 
-    With the nominal load in front, as in the paper of 2010, and the load to the power QSY7, which
-    is near one in property files. (4.E70) prints the load in front of that power.
+    The factor is the nominal load, as in the paper of 2010, and the load to the power QSY7, which
+    is near one in property files. (4.E70) has the load itself as a factor before that power.
     """
     load, square = c.load / p["FNOMIN"], c.speed * c.speed
     share = p["QSY1"] + p["QSY2"] * fx / p["FNOMIN"] + p["QSY3"] * magnitude(a, c.speed)
@@ -428,7 +408,7 @@ def _load_power(a: Arithmetic, p: Coefficients, c: Contact) -> Any:
     by_load, by_pressure = c.load / p["FNOMIN"], 1
     if p["QSY7"] != 1:
         power = p["QSY7"] * a.log((c.load + _SMALL_LOAD) / p["FNOMIN"])
-        # a step of its own: SymPy makes a power of the exponential of a product with a logarithm
+        # a step of its own: SymPy writes the exponential of a product with a logarithm as a power
         by_load = a.exp(a.define("load_power", power))
     if p["QSY8"] != 0:
         power = p["QSY8"] * a.log(1 + c.pressure)

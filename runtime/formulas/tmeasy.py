@@ -1,14 +1,14 @@
 """Forces of a rolling contact by TMeasy.
 
 After G. Rill, Road Vehicle Dynamics, CRC Press 2012, chapter 3, and W. Hirschberg, G. Rill and
-H. Weinfurter, Tire model TMeasy, Vehicle System Dynamics 45 (2007), S1, pp. 101-119. Curves are
-described by their slope at zero slip, their greatest force and the force of sliding, with the slips
-of both, at the nominal load and at twice that. Steady state, without the bore torque of a wheel
-that turns on the spot.
+H. Weinfurter, Tire model TMeasy, Vehicle System Dynamics 45 (2007), S1, pp. 101-119. A curve is
+described by its slope at zero slip, its greatest force and the force of sliding, with the slips of
+both, at the nominal load and at twice that. Forces are those of steady state, without the bore
+torque of a wheel that turns on the spot.
 
-The slope at zero slip depends on the direction of the slip; without any it is a mean.
+The slope at zero slip depends on the direction of the slip; without slip it is a mean.
 
-All of it is without branches: pieces of a curve are functions of the parts of the slip in them.
+There are no branches: each piece of a curve is a function of the part of the slip within it.
 """
 
 from collections.abc import Mapping
@@ -22,10 +22,10 @@ _SLOWEST = 1e-6  # added to the square of the speed of the tread over that of th
 _SMALL_SQUARE = 1e-18  # added to the square of a slip under a root
 
 CURVES = ("slope", "maximum", "sliding", "slip_of_maximum", "slip_of_sliding")
-"""What describes a curve of force over slip."""
+"""Coefficients of a curve of force over slip."""
 _QUADRATIC = frozenset(CURVES[:3])
 TRAIL = ("trail", "slip_of_zero_trail", "slip_of_no_trail")
-"""What describes the trail over the lateral slip."""
+"""Coefficients of the trail over the lateral slip."""
 
 
 COEFFICIENTS: Mapping[str, tuple[float, str, str]] = {
@@ -61,20 +61,13 @@ COEFFICIENTS: Mapping[str, tuple[float, str, str]] = {
         for i, value, load in zip((1, 2), values, ("", "twice"), strict=True)
     },
 }
-"""What equations of motion need: usual values, units and meanings."""
+"""Coefficients of equations of motion: usual values, units and meanings."""
 
 
 def by_load(load: Any, nominal: Any, once: Any, twice: Any, *, quadratic: bool) -> Any:
-    """Return a value between those at the nominal load and at twice that.
+    """Return a value between those at the nominal load and at twice that; loads in N.
 
-    Parameters
-    ----------
-    load, nominal
-        [N].
-    once, twice
-        Values at the nominal load, and at twice that.
-    quadratic
-        Whether it goes through zero with the load, by a parabola; else it is linear.
+    A `quadratic` value is a parabola through zero at zero load, any other is linear.
     """
     share = load / nominal
     if quadratic:
@@ -104,21 +97,9 @@ def _curve(a: Arithmetic, p: Mapping[str, Any], load: Any, axis: str) -> _Curve:
 
 
 def forces(a: Arithmetic, p: Mapping[str, Any], c: Contact, length: Any) -> Forces:
-    """Return forces and moments.
-
-    Parameters
-    ----------
-    a
-        Functions.
-    p
-        Coefficients.
-    c
-        What the tyre rolls with; the lateral slip is a tangent.
-    length
-        Of the contact [m].
-    """
+    """Return forces and moments; the slip of `c` is a tangent, `length` that of the contact [m]."""
     c = _over_tread(a, c)
-    # curves are known up to a load, above which they do not grow
+    # curves are known up to a load, and constant above it
     load = a.define("curve_load", at_most(a, c.load, p["greatest_load"]) + 1e-6)
     x, y = _curve(a, p, load, "x"), _curve(a, p, load, "y")
     slips = a.define("slips", x.slip_of_maximum + y.slip_of_maximum)
@@ -131,7 +112,7 @@ def forces(a: Arithmetic, p: Mapping[str, Any], c: Contact, length: Any) -> Forc
     norm_y = a.define("norm_y", y.slip_of_maximum / slips + steep_y / steepness)
     along = a.define("norm_slip_x", c.longitudinal / norm_x)
     across = a.define("norm_slip_y", -c.lateral / norm_y)
-    # without slip the direction is that of both axes alike
+    # without slip the direction is midway between the axes
     square_x, square_y = along * along + _SMALL_SQUARE, across * across + _SMALL_SQUARE
     size = a.define("combined_slip", a.sqrt(square_x + square_y))
     share_x = a.define("share_x", square_x / (size * size))
@@ -173,9 +154,9 @@ def forces(a: Arithmetic, p: Mapping[str, Any], c: Contact, length: Any) -> Forc
 
 
 def _over_tread(a: Arithmetic, c: Contact) -> Contact:
-    """Return the contact with slips over the speed of the tread, not over that of the wheel.
+    """Return the contact with slips relative to the speed of the tread, not of the wheel.
 
-    Near standstill, where `rolling` is between -1 and 1, its speed is smoothed as the other.
+    Near standstill, where `rolling` is between -1 and 1, that speed is smoothed in the same way.
     """
     tread = c.longitudinal + c.rolling
     tread = a.sqrt(tread * tread + 1 - c.rolling * c.rolling + _SLOWEST)
@@ -196,7 +177,7 @@ def deflection_of(a: Arithmetic, p: Mapping[str, Any], load: Any) -> tuple[Any, 
 
 
 def _least_slope(a: Arithmetic, slope: Any, secant: Any) -> Any:
-    """Return the slope with which a curve begins: twice the secant to its maximum at least."""
+    """Return the initial slope of a curve, which is at least twice the secant to its maximum."""
     return slope + a.positive(2 * secant - slope)
 
 
@@ -216,10 +197,10 @@ def _force_over_slip(a: Arithmetic, curve: _Curve, slip: Any) -> Any:
 
 
 def _fallen(a: Arithmetic, fall: Any, curvature: Any, width: Any, beyond: Any) -> Any:
-    """Return by how much the force is below its maximum, at a slip beyond that of the maximum.
+    """Return the difference of the maximum and the force, at a slip beyond that of the maximum.
 
-    Two parabolas, the first with the curvature of adhesion at the maximum; where they do not meet
-    before sliding, a cubic.
+    Two parabolas, the first with the curvature of adhesion at the maximum; a cubic if they do not
+    meet before sliding.
     """
     meeting = a.define("meeting", fall / (curvature * width))
     meet = (1 + a.sign(width - meeting)) / 2  # one where they meet, zero where not
@@ -235,7 +216,7 @@ def _fallen(a: Arithmetic, fall: Any, curvature: Any, width: Any, beyond: Any) -
 
 
 def _trail(a: Arithmetic, p: Mapping[str, Any], load: Any, lateral: Any) -> Any:
-    """Return the trail over the length of the contact."""
+    """Return the trail divided by the length of the contact."""
     friction = p["friction"] / p["friction_measured"]
     values = [
         by_load(load, p["nominal_load"], p[f"{what}_1"], p[f"{what}_2"], quadratic=False)

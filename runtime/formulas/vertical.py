@@ -2,6 +2,10 @@
 
 Equations (A3...) are those of appendix 3 of H. B. Pacejka, Tire and Vehicle Dynamics, 3rd edition,
 Butterworth-Heinemann 2012; camber is that of (4.E68).
+
+In all functions `a` is an `Arithmetic`, `p` are coefficients, loads and forces are in N, `dfz` is
+(load - nominal) / nominal, `pressure` is (p - p0) / p0, `inclination` is the sine of the
+inclination.
 """
 
 from typing import Any
@@ -11,9 +15,9 @@ from .magic_formula import Coefficients
 
 
 def rates(a: Arithmetic, p: Coefficients) -> tuple[Any, Any]:
-    """Return q_Fz1 and q_Fz2: the first from the vertical stiffness where a file has none (A3.4).
+    """Return q_Fz1 and q_Fz2; q_Fz1 from the vertical stiffness if a file has none (A3.4).
 
-    Their sum over deflection is the load: q_Fz1 rho / R0 + q_Fz2 (rho / R0)^2, per nominal load.
+    The load per nominal load is q_Fz1 rho / R0 + q_Fz2 (rho / R0)^2 at a deflection rho.
     """
     if p["Q_FZ1"]:
         return p["Q_FZ1"], p["Q_FZ2"]
@@ -22,20 +26,9 @@ def rates(a: Arithmetic, p: Coefficients) -> tuple[Any, Any]:
 
 
 def factor(a: Arithmetic, p: Coefficients, fx: Any, fy: Any, speed: Any, pressure: Any) -> Any:
-    """Return by how much speed of spin, forces and pressure change the load (A3.3).
+    """Return the factor of the load by speed of spin, forces and pressure (A3.3).
 
-    Parameters
-    ----------
-    a
-        Functions.
-    p
-        Coefficients.
-    fx, fy
-        Forces at the contact [N].
-    speed
-        Speed of the circumference over V0.
-    pressure
-        (p - p0) / p0.
+    `speed` is that of the circumference over V0.
     """
     along, across = p["Q_FCX"] * fx / p["FNOMIN"], p["Q_FCY"] * fy / p["FNOMIN"]
     moved = 1 + p["Q_V2"] * magnitude(a, speed) - along * along - across * across
@@ -43,32 +36,21 @@ def factor(a: Arithmetic, p: Coefficients, fx: Any, fy: Any, speed: Any, pressur
 
 
 def free_radius(p: Coefficients, speed: Any) -> Any:
-    """Return the radius of a tyre that spins without load [m] (A3.1)."""
+    """Return the radius of a spinning tyre without load [m] (A3.1)."""
     return p["UNLOADED_RADIUS"] * (p["Q_RE0"] + p["Q_V1"] * speed * speed)
 
 
 def deflection(
     a: Arithmetic, p: Coefficients, load: Any, inclination: Any, moved: Any
 ) -> tuple[Any, Any]:
-    """Return deflection [m] and vertical stiffness there [N/m], of a load [N].
+    """Return the deflection [m] of a load, and the vertical stiffness there [N/m].
 
-    Parameters
-    ----------
-    a
-        Functions.
-    p
-        Coefficients.
-    load
-        [N].
-    inclination
-        Sine of the inclination.
-    moved
-        As of `factor`.
+    `moved` is the result of `factor`.
     """
     first, second = rates(a, p)
     first = first + p["Q_FZ3"] * inclination * inclination
     share = load / (p["FNOMIN"] * moved)
-    # the root is that of a small deflection, in a form that needs no division by q_Fz2
+    # the root for a small deflection, in a form without a division by q_Fz2
     root = a.sqrt(first * first + 4 * second * share)
     scaled = 2 * share / (first + root)
     return p["UNLOADED_RADIUS"] * scaled, p["FNOMIN"] * moved * root / p["UNLOADED_RADIUS"]
@@ -77,18 +59,7 @@ def deflection(
 def effective_radius(a: Arithmetic, p: Coefficients, load: Any, stiffness: Any, free: Any) -> Any:
     """Return the speed of a freely rolling wheel over its rate of spin [m] (A3.6).
 
-    Parameters
-    ----------
-    a
-        Functions.
-    p
-        Coefficients.
-    load
-        [N].
-    stiffness
-        Vertical stiffness at the nominal load [N/m].
-    free
-        Radius of the spinning tyre without load [m].
+    `stiffness` is vertical at the nominal load [N/m], `free` the radius without load [m].
     """
     share = load / p["FNOMIN"]
     part = p["DREFF"] * a.atan(p["BREFF"] * share) + p["FREFF"] * share
@@ -100,16 +71,8 @@ def relaxation_by_stiffness(
 ) -> tuple[Any, Any]:
     """Return both relaxation lengths [m], positive: slip stiffness over stiffness (A3.9, A3.10).
 
-    Parameters
-    ----------
-    p
-        Coefficients, among them LONGITUDINAL_STIFFNESS and LATERAL_STIFFNESS [N/m].
-    dfz
-        (load - nominal) / nominal.
-    pressure
-        (p - p0) / p0.
-    slip, cornering
-        Slip stiffness and cornering stiffness [N], the second negative.
+    `slip` and `cornering` are slip stiffness and cornering stiffness [N], the second negative; `p`
+    has LONGITUDINAL_STIFFNESS and LATERAL_STIFFNESS [N/m].
     """
     along = 1 + dfz * (p["PCFX1"] + p["PCFX2"] * dfz)
     across = 1 + dfz * (p["PCFY1"] + p["PCFY2"] * dfz)
@@ -121,21 +84,7 @@ def relaxation_by_stiffness(
 def relaxation_by_load(
     a: Arithmetic, p: Coefficients, load: Any, dfz: Any, inclination: Any
 ) -> tuple[Any, Any]:
-    """Return both relaxation lengths [m] of PAC2002, by PTX and PTY.
-
-    Parameters
-    ----------
-    a
-        Functions.
-    p
-        Coefficients.
-    load
-        [N].
-    dfz
-        (load - nominal) / nominal.
-    inclination
-        Sine of the inclination.
-    """
+    """Return both relaxation lengths [m] of PAC2002, by PTX and PTY."""
     nominal, radius = p["FNOMIN"] * p["LFZO"], p["UNLOADED_RADIUS"]
     along = (p["PTX1"] + p["PTX2"] * dfz) * a.exp(p["PTX3"] * dfz)
     along = load * along * radius / nominal * p["LSGKP"]

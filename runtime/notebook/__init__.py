@@ -1,8 +1,8 @@
-"""How things look in a notebook: pictures and tables instead of `<Model ...>`.
+"""Display of objects in a notebook: pictures and tables instead of ``<Model ...>``.
 
-What IPython shows of an object is registered by the name of its class, so that importing kintrafo
-loads none of it, and lower floors know nothing of notebooks. Showing one more is one more line
-here and a function in `pages`; objects of a higher floor are added by `show`.
+Pages are registered with IPython by names of classes: importing kintrafo loads none of them, and
+other packages do not depend on notebooks. Another object needs a line here and a function in
+`pages`; objects of a higher folder are added by `show`.
 """
 
 import sys
@@ -16,44 +16,40 @@ _SHOWN = {
     ("kintrafo.systems.linearisation", "Linearisation"): (_PAGES, "linearisation"),
     ("kintrafo.systems.system", "System"): (_PAGES, "system"),
 }
-"""By module and name of a class, module and name of the function that writes its page."""
+"""By module and name of a class: module and name of the function that writes its page."""
 
 
 def show(pages: Mapping[tuple[str, str], tuple[str, str]]) -> None:
-    """Show objects of more classes, or some in another way.
+    """Register pages for more classes, or other pages for these.
 
     Parameters
     ----------
     pages : mapping
-        By module and name of a class, module and name of the function that writes its page.
+        By module and name of a class: module and name of the function that writes its page.
     """
     _SHOWN.update(pages)
     register()
 
 
 def register(formatter: Any = None) -> None:
-    """Register how a notebook shows objects of kintrafo.
+    """Register the pages with IPython.
 
     Parameters
     ----------
     formatter : IPython.core.formatters.HTMLFormatter, optional
-        By default that of the notebook that runs; without one, nothing happens.
+        By default that of the running notebook; without a notebook nothing is done.
     """
-    formatter = formatter or _running()
+    ipython = sys.modules.get("IPython")
+    shell = ipython.get_ipython() if ipython is not None else None
+    if formatter is None and shell is not None:
+        formatter = shell.display_formatter.formatters.get("text/html")
     if formatter is not None:
         for (module, name), page in _SHOWN.items():
             formatter.for_type_by_name(module, name, _page(*page))
 
 
-def _running() -> Any:
-    """Return the formatter of the notebook in which this runs; None elsewhere."""
-    ipython = sys.modules.get("IPython")
-    shell = ipython.get_ipython() if ipython is not None else None
-    return None if shell is None else shell.display_formatter.formatters.get("text/html")
-
-
 def _page(module: str, name: str) -> Callable[[Any], str]:
-    """Return what writes a page; it is loaded when the first one is shown."""
+    """Return a function that writes a page; its module is loaded for the first page."""
 
     def write(shown: Any) -> str:
         page: str = getattr(import_module(module), name)(shown)

@@ -1,4 +1,4 @@
-"""What a notebook shows of mechanisms, linear equations and motions, as HTML."""
+"""Pages of a notebook about mechanisms, linear equations and motions, as HTML."""
 
 from collections.abc import Callable, Iterable, Mapping
 
@@ -14,12 +14,11 @@ from ..systems.skeleton import Skeleton
 from ..systems.system import System
 from .parts import columns, heading, picture, table
 
-# Of a motion so many curves are drawn.
-_MOST = 12
+_MOST = 12  # curves of a motion
 
 
 def system(shown: System) -> str:
-    """Return the page of any mechanism with numbers in it: its picture at design, its names."""
+    """Return the page of a mechanism: its picture in the design position, and its names."""
     name, skeleton = str(shown.equations.NAME), Skeleton(shown)
     places = skeleton.places(shown.design_state[None])
     names = {
@@ -33,7 +32,7 @@ def system(shown: System) -> str:
 
 
 def linearisation(shown: Linearisation) -> str:
-    """Return the page of linear equations: their modes, and what goes in and comes out."""
+    """Return the page of linear equations: their modes and names."""
     modes = ((f"mode {i}", mode.text) for i, mode in enumerate(shown.modes, 1))
     names = {
         "states": shown.state_names,
@@ -44,7 +43,7 @@ def linearisation(shown: Linearisation) -> str:
 
 
 def simulation(shown: Simulation) -> str:
-    """Return the page of a motion: how it ended, and the curves that vary."""
+    """Return the page of a motion: its end, and the curves that vary."""
     return motion(shown, lambda curves: [draw(curves, varying(curves)[:_MOST], alone=False)])
 
 
@@ -71,5 +70,5 @@ def motion(shown: Simulation, drawn: Callable[[xr.Dataset], Iterable[Figure]]) -
 
 
 def rows_of(names: Mapping[str, Iterable[str]]) -> list[tuple[str, str]]:
-    """Return rows of a table: what there is, and its names."""
+    """Return rows of a table: the kind of each group of names, and these."""
     return [(what, ", ".join(listed)) for what, listed in names.items()]

@@ -1,4 +1,4 @@
-"""What pages of a notebook are put together from."""
+"""Elements of the pages of a notebook."""
 
 from base64 import b64encode
 from collections.abc import Iterable, Sequence
@@ -17,7 +17,7 @@ def heading(text: str) -> str:
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """Return a table whose columns are numbers but for the first, where there are several."""
+    """Return a table; with more than two columns all but the first are numbers."""
     aligned = "right" if len(head) > 2 else "left"
     first = _row(head, "th", aligned)
     return f"<table>{first}{''.join(_row(row, 'td', aligned) for row in rows)}</table>"
@@ -32,13 +32,13 @@ def _row(cells: Sequence[str], tag: str, aligned: str) -> str:
 
 
 def columns(*parts: str) -> str:
-    """Return parts beside each other, or below where the page is narrow."""
+    """Return parts beside each other, or below each other on a narrow page."""
     style = "display: flex; flex-wrap: wrap; gap: 1.5em; align-items: flex-start"
     return f'<div style="{style}">{"".join(f"<div>{part}</div>" for part in parts)}</div>'
 
 
 def picture(figure: Figure) -> str:
-    """Return a figure as an image with lines that stay sharp at any size."""
+    """Return a figure as a vector graphic."""
     drawn = BytesIO()
     with rc_context(STYLE):
         lay_out(figure)

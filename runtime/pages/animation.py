@@ -32,20 +32,21 @@ def animate(
     force: bool = False,
     inputs: Paths = (),
 ) -> Path:
-    """Write a motion of a mechanism, or of a suspension, as something to look at.
+    """Write a motion of a mechanism, or of a suspension, as a GIF or as a page.
 
     Parameters
     ----------
     result : Simulation
-        What `kintrafo.simulate` returned.
+        A result of `kintrafo.simulate`.
     path : str or pathlib.Path
-        Ends in ``.gif``, for an animated picture, or ``.html``, for a page to play, stop and turn.
+        Ends in ``.gif``, for an animated picture, or ``.html``, for a page that plays the motion
+        and turns the picture.
     fps : float, optional
-        Frames per second of a GIF, from 1 to 50. Frames are those of the outputs that are nearest.
+        Frames per second of a GIF, from 1 to 50. A frame shows the output nearest in time.
     slower : float, optional
-        How many times slower than real time a GIF plays.
+        Factor by which a GIF plays slower than real time, above zero.
     title : str, optional
-        Heading of a page; by default what the mechanism is.
+        Heading of a page; by default the title of the mechanism.
     force : bool, optional
         Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
     inputs : iterable of str or pathlib.Path, optional
@@ -74,7 +75,7 @@ def animate(
     'linkage.html'
     """
     with Validator("animate") as given:
-        given.instance("result", result, Simulation, "what kintrafo.simulate returns is needed")
+        given.instance("result", result, Simulation, "a result of kintrafo.simulate is needed")
         fps = given.number("fps", fps, "1/s", least=1.0, below=_QUICKEST + 1e-9)
         slower = given.number("slower", slower, "", above=0.0)
         if title is not None:
@@ -98,14 +99,14 @@ def _write_gif(path: Path, result: Simulation, fps: float, slower: float) -> Non
 
 
 def frames(times: Array, fps: float, slower: float = 1.0) -> tuple[Array, Indices]:
-    """Return the times of the frames of a GIF, and the outputs that are nearest to them.
+    """Return the times of the frames of a GIF [s], and the indices of the nearest outputs.
 
     Parameters
     ----------
     times : ndarray, shape (n,)
         Of the outputs [s].
     fps, slower
-        As in `frames_in`, with its errors.
+        As for `frames_in`, with its errors.
     """
     count = frames_in(abs(float(times[-1] - times[0])), fps, slower)
     wanted = np.linspace(times[0], times[-1], count)
@@ -113,16 +114,7 @@ def frames(times: Array, fps: float, slower: float = 1.0) -> tuple[Array, Indice
 
 
 def frames_in(seconds: float, fps: float, slower: float = 1.0) -> int:
-    """Return the number of frames of a GIF of a motion.
-
-    Parameters
-    ----------
-    seconds : float
-        Duration of the motion [s].
-    fps : float
-        Frames that are shown per second.
-    slower : float, optional
-        Factor by which it plays slower than real time.
+    """Return the number of frames of a GIF of a motion that takes some seconds.
 
     Raises
     ------

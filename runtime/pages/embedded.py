@@ -9,7 +9,7 @@ from markupsafe import Markup
 
 
 def page_environment(package: str) -> Environment:
-    """Return the environment of the templates of pages in a package."""
+    """Return the environment for the templates in a package."""
     return Environment(
         loader=PackageLoader(package, "."),
         autoescape=True,
@@ -20,28 +20,21 @@ def page_environment(package: str) -> Environment:
 
 
 def asset(package: str, name: str) -> Markup:
-    """Return a script or a style sheet of a package, to be embedded in a page.
-
-    Parameters
-    ----------
-    package : str
-    name : str
-        Of the file, with its folder in the package.
-    """
+    """Return a script or a style sheet, by its path in a package, to be embedded in a page."""
     text = resources.files(package).joinpath(*name.split("/")).read_text(encoding="utf-8")
     return Markup(text)  # noqa: S704 (a file of kintrafo)
 
 
 def moving_script() -> Markup:
-    """Return the script with which pages turn a picture and play a motion, before their own."""
+    """Return the script by which pages turn a picture and play a motion."""
     return asset(__package__, "moving.js")
 
 
 def embedded(data: Any) -> Markup:
     r"""Return data as JSON that is safe in an element of a page, for any texts.
 
-    ``</script>`` in a text would end the element that holds the data, and ``<!--`` with
-    ``<script`` would keep its own end from being one. So no ``<`` is left.
+    ``</script>`` in a text would end the element with the data, and ``<!--`` with ``<script`` would
+    hide its own end. So every ``<`` is escaped.
 
     Examples
     --------

@@ -1,5 +1,5 @@
 "use strict";
-// A picture that is turned by dragging, and a motion that is played, on any page.
+// Rotation of a picture by dragging, and playing of a motion, for any page.
 
 /** Call `turned` with the angles of each drag over a picture: about z, and upward [deg]. */
 function onDrag(picture, turned) {

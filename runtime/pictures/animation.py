@@ -41,9 +41,9 @@ def write_gif(
     times : ndarray, shape (n,)
         Times of the frames [s].
     places : dict
-        Of each body an array of shape (n, points, 3) [m].
+        Points of each body, shape (n, points, 3) [m].
     fps : float
-        Frames that are shown per second.
+        Frames per second.
     """
     drawer = _Drawer(skeleton, places)
     save_frames(
@@ -54,19 +54,7 @@ def write_gif(
 def save_frames(
     path: Path, figure: Figure, draw: Callable[[int], None], count: int, fps: float
 ) -> None:
-    """Write the frames of a figure as a GIF.
-
-    Parameters
-    ----------
-    path : pathlib.Path
-    figure : matplotlib.figure.Figure
-    draw : callable
-        Draws a frame, by its number, in the place of the one before.
-    count : int
-        How many frames there are.
-    fps : float
-        Frames that are shown per second.
-    """
+    """Write some frames, each drawn by its index, as a GIF with `fps` frames a second."""
     canvas = FigureCanvasAgg(figure)
     canvas.figure.set_dpi(_DPI)
     frames: list[Image.Image] = []
@@ -74,7 +62,7 @@ def save_frames(
     for index in range(count):
         draw(index)
         canvas.draw()  # type: ignore[no-untyped-call] # Matplotlib declares none
-        figure.set_layout_engine("none")  # as the first is laid out: all are alike
+        figure.set_layout_engine("none")  # every frame has the layout of the first
         pixels = canvas.buffer_rgba()  # type: ignore[no-untyped-call]
         shown = Image.fromarray(np.asarray(pixels)).convert("RGB")
         palette = palette or _palette(shown)
@@ -90,10 +78,10 @@ def save_frames(
 
 
 def _palette(shown: Image.Image) -> Image.Image:
-    """Return the colours that a frame has most of, so that they stay as they are.
+    """Return the most frequent colours of a frame, which a GIF then keeps.
 
-    Of those that differ by less than 8 of 256 levels the most frequent: Pillow takes colours as
-    near each other for the same.
+    Of colours that differ by less than 8 of 256 levels only the most frequent is taken: Pillow does
+    not distinguish such colours.
     """
     colours, counts = np.unique(np.asarray(shown).reshape(-1, 3), axis=0, return_counts=True)
     colours = colours[np.argsort(-counts, kind="stable")]
@@ -104,20 +92,16 @@ def _palette(shown: Image.Image) -> Image.Image:
 
 
 def still(skeleton: Skeleton, places: dict[str, Array], index: int, words: str) -> Figure:
-    """Return one frame as a figure; arguments as of `write_gif`, and what is in its corner."""
+    """Return one frame as a figure; arguments as of `write_gif`, and a text for its corner."""
     drawer = _Drawer(skeleton, places)
     drawer.draw(index, words)
     return drawer.figure
 
 
 def projection(points: Array) -> Array:
-    """Return the two directions of a picture, shape (2, 3).
+    """Return the two directions of a picture of points (n, 3), shape (2, 3).
 
-    Along the normal of a plane mechanism, else from the front above.
-
-    Parameters
-    ----------
-    points : ndarray, shape (n, 3)
+    A plane mechanism is seen along its normal, any other from the front above.
     """
     spans = np.ptp(points, axis=0)
     for axis, kept in ((1, (0, 2)), (2, (0, 1)), (0, (1, 2))):
@@ -127,12 +111,9 @@ def projection(points: Array) -> Array:
 
 
 def seen_from(turn: float, tilt: float) -> Array:
-    """Return the two directions of a picture, right and up, shape (2, 3).
+    """Return the directions right and up of a picture, shape (2, 3).
 
-    Parameters
-    ----------
-    turn, tilt : float
-        Where it is seen from: angle about z from the x axis, and above the horizontal [rad].
+    The viewer is at an angle about z from the x axis, and above the horizontal [rad].
     """
     right = [-np.sin(turn), np.cos(turn), 0.0]
     up = [-np.sin(tilt) * np.cos(turn), -np.sin(tilt) * np.sin(turn), np.cos(tilt)]
@@ -140,14 +121,7 @@ def seen_from(turn: float, tilt: float) -> Array:
 
 
 def start_frame(axes: Axes, low: Array, high: Array) -> None:
-    """Clear axes for a frame that shows a rectangle in equal scales, without ticks.
-
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    low, high : array_like, shape (2,)
-        Its lower left and its upper right corner.
-    """
+    """Clear axes, and show a rectangle (lower left, upper right) in equal scales without ticks."""
     axes.clear()
     axes.set_axis_off()
     axes.set_aspect("equal")
@@ -156,7 +130,7 @@ def start_frame(axes: Axes, low: Array, high: Array) -> None:
 
 
 class _Drawer:
-    """Frames of one motion on one figure: the same view, the same limits."""
+    """Draws the frames of one motion on one figure, in the same view with the same limits."""
 
     def __init__(self, skeleton: Skeleton, places: dict[str, Array]) -> None:
         self._skeleton, bodies = skeleton, skeleton.bodies
@@ -174,7 +148,7 @@ class _Drawer:
         self._limits = (low - margin, high + margin)
 
     def draw(self, index: int, words: str) -> None:
-        """Draw one frame in the place of what was drawn before."""
+        """Draw one frame instead of the last one."""
         axes, skeleton = self._axes, self._skeleton
         start_frame(axes, *self._limits)
         at = {body: seen[index] for body, seen in self._seen.items()}
@@ -216,7 +190,7 @@ class _Drawer:
         )
 
     def _triad(self) -> None:
-        """Draw the axes in a corner, of a round length that is written beside them."""
+        """Draw the axes in a corner, with a round length that is written beside them."""
         long = 10.0 ** np.floor(np.log10(self._size / 5))
         long *= max(m for m in (1, 2, 5) if m * long <= self._size / 5 or m == 1)
         (left, low), _ = self._limits
@@ -227,13 +201,13 @@ class _Drawer:
             self._axes.plot(*zip(root, root + tip, strict=True), color=_INK, lw=1)
             x, y = root + 1.22 * tip
             self._axes.text(x, y, name, ha="center", va="center", size=9)
-        said = f"{long * 1e3:g} mm" if long < 1.0 else f"{long:g} m"
-        words = f"axes {said} long"
+        size = f"{long * 1e3:g} mm" if long < 1.0 else f"{long:g} m"
+        words = f"axes {size} long"
         self._axes.text(0.02, 0.0, words, transform=self._axes.transAxes, size=8.5, color="#5c5c5c")
 
 
 def _draw_body(axes: "Axes", points: Array, colour: str, label: str) -> None:
-    """Draw a body: a block, a line, a triangle, or a star of lines, by how many points it has."""
+    """Draw a body as a block, a line, a triangle or a star of lines, depending on its points."""
     center = points.mean(axis=0)
     if len(points) == 1:
         axes.plot(*center, "s", ms=11, color=colour, label=label, zorder=3)

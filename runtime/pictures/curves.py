@@ -1,8 +1,7 @@
 """Curves for print: variables of a dataset, each in a panel of its own.
 
-Any variable over one dimension can be drawn, or over two, of which the second makes a family of
-lines. Names, units and signs are those of the variables' attributes, see
-`kintrafo.core.quantities`.
+A variable over one dimension is a line; over two dimensions it is a family of lines. Names, units
+and signs are those of the variables' attributes, see `kintrafo.core.quantities`.
 """
 
 from collections.abc import Callable, Collection, Hashable, Iterable, Mapping, Sequence
@@ -27,35 +26,33 @@ from .turned import turn
 
 Array = NDArray[np.float64]
 
-# Distinct in colour and, by the dashes, in black and white too.
+# Distinct in colour, and in black and white by the dashes.
 _COLOURS = (BLUE, ORANGE, GREEN, "#cc79a7", "#56b4e9", "#e69f00", "#000000")
 _DASHES = ("-", "--", "-.", ":")
-# More lines than this are a carpet: some of them are drawn.
-_MOST_LINES = 7
+_MOST_LINES = 7  # of a larger family some are drawn
 COLUMNS = 3
-# Width and height of a panel, its position along the horizontal or the vertical axis [in].
+# Width and height of a panel with its position on the horizontal or the vertical axis [in].
 _LEVEL, _UPRIGHT = (3.7, 2.5), (3.0, 3.1)
 # Numbers of narrow panels that are in rows of four, and of wide panels in rows of two.
 _FOUR_IN_A_ROW, _TWO_IN_A_ROW = (4, 7, 8), 4
-# Letters of a title above a narrow panel, and ticks below it.
+# Most letters in a line of the title of a narrow panel, and most ticks.
 _NARROW_TITLE, _NARROW_TICKS = 34, 4
-# What labels and ticks take of a panel [in].
+# Space of labels and ticks of a panel [in].
 _AROUND = np.array([0.9, 0.7])
-# Height of a row of names below the panels, which keep their size, and of each further row [in].
+# Height of the first and of each further row of names below the panels [in].
 _BELOW, _FURTHER = 0.4, 0.2
-# Names in a row below the panels.
-_IN_A_ROW = 4
-# Round values only, and never an offset that must be added in the head.
+_IN_A_ROW = 4  # names below the panels
+# Round values.
 _TICK_STEPS = [1, 2, 2.5, 5, 10]
-# Less variation than this part of its size is rounding, and the curve a constant.
+# A smaller variation, relative to the values, is rounding: the curve is constant.
 _CONSTANT = 1e-6
-# A curve whose extremes are so many times farther apart than nine tenths of it passes a pole.
+# A curve has a pole if its whole range exceeds that of nine tenths of its values by this factor.
 _POLE = 10.0
 
-# Between what is marked and the end of its axis, as a part of this.
+# Distance of marks from the ends of their axis, relative to its length.
 _ROOM = 0.05
 
-# What spans less of a position's axis is drawn as little as it is, by the unit of the axis.
+# Least span of the axis of values over a position, by unit: a small variation is drawn small.
 LEAST_SPANS = {
     "deg": 0.1,
     "mm": 1.0,
@@ -64,28 +61,20 @@ LEAST_SPANS = {
     "%": 1.0,
     "1": 0.01,
 }
-# So many curves have their names beside them, more have a legend.
-_FEW_NAMES = 3
-# A figure with more rows of panels than this has the names of the lines in each row.
-_SHORT = 3
+_FEW_NAMES = 3  # curves with their names beside them; more have a legend
+_SHORT = 3  # rows of panels; a figure with more has the names of the lines in each row
 
-# All lines are thin if one of them turns up or down more often than this, as over a rough road.
+# All lines are thin if one of them has more extremes than this, as over a rough road.
 _MANY_TURNS, _THIN = 40, 0.7
-# Values are rounded to so many levels before turns are counted: smaller turns may be rounding.
+# Values are rounded to this number of levels before extremes are counted.
 _LEVELS = 200
 
 
 Mark = Callable[[Axes, xr.DataArray, str, Mapping[str, str]], Array]
-"""Marks a panel: its axes, curves, dimension along the axis, and colours by the names of the lines.
+"""Draws marks in a panel, given its axes, curves, dimension along the axis, and colours by names.
 
-Returns what is marked along the vertical axis, which spans it.
+It returns the marked values, which the vertical axis then includes.
 """
-
-
-def unmarked(axes: Axes, data: xr.DataArray, along: str, colours: Mapping[str, str]) -> Array:
-    """Mark nothing."""
-    del axes, data, along, colours
-    return np.empty(0)
 
 
 def draw(
@@ -97,7 +86,7 @@ def draw(
     columns: int = COLUMNS,
     positions: Collection[str] = (),
     upright: Collection[str] = (),
-    mark: Mark = unmarked,
+    mark: Mark = lambda *_: np.empty(0),
 ) -> Figure:
     """Draw curves of some variables, each in its own axes.
 
@@ -116,7 +105,7 @@ def draw(
     upright : collection of str, optional
         Dimensions that are on the vertical axis.
     mark : callable, optional
-        Marks what else is to be seen in a panel.
+        Draws marks in a panel.
 
     Returns
     -------
@@ -146,8 +135,9 @@ def draw(
             axes.set_xlabel(_with_sign(dataset[along]), fontsize=10 if alone else 9)
         if along in upright:
             turn(axes)
-            if not alone:
-                _narrow(axes)
+            if not alone:  # space for ticks and title
+                axes.xaxis.set_major_locator(MaxNLocator(nbins=_NARROW_TICKS, steps=_TICK_STEPS))
+                axes.set_title(fill(axes.get_title(), _NARROW_TITLE), fontsize=8, color="#555555")
     shape = np.array(size) / (columns, rows) - _AROUND
     page = _Page(panels, free, curves, shape, alone, dense=width == _THIN)
     _name_lines(result, page, vertical=vertical)
@@ -170,23 +160,8 @@ def _grid(
     return columns, rows, size
 
 
-def _narrow(axes: Axes) -> None:
-    """Let ticks and title of an upright panel have room."""
-    axes.xaxis.set_major_locator(MaxNLocator(nbins=_NARROW_TICKS, steps=_TICK_STEPS))
-    axes.set_title(fill(axes.get_title(), _NARROW_TITLE), fontsize=8, color="#555555")
-
-
 def varying(dataset: xr.Dataset) -> tuple[Hashable, ...]:
-    """Return the names of the variables that vary; of all that can be drawn where none does.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-
-    Returns
-    -------
-    tuple of str
-    """
+    """Return the names of the variables that vary; all that can be drawn if none varies."""
     names = drawable(dataset)
     return tuple(name for name in names if not is_constant(displayed(dataset[name]))) or names
 
@@ -199,11 +174,12 @@ def drawable(dataset: xr.Dataset) -> tuple[Hashable, ...]:
 def _draw(
     axes: Axes, data: xr.DataArray, positions: Collection[str], mark: Mark, width: float
 ) -> str:
-    """Draw one variable with its zero lines and its design position; return what it is over."""
+    """Draw one variable with its zero lines and design position; return its dimension."""
     along, lines = _lines(data)
     position = displayed(data[along])
     styles = _styles(data, len(lines))
-    measured = _measured(data)
+    family = _family(data)
+    measured = 0 if family is None else int(data[family].attrs.get("measured", 0))
     curves = [
         axes.plot(position, values, dashes, color=colour, linewidth=width)[0]
         for (_, values), (colour, dashes) in zip(lines, styles, strict=True)
@@ -239,14 +215,8 @@ def _draw(
     return along
 
 
-def _measured(data: xr.DataArray) -> int:
-    """Return how many of the first lines were measured: their samples are marked."""
-    family = _family(data)
-    return 0 if family is None else int(data[family].attrs.get("measured", 0))
-
-
 def _alone(values: Array) -> NDArray[np.bool_]:
-    """Return which values have none beside them, so that no line shows them."""
+    """Return which values have no neighbours, so that no line shows them."""
     known = np.isfinite(np.pad(values, 1, constant_values=np.nan))
     return known[1:-1] & ~known[:-2] & ~known[2:]
 
@@ -264,7 +234,7 @@ def _describe_panel(axes: Axes, data: xr.DataArray) -> None:
 
 
 def _styles(data: xr.DataArray, count: int) -> list[tuple[Any, str]]:
-    """Return colour and dashes of each line: a scale for numbers, contrast for names."""
+    """Return colour and dashes of each line: a colour scale for numbers, contrast for names."""
     if count > 1 and _family(data) is None:
         scale = colormaps["viridis"]
         return [(scale(0.9 * index / (count - 1)), "-") for index in range(count)]
@@ -285,7 +255,7 @@ def _has_names(data: xr.DataArray, dimension: str) -> bool:
 
 
 def _family(data: xr.DataArray) -> str | None:
-    """Return the dimension of lines that have names."""
+    """Return the dimension of lines that have names; None without one."""
     return next((str(d) for d in data.dims if _has_names(data, str(d))), None)
 
 
@@ -302,13 +272,7 @@ def _lines(data: xr.DataArray) -> tuple[str, list[tuple[str, Array]]]:
 
 
 def named_values(coordinate: xr.DataArray) -> dict[int, str]:
-    """Return the labels of those values of a coordinate for which lines are drawn, by index.
-
-    Parameters
-    ----------
-    coordinate : xarray.DataArray
-        Over one dimension.
-    """
+    """Return labels by index for the values of a coordinate for which lines are drawn."""
     count = coordinate.size
     chosen = np.unique(np.linspace(0, count - 1, min(count, _MOST_LINES)).round().astype(int))
     labels = _labels(coordinate)
@@ -316,7 +280,7 @@ def named_values(coordinate: xr.DataArray) -> dict[int, str]:
 
 
 def _labels(coordinate: xr.DataArray) -> list[str]:
-    """Return names, or numbers of few digits, of more where some would be alike."""
+    """Return names, or numbers with as few digits as distinguish them."""
     if coordinate.dtype.kind != "f":
         return [str(value) for value in coordinate.values]
     unit = display_of(coordinate.attrs).units
@@ -326,7 +290,7 @@ def _labels(coordinate: xr.DataArray) -> list[str]:
 
 
 def is_constant(values: Array) -> bool:
-    """Return whether nothing but rounding varies."""
+    """Return whether values vary by rounding errors at most."""
     finite = values[np.isfinite(values)]
     return finite.size > 0 and bool(np.ptp(finite) <= _CONSTANT * max(np.abs(finite).max(), 1e-6))
 
@@ -347,7 +311,7 @@ def _limit(axes: Axes, values: Array, *, may_have_pole: bool) -> None:
 
 
 def _include(axes: Axes, marked: Array) -> None:
-    """Let an axis span what is marked, however far from the curve that is, with its arrows."""
+    """Extend an axis to the marked values."""
     if not marked.size:
         return
     low, high = axes.get_ylim()
@@ -357,7 +321,7 @@ def _include(axes: Axes, marked: Array) -> None:
 
 
 def _widen(axes: Axes, values: Array, least: float) -> None:
-    """Let an axis span no less than what means something, with the curve in its middle."""
+    """Extend an axis to a least span, with the curve in its middle."""
     finite = values[np.isfinite(values)]
     low, high = axes.get_ylim()
     if finite.size and high - low < least:
@@ -366,10 +330,7 @@ def _widen(axes: Axes, values: Array, least: float) -> None:
 
 
 def _without_leaps(values: Array, low: float, high: float) -> Array:
-    """Return a curve that ends where it leaves what is drawn, to come back from the other side.
-
-    That is a pole, of whose two branches nothing connects the ends.
-    """
+    """Return a curve with gaps at poles, where it leaves on one side and returns on the other."""
     side = np.sign(values - 0.5 * (low + high)) * ((values < low) | (values > high))
     leaps = np.flatnonzero(side[:-1] * side[1:] < 0.0)
     cut = values.copy()
@@ -400,8 +361,8 @@ class _Named:
 class _Page:
     """The panels of a figure, its free cells, and the curves in the panels.
 
-    A panel is about `shape` wide and high [in]; `alone` as in `draw`. Where curves are `dense`, no
-    name has room beside one.
+    A panel has about the width and height `shape` [in]; `alone` as in `draw`. Between `dense`
+    curves there is no space for names.
     """
 
     panels: Array
@@ -413,7 +374,7 @@ class _Page:
 
 
 def _name_lines(result: Figure, page: _Page, *, vertical: bool) -> None:
-    """Name the lines: few beside them, wherever a panel has room; else in one legend."""
+    """Name the lines: few lines beside them if a panel has space, else in one legend."""
     for axes in page.free:
         axes.set_axis_off()
     marks = _marks_of_goals(page.panels)
@@ -431,7 +392,7 @@ def _name_lines(result: Figure, page: _Page, *, vertical: bool) -> None:
 
 
 def _unnamed(page: _Page) -> _Named:
-    """Name few lines beside them, wherever a panel has room; return those that need a legend."""
+    """Name few lines beside them if a panel has space; return those that need a legend."""
     named = False
     pairs = list(zip(page.panels, page.curves, strict=True))
     for axes, data in pairs:
@@ -445,7 +406,7 @@ def _unnamed(page: _Page) -> _Named:
 
 
 def _named_once(panels: Array, curves: Sequence[xr.DataArray]) -> _Named | None:
-    """Return the names of the lines of all panels; none where some have others."""
+    """Return the names of the lines if they are the same in all panels, else None."""
     found = [(axes, data) for axes, data in zip(panels, curves, strict=True) if data.ndim > 1]
     if not found or any(_family(data) is None for _, data in found):
         return None
@@ -465,7 +426,7 @@ def _named_lines(axes: Axes, data: xr.DataArray) -> _Named:
 
 
 def _legend_apart(result: Figure, page: _Page, lines: _Named) -> None:
-    """Name the lines of a page below or in a free cell; in a single panel, where most room is."""
+    """Name the lines below the panels, in a free cell, or in the free part of a single panel."""
     panels, free = page.panels, page.free
     if len(panels) > 1 and not free.size:
         _legend_below(result, lines, {}, alone=False)
@@ -476,7 +437,7 @@ def _legend_apart(result: Figure, page: _Page, lines: _Named) -> None:
 
 
 def _name_rows(panels: Array, lines: _Named) -> None:
-    """Name the lines also in each row of a high figure, since its legend below is far away."""
+    """Name the lines in each row of a high figure, too, since its legend is far away."""
     columns = panels[0].get_gridspec().ncols
     if len(panels) <= _SHORT * columns:
         return
@@ -514,7 +475,7 @@ def _marks_of_goals(panels: Iterable[Axes]) -> dict[str, Any]:
 
 
 def _held(dataset: xr.Dataset) -> str:
-    """Say where the coordinates are that do not vary."""
+    """Return a text with the values of scalar coordinates."""
     scalars = [data for name, data in dataset.coords.items() if data.ndim == 0]
     texts = [
         f"{long_name(data)} {float(displayed(data)):g} {display_of(data.attrs).units}"
@@ -525,7 +486,7 @@ def _held(dataset: xr.Dataset) -> str:
 
 
 def _width(values: Array) -> float:
-    """Return the line width of a curve: thin, if a line with many turns would fill its area."""
+    """Return the line width of a curve: thin if a line with many extremes would fill its area."""
     finite = values[np.isfinite(values)]
     if finite.size == 0 or is_constant(finite):
         return float(rcParams["lines.linewidth"])

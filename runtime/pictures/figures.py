@@ -1,4 +1,4 @@
-"""How all figures look, and how they are written: PNG, SVG and PDF."""
+"""The style of all figures, and writing them as PNG, SVG and PDF."""
 
 from base64 import b64encode
 from io import BytesIO
@@ -38,7 +38,7 @@ METADATA: dict[str, dict[str, Any]] = {
 
 
 def save(figure: Figure, path: str | Path, *, force: bool = False, inputs: Paths = ()) -> Path:
-    """Write a figure; the ending of the file's name is its format.
+    """Write a figure to a file, whose ending determines the format.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def save(figure: Figure, path: str | Path, *, force: bool = False, inputs: Paths
         If the file must not or cannot be written.
     """
     ending = Path(path).suffix.lower().removeprefix(".")
-    drawn = BytesIO()  # what cannot be written later leaves no open file behind
+    drawn = BytesIO()  # so that an error leaves no open file
     lay_out(figure)
     figure.savefig(drawn, dpi=160, format=ending, metadata=METADATA.get(ending))
     with replacing(path, force=force, inputs=inputs) as temporary:
@@ -68,7 +68,7 @@ def save(figure: Figure, path: str | Path, *, force: bool = False, inputs: Paths
 
 
 def data_uri(figure: Figure, ending: Literal["svg", "png"] = "svg") -> str:
-    """Return a figure as the data URI of an image, which needs no file beside a page.
+    """Return a figure as the data URI of an image for a self-contained page.
 
     Parameters
     ----------
@@ -77,7 +77,7 @@ def data_uri(figure: Figure, ending: Literal["svg", "png"] = "svg") -> str:
         Vector graphics, or pixels, which are smaller for a figure with many letters.
     """
     drawn = BytesIO()
-    # text stays text: it can be searched for, and takes a tenth of the room
+    # text as text can be searched for, and takes a tenth of the size of outlines
     with rc_context({"svg.fonttype": "none"}):
         lay_out(figure).savefig(drawn, dpi=110, format=ending, metadata=METADATA[ending])
     kind = {"svg": "svg+xml", "png": "png"}[ending]
@@ -85,7 +85,7 @@ def data_uri(figure: Figure, ending: Literal["svg", "png"] = "svg") -> str:
 
 
 def written_plainly(figure: Figure) -> Figure:
-    """Show the text of a person as it was written, dollars and all."""
+    """Show all texts of a figure literally: a dollar sign starts no formula."""
     for text in figure.findobj(Text):
         text.set_parse_math(False)
         text.set_text("\n".join(map(legible, text.get_text().split("\n"))))
@@ -93,13 +93,13 @@ def written_plainly(figure: Figure) -> Figure:
 
 
 def small(figure: Figure) -> Figure:
-    """Give a figure of one curve the size of a panel, so that several fit in a row of a page."""
+    """Set the size of a figure of one curve to that of a panel, so that several fit in a row."""
     figure.set_size_inches(*_PANEL)
     return lay_out(figure)
 
 
 def lay_out(figure: Figure) -> Figure:
-    """Find the places of all that is drawn, once: else each file is drawn twice for them."""
+    """Compute the layout of a figure once; otherwise each file would be drawn twice."""
     engine = figure.get_layout_engine()
     if engine is not None:
         engine.execute(figure)

@@ -1,4 +1,4 @@
-"""Names of curves beside them, where a panel has room for all of its names."""
+"""Names of curves beside them, where a panel has space for all of its names."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 _SIZE = 8.0
-# Of a letter, as a part of the size of the type: mean width, and height with what is around it.
+# Mean width of a letter, and height of a line with its margins, relative to the size of the type.
 _WIDE, _HIGH = 0.6, 1.5
 _PLACES = 60
 _POINTS = 72.0
@@ -21,7 +21,7 @@ _HALO = [patheffects.withStroke(linewidth=2.5, foreground="white")]
 
 @dataclass(frozen=True)
 class _Box:
-    """Where a name would be, in points from the lower left corner of the panel."""
+    """A position for a name: centre and size in points from the lower left corner of the panel."""
 
     x: float
     y: float
@@ -29,27 +29,27 @@ class _Box:
     height: float
 
     def meets(self, other: "_Box") -> bool:
-        """Return whether two of them overlap."""
+        """Return whether two boxes overlap."""
         return (
             abs(self.x - other.x) < 0.5 * (self.width + other.width)
             and abs(self.y - other.y) < 0.5 * (self.height + other.height)
         )  # fmt: skip
 
     def crossed(self, curve: Array) -> bool:
-        """Return whether a curve passes through it."""
+        """Return whether a curve passes through the box."""
         within = np.abs(curve[:, 0] - self.x) < 0.5 * self.width
         return bool(np.any(np.abs(curve[within, 1] - self.y) < 0.5 * self.height))
 
     def gap(self, curve: Array) -> float:
-        """Return how far a curve is, up or down."""
+        """Return the vertical distance of a curve."""
         within = np.abs(curve[:, 0] - self.x) < 0.5 * self.width
         return float(np.min(np.abs(curve[within, 1] - self.y), initial=np.inf))
 
 
 def label_lines(axes: Axes, lines: Sequence[Line2D], names: Sequence[str], size: Array) -> bool:
-    """Write the name of each line beside it, in its colour; nothing if not all have room.
+    """Write the name of each line beside it, in its colour; write none without space for all.
 
-    A name is placed where its own line is much nearer than any other, and where no line crosses it.
+    The nearest line to a name is its own by far, and no line crosses it.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ def label_lines(axes: Axes, lines: Sequence[Line2D], names: Sequence[str], size:
     lines : sequence of Line2D
     names : sequence of str
     size : ndarray, shape (2,)
-        About how wide and high the panel will be [in].
+        Approximate width and height of the panel [in].
 
     Returns
     -------
@@ -91,7 +91,7 @@ def label_lines(axes: Axes, lines: Sequence[Line2D], names: Sequence[str], size:
 
 
 def _in_points(axes: Axes, line: Line2D, panel: Array) -> Array:
-    """Return a line from the lower left corner of its panel, at many places [points]."""
+    """Return points of a line, measured from the lower left corner of its panel [points]."""
     (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
     x, y = (np.asarray(values, dtype=np.float64) for values in line.get_data())
     known = np.isfinite(x) & np.isfinite(y)
@@ -110,7 +110,7 @@ def _best(
     size: tuple[float, float],
     panel: Array,
 ) -> _Box | None:
-    """Return the place for a name from which the other curves are farthest."""
+    """Return the position for a name from which the other curves are farthest."""
     own, others = curves[index], [c for k, c in enumerate(curves) if k != index]
     width, height = size
     best, least = None, 1.6 * height
@@ -123,7 +123,7 @@ def _best(
             gap = min((box.gap(other) for other in others), default=np.inf)
             inside = 0.5 * height < y < panel[1] - 0.5 * height
             free = not (box.crossed(own) or any(box.meets(other) for other in taken))
-            # far enough is far enough: then the first such place, so that names are at the left
+            # of positions that are far enough the first, so that names are at the left
             if inside and free and gap > min(least, 4.0 * height):
                 best, least = box, gap
     return best

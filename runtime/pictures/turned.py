@@ -7,18 +7,12 @@ from matplotlib.axes import Axes
 from matplotlib.collections import Collection, LineCollection, PolyCollection
 from matplotlib.lines import Line2D
 
-# Markers that point up, down or across, and what they are with the axes exchanged.
+# Markers that point up, down or across, and the same with the axes exchanged.
 _MARKERS: dict[Any, Any] = {6: 5, 7: 4, "_": "|"}
 
 
 def turn(axes: Axes) -> None:
-    """Exchange the axes of a panel with everything that is drawn in it, labels too.
-
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-        With lines, bands, error bars, limits and locators, before it is laid out.
-    """
+    """Exchange the axes of a panel with all lines, bands, error bars, limits and labels in it."""
     limits = axes.get_xlim(), axes.get_ylim()
     across, upward = axes.xaxis, axes.yaxis
     locators = across.get_major_locator(), upward.get_major_locator()
@@ -41,7 +35,7 @@ def turn(axes: Axes) -> None:
 
 
 def _turn_line(axes: Axes, line: Line2D) -> None:
-    """Exchange the coordinates of a line; of one across the panel the transform, too."""
+    """Exchange the coordinates of a line; for one across the panel the transform, too."""
     x, y = line.get_data(orig=False)
     line.set_data(y, x)
     over_height = axes.get_xaxis_transform(which="grid")
@@ -57,7 +51,7 @@ def _turn_line(axes: Axes, line: Line2D) -> None:
 
 
 def _turn_collection(collection: Collection) -> None:
-    """Exchange the coordinates of bands and of the bars of errors."""
+    """Exchange the coordinates of bands and error bars."""
     if isinstance(collection, LineCollection):
         collection.set_segments([np.asarray(part)[:, ::-1] for part in collection.get_segments()])
     elif isinstance(collection, PolyCollection):

@@ -1,5 +1,5 @@
 # cython: language_level=3, boundscheck=False, wraparound=False
-"""Goes through the steps of a motion again, and back, with the compiled functions of a model."""
+"""Evaluation of the steps of a motion, and of their adjoint, with compiled functions of a model."""
 
 import numpy as np
 
@@ -8,7 +8,7 @@ from libc.stdint cimport uintptr_t
 cdef extern from "Python.h":
     int PyErr_CheckSignals() except -1
 
-# Steps after which an interrupt is looked for: some milliseconds.
+# Steps after which interrupts are checked: some milliseconds.
 cdef enum:
     LOOKS = 1024
 
@@ -19,13 +19,13 @@ ctypedef int (*function_pointer)(
 
 def go_through(
     rhs, const double[::1] constants, const double[:, ::1] table, const double[::1] lengths,
-    const unsigned char[::1] anew, const double[:, :, ::1] inputs, double[:, :, ::1] states,
+    const unsigned char[::1] restarts, const double[:, :, ::1] inputs, double[:, :, ::1] states,
     double[:, :, ::1] rates,
 ):
-    """Fill states and rates of all stages; the states of the first ones are there.
+    """Fill states and rates of all stages from the states at the first ones.
 
-    The last stage of a step is the first one of the next, where that does not begin anew, as the
-    first step does. Return whether no state is refused.
+    The first stage of a step that does not restart is the last one of the step before; the first
+    step restarts. Return whether no state is refused.
     """
     cdef function_pointer function = <function_pointer><uintptr_t> rhs
     cdef Py_ssize_t last = states.shape[1] - 1, n = states.shape[2], step, stage, earlier, i
@@ -36,10 +36,10 @@ def go_through(
             if step % LOOKS == 0:
                 with gil:
                     PyErr_CheckSignals()
-            if not anew[step]:
+            if not restarts[step]:
                 for i in range(n):
                     rates[step, 0, i] = rates[step - 1, last, i]
-            for stage in range(0 if anew[step] else 1, last + 1):
+            for stage in range(0 if restarts[step] else 1, last + 1):
                 for i in range(n):
                     moved = 0.0
                     for earlier in range(stage):
@@ -52,14 +52,14 @@ def go_through(
 
 def go_back(
     adjoint, const double[::1] constants, const double[:, ::1] table, const double[::1] lengths,
-    const unsigned char[::1] anew, const double[:, :, ::1] inputs, const double[:, :, ::1] states,
+    const unsigned char[::1] restarts, const double[:, :, ::1] inputs, const double[:, :, ::1] states,
     const double[:, ::1] at_begin, const double[:, :, ::1] at_stages, double[::1] by_constants,
     double[::1] by_start, double[::1] by_inputs,
 ):
-    """Add what constants, the start and inputs count; `sweep` says how.
+    """Add the derivatives with respect to constants, the start and inputs, see `sweep`.
 
-    Where the next step does not begin anew, nothing is to be pushed at the last stage, but at the
-    first one of the next step, which is the same. Return whether no state is refused.
+    If the next step does not restart, its first stage is the last one of this step, whose
+    contributions must be zero here. Return whether no state is refused.
     """
     cdef function_pointer function = <function_pointer><uintptr_t> adjoint
     cdef Py_ssize_t count = states.shape[0], last = states.shape[1] - 1, step, stage, later, i
@@ -75,7 +75,7 @@ def go_back(
                     PyErr_CheckSignals()
             for i in range(n):
                 back[last, i] = 0.0
-            for stage in range(last - (step + 1 < count and not anew[step + 1]), -1, -1):
+            for stage in range(last - (step + 1 < count and not restarts[step + 1]), -1, -1):
                 for i in range(m):
                     given[i] = inputs[step, stage, i]
                 for i in range(n):

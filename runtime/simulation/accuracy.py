@@ -1,4 +1,4 @@
-"""How accurately and for how long to integrate, as the caller says it; checked."""
+"""Checked arguments about tolerances, steps and times of an integration."""
 
 import math
 from dataclasses import dataclass
@@ -12,25 +12,25 @@ from ..core.validator import Validator, shown
 Array = NDArray[np.float64]
 
 _MOST_STEPS = 2**62
-# Rounding of time that is too coarse for steps [s], if times are so many spans from zero.
-# On the clock of a computer, which counts from 1970, times are 2e-7 s apart.
+# Times are refused if their rounding exceeds the first number [s] and they are more than the second
+# number of time spans from zero. Times of a computer's clock, from 1970, are 2e-7 s apart.
 _COARSE, _FAR = 1e-9, 1e3
-_SMALLEST_RTOL = 100.0 * np.finfo(float).eps  # what double precision can do
+_SMALLEST_RTOL = 100.0 * np.finfo(float).eps  # the limit of double precision
 
 
 @dataclass(frozen=True, kw_only=True)
 class Accuracy:
-    """How to integrate; the names are those of SciPy.
+    """Tolerances and steps of an integration; the names are those of SciPy.
 
     Attributes
     ----------
     rtol : float
     atol : ndarray
-        Of each element of the state.
+        Of each element of the state, in its SI unit.
     max_step : float
         [s], may be infinite.
     first_step : float or None
-        [s]; None: to be chosen.
+        [s]; None: chosen by the method.
     max_steps : int
     """
 
@@ -51,7 +51,7 @@ def accuracy_of(
     first_step: float | None,
     max_steps: int,
 ) -> Accuracy:
-    """Check how accurately a state of some size is to be integrated."""
+    """Return the checked accuracy of an integration, for a state of some size."""
     absolute = given.array("atol", atol)
     if not (absolute.shape in ((), (size,)) and (absolute > 0.0).all()):
         given.fail(
@@ -71,7 +71,7 @@ def accuracy_of(
 
 
 def span_of(given: Validator, t_span: Any) -> tuple[float, float]:
-    """Check first and last time [s]; the last may be the earlier one."""
+    """Return the checked first and last time [s]; the last may be the earlier one."""
     span = given.array("t_span", t_span, "s", finite=False)
     first, last = span.tolist() if span.shape == (2,) else (0.0, 0.0)
     if not (math.isfinite(first) and math.isfinite(last) and first != last):
@@ -89,7 +89,7 @@ def span_of(given: Validator, t_span: Any) -> tuple[float, float]:
 
 
 def outputs_of(given: Validator, t_eval: Any, span: tuple[float, float]) -> Array:
-    """Check times of outputs, which go as the time span does [s]."""
+    """Return the checked times of outputs [s], which are in the direction of the time span."""
     times = given.array("t_eval", t_eval, "s", dimensions=[1])
     if given.failed:
         return times

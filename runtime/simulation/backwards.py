@@ -1,10 +1,10 @@
-"""The gradient of what a motion is judged by: backwards through the steps of its integration.
+"""The gradient of a functional of a motion: backwards through the steps of its integration.
 
-The motion is integrated by Dormand and Prince's method as by `simulate`. Its steps are then gone
-through from the last one to the first (the discrete adjoint of a Runge-Kutta method, reverse mode:
-Hairer, Lubich and Wanner, Geometric Numerical Integration, VI.1.4), with their lengths as they
-are. So the gradient is that of the numbers which the integration gives, by everything at once, and
-takes a few times as long as the motion.
+Dormand and Prince's method integrates the motion as in `simulate`. Its steps are then processed
+from the last to the first (the discrete adjoint of a Runge-Kutta method, reverse mode: Hairer,
+Lubich and Wanner, Geometric Numerical Integration, VI.1.4), with fixed lengths. So the gradient is
+that of the numbers which the integration returns, with respect to all variables together, and takes
+a few times as long as the motion.
 """
 
 from collections.abc import Mapping
@@ -33,25 +33,25 @@ Measure = Literal["mean", "rms"]
 
 OUTPUTS = 201
 MOST_STEPS = 10_000_000
-# Steps whose Jacobian is looked at, and by how much they may be longer than it allows.
+# Number of steps whose Jacobian is evaluated, and the allowed factor of their length.
 _LOOKS = 32
 _MORE = 1.2
-# Part of a signal that is rounding of the sums that it is made of.
+# Rounding error of the sums in a signal, relative to the signal.
 _STAYS = 64.0 * np.finfo(float).eps
 
 
 @dataclass(frozen=True)
 class MotionGradient:
-    """Objectives of a motion and their gradients.
+    """A functional of a motion and its gradient.
 
     Attributes
     ----------
     value : float
-        The sum that was asked for.
+        The sum over the signals in ``of``.
     by : dict of str to float
-        Its derivatives with respect to parameters, elements of the state at the start, and inputs
-        that do not vary, by name, SI units. Parameters move by themselves: the start stays. NaN by
-        a parameter that cannot move alone, see `kintrafo.gradient`.
+        Its derivatives with respect to parameters, elements of the initial state, and inputs that
+        do not vary, by name, SI units. Those with respect to parameters are for a fixed initial
+        state. NaN for a parameter that cannot change alone, see `kintrafo.gradient`.
     motion : Simulation
         With every step.
     """
@@ -73,20 +73,19 @@ def motion_gradient(
     atol: ArrayLike = 1e-9,
     max_step: float = np.inf,
 ) -> MotionGradient:
-    """Return the exact gradient of a number that a motion is judged by.
+    """Return the exact gradient of a functional of a motion.
 
     Parameters
     ----------
     system : System
         With equations that were compiled with ``parameter_derivatives=True``.
     t_span, y0, inputs, rtol, atol, max_step
-        As for `simulate`, by the method 'DormandPrince'; time goes forward.
+        As for `simulate`, by the method 'DormandPrince'; the last time is the later one.
     of : mapping of str to str or array_like
-        Signals, or elements of the state, and what is made of each: 'mean', 'rms' (about the
-        mean), both over the times ``t_eval``, or weights of its values at these times. The number
-        is the sum of it all.
+        For signals, or elements of the state, by name: 'mean' or 'rms' (about the mean) over the
+        times ``t_eval``, or weights of the values at these times. The functional is the sum of all.
     t_eval : array_like, optional
-        Times at which signals are looked at, by default 201 from the first to the last [s].
+        Times at which signals are evaluated [s], by default 201 from the first to the last.
 
     Returns
     -------
@@ -95,21 +94,21 @@ def motion_gradient(
     Raises
     ------
     InputError
-        If an argument cannot be used, or the rates jump on the way.
+        If an argument cannot be used, or the rates jump during the motion.
     SimulationError
-        As of `simulate`.
+        As for `simulate`.
 
     Notes
     -----
-    The lengths of steps are taken as they are. They change with parameters, too, which changes
-    the result by no more than the integration errs. No step is so long that what is at rest, and a
-    parameter would move, is not followed as accurately: its length times the size of any eigenvalue
-    of the Jacobian is at most (3600 rtol)^(1/6), so that stiff members make it slow.
+    The derivatives are those at fixed lengths of steps. Lengths depend on parameters, too, but this
+    changes the result by no more than the error of the integration. A disturbance of a system at
+    rest is integrated as accurately: the length of a step times the size of any eigenvalue of the
+    Jacobian is at most (3600 rtol)^(1/6), which makes stiff members slow.
 
-    Where a stop is touched, or a curve has a kink, the derivatives change at once; steps grow
-    shorter towards such a moment, so that only one of some root of `rtol` of the longest passes
-    over it. What rests on a kink has the derivative of one side. Where rates jump, as where a tyre
-    with damping meets the road, there is no gradient and an error says so.
+    Where a stop is touched, or a curve has a kink, the derivatives jump. Steps become shorter
+    towards such a time, so that the step that passes it has a length of some root of `rtol` of the
+    longest one. A part that rests on a kink has the derivative of one side. If rates jump, for
+    example where a tyre with damping meets the road, there is no gradient, and an error is raised.
 
     Examples
     --------
@@ -143,7 +142,7 @@ def motion_gradient(
 
 
 def forward_span(given: Validator, t_span: Any) -> tuple[float, float]:
-    """Check first and last time, which must be the later one [s]."""
+    """Return the checked first and last time, which must be the later one [s]."""
     span = span_of(given, t_span)
     if span[1] < span[0]:
         given.fail(f"t_span = {shown(t_span)}: the last time must be the later one.")
@@ -151,14 +150,14 @@ def forward_span(given: Validator, t_span: Any) -> tuple[float, float]:
 
 
 def output_times_of(given: Validator, t_eval: Any, span: tuple[float, float]) -> Array:
-    """Check the times at which a motion is looked at, `OUTPUTS` of them by default [s]."""
+    """Return the checked times of outputs, `OUTPUTS` of them by default [s]."""
     return outputs_of(given, np.linspace(*span, OUTPUTS) if t_eval is None else t_eval, span)
 
 
 def followed(
     system: System, courses: TimeInputs, state: Array, accuracy: Accuracy
 ) -> tuple[Simulation, RetracedSteps]:
-    """Return a motion whose steps are fit for derivatives, and the steps."""
+    """Return a motion whose steps are short enough for derivatives, and the steps."""
     begin = np.array([courses.segments[0].start])
     longest = min(accuracy.max_step, _longest(system, courses, accuracy.rtol, begin, state[None]))
 
@@ -175,7 +174,7 @@ def followed(
 
 
 def _looked_at(motion: Simulation) -> tuple[Array, Array]:
-    """Return times and states of some steps: all along, and where they are longest."""
+    """Return times and states of some steps: over the whole motion, and of the longest."""
     count = motion.t.size - 1
     lengths = np.diff(motion.t)
     along = np.linspace(0, count - 1, min(count, _LOOKS)).astype(int)
@@ -186,11 +185,11 @@ def _looked_at(motion: Simulation) -> tuple[Array, Array]:
 def _longest(
     system: System, courses: TimeInputs, rtol: float, times: Array, states: Array
 ) -> float:
-    """Return how long steps may be for what moves beside the motion to be followed, too.
+    """Return the longest steps with which small disturbances are integrated accurately.
 
-    Where nothing moves a step errs by nothing, however long it is; but a small disturbance, such as
-    a parameter makes, would grow by all that the polynomial of the method is beside exp(h l), for
-    an eigenvalue l of the Jacobian. That is (h l)^6 / 3600 at first.
+    At rest a step of any length has no error; but a small disturbance, such as a change of a
+    parameter, grows in a step by the error of the polynomial of the method beside exp(h l), for an
+    eigenvalue l of the Jacobian: about (h l)^6 / 3600.
     """
     inputs = np.empty((times.size, len(system.input_names)))
     for part in courses.segments:
@@ -202,7 +201,7 @@ def _longest(
 
 
 def _asked(given: Validator, system: System, of: Any, times: Array) -> dict[str, Any]:
-    """Return what is asked of each signal: a word, or weights."""
+    """Return for each signal 'mean', 'rms' or weights."""
     known = (*system.signal_names, *system.state_names)
     found: dict[str, Any] = {}
     for name, wanted in given.mapping("of", of, "signals and what is made of them").items():
@@ -225,7 +224,7 @@ def _asked(given: Validator, system: System, of: Any, times: Array) -> dict[str,
 def _judged(
     system: System, asked: Mapping[str, Any], times: Array, states: Array, inputs: Array
 ) -> tuple[float, dict[str, Array]]:
-    """Return the number that is asked for, and its derivatives by the signals at all times."""
+    """Return the functional, and its derivatives with respect to the signals at all times."""
     signals = system.signals(states, inputs)
     share = np.diff(times, prepend=times[0], append=times[-1])
     share = (share[:-1] + share[1:]) / 2.0 / max(float(times[-1] - times[0]), np.finfo(float).tiny)
@@ -239,7 +238,7 @@ def _judged(
         else:
             moved = own - share @ own
             number = float(np.sqrt(share @ moved**2))
-            # what stays but for rounding has no slope
+            # a signal that varies by rounding only has no slope
             stays = number <= _STAYS * float(np.abs(own).max())
             by = 0.0 * share if stays else share * moved / number
         value, weights[name] = value + number, by
@@ -254,7 +253,7 @@ def _named(
     start: Array,
     held: Array,
 ) -> dict[str, float]:
-    """Return derivatives by name: by parameters, the start, and inputs that do not vary."""
+    """Return derivatives by name: of parameters, the start, and inputs that do not vary."""
     parameters = np.array([*system.parameters.values()])
     by = directions.of_parameters("prepare_adjoint", parameters, constants, parameters.size)
     by[directions.bound(parameters)] = np.nan

@@ -1,4 +1,4 @@
-"""What a person gives for an input, as piecewise cubics: a number, samples, a function."""
+"""Inputs as piecewise cubics, from a number, samples or a function."""
 
 from collections.abc import Callable
 from typing import Any
@@ -21,7 +21,7 @@ Signal = TypeAliasType(
 def course(
     name: str, signal: Signal, t_span: tuple[float, float], *, max_step: float, rates: int
 ) -> list[PPoly] | float:
-    """Return what an input does.
+    """Return an input as piecewise cubics, or as a number if it does not vary.
 
     Parameters
     ----------
@@ -32,19 +32,19 @@ def course(
     t_span : tuple of float
         First and last time, which samples must cover [s].
     max_step : float
-        Greatest time between two calls of a function [s].
+        Longest time between two calls of a function [s].
     rates : int
-        How many of its derivatives the model takes.
+        Number of its derivatives that the model reads.
 
     Returns
     -------
     list of PPoly, or float
-        A piecewise cubic for each stretch without a given jump; a number for what does not vary.
+        A piecewise cubic for each time span between given jumps.
 
     Raises
     ------
     InputError
-        If what is given cannot be used.
+        If the input cannot be used.
     """
     if isinstance(signal, tuple | list):
         if len(signal) != 2:
@@ -90,7 +90,7 @@ def _padded(name: str, curve: PPoly, t_span: tuple[float, float]) -> PPoly:
     if not np.isfinite(curve.c).all():
         raise InputError([f"{name!r}: the coefficients must be finite."], "inputs")
     if degree == 3:
-        # of the same class; where margins are looked at ahead of its end, it goes on
+        # of the same class; margins may be evaluated beyond its end
         return curve.construct_fast(curve.c, curve.x, extrapolate=True)
     return PPoly(np.concatenate((np.zeros((3 - degree, curve.c.shape[1])), curve.c)), curve.x)
 
@@ -144,7 +144,7 @@ def _check_samples(
 
 
 def _first_disorder(times: Array) -> int | None:
-    """Return where times fall, or where one is alone between jumps or is given three times."""
+    """Return where times decrease, or one is alone between jumps or given three times."""
     steps = np.diff(times)
     still = np.concatenate(([False], steps == 0.0, [False]))
     bad = np.flatnonzero((steps < 0.0) | (still[:-2] & (steps == 0.0)))

@@ -1,6 +1,6 @@
-"""How near a motion is to a dead point, and for how long a step may be trusted there.
+"""Distance of a motion from dead points, and limits of steps there, for the methods of SciPy.
 
-This is what ``native/margins.h`` explains and does for SUNDIALS, for the methods of SciPy.
+``native/margins.h`` explains it and does the same for SUNDIALS.
 """
 
 from collections.abc import Mapping
@@ -20,27 +20,27 @@ Array = NDArray[np.float64]
 
 @cache
 def meanings(equations: ModuleType) -> NDArray[np.int32]:
-    """Return what each guard of some equations means for an integration.
+    """Return bits with the effect of each guard on an integration.
 
-    Bit 1: where its margin is not positive, the right-hand side or the signals refuse a state. Bit
-    2: the right-hand side is singular where its margin is zero, and no step may pass over that: it
-    chooses a branch of where bodies are, or it is the square of what a direction is divided by, as
-    the length of a spring. Such a square touches zero and rises again. Pivots of the mass matrix
-    have the first bit only: where one vanishes the accelerations grow without bound, which the
-    error control of every method sees.
+    Bit 1: where the margin is not positive, the right-hand side or the signals refuse a state. Bit
+    2: the right-hand side is singular where the margin is zero, and no step may pass over that: the
+    guard determines a branch of poses, or it is the square of a divisor of a direction, such as the
+    length of a spring. Such a square touches zero and rises again. Pivots of the mass matrix have
+    the first bit only: where one vanishes the accelerations grow without bound, which the error
+    control of every method detects.
     """
     return meanings_of(equations.equations.manifest)
 
 
 def meanings_of(manifest: Mapping[str, Any]) -> NDArray[np.int32]:
-    """Return the same of the equations of a manifest."""
+    """Return the same for the equations of a manifest."""
     acting = {name: set(function["guards"]) for name, function in manifest["functions"].items()}
     places = acting["positions"] | acting["orientations"]
     found = np.zeros(len(manifest["guards"]), dtype=np.int32)
     rates, signals = acting["rhs"], acting.get("signals", set())
     for guard in rates | signals:
         found[guard] |= ACTS
-    # of a mechanism whose motion is given as a whole, signals are all that there is
+    # a mechanism whose motion is prescribed has signals only
     singular = (places | acting["forces"]) & rates if manifest["state"] else places & signals
     for guard in singular:
         found[guard] |= SINGULAR
@@ -60,7 +60,7 @@ def refuse(model: System, guard: int, state: Array, inputs: Array) -> NoReturn:
 
 
 class DeadPoint(Exception):  # noqa: N818 (it ends an integration, and is raised as another error)
-    """The motion has come to a dead point.
+    """The motion has reached a dead point.
 
     Attributes
     ----------
@@ -68,7 +68,7 @@ class DeadPoint(Exception):  # noqa: N818 (it ends an integration, and is raised
     time : float
         Of the dead point [s].
     state : ndarray
-        The last that was reached before it.
+        The last state before it.
     """
 
     def __init__(self, guard: int, time: float, state: Array) -> None:
@@ -83,9 +83,9 @@ class Approach:
     ----------
     model : System
     inputs_at : callable
-        From a time to the array of inputs.
+        Returns the array of inputs at a time.
     direction : float
-        Plus or minus one, in which the time goes.
+        Plus or minus one: the direction of time.
     """
 
     def __init__(self, model: System, inputs_at: Any, direction: float) -> None:
@@ -100,11 +100,11 @@ class Approach:
         return self._model.evaluate("margins", state, self._inputs_at(time))
 
     def crossed(self, margins: Array) -> int | None:
-        """Return a guard whose margin is not positive where it must be."""
+        """Return a guard whose margin must be positive and is not; None if there is none."""
         return _first(self._acts & ~(margins > 0.0))
 
     def look(self, time: float, state: Array, lapse: float) -> tuple[Array, Array]:
-        """Return the margins of a state, and by how much they change in a short time."""
+        """Return the margins of a state, and their changes in a short time."""
         lapse *= self._direction
         moved = state.copy()
         now = self.margins(time, state)
@@ -113,14 +113,14 @@ class Approach:
         return now, self.margins(time + lapse, moved) - now
 
     def _rates(self, time: float, state: Array) -> Array:
-        """Return the rates of the positions of a state that the model takes."""
+        """Return the rates of the positions in a state that the model accepts."""
         positions = self._layout.positions
         if self._layout.rates_are_speeds:
             return state[positions : 2 * positions]
         return self._model.evaluate("rhs", state, self._inputs_at(time))[:positions]
 
     def doubt(self, now: Array, gained: Array, lapse: float, step: float) -> int | None:
-        """Return a guard that says that a step is not to be believed."""
+        """Return a guard that makes a step untrustworthy; None if there is none."""
         crossed = self.crossed(now)
         if crossed is not None:
             return crossed
@@ -129,7 +129,7 @@ class Approach:
     def longest_step(
         self, now: Array, gained: Array, lapse: float
     ) -> tuple[float, int | None, bool]:
-        """Return how long the next step may be, which guard limits it, and if this is its end."""
+        """Return the length of the next step, the guard that limits it, and if the motion ends."""
         self._greatest = np.maximum(self._greatest, now)
         falling = self._singular & (gained < 0.0)
         if not falling.any():

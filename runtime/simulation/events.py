@@ -1,4 +1,4 @@
-"""Events during a simulation: by physical name, by signal and level, or by a function."""
+"""Events during a simulation: named events, signals that pass levels, or functions."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -18,7 +18,7 @@ from .levels import value_of
 
 @dataclass(frozen=True)
 class SignalEvent:
-    """A signal of the model passes a level.
+    """A signal of the model that passes a level.
 
     Attributes
     ----------
@@ -29,7 +29,8 @@ class SignalEvent:
     direction : float
         Negative: falling only; positive: rising only; zero: both.
     terminal : bool or int
-        Whether, or at which crossing, the simulation ends.
+        Whether the simulation ends at the first crossing, or the number of the crossing at which it
+        ends.
     """
 
     signal: str
@@ -52,10 +53,10 @@ class Events:
     ----------
     signal : tuple of SignalEvent
     functions : tuple of callable
-        Of time and state, with SciPy's attributes ``terminal`` and ``direction``. They give finite
-        numbers or raise an `InputError`: a solver takes NaN for "no crossing".
+        Of time and state, with SciPy's attributes ``terminal`` and ``direction``. They return
+        finite numbers or raise an `InputError`: for a solver NaN means "no crossing".
     order : tuple of int
-        Position of each of them in what the caller gave.
+        Index of each of them in the caller's list.
     """
 
     signal: tuple[SignalEvent, ...]
@@ -64,13 +65,13 @@ class Events:
 
     @cached_property
     def directions(self) -> NDArray[np.int32]:
-        """The sense of each event: -1, 0 or +1."""
+        """Direction of each event: -1, 0 or +1."""
         signs = [(e.direction > 0) - (e.direction < 0) for e in self._all]
         return np.array(signs, dtype=np.int32)
 
     @cached_property
     def terminal(self) -> NDArray[np.int32]:
-        """At which crossing each event ends the simulation; 0 for never."""
+        """Number of the crossing at which each event ends the simulation; 0 for never."""
         return np.array([int(e.terminal) for e in self._all], dtype=np.int32)
 
     @property
@@ -81,7 +82,7 @@ class Events:
         return len(self.order)
 
     def after(self, passed: Sequence[int]) -> "Events":
-        """Return the events as they are to be watched after each has been passed so often."""
+        """Return the remaining events after each has occurred a number of times."""
         if not any(passed):
             return self
         left = [
@@ -96,12 +97,12 @@ NO_EVENTS = Events((), (), ())
 
 
 def named_event(model: System, name: str) -> SignalEvent:
-    """Return an event that the forces of a model have, by its name.
+    """Return an event of the forces of a model, by its name.
 
     Raises
     ------
     InputError
-        If there is no such event, or the model has not what it is of.
+        If there is no such event, or a parameter that it needs is zero.
     """
     known = {
         event: (signal, entry)
@@ -128,17 +129,7 @@ def named_event(model: System, name: str) -> SignalEvent:
 
 
 def events_of(model: System, given: Event | Sequence[Event] | None) -> Events:
-    """Sort the events that a caller gave.
-
-    Parameters
-    ----------
-    model : System or Model
-    given : str, SignalEvent, callable, or sequence of these
-
-    Returns
-    -------
-    Events
-    """
+    """Return the checked events: one or several names, `SignalEvent` or functions, or None."""
     if given is None:
         return NO_EVENTS
     single = callable(given) or isinstance(given, str | SignalEvent)
@@ -180,7 +171,7 @@ def _check_sense(given: Validator, name: str, direction: Any, terminal: Any) -> 
 
 @dataclass(frozen=True)
 class _CheckedFunction:
-    """A caller's function that gives a finite number or an error."""
+    """A caller's function that returns a finite number or raises an error."""
 
     function: EventFunction
     name: str

@@ -1,4 +1,4 @@
-"""Functions of time as splines that follow them."""
+"""Splines through functions of time."""
 
 import math
 from collections.abc import Callable
@@ -13,24 +13,24 @@ from ..core.validator import shown
 
 Array = NDArray[np.float64]
 
-# Time between two calls of a function [s], and how often it is called at least.
+# Longest time between two calls of a function [s], and least and most number of calls.
 _RESOLUTION = 1e-3
 _FEWEST_CALLS = 1000
 _MOST_CALLS = 5_000_000
-# Knots at first, and at most.
+# Initial and largest number of knots.
 _FIRST_KNOTS = 65
 _MOST_KNOTS = 2**19
-# A spline follows a function to this part of its range, or to a few roundings of its values. The
-# second derivative is then good to about the square root.
+# Error of a spline relative to the range of its function, or a few roundings of its values. The
+# second derivative has about the square root of it.
 _TOLERANCE = 1e-10
 _ROUNDINGS = 8.0 * float(np.finfo(np.float64).eps)
-# Part of the time between two calls at the least.
+# Shortest time between two calls, relative to the whole time.
 _SHORTEST = 1e-20
-# Calls come at irregular times, so that no function that repeats itself looks like a constant:
-# multiples of the golden section leave no gaps.
+# Calls are at irregular times, so that no periodic function looks like a constant: multiples of
+# the golden section leave no gaps.
 _GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
-# A velocity that jumps: it changes by this part of its range between knots that are this much
-# closer than the calls.
+# A velocity jumps if it changes by this part of its range between knots whose distance is at most
+# this part of that of calls.
 _JUMP, _CLOSE = 0.1, 0.01
 
 
@@ -42,13 +42,12 @@ def fitted(
     max_step: float,
     accelerates: bool,
 ) -> CubicSpline | float:
-    """Return a spline that follows a function of time, or a number if it does not vary.
+    """Return a spline through a function of time, or a number if it does not vary.
 
     The function is called at least every millisecond, every thousandth of the time and every
-    `max_step`, at irregular times. The spline meets every value that is called for, and has knots
-    where it needs them for that; where a cubic does not follow, the function is called
-    again. So nothing that lasts for twice as long as the distance of two calls is missed, and
-    nothing that repeats itself.
+    `max_step`, at irregular times. The spline has every value of these calls, with as few knots as
+    that needs; where a cubic is not close enough, the function is called again. So it includes
+    everything that lasts twice as long as the distance of two calls, and everything periodic.
 
     Parameters
     ----------
@@ -58,9 +57,9 @@ def fitted(
     t_span : tuple of float
         [s]
     max_step : float
-        Greatest step of the integration [s].
+        Longest step of the integration [s].
     accelerates : bool
-        Whether the model takes the second derivative; the velocity must not jump then.
+        Whether the model reads the second derivative; the velocity must then not jump.
 
     Raises
     ------
@@ -97,7 +96,7 @@ def _irregular(low: float, high: float, count: int) -> Array:
 def _followed(
     name: str, function: Callable[[float], Any], times: Array, values: Array
 ) -> CubicSpline:
-    """Put knots where they are needed, until the spline has every value."""
+    """Return a spline with knots added until it has every value."""
     knot = np.zeros(times.size, dtype=bool)
     knot[np.linspace(0, times.size - 1, _FIRST_KNOTS).astype(int)] = True
     tolerance = max(_TOLERANCE * np.ptp(values), _ROUNDINGS * np.abs(values).max())
@@ -117,7 +116,7 @@ def _followed(
                 "jumps there, give samples (times, values) with the time of the jump twice."
             )
         knot[(at[:-1] + at[1:])[failed] // 2] = True
-        # every two knots have a value between them that tests the curve
+        # between any two knots there is a value that tests the curve
         at = np.flatnonzero(knot)
         bare = at[:-1][np.diff(at) == 1]
         between = times[bare] + _GOLDEN * (times[bare + 1] - times[bare])
@@ -127,7 +126,7 @@ def _followed(
 
 
 def _check_velocity(name: str, curve: CubicSpline, close: float) -> None:
-    """Refuse a kink of a position: it would take an infinite acceleration."""
+    """Refuse a kink of a position: it would need an infinite acceleration."""
     velocity = curve(curve.x, 1)
     jumps = np.abs(np.diff(velocity)) > _JUMP * np.ptp(velocity)
     jumps &= np.diff(curve.x) < close

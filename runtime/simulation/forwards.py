@@ -1,9 +1,9 @@
-"""How a motion changes with parameters, its start and inputs: forward along its steps.
+"""Derivatives of a motion with respect to parameters, its start and inputs: forward in time.
 
-The motion is integrated by Dormand and Prince's method as by `simulate`, with steps that are fit
-for derivatives (see `backwards`). What a small change does is followed beside it through the same
-steps, stage by stage: the tangent of the method, each direction in a lane of its own. So it is
-exact for the numbers which the integration gives, and the transpose of what `motion_gradient` does.
+Dormand and Prince's method integrates the motion as in `simulate`, with steps that are short enough
+for derivatives (see `backwards`). A small change is integrated with it through the same steps and
+stages: the tangent of the method, each direction in a lane of its own. So it is exact for the
+numbers which the integration returns, and is the transpose of `motion_gradient`.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -42,7 +42,7 @@ class MotionSensitivity:
     values : dict of str to ndarray, shape (n,)
         Elements of the state and signals at these times, by name, SI units.
     by : dict of str to dict of str to ndarray, shape (n,)
-        Their derivatives: by direction, then by name.
+        Their derivatives: by direction, then by name, in SI units over those of the direction.
     motion : Simulation
         With every step.
     """
@@ -73,15 +73,15 @@ def motion_sensitivity(
     system : System
         With equations that were compiled with ``parameter_derivatives=True``.
     t_span, y0, inputs, rtol, atol, max_step
-        As for `simulate`, by the method 'DormandPrince'; time goes forward.
+        As for `simulate`, by the method 'DormandPrince'; the last time is the later one.
     by : sequence of str, or mapping
-        Parameters, elements of the state at the start, and inputs that do not vary, by name. Or
-        directions by names of your choice: how much each of such changes, SI units. Parameters move
-        by themselves: the start stays.
+        Names of parameters, elements of the initial state, and inputs that do not vary. Or
+        directions by any names: the changes of these variables by name, SI units. A change of a
+        parameter does not change the initial state.
     signals : sequence of str, optional
-        Which signals; by default all.
+        Names of signals; by default all.
     t_eval : array_like, optional
-        Times at which they are reported, by default 201 from the first to the last [s].
+        Times of the outputs [s], by default 201 from the first to the last.
 
     Returns
     -------
@@ -90,21 +90,20 @@ def motion_sensitivity(
     Raises
     ------
     InputError
-        If an argument cannot be used, a direction leaves what the equations take to be zero, or the
-        rates jump on the way.
+        If an argument cannot be used, a direction breaks an assumption of the equations, or the
+        rates jump during the motion.
     SimulationError
-        As of `simulate`.
+        As for `simulate`.
 
     Notes
     -----
-    Steps are no longer than what the directions need to be followed as accurately as the motion,
-    and shorter towards kinks, as of `motion_gradient`. This is for few directions and many results;
-    for one number by everything there is `motion_gradient`.
+    Steps are short enough for the derivatives to be as accurate as the motion, and become shorter
+    towards kinks, as for `motion_gradient`. This function is for few directions and many results,
+    `motion_gradient` for one number and many variables.
 
-    Directions are followed in the lanes of vectors, where the equations can be had so. They are
-    compiled for that when they are first needed, which takes some seconds, and kept as they
-    themselves are. Each has the same bits with any others beside it. Where there is no compiler,
-    NumPy does the same but for rounding, slower.
+    Directions are integrated in the lanes of vectors. The equations are compiled for lanes at first
+    use, which takes some seconds, and are cached. The bits of a direction do not depend on the
+    others. Without a compiler NumPy does the same, slower and with other rounding errors.
 
     Examples
     --------
@@ -130,7 +129,7 @@ def motion_sensitivity(
                 given, len(system.state_names), rtol=rtol, atol=atol, max_step=max_step,
                 first_step=None, max_steps=MOST_STEPS,
             )  # fmt: skip
-            # as they come, and in rows for each signal
+            # twice: as they are computed, and in rows for each signal
             needed = 16.0 * times.size * len(along) * (len(chosen) + len(system.state_names))
             what = f"derivatives of {times.size:,} outputs along {len(along)} directions"
             refuse_beyond(given, needed, what, "Ask for fewer outputs, by t_eval, or signals.")
@@ -185,7 +184,7 @@ def _refuse_varying(
 
 
 class _Tangents:
-    """Directions in which a system moves, followed along the steps of a motion.
+    """Directions in which a system changes, integrated along the steps of a motion.
 
     Parameters
     ----------
@@ -205,16 +204,16 @@ class _Tangents:
         self._along = Along(constants, start, inputs)
 
     def at(self, steps: RetracedSteps, times: Array, items: Sequence[int]) -> Array:
-        """Return how what is looked at changes, shape (directions, times, items).
+        """Return derivatives of some items, shape (directions, times, items).
 
-        Items are places of signals, and behind the last of them elements of the state.
+        Items are indices of signals, followed by those of elements of the state.
         """
         found = in_lanes(self._system, steps, times, self._along, items)
-        # what cannot be done in lanes, and refusals, which are raised here
+        # without lanes, or to raise the error of a refused state
         return self._one_by_one(steps, times)[..., items] if found is None else found
 
     def _one_by_one(self, steps: RetracedSteps, times: Array) -> Array:
-        """Return how all signals and the state change, shape (directions, times, items)."""
+        """Return derivatives of all signals and the state, shape (directions, times, items)."""
         stages, after = self._through(steps)
         count, size = steps.length.size, self._along.start.shape[1]
         before = np.empty((count, size, len(self._along.start)))
@@ -232,10 +231,10 @@ class _Tangents:
         return zip(self._along.constants, self._along.inputs, strict=True)
 
     def _through(self, steps: RetracedSteps) -> tuple[Array, Array]:
-        """Return how rates at the stages, and states after steps, depend on what was before.
+        """Return derivatives of rates at the stages, and of states after steps.
 
-        The first columns are by the elements of the state before a step, one more for each
-        direction has what parameters and inputs do within it.
+        The first columns are with respect to the elements of the state before a step; one more for
+        each direction has the effect of parameters and inputs within the step.
         """
         system = self._system
         jacobians = system.evaluate("rhs_jacobian", steps.states, steps.inputs)

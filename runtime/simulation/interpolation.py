@@ -1,4 +1,4 @@
-"""Samples over time, and what an input does between them."""
+"""Samples over time, and the interpolation between them."""
 
 from dataclasses import dataclass
 from typing import Any, Literal, get_args
@@ -11,7 +11,7 @@ Array = NDArray[np.float64]
 Between = Literal["monotone", "spline", "linear"]
 WAYS: tuple[str, ...] = get_args(Between)
 
-# Of an interval between two samples, what the acceleration takes at most to change at either end.
+# Longest part of an interval at either end in which the acceleration changes.
 _EASING = 0.25
 _MOST_HALVINGS = 24
 
@@ -23,16 +23,16 @@ class Samples:
     Parameters
     ----------
     times : array_like
-        Increasing; a time that is given twice is a jump, or a kink where the value stays [s].
+        Increasing [s]; a time that is given twice is a jump, or a kink if the value is the same.
     values : array_like
         SI units.
     between : str, optional
         'monotone': between two samples the input only rises, or only falls, so it never leaves
-        their range, and it turns at samples only. Its derivative is continuous; where a model takes
-        the acceleration too, so is that.
-        'spline': the cubic spline with continuous second derivative. It turns where it
-        likes, which suits smooth motions sampled densely: only so are accelerations good there.
-        'linear': straight lines. Not for a position whose acceleration the model takes.
+        their range, and its extrema are samples. Its derivative is continuous, and also its second
+        derivative if the model reads the acceleration.
+        'spline': the cubic spline with continuous second derivative. Its extrema may be between
+        samples. It is for smooth motions that are sampled densely, and the best for accelerations.
+        'linear': straight lines. Not for a position whose acceleration the model reads.
 
     Examples
     --------
@@ -50,22 +50,21 @@ class Samples:
 
 
 def curves(times: Array, values: Array, between: str, *, accelerates: bool) -> list[PPoly]:
-    """Return piecewise cubics through samples: one for each stretch without a jump.
+    """Return piecewise cubics through checked samples, one for each time span without a jump.
 
     Parameters
     ----------
     times, values : ndarray
-        Checked samples.
     between : str
         See `Samples`.
     accelerates : bool
-        Whether the model takes the second derivative.
+        Whether the model reads the second derivative.
     """
     cuts = np.flatnonzero(np.diff(times) == 0.0) + 1
     stretches = zip(np.split(times, cuts), np.split(values, cuts), strict=True)
     monotone = _eased if accelerates else PchipInterpolator
     through = {"monotone": monotone, "spline": CubicSpline, "linear": _lines}[between]
-    # what overflows is refused by who looks at the curves
+    # the caller refuses curves that are not finite
     with np.errstate(all="ignore"):
         return [through(t, v) for t, v in stretches]
 
@@ -84,10 +83,10 @@ def _eased(times: Array, values: Array) -> Eased:
     """Return a monotone curve with a continuous second derivative.
 
     The second derivative of the monotone cubic (PCHIP) jumps at samples. Here it is a continuous
-    line over three parts of every interval: it begins and ends with the smaller of what the
-    cubics have on either side (zero where they differ in sign), and the part in the middle makes
-    up for it. The shorter the outer parts, the closer is the whole to the monotone cubic; they are
-    halved until it is monotone too.
+    line over three parts of every interval: at a sample it has the smaller value of the two cubics
+    there (zero where they differ in sign), and the middle part compensates for it. The curve
+    approaches the monotone cubic as the outer parts become shorter; they are halved until it is
+    monotone, too.
     """
     cubic = PchipInterpolator(times, values)
     width = np.diff(times)
@@ -118,9 +117,9 @@ class _Parts:
     width : ndarray
         [s]
     slope, value : ndarray
-        Of each at its begin; the value from the begin of the interval.
+        At the begin of each part; values are relative to the begin of the interval.
     begin, end : ndarray
-        Second derivative at the ends of each.
+        Second derivative at the ends of each part.
     """
 
     width: Array
@@ -135,8 +134,8 @@ class _Parts:
     ) -> "_Parts":
         """Return the cubics that meet value, slope and second derivative at both ends.
 
-        Two equations give the second derivatives at the two inner borders: its integral is what
-        the slope gains, and its double integral what the value does.
+        Two equations determine the second derivatives at the two inner borders: their integral is
+        the change of the slope, and their double integral that of the value.
         """
         begin, end = outer
         middle = 1.0 - 2.0 * share
@@ -153,7 +152,7 @@ class _Parts:
         return cls(widths, slopes, values, begins, ends)
 
     def turn_back(self, sense: Array) -> NDArray[np.bool_]:
-        """Return in which intervals the slope is against the given sense somewhere."""
+        """Return in which intervals the slope is somewhere against the given sign."""
         slope, begin, end = sense * self.slope, sense * self.begin, sense * self.end
         dips = (begin < 0.0) & (end > 0.0)
         depth = 0.5 * self.width * begin**2 / np.where(dips, end - begin, 1.0)
@@ -163,7 +162,7 @@ class _Parts:
         return found
 
     def joined(self, times: Array, values: Array) -> Eased:
-        """Return all of them as one curve from the first sample on."""
+        """Return all parts as one curve."""
         inner = times[:-1] + np.cumsum(self.width, axis=0)[:2]
         breaks = np.append(np.stack([times[:-1], *inner]).T.ravel(), times[-1])
         third = (self.end - self.begin) / (6.0 * self.width)
@@ -175,5 +174,5 @@ class _Parts:
 
 
 def _before(gains: Array) -> Array:
-    """Return the sum of the rows that come before each."""
+    """Return for each row the sum of the rows before it."""
     return np.concatenate((np.zeros((1, gains.shape[1])), np.cumsum(gains[:-1], axis=0)))

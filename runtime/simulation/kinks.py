@@ -1,8 +1,8 @@
-"""Motions whose steps end where the equations have a kink, as derivatives need them.
+"""Motions whose steps end where the equations have a kink, as derivatives require.
 
-A stop that is touched changes the derivatives of the right-hand side at once. A step over that
-moment has stages on both sides of it, and its derivatives err in proportion to its length; those of
-steps that all but end there do not. So steps grow shorter towards a kink, and longer behind it.
+When a stop is touched, the derivatives of the right-hand side jump. A step over that time has
+stages on both sides of it, and an error of its derivatives in proportion to its length; steps that
+end very near that time have none. So steps become shorter towards a kink, and longer after it.
 """
 
 from collections.abc import Callable
@@ -22,16 +22,16 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 _FUNCTION = "kinks"
-# Parts of a step at whose borders its polynomial is looked at: a kink that is passed and passed
-# back between two of them is seen by the stages, if at all.
+# Parts of a step at whose borders its polynomial is evaluated; two kinks within a part are found by
+# the stages, if at all.
 _PARTS = 8
-# Towards a kink each step is so many times shorter than the one before. The stages of a step are
-# off by its length cubed, so that they stay on their side. The shortest is the root of rtol of the
-# longest: the kink itself is known no better. Of a few times that length is that of a kink that
-# has moved since, as steps before it changed.
+# Towards a kink each step is shorter than the last by the first factor. The error of the stages is
+# the cube of a step's length, so that they are all on one side. The shortest step is the root of
+# rtol of the longest: the time of the kink has that error. A kink may move when steps before it
+# change: up to a few shortest lengths that is accepted.
 _SHORTER, _FEW = 8.0, 4.0
-# Of the greatest value that something has: it is zero, as a gap at rest. Of a step: what is so near
-# to a kink is at it. Of the greatest rate: what differs by less is the same.
+# Zero relative to the greatest value, such as a gap at rest; distance from a kink relative to a
+# step; equality relative to the greatest rate.
 _ZERO, _BESIDE, _SAME = 1e-9, 1e-9, 1e-6
 _ROUNDS = 12
 
@@ -43,24 +43,24 @@ def ended_at_kinks(
     again: Callable[[TimeInputs], Simulation],
     rtol: float,
 ) -> tuple[Simulation, RetracedSteps]:
-    """Return a motion none of whose longer steps has a kink in it, and its steps.
+    """Return a motion without kinks inside its longer steps, and its steps.
 
     Parameters
     ----------
     system : System
-        With derivatives by parameters.
+        With derivatives with respect to parameters.
     motion : Simulation
         With every step.
     courses : TimeInputs
     again : callable
-        Takes inputs with more milestones and returns their motion.
+        Returns the motion for inputs with more milestones.
     rtol : float
         Of the motion.
 
     Raises
     ------
     InputError
-        If the rates jump where a kink was looked for, or there are kinks without end.
+        If the rates jump at a kink, or ever more kinks are found.
     """
     steps = RetracedSteps(system, motion, courses)
     if not hasattr(system.equations, _FUNCTION):
@@ -74,7 +74,7 @@ def ended_at_kinks(
         motion = again(courses)
         steps = RetracedSteps(system, motion, courses)
     words = (
-        f"around t = {times[0]:.6g} s the motion has one kink behind the other, such as of a "
+        f"around t = {times[0]:.6g} s the motion has one kink after the other, such as of a "
         "stop that is only just touched, and its gradient is not known there. End the motion "
         "before, or give a smaller max_step."
     )
@@ -82,7 +82,7 @@ def ended_at_kinks(
 
 
 def _towards(times: Array, reach: Array, shortest: float) -> Array:
-    """Return times before and behind others, nearer than they reach, ever closer together."""
+    """Return times before and after kinks, within their reach, ever closer together."""
     count = 1 + max(0, int(np.log(reach.max(initial=shortest) / shortest) / np.log(_SHORTER)))
     distances = 0.5 * shortest * _SHORTER ** np.arange(count + 1)
     near = distances < reach[:, None]
@@ -90,7 +90,7 @@ def _towards(times: Array, reach: Array, shortest: float) -> Array:
 
 
 def _found(system: System, steps: RetracedSteps, short: float) -> tuple[Array, Array]:
-    """Return where steps longer than some length have kinks, and their lengths."""
+    """Return the times of kinks in steps longer than some length, and the lengths of the steps."""
     within = system.evaluate(_FUNCTION, *steps.within(np.linspace(0.0, 1.0, _PARTS + 1)))
     at_stages = system.evaluate(_FUNCTION, steps.states, steps.inputs)
     seen = np.concatenate([at_stages, within], axis=1)
@@ -101,7 +101,7 @@ def _found(system: System, steps: RetracedSteps, short: float) -> tuple[Array, A
     step, part, which = np.nonzero(passes)
     root = _roots(system, steps, step, part, which)
     _refuse_jumps(system, steps, step, root)
-    # what only stages see: the step is halved until they see it no more
+    # kinks that only stages detect: the step is halved until they do not
     unseen = np.flatnonzero((mixed & ~passes.any(axis=1)).any(axis=1))
     return (
         np.concatenate([steps.time(step, root), steps.time(unseen, np.full(unseen.shape, 0.5))]),
@@ -112,7 +112,7 @@ def _found(system: System, steps: RetracedSteps, short: float) -> tuple[Array, A
 def _roots(
     system: System, steps: RetracedSteps, step: Indices, part: Indices, which: Indices
 ) -> Array:
-    """Return where in its step each kink is, from 0 to 1."""
+    """Return the position of each kink in its step, from 0 to 1."""
 
     def value(at: Array, step: Array, which: Array) -> Array:
         chosen = step.astype(int).ravel()
@@ -126,7 +126,7 @@ def _roots(
 
 
 def _refuse_jumps(system: System, steps: RetracedSteps, step: Indices, root: Array) -> None:
-    """Refuse a kink at which the rates themselves jump: its time moves with the parameters."""
+    """Refuse a kink at which the rates themselves jump: its time depends on the parameters."""
     sides = (steps.point(step, root + sign * _BESIDE) for sign in (-1.0, 1.0))
     before, behind = (system.evaluate("rhs", *side) for side in sides)
     jumps = np.abs(behind - before) > _SAME * np.abs(steps.rates).max(axis=(0, 1))

@@ -1,4 +1,4 @@
-"""Levels of signals, as a manifest gives them: a number, or a parameter with its sign."""
+"""Levels of signals in a manifest: a number, or a parameter with a sign."""
 
 from collections.abc import Mapping
 
@@ -6,18 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 Values = float | NDArray[np.float64]
-"""Of one system, or of each of many."""
+"""A number of one system, or an array with that of each of many."""
 
 
 def value_of(level: float | str, parameters: Mapping[str, Values]) -> Values:
-    """Return the value of a level in SI units.
-
-    Parameters
-    ----------
-    level : float or str
-        A number, or the name of a parameter, with a minus before it or without.
-    parameters : mapping
-        By name, SI units.
+    """Return a level in SI units: a number, or a parameter by its name with or without a minus.
 
     Examples
     --------

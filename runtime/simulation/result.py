@@ -1,4 +1,4 @@
-"""What a simulation gives: states, signals, statistics; or an error with the result up to there."""
+"""The result of a simulation: states, signals, statistics; or an error with a partial result."""
 
 from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
@@ -15,7 +15,7 @@ from .validity import Excursion, bounds_of, excursions
 
 Array = NDArray[np.float64]
 
-# By so many roundings a time may be beyond the ends of the solution: such as the last of a range.
+# Roundings by which a time may be beyond the ends of the solution, such as the last of a range.
 _ROUNDINGS = 8.0
 
 
@@ -26,11 +26,11 @@ class SimulationError(KintrafoError, RuntimeError):
     ----------
     reason : str
     time : float
-        Time at which it happened [s].
+        Time at which it ended [s].
     state : ndarray
-        State at which it happened.
+        State at which it ended.
     partial : Simulation or None
-        The result up to there.
+        The result until then.
     """
 
     def __init__(
@@ -57,7 +57,7 @@ class Simulation(OptimizeResult):
         States; rows in the order of ``model.state_names``, SI units.
     signals : Signals
         Physical signals by name, each of shape (n,), SI units; see ``model.equations.SIGNALS``.
-        They are computed when one of them is first asked for.
+        All are computed at the first access to one of them.
     inputs : ndarray, shape (n, number of inputs)
     sol, t_events, y_events, nfev, njev, nlu, status, message, success
         As in ``scipy.integrate.solve_ivp``.
@@ -66,10 +66,10 @@ class Simulation(OptimizeResult):
     error_test_failures, order : int
         Steps that failed the error test, order of the last step; with SUNDIALS only.
     solver : str
-        What integrated.
+        'kintrafo', 'SciPy', or 'SUNDIALS' with its version.
     validity : tuple of Excursion
-        Where the motion leaves what the model describes, by its outputs: a strut beyond its ends, a
-        tyre that pulls. Empty where it does not. Not an item of the mapping.
+        Outputs at which the motion is beyond a bound of the model: a strut longer than its stops
+        allow, a tyre that pulls. Empty if there are none. Not an item of the mapping.
     """
 
     t: Array
@@ -92,7 +92,7 @@ class Simulation(OptimizeResult):
 
     @property
     def validity(self) -> tuple[Excursion, ...]:
-        """Where outputs of the motion are outside the validity of the model."""
+        """Bounds of the model that outputs of the motion have passed."""
         model = self.signals.model
         return excursions(model, bounds_of(model), self.t, self.signals)
 
@@ -103,7 +103,7 @@ class DenseOutput:
     Attributes
     ----------
     t_min, t_max : float
-        The first and the last time at which it is known [s].
+        First and last time of the solution [s].
     """
 
     def __init__(self, parts: list[tuple[float, float, Callable[[Array], Array]]]) -> None:
@@ -119,7 +119,7 @@ class DenseOutput:
         Raises
         ------
         InputError
-            If a time is not a number, or before `t_min` or after `t_max`, by more than rounding.
+            If a time is not a number, or by more than rounding before `t_min` or after `t_max`.
         """
         with Validator("sol") as given:
             times = np.atleast_1d(given.array("t", t, "s", dimensions=[0, 1], empty=True))
@@ -148,8 +148,7 @@ class DenseOutput:
 class Signals(Mapping[str, Array]):
     """The physical signals of a simulation by name, each of shape (number of outputs,), SI units.
 
-    There are many, and they take longer than an integration with few steps; so they are computed,
-    all at once, when one of them is first asked for.
+    All of them are computed at the first access to one: they may take longer than the integration.
 
     Parameters
     ----------
@@ -157,7 +156,7 @@ class Signals(Mapping[str, Array]):
     y : ndarray, shape (number of outputs, number of state elements)
     inputs : ndarray, shape (number of outputs, number of inputs)
     failed : bool
-        Whether the simulation ended on the edge of the model; the signals there are NaN then.
+        Whether the simulation failed; where the model refuses a state, the signals are then NaN.
     """
 
     def __init__(self, model: System, y: Array, inputs: Array, *, failed: bool) -> None:
@@ -184,7 +183,7 @@ class Signals(Mapping[str, Array]):
         return f"<Signals {', '.join(self)}>"
 
     def _ipython_key_completions_(self) -> list[str]:
-        """Return what a notebook proposes between the brackets."""
+        """Return the names that a notebook proposes between brackets."""
         return list(self)
 
     @cached_property
@@ -195,7 +194,7 @@ class Signals(Mapping[str, Array]):
         return {name: np.array([row.get(name, np.nan) for row in rows]) for name in self}
 
     def _where_it_closes(self, state: Array, inputs: Array) -> dict[str, float]:
-        """Return the signals of one output; none where the model refuses it."""
+        """Return the signals of one output; empty if the model refuses its state."""
         try:
             values = self._model.signals(state, inputs)
         except ModelError:

@@ -1,6 +1,6 @@
-"""The steps of a motion by Dormand and Prince's method, gone through again all at once.
+"""The steps of a motion by Dormand and Prince's method, evaluated again.
 
-The states at the stages, which the integration does not keep, follow from the steps it took.
+The integration does not keep the states at the stages; they follow from its steps.
 """
 
 import numpy as np
@@ -34,14 +34,15 @@ _LAST = np.array(
 
 
 class RetracedSteps:
-    """The steps of a motion, and what its stages were, evaluated again for all of them at once.
+    """The steps of a motion with their stages.
 
     Attributes
     ----------
     begin, length : ndarray, shape (steps,)
         [s]
-    anew : ndarray of bool, shape (steps,)
-        Before which of them inputs may jump: the others begin as the one before has ended.
+    restarts : ndarray of bool, shape (steps,)
+        Whether inputs may jump before a step; the other steps begin with the last stage of the one
+        before.
     states, inputs, rates : ndarray, shape (steps, stages, ...)
     """
 
@@ -51,12 +52,12 @@ class RetracedSteps:
         self._of_segment = [
             slice(*np.searchsorted(self.begin, (part.start, part.end))) for part in courses.segments
         ]
-        self.anew = np.zeros(self.begin.size, dtype=bool)
-        self.anew[[own.start for own in self._of_segment if own.start < own.stop]] = True
+        self.restarts = np.zeros(self.begin.size, dtype=bool)
+        self.restarts[[own.start for own in self._of_segment if own.start < own.stop]] = True
         self.inputs = self._inputs_at(self.begin[:, None] + NODES * self.length[:, None])
         self.states = np.repeat(motion.y.T[:-1, None], NODES.size, axis=1)
         self.rates = np.empty_like(self.states)
-        # functions over NumPy arrays; and refusals, which are raised here
+        # for functions over NumPy arrays, or to raise the error of a refused state
         if not self._compiled(system):
             self._at_once(system)
 
@@ -69,15 +70,15 @@ class RetracedSteps:
         return np.concatenate(rows).reshape(*times.shape, self._courses.constant.size)
 
     def _compiled(self, system: System) -> bool:
-        """Fill states and rates of the stages in order, and return whether it is done."""
+        """Fill states and rates of the stages step by step; return whether that succeeded."""
         rhs = system.equations.ADDRESSES.get("rhs")
         return rhs is not None and _steps.go_through(
-            rhs, system.constants, STAGES, self.length, self.anew.view(np.uint8), self.inputs,
+            rhs, system.constants, STAGES, self.length, self.restarts.view(np.uint8), self.inputs,
             self.states, self.rates,
         )  # fmt: skip
 
     def _at_once(self, system: System) -> None:
-        """Fill states and rates of the stages, all steps at once."""
+        """Fill states and rates of the stages, of all steps together."""
         for stage, row in enumerate(STAGES):
             moved = np.tensordot(self.rates[:, :stage], row[:stage], (1, 0))
             self.states[:, stage] = self.states[:, 0] + self.length[:, None] * moved
@@ -85,14 +86,13 @@ class RetracedSteps:
             self.rates[:, stage] = system.evaluate("rhs", *at)
 
     def time(self, step: Indices, part: Array) -> Array:
-        """Return times by their place: a step, and a part of it from 0 to 1."""
+        """Return times by their places: a step, and the part of it from 0 to 1."""
         return self.begin[step] + part * self.length[step]
 
     def places(self, times: Array) -> tuple[Indices, Array]:
-        """Return in which step each time is, and in which part of it.
+        """Return for each time its step, and the part of it.
 
-        A time between two steps is the end of the one before, as `simulate` has it where inputs
-        jump.
+        A time between two steps is the end of the first one, as in `simulate` where inputs jump.
         """
         step = np.maximum(np.searchsorted(self.begin, times) - 1, 0)
         return step, (times - self.begin[step]) / self.length[step]

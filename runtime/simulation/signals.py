@@ -1,12 +1,12 @@
-"""Inputs that vary with time: constants, samples, functions, brought into one form.
+"""Inputs that vary with time: constants, samples and functions in one form.
 
-Every varying input becomes a piecewise cubic, which the integrators evaluate where they are, with
-the derivatives that the model takes beside it (the velocity of a road, velocity and acceleration of
-a rack). Two things keep an integrator from missing what happens:
+Every varying input becomes a piecewise cubic, which the integrators evaluate, with the derivatives
+that the model reads (the velocity of a road, velocity and acceleration of a rack). Two rules ensure
+that an integrator misses no change:
 
-- a segment ends, and the integration begins anew, where something that the model takes jumps;
-- no step passes over a time at which something that the model takes has a kink, nor over one at
-  which it turns, but where the turn is slow beside the step.
+- a segment ends, and the integration starts again, where an input or such a derivative jumps;
+- no step passes over the time of a kink of one, nor over the time of an extremum, unless the
+  extremum is slow compared with the step.
 """
 
 from collections.abc import Mapping, Sequence
@@ -29,9 +29,9 @@ from .turning import merged, turning_points
 
 Array = NDArray[np.float64]
 
-# Times that differ by less than this part of them are one to an integrator.
+# Relative difference of times that an integrator does not distinguish.
 _RESOLVED = 1e-13
-# A derivative jumps where the two sides differ by more than this part of its greatest value.
+# Least jump of a derivative, relative to its greatest value.
 _JUMP = 1e-6
 
 
@@ -44,7 +44,7 @@ class Spline:
     curve : PPoly
         Piecewise cubic, of time [s].
     targets : tuple of int
-        Positions in the array of inputs of the value and its two derivatives; -1 for none.
+        Indices in the array of inputs of the value and its two derivatives; -1 for none.
     """
 
     curve: PPoly
@@ -53,7 +53,7 @@ class Spline:
 
 @dataclass(frozen=True)
 class Segment:
-    """A time over which nothing jumps that the model takes of its inputs.
+    """A time span in which no input jumps, nor a derivative that the model reads.
 
     Attributes
     ----------
@@ -61,9 +61,9 @@ class Segment:
         [s]
     splines : tuple of Spline
     kinks : ndarray
-        Times within that no step passes over, in the order in which they come [s].
+        Times inside that no step passes over, from start to end [s].
     turns : tuple of ndarray, shape (2, n)
-        Of each input, see `turning_points`; times likewise in their order.
+        Extrema of each input, see `turning_points`, also from start to end.
     """
 
     start: float
@@ -74,7 +74,7 @@ class Segment:
 
     @cached_property
     def milestones(self) -> Array:
-        """Times at which any input has a kink or turns."""
+        """Times at which any input has a kink or an extremum [s]."""
         return self.milestones_of(np.inf)
 
     def milestones_of(self, step: float) -> Array:
@@ -84,10 +84,10 @@ class Segment:
 
     @cached_property
     def free(self) -> tuple[Array, Array]:
-        """Times that no step passes over, and turns that one passes up to their reach.
+        """Times that no step passes over, and extrema over which a step passes up to their reach.
 
-        Those at which a single input turns are few, and steps that end there fail less often. Of
-        several inputs, such as the roads under four wheels, they would cut every step.
+        The extrema of a single input are few, and steps that end there fail less often. Those of
+        several inputs, such as the roads under four wheels, would end every step.
         """
         if sum(turns.size > 0 for turns in self.turns) < 2:
             return self.milestones, np.empty((2, 0))
@@ -102,12 +102,12 @@ class TimeInputs:
     Attributes
     ----------
     constant : ndarray
-        Values of those that do not vary.
+        Values of the inputs that do not vary.
     segments : tuple of Segment
         In the order of time; at their borders an input may jump.
     variant : str
-        Suffix of the names of the functions without the coordinates at rest; empty if nothing
-        does.
+        Suffix of the names of functions that leave out coordinates at rest; empty if none is at
+        rest.
     """
 
     constant: Array
@@ -133,7 +133,7 @@ class TimeInputs:
         return values
 
     def with_milestones(self, times: Array) -> "TimeInputs":
-        """Return the same with more times that no step passes over, in any order [s]."""
+        """Return the same inputs with more times that no step passes over, in any order [s]."""
         segments = (
             replace(part, kinks=_within(part, np.concatenate([part.kinks, times])))
             for part in self.segments
@@ -142,12 +142,12 @@ class TimeInputs:
 
 
 def _near(part: Segment) -> float:
-    """Return by how much times differ that are two to an integrator."""
+    """Return the difference of times that an integrator does not distinguish [s]."""
     return _RESOLVED * max(abs(part.start), abs(part.end))
 
 
 def _within(part: Segment, times: Array) -> Array:
-    """Return the times within a segment that differ, in its order."""
+    """Return the distinct times within a segment, from its start to its end."""
     first, last = min(part.start, part.end), max(part.start, part.end)
     near = _near(part)
     times = np.unique(times)
@@ -158,7 +158,7 @@ def _within(part: Segment, times: Array) -> Array:
 
 @dataclass
 class _Collected:
-    """What `time_inputs` gathers."""
+    """Intermediate results of `time_inputs`."""
 
     constant: Array
     curves: dict[str, list[PPoly]] = field(default_factory=dict)
@@ -175,26 +175,21 @@ def time_inputs(
     held: Array | None = None,
     max_step: float = np.inf,
 ) -> TimeInputs:
-    """Check the inputs of a simulation and bring them into one form.
+    """Return the checked inputs of a simulation in one form.
 
     Parameters
     ----------
     model : System or Model
     signals : mapping, optional
-        Input name to a number, to samples (`Samples`, or a pair of times and values), to a
-        piecewise cubic of SciPy, or to a function of time (see `fitting`); SI units.
-        Velocity and acceleration follow from a prescribed position by differentiation of
-        the curve.
+        By name of an input: a number, samples (`Samples`, or a pair of times and values), a
+        piecewise cubic of SciPy, or a function of time (see `fitting`); SI units. Velocity and
+        acceleration of a prescribed position are derivatives of the curve.
     t_span : tuple of float
         First and last time of the simulation, which samples must cover [s].
     held : ndarray, optional
         Values of the inputs that are not given, zero by default.
     max_step : float, optional
-        Greatest step of the integration, and between two calls of a function [s].
-
-    Returns
-    -------
-    TimeInputs
+        Longest step of the integration, and longest time between two calls of a function [s].
     """
     names, inputs = model.input_names, model.equations.INPUTS
     with Validator("inputs") as given:
@@ -218,7 +213,7 @@ def time_inputs(
 
 
 def _variant(model: System, collected: _Collected) -> str:
-    """Return the ending of the shortest functions that have all that moves."""
+    """Return the suffix of the shortest functions that include all moving coordinates."""
     inputs = model.equations.INPUTS
     moving = {rate for name in collected.curves for rate in rates_of(name, inputs)}
     for variant, still in model.equations.HELD_VARIANTS.items():
@@ -241,7 +236,7 @@ def _refusal(name: str, names: tuple[str, ...], derived: dict[str, str]) -> str:
 def _segments(
     collected: _Collected, inputs: Inputs, t_span: tuple[float, float]
 ) -> tuple[Segment, ...]:
-    """Cut the time where the integration begins anew, and give each part its splines."""
+    """Return the time spans between jumps, each with its splines."""
     first, last = (float(t) for t in t_span)
     if not collected.curves:
         return (Segment(first, last, (), np.empty(0)),)
@@ -254,7 +249,7 @@ def _segments(
     for start, end in pairwise(borders):
         middle = (start + end) / 2
         splines = [
-            Spline(_covering(curves, middle), _targets(name, inputs))
+            Spline(next(c for c in curves if c.x[0] <= middle <= c.x[-1]), _targets(name, inputs))
             for name, curves in collected.curves.items()
         ]
         part = Segment(start, end, tuple(splines), kinks)
@@ -263,22 +258,18 @@ def _segments(
     return tuple(segments)
 
 
-def _covering(curves: list[PPoly], time: float) -> PPoly:
-    return next(c for c in curves if c.x[0] <= time <= c.x[-1])
-
-
 def _targets(name: str, inputs: Inputs) -> tuple[int, int, int]:
-    """Return where a value and its two derivatives go; -1 for what the model does not take."""
+    """Return the indices of a value and its derivatives; -1 for those the model does not read."""
     names = list(inputs)
     first, second, *_ = (*(names.index(rate) for rate in rates_of(name, inputs)), -1, -1)
     return names.index(name), first, second
 
 
-# -- where they jump, and where they turn ---------------------------------------------------------
+# -- jumps and extrema ----------------------------------------------------------------------------
 
 
 def _collect(collected: _Collected, name: str, found: Sequence[PPoly], rates: int) -> None:
-    """Note the curves of an input: cut where something jumps, with the times at which it turns."""
+    """Note the curves of an input, cut at jumps, with the times of their extrema."""
     for before, after in pairwise(found):
         stays = before(before.x[-1]) == after(after.x[0])
         _check_jump(name, float(after.x[0]), int(stays), rates)
@@ -298,7 +289,7 @@ def _collect(collected: _Collected, name: str, found: Sequence[PPoly], rates: in
 
 
 def _check_jump(name: str, time: float, order: int, rates: int) -> None:
-    """Refuse the jump of a position, or of its velocity, where the model takes what is infinite."""
+    """Refuse a jump of a position, or of its velocity, that would need an infinite rate."""
     if may_jump(rates) or order >= rates:
         return
     what, needs = (("", "velocity"), ("the velocity of ", "acceleration"))[order]
@@ -310,7 +301,7 @@ def _check_jump(name: str, time: float, order: int, rates: int) -> None:
 
 
 def _continuity(curve: PPoly) -> int:
-    """Return up to which derivative a curve is continuous by its construction; -1 for none."""
+    """Return the order to which a curve's construction makes it continuous; -1 for none."""
     if isinstance(curve, CubicSpline | Eased):
         return 2
     return 1 if isinstance(curve, CubicHermiteSpline) else -1

@@ -1,4 +1,4 @@
-"""Integrate the equations of motion."""
+"""Integration of the equations of motion."""
 
 import warnings
 from collections.abc import Callable, Mapping, Sequence
@@ -57,11 +57,11 @@ Method = TypeAliasType(
 )
 Backend = Literal["auto", "sundials", "scipy"]
 
-# Default tolerances. An undamped wheel hop of 25 mm loses half a per cent of it in 1,000 s by BDF
-# with these, and 22 % with the others; ``python -m benchmarks.amplitude`` measures it.
+# Default tolerances. In 1,000 s an undamped wheel hop of 25 mm loses 0.5 % of its amplitude by BDF
+# with its own tolerances, and 22 % with the others (``python -m benchmarks.amplitude``).
 _TOLERANCE = (1e-6, 1e-9)
 _TOLERANCE_OF_BDF = (1e-8, 1e-10)
-# So many steps of BDF are more than a thousand oscillations: its damping begins to show.
+# Steps of BDF for about a thousand oscillations, after which its damping matters.
 _LONG = 200_000
 _warned = False
 
@@ -96,39 +96,38 @@ def simulate(
         Initial state, see `model.state`, `state_at_height` and `equilibrium`.
     inputs : mapping, optional
         Inputs by name, SI units: numbers, samples ``(times, values)`` or `Samples`, piecewise
-        cubics of SciPy, or functions of time; see Notes. Others stay as they are in the state, if
-        it comes from `equilibrium` or `state_at_height`, or else zero.
+        cubics of SciPy, or functions of time; see Notes. Other inputs have the values of the state
+        if it comes from `equilibrium` or `state_at_height`, or else zero.
     method : str, optional
         'BDF' (Gear's formulas) or 'Adams'; Runge-Kutta 'DormandPrince' (order 5, as in
         `ensemble`), 'Tsitouras' (order 5) or 'Verner' (8 stages, order 6); 'RK4', the classical
-        method of order 4 with a `step` of one length, as in real time; 'RODASP', of order 4 with
-        such a step too, for stiff equations; or SciPy's 'Radau', 'LSODA', 'RK45', 'DOP853'.
-        Implicit methods use the exact Jacobian.
+        method of order 4 with a fixed `step`, for real time; 'RODASP', also of order 4 with a fixed
+        step, for stiff equations; or SciPy's 'Radau', 'LSODA', 'RK45', 'DOP853'. Implicit methods
+        use the exact Jacobian.
     step : float, optional
-        Length of all steps of 'RK4' and 'RODASP' [s], which have no tolerances. One is shorter
-        where an input jumps or turns fast, and at the end; near a dead point more are.
+        Fixed step of 'RK4' and 'RODASP' [s], which have no tolerances. A step is shorter where an
+        input jumps or has a fast extremum, at the end, and near a dead point.
     t_eval : array_like, optional
-        Times of the output; every step by default. As in SciPy, the point of a terminal event is in
-        ``t_events`` and not in the output then.
+        Times of the outputs [s]; every step by default. If they are given, the time of a terminal
+        event is in ``t_events`` only, as in SciPy.
     rtol, atol : float, array_like, optional
-        Relative tolerance, and absolute tolerances: one, or one for each element of the state. By
-        default 1e-8 and 1e-10 for 'BDF', which damps what swings by a part of its error, and 1e-6
-        and 1e-9 for the other methods.
+        Relative tolerance, and absolute tolerance: one number, or one for each element of the
+        state in its SI unit. By default 1e-8 and 1e-10 for 'BDF', which damps oscillations by a
+        part of its error, and 1e-6 and 1e-9 for the other methods.
     max_step, first_step : float, optional
-        The longest step, and the one to begin with [s]; by default the method chooses.
+        Longest and first step [s]; by default the method chooses.
     max_steps : int, optional
-        More end with an error; ``numpy.inf`` for any number.
+        Largest number of steps, more raise an error; ``numpy.inf`` for no limit.
     dense_output : bool, optional
         Whether to keep the solution as a function of time, ``sol``.
     events : str, SignalEvent, callable, or sequence of these, optional
-        One of ``model.event_names``, such as 'wheel_leaves_ground' or 'strut_fully_extended'; a
-        signal and a level; or a function of time and state with SciPy's attributes ``terminal``
-        and ``direction``.
+        A name of ``model.event_names``, such as 'wheel_leaves_ground' or 'strut_fully_extended'; a
+        `SignalEvent`; or a function of time and state with SciPy's attributes ``terminal`` and
+        ``direction``.
     stop_at_outputs : bool, optional
-        Whether to step onto every output time instead of interpolating. Not by SciPy.
+        Whether steps end at every output time, instead of interpolation. Not with SciPy.
     backend : str, optional
-        'sundials' (all in C), 'scipy', or 'auto': the former where it has the method and is built
-        in.
+        'sundials' (all in C), 'scipy', or 'auto': 'sundials' if it was built and has the method.
 
     Returns
     -------
@@ -139,34 +138,33 @@ def simulate(
     InputError
         If an argument cannot be used.
     SimulationError
-        If a loop cannot close on the way, or the solver gives up; says when, where and what to
-        try, and has the partial result.
+        If a loop cannot close during the motion, or the solver fails. The message has the time, the
+        place and advice; ``partial`` is the result until then.
 
     Notes
     -----
-    Between samples an input only rises or only falls, so it never leaves their range; other ways
-    are asked for by name, see `Samples`. At a time that is given twice it jumps, and the
-    integration begins anew. A function of time is called at least every millisecond and every
-    `max_step`, and followed to 1e-10 of its range; what is shorter than twice that may be missed,
-    and a function that jumps is refused. Velocity and acceleration of a prescribed position are
-    the derivatives of the curve through the samples, or of the spline that follows the function.
-    No step passes over a time at which an input, or a derivative of it that the model takes,
-    turns from rising to falling; those of 'RK4', 'RODASP' and, where several inputs turn, of
-    'DormandPrince' do where the turn is slow beside the step.
+    Between samples an input only rises or only falls, so it never leaves their range; `Samples` has
+    other interpolations. At a time that is given twice it jumps, and the integration starts again.
+    A function of time is called at least every millisecond and every `max_step`, and a spline
+    follows it to 1e-10 of its range; changes shorter than two calls may be missed, and a function
+    that jumps is refused. Velocity and acceleration of a prescribed position are the derivatives of
+    the curve through the samples, or of the spline. No step passes over an extremum of an input, or
+    of a derivative that the model reads; steps of 'RK4', 'RODASP' and, with several varying inputs,
+    of 'DormandPrince' pass over an extremum that is slow compared with the step.
 
-    Without stops in its data, the strut may become longer than its greatest length, or very short.
-    The event 'strut_fully_extended' watches the former, a `SignalEvent` of ``strut_length`` the
+    If its data have no stops, a strut may become longer than its greatest length, or very short.
+    The event 'strut_fully_extended' detects the former, a `SignalEvent` of ``strut_length`` the
     latter.
 
-    The error of 'RK4' and 'RODASP' is not estimated: halve `step` and compare, the error is 16
-    times smaller then. Before each step of 'RK4' the eigenvalues of the exact Jacobian are bounded;
-    where one of them times the step may be beyond 2.61, up to which the method is stable wherever
-    motions do not grow, it ends with the longest step that is stable.
+    The error of 'RK4' and 'RODASP' is not estimated: halve `step` and compare, which makes the
+    error 16 times smaller. Before each step of 'RK4' the eigenvalues of the exact Jacobian are
+    bounded; if one times the step may exceed 2.61, up to which the method is stable for motions
+    that do not grow, an error with the longest stable step is raised.
 
-    'RODASP' is L-stable: motions too fast for a step decay in it. Each step
-    takes six evaluations, one exact Jacobian and one factorisation, and two evaluations more where
-    inputs vary, for the derivative by time. Rates that jump to and fro from step to step, as those
-    of friction that sticks within less than a step, end it with an error.
+    'RODASP' is L-stable: motions too fast for a step decay in it. Each step needs six evaluations,
+    one exact Jacobian and one factorisation, and with varying inputs two more evaluations for the
+    derivative with respect to time. Rates that alternate from step to step, such as those of
+    friction that sticks within less than a step, raise an error.
 
     Examples
     --------
@@ -224,7 +222,7 @@ def simulate_inputs(
     method: Method,
     stopped: Callable[[], bool] | None = None,
 ) -> Simulation:
-    """Integrate where everything has been checked already, as one of many.
+    """Integrate one motion of many, with arguments that have been checked.
 
     Parameters
     ----------
@@ -237,7 +235,7 @@ def simulate_inputs(
     accuracy : Accuracy
     method : str
     stopped : callable, optional
-        Asked now and then whether the caller wants an end, for which KeyboardInterrupt is raised.
+        Called now and then; KeyboardInterrupt is raised if it returns True.
     """
     options = Options(
         **vars(accuracy), method=method, dense_output=False, stop_at_outputs=False, stopped=stopped
@@ -250,7 +248,7 @@ def simulate_inputs(
 
 
 def _state(given: Validator, model: System, y0: Any) -> Array:
-    """Return the initial state, or refuse it."""
+    """Return the checked initial state."""
     state = given.array("y0", y0, empty=True, finite=False)
     if state.shape != model.design_state.shape:
         given.fail(
@@ -266,7 +264,7 @@ def _state(given: Validator, model: System, y0: Any) -> Array:
 def _fixed_step(
     given: Validator, method: str, step: Any, max_step: Any, others: Mapping[str, Any]
 ) -> float:
-    """Return the length of all steps, or refuse what says otherwise."""
+    """Return the fixed step [s]; refuse arguments that contradict it."""
     if method not in FIXED_STEP_METHODS:
         given.fail(
             f"step is for methods 'RK4' and 'RODASP', and {method!r} chooses its steps: give "
@@ -286,7 +284,7 @@ def _fixed_step(
 
 
 def _check_count(given: Validator, span: tuple[float, float], accuracy: Accuracy) -> None:
-    """Refuse more fixed steps than are allowed, before any is taken."""
+    """Refuse more fixed steps than are allowed."""
     step, most = accuracy.max_step, accuracy.max_steps
     needed = abs(span[1] - span[0]) / step
     if needed > most:
@@ -301,11 +299,11 @@ def _check_memory(
     times: Array | None,
     accuracy: Accuracy,
 ) -> None:
-    """Refuse more outputs than memory holds, as far as it is known how many there are."""
+    """Refuse more outputs than memory holds, if their number is known."""
     count = 0.0 if times is None else times.size
     if times is None and method in FIXED_STEP_METHODS:
         count = abs(span[1] - span[0]) / accuracy.max_step
-    # a table of times and states as it comes from C, its rows in order, and the inputs of each
+    # the table of times and states from C, its transpose, and the inputs
     of_one = 2 * (1 + len(model.state_names)) + len(model.input_names)
     what = f"{count:,.0f} outputs of {len(model.state_names)} elements of the state"
     refuse_beyond(given, 8.0 * count * of_one, what, "Ask for fewer, by t_eval.")
@@ -314,7 +312,7 @@ def _check_memory(
 def _choose_backend(
     model: System, backend: Backend, options: Options
 ) -> Callable[..., SolvedSegment]:
-    """Return the solver for a method, and say once if it is not the one that was meant."""
+    """Return the solver for a method; warn once if it is not in C."""
     method = options.method
     with Validator("simulate") as given:
         given.among("backend", backend, ("auto", "sundials", "scipy"))
@@ -329,7 +327,7 @@ def _choose_backend(
 
 
 def _could_be_in_c(model: System) -> bool:
-    """Return whether it is compiled, and has a state: SUNDIALS has no vectors without elements."""
+    """Return whether a model is compiled and has a state, which SUNDIALS needs."""
     return bool(model.equations.ADDRESSES and model.state_names)
 
 
@@ -339,7 +337,7 @@ def _in_c(model: System) -> tuple[str, ...]:
 
 
 def _why_none(model: System, backend: Backend, method: str) -> str:
-    """Say why a method is not to be had as it is asked for."""
+    """Return why a method is not available with these arguments."""
     if backend == "scipy":
         return f"SciPy has {', '.join(SCIPY_METHODS)}, and does not stop at outputs"
     if method not in NATIVE_METHODS:
@@ -364,7 +362,7 @@ def _why_none(model: System, backend: Backend, method: str) -> str:
 
 
 def _what_else(model: System, backend: Backend, options: Options) -> str:
-    """Say with which arguments it can be integrated: in C, or else by SciPy."""
+    """Return advice: the arguments with which it can be integrated, in C or else by SciPy."""
     in_c, method = _in_c(model), options.method
     other = [] if method in (in_c or SCIPY_METHODS) else ["method 'BDF'"]
     other += ["backend 'auto'"] if backend == ("scipy" if in_c else "sundials") else []
@@ -378,7 +376,7 @@ def _what_else(model: System, backend: Backend, options: Options) -> str:
 
 
 def _warn_once() -> None:
-    global _warned  # noqa: PLW0603 (said once in a process)
+    global _warned  # noqa: PLW0603 (once in a process)
     if not _warned:
         _warned = True
         warnings.warn(
@@ -389,7 +387,7 @@ def _warn_once() -> None:
 
 
 def _among(some: Array, times: Array) -> NDArray[np.bool_]:
-    """Return which of some times are among the times of the output, which are in order."""
+    """Return which of some times are among those of the outputs, which are in order."""
     known = times if times[-1] >= times[0] else times[::-1]
     place = np.minimum(np.searchsorted(known, some), known.size - 1)
     found: NDArray[np.bool_] = known[place] == some
@@ -400,7 +398,7 @@ def _among(some: Array, times: Array) -> NDArray[np.bool_]:
 
 
 class _Run:
-    """Integrates segment after segment, and puts the pieces together."""
+    """Integrates segment after segment, and joins the results."""
 
     def __init__(
         self,
@@ -414,7 +412,7 @@ class _Run:
         self._model, self._inputs, self._options = model, inputs, options
         self._events, self._times, self._solve = events, times, solve
         self._pieces: list[tuple[Segment, SolvedSegment]] = []
-        self._taken, self._passed = 0, [0] * len(events)  # steps, and times of each event, so far
+        self._taken, self._passed = 0, [0] * len(events)  # steps and events so far
 
     def over(self, state: Array) -> Simulation:
         """Integrate over all segments."""
@@ -444,7 +442,7 @@ class _Run:
         return self._assembled()
 
     def _jumped_over(self, segment: Segment, state: Array) -> bool:
-        """Note what signals jump across where a segment starts; return whether that is the end."""
+        """Note events of signals that jump at a segment's start; return whether one is terminal."""
         before, piece = self._pieces[-1]
         signals = [
             self._model.signals(state, self._inputs.at(segment.start, part))
@@ -463,7 +461,7 @@ class _Run:
         return terminal
 
     def _asked(self, segment: Segment) -> Array:
-        """Return the output times of a segment; its own two ends come first and last."""
+        """Return the output times of a segment, with its two ends."""
         if self._times is None:
             return np.array([segment.start, segment.end])
         if self._times[0] == segment.start and self._times[-1] == segment.end:
@@ -474,7 +472,7 @@ class _Run:
 
     def _fail(self, segment: Segment, piece: SolvedSegment) -> None:
         time, state = piece.reached_time, piece.reached_state
-        # what overflows on the way may leave a state that is none
+        # after an overflow the refused state may not be finite
         refused = piece.refused_state
         if piece.outcome == "state" and refused is not None and np.isfinite(refused).all():
             time, state = piece.refused_time, refused
@@ -492,7 +490,7 @@ class _Run:
                     "ends earlier."
                 )
         texts = {
-            # refused, and not at this state: at one that is not finite
+            # the refused state is not finite
             "state": "the motion overflows double precision. Try another initial state, or smaller "
             "forces.",
             "too_many_steps": f"more than {options.max_steps} steps. Raise max_steps, or loosen "
@@ -502,7 +500,7 @@ class _Run:
             "unstable": f"steps of {options.max_step:g} s are not stable: the fastest motion here "
             f"needs steps of {0.99 * piece.longest_step:.3g} s or less. Give such a step, or "
             "another method: RODASP and BDF are for stiff equations.",
-            "jumps": f"rates jump to and fro within steps of {options.max_step:g} s, as those of "
+            "jumps": f"rates alternate from step to step of {options.max_step:g} s, as those of "
             "friction that sticks, and the result would be wrong. Give a shorter step, or method "
             "'BDF'.",
             "singular": f"the linear equations of a step of {options.max_step:g} s have no one "

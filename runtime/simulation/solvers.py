@@ -1,4 +1,4 @@
-"""The solvers behind `simulate`: those in C, of SUNDIALS and our own, and SciPy.
+"""The solvers of `simulate`: those in C, which are SUNDIALS and our own, and SciPy.
 
 Both integrate one segment of time, in which the inputs are smooth, and return the same
 `SolvedSegment`.
@@ -27,8 +27,7 @@ from .watched import TooManySteps, watched
 
 Array = NDArray[np.float64]
 
-# Method name to what it is called in C: a multistep family or a Butcher table of SUNDIALS, or a
-# method of our own.
+# Names of the methods in C: a multistep family or a Butcher table of SUNDIALS, or our own method.
 NATIVE_METHODS = {
     "BDF": "BDF",
     "Adams": "Adams",
@@ -41,7 +40,7 @@ NATIVE_METHODS = {
 FIXED_STEP_METHODS = ("RK4", "RODASP")
 _OF_OUR_OWN = ("DormandPrince", *FIXED_STEP_METHODS)
 _FIRST_WITH_TSITOURAS = (7, 3)
-# What stands in for them without SUNDIALS; those without an equivalent need it.
+# Methods of SciPy, also instead of those in C without SUNDIALS.
 SCIPY_METHODS = {
     "BDF": "BDF",
     "DormandPrince": "RK45",
@@ -51,7 +50,7 @@ SCIPY_METHODS = {
     "DOP853": "DOP853",
 }
 _IMPLICIT = ("BDF", "Radau", "LSODA")
-# What integrates with the exact Jacobian; RK4 checks by it whether a step is stable.
+# Methods with the exact Jacobian; RK4 checks with it whether a step is stable.
 _WITH_JACOBIAN = (*_IMPLICIT, "Adams", *FIXED_STEP_METHODS)
 
 
@@ -72,24 +71,24 @@ class SolvedSegment:
     Attributes
     ----------
     t, y
-        Output times, and states with one row each.
+        Output times [s], and states with one row each.
     reached_time, reached_state
-        The end of the last step, which outputs need not show.
+        The end of the last step, which need not be an output.
     events
         (index of the event, time, state), in the order of time.
     outcome
-        'done', 'event', or what went wrong.
+        'done', 'event', or the name of an error.
     counts
         Statistics by name.
     interpolants
-        (first time, last time, function of time) of every step, if wanted.
+        (first time, last time, function of time) of every step, if requested.
     refused_time, refused_state
-        Where the model refused a state.
+        Time and state that the model refused.
     refused_guard
-        The guard at whose dead point the motion ends; none if a state was refused for another
+        The guard at whose dead point the motion ends; None if a state was refused for another
         reason.
     longest_step
-        Of fixed steps that are not stable: the longest one that is [s].
+        The longest stable step, if fixed steps are not stable [s].
     """
 
     t: Array
@@ -114,10 +113,10 @@ _NOT_BUILT = (
 
 
 def _load_native() -> tuple[Any, str]:
-    """Return the module that links SUNDIALS, or None and why there is none."""
+    """Return the module that links SUNDIALS, or None and the reason."""
     try:
         return import_module(f"{__package__}.native._sundials"), ""
-    except ModuleNotFoundError:  # SUNDIALS was not there when the project was built
+    except ModuleNotFoundError:  # built without SUNDIALS
         return None, _NOT_BUILT
     except ImportError as error:
         return None, f"the module that links SUNDIALS cannot be loaded: {error}. Build it again"
@@ -127,7 +126,7 @@ sundials, _why_not = _load_native()
 
 
 def why_not_native() -> str:
-    """Say why SUNDIALS is not linked, and what to do."""
+    """Return why SUNDIALS is not linked, and advice."""
     return _why_not or _NOT_BUILT
 
 
@@ -142,18 +141,12 @@ def native_version() -> str:
 
 
 def native_name(method: str) -> str:
-    """Return what integrates by a method in C."""
+    """Return the name of the solver for a method in C."""
     return "kintrafo" if method in _OF_OUR_OWN else f"SUNDIALS {native_version()}"
 
 
 def native_methods(*, fixed_step: bool = False) -> tuple[str, ...]:
-    """Return the methods that there are in C, with the SUNDIALS that is linked.
-
-    Parameters
-    ----------
-    fixed_step : bool, optional
-        Whether also those whose steps have one length.
-    """
+    """Return the methods in C, with the linked SUNDIALS; optionally those of fixed step, too."""
     if not native_available():
         return ()
     return _methods_of(native_version(), fixed_step)
@@ -176,9 +169,9 @@ def check_jacobian(given: Validator, model: System, method: str) -> None:
         )
 
 
-# What solvers in C return, the arguments being checked, when an event's function stays at zero.
+# Return value of solvers in C if an event's function stays at zero (arguments have been checked).
 _ILL_INPUT = -22
-# What they return when the step has become as small as it can be.
+# Return values for a step that has become too small.
 _WHY = {
     -3: "its steps became too small, since the error stays too large",
     -4: "its steps became too small, since Newton's method does not converge",
@@ -204,11 +197,14 @@ def solve_native(
     names = (f"rhs{inputs.variant}", f"rhs_jacobian{inputs.variant}", "signals", "margins")
     signals = model.signal_names
     raw = sundials.integrate(
-        tuple(equations.ADDRESSES.get(name, 0) for name in names),  # signals may be none
+        tuple(equations.ADDRESSES.get(name, 0) for name in names),  # there may be no signals
         model.layout,
         model.constants,
         inputs.constant,
-        [_contiguous(spline.curve, spline.targets) for spline in segment.splines],
+        [
+            (np.ascontiguousarray(s.curve.x), np.ascontiguousarray(s.curve.c), s.targets)
+            for s in segment.splines
+        ],
         *_times_of(segment, options),
         np.ascontiguousarray(state),
         np.ascontiguousarray(times),
@@ -250,15 +246,11 @@ def solve_native(
 
 
 def _times_of(segment: Segment, options: Options) -> tuple[Array, Array]:
-    """Return the times that no step passes over, and turns of inputs that some may pass."""
+    """Return the times that no step passes over, and extrema of inputs that some steps may pass."""
     if options.method == "DormandPrince":
         return segment.free
     step = options.max_step if options.method in FIXED_STEP_METHODS else np.inf
     return segment.milestones_of(step), np.empty((2, 0))
-
-
-def _contiguous(curve: Any, targets: tuple[int, int, int]) -> tuple[Array, Array, Any]:
-    return np.ascontiguousarray(curve.x), np.ascontiguousarray(curve.c), targets
 
 
 @dataclass(frozen=True)
@@ -285,7 +277,7 @@ def _taylor(row: Array, size: int) -> tuple[float, float, Callable[[Array], Arra
 
 
 class _RightHandSide:
-    """The compiled functions as SciPy calls them."""
+    """The compiled functions in the form that SciPy calls."""
 
     def __init__(
         self, model: System, inputs: TimeInputs, segment: Segment, max_evaluations: float
@@ -345,6 +337,8 @@ def solve_scipy(
         lambda time: inputs.at(time, segment),
         1.0 if segment.end > segment.start else -1.0,
     )
+    first = options.first_step  # SciPy refuses one that is longer than the time
+    first = None if first is None else min(first, abs(segment.end - segment.start))
     watched_events = _scipy_events(function, events)
     failures: list[Exception] = []
     method = watched(name, approach, lambda: function.time, segment.milestones, failures.append)
@@ -358,7 +352,7 @@ def solve_scipy(
             rtol=options.rtol,
             atol=options.atol,
             max_step=options.max_step,
-            first_step=_within(options.first_step, segment),
+            first_step=first,
             dense_output=options.dense_output,
             events=[*watched_events, _recorder(steps)],
             **extra,
@@ -395,13 +389,8 @@ def _failed(piece: SolvedSegment, error: Exception, function: _RightHandSide) ->
     )
 
 
-def _within(step: float | None, segment: Segment) -> float | None:
-    """Return a first step that is no longer than the time, which SciPy refuses."""
-    return None if step is None else min(step, abs(segment.end - segment.start))
-
-
 def _checked_outputs(piece: SolvedSegment, approach: Approach) -> SolvedSegment:
-    """End a piece before the first output at which the model could not be evaluated."""
+    """End a piece before the first output at which the model cannot be evaluated."""
     for place, (time, state) in enumerate(zip(piece.t, piece.y, strict=True)):
         guard = approach.crossed(approach.margins(time, state))
         if guard is not None:
@@ -423,10 +412,10 @@ def _scipy_events(function: _RightHandSide, events: Events) -> list["_Waiting"]:
 
 @dataclass
 class _Waiting:
-    """An event as SciPy reads it, which is called at the ends of steps until it may pass zero.
+    """An event for SciPy, which calls it at the ends of steps.
 
-    A function that is zero at first was reported in the segment before, or passes nothing: it
-    waits. For SciPy each step from zero to zero is a crossing; NaN is none.
+    A function that is zero at first was reported in the segment before, or crosses nothing: it
+    returns NaN, which for SciPy is no crossing, while a step from zero to zero would be one.
     """
 
     event: Callable[[float, Array], float]
@@ -435,7 +424,7 @@ class _Waiting:
     waits: bool = True
 
     def __call__(self, time: float, state: Array) -> float:
-        value = self.event(time, state.copy())  # what a caller does to it moves nothing
+        value = self.event(time, state.copy())  # the caller's function may change it
         self.waits = self.waits and value == 0.0
         return np.nan if self.waits else value
 
@@ -447,7 +436,7 @@ class _Waiting:
 
 
 def _recorder(steps: list[tuple[float, Array]]) -> Callable[[float, Array], float]:
-    """Return an event that never happens, and notes every accepted step."""
+    """Return an event that never occurs, and notes every accepted step."""
 
     def note(time: float, state: Array) -> float:
         steps.append((time, state.copy()))

@@ -1,4 +1,4 @@
-"""A simulation that is advanced step by step, its inputs decided on the way."""
+"""A simulation that is advanced step by step, with inputs that are set between steps."""
 
 from collections.abc import Mapping
 from typing import Any, Literal
@@ -41,45 +41,45 @@ class Stepper:
     step : float
         Length of a step [s].
     y0 : array_like, optional
-        State at the start, see `model.state`, `state_at_height` and `equilibrium`; the design
-        position at rest by default.
+        Initial state, see `model.state`, `state_at_height` and `equilibrium`; the design position
+        at rest by default.
     inputs : mapping or array_like, optional
-        Inputs at the start, by name or in the order of ``model.input_names``, SI units. Others
-        are those of `y0` where it comes from `equilibrium` or `state_at_height`, or else zero.
+        Initial inputs, by name or in the order of ``model.input_names``, SI units. Other inputs
+        have the values of `y0` if it comes from `equilibrium` or `state_at_height`, or else zero.
     method : {'RK4', 'RODASP', 'DormandPrince'}, optional
-        The classical Runge-Kutta method, four evaluations a step, as in real time; the linearly
-        implicit one for stiff equations, at a constant cost too; or steps within each step that
-        keep a tolerance.
+        The classical Runge-Kutta method with four evaluations a step, for real time; a linearly
+        implicit method for stiff equations, also at a constant cost; or a method with tolerances,
+        which divides each step as necessary.
     rtol, atol : float, array_like, optional
         Tolerances of 'DormandPrince', by default 1e-6 and 1e-9.
     t0 : float, optional
-        Time at the start [s].
+        Initial time [s].
 
     Attributes
     ----------
     model : System
     length : float
-        Length of a step [s]; a stepper keeps it.
+        Length of a step [s]; it cannot be changed.
     state : ndarray, shape (number of state elements,)
-        Present state. `step` writes into this array: copy values that are to be kept.
+        Present state, SI units. `step` writes into this array: copy values that are to be kept.
     inputs : ndarray, shape (number of inputs,)
-        Inputs of the next step, in the order of ``model.input_names``. State and inputs may be
-        written to; assigned values are copied into the same array.
+        Inputs of the next step, in the order of ``model.input_names``, SI units. State and inputs
+        may be written to; assigned values are copied into the same array.
 
     Raises
     ------
     InputError
-        An argument cannot be used, or the model or this build has no compiled solver.
+        If an argument cannot be used, or the model or this build has no compiled solver.
 
     Notes
     -----
     Inputs are constant within a step. An input whose rate is also an input is integrated: with a
-    ``rack_velocity`` the rack moves on from its position, in this step and the next ones.
+    ``rack_velocity`` the rack position changes, in this step and the next ones.
 
-    A step passes the checks of `kintrafo.simulate`, with the same errors: stability of 'RK4',
-    loops that cannot close, dead points. A state that the model does not describe, such as a strut
-    longer than its stops allow, is not an error: `kintrafo.Simulation.validity` reports it for a
-    motion, and for a stepper the signals show it. No memory is allocated by a step.
+    A step has the checks of `kintrafo.simulate`, with the same errors: stability of 'RK4', loops
+    that cannot close, dead points. A state beyond a bound of the model, such as a strut longer than
+    its stops allow, is not an error: `kintrafo.Simulation.validity` reports it for a motion, and
+    for a stepper the signals show it. No memory is allocated by a step.
 
     Examples
     --------
@@ -175,7 +175,7 @@ class Stepper:
 
     @property
     def time(self) -> float:
-        """Time now [s]: whole steps from the start, so that it does not drift."""
+        """Present time [s]: whole steps from the start, so that it does not drift."""
         now: float = self._motion.time
         return now
 
@@ -195,10 +195,10 @@ class Stepper:
         Raises
         ------
         InputError
-            The inputs are not as many numbers as the model has inputs.
+            If the number of inputs is not that of the model.
         SimulationError
-            As `kintrafo.simulate` over this step, with the state reached; that of the stepper, and
-            its time, are as they were before.
+            As `kintrafo.simulate` over this step, with the state reached. State and time of the
+            stepper are as before the step.
         """
         if inputs is not None:
             self.inputs = inputs
@@ -213,12 +213,12 @@ class Stepper:
         inputs: Mapping[str, float] | ArrayLike | None = None,
         t0: float = 0.0,
     ) -> None:
-        """Begin anew from another state.
+        """Start again from another state.
 
         Parameters
         ----------
         y0, inputs, t0
-            As of the class.
+            As for the class.
         """
         with Validator("Stepper") as given:
             state = given.array("y0", y0, last=self.state.size)
@@ -241,11 +241,11 @@ class Stepper:
         self._motion.begin(start)
 
     def signals(self) -> dict[str, Any]:
-        """Return all physical signals now by name, SI units; see ``equations.SIGNALS``."""
+        """Return all present signals by name, SI units; see ``equations.SIGNALS``."""
         return self.model.signals(self.state, self.inputs)
 
     def _fail(self, start: float) -> None:
-        """Raise the error of a step that cannot be taken: the one that `simulate` has for it."""
+        """Raise the error of `simulate` for a step that cannot be taken."""
         span = start, start + self.length
         how = {"step": self.length} if self._method in FIXED_STEP_METHODS else vars(self._accuracy)
         courses = _courses(self.model, self.inputs, span)
@@ -255,7 +255,7 @@ class Stepper:
 
 
 def _copy(name: str, values: ArrayLike, into: Array) -> None:
-    """Copy numbers into an array that stays the same; they are looked at when they are used."""
+    """Copy numbers into an array that stays the same; the step checks whether they are finite."""
     taken: Any = values
     if not (isinstance(taken, np.ndarray) and taken.dtype == into.dtype):
         with Validator("Stepper") as given:
@@ -267,7 +267,7 @@ def _copy(name: str, values: ArrayLike, into: Array) -> None:
 
 
 def _check_solver(given: Validator, model: System) -> None:
-    """Refuse equations that no compiled solver can step."""
+    """Refuse equations for which there is no compiled solver."""
     if not native_available():
         given.fail(f"no solver was compiled. {why_not_native()}.")
     elif not (model.equations.ADDRESSES and model.state_names):
@@ -275,9 +275,9 @@ def _check_solver(given: Validator, model: System) -> None:
 
 
 def _moving(model: System) -> list[tuple[int, int, int]]:
-    """Return places of inputs that have rates: of the value, its rate, and that of the rate or -1.
+    """Return indices of inputs with rates: of the value, its rate, and the rate's rate or -1.
 
-    A rate alone, as of a road that has a velocity, has none of its own.
+    A road with a velocity, for example, has no second rate.
     """
     names, derived = model.input_names, derived_inputs(model.equations.INPUTS)
     found = []
@@ -289,7 +289,7 @@ def _moving(model: System) -> list[tuple[int, int, int]]:
 
 
 def _courses(model: System, inputs: Array, span: tuple[float, float]) -> dict[str, Any]:
-    """Return the inputs of a step as `simulate` takes them: rates come from what they are of."""
+    """Return the inputs of a step for `simulate`, without rates, which follow from the values."""
     courses: dict[str, Any] = dict(zip(model.input_names, inputs.tolist(), strict=True))
     for value, rate, second in _moving(model):
         row = [0.5 * inputs[second] if second >= 0 else 0.0, inputs[rate], inputs[value]]

@@ -1,12 +1,13 @@
-"""The way back through the steps of a motion.
+"""The adjoint of the steps of a motion, from the last to the first.
 
-Of a step from y to z = y + h sum b_i k_i, with k_i = f(y + h sum a_ij k_j), what z counts for the
-result, l, becomes what y does: with J the Jacobian of f at a stage, from the last stage on,
-K_i = h b_i l + h sum a_ji M_j, M_i = J_i' K_i, and l + sum M_i. What signals within the step push
-at y and at the stages is added to these.
+For a step from y to z = y + h sum b_i k_i, with k_i = f(y + h sum a_ij k_j), let l be the
+derivative of the result with respect to z. With J the Jacobian of f at a stage, from the last stage
+on, K_i = h b_i l + h sum a_ji M_j and M_i = J_i' K_i, the derivative with respect to y is l + sum
+M_i. Contributions of signals within the step are added at y and at the stages.
 
-Compiled equations are called stage after stage: M_i comes with what the constants and inputs count.
-Functions over NumPy arrays are called for all stages at once, since each call takes long.
+Compiled equations are called stage after stage: M_i comes together with the derivatives with
+respect to constants and inputs. Functions over NumPy arrays are called for all stages at once,
+since each call takes long.
 """
 
 import math
@@ -22,17 +23,17 @@ from .retraced import NODES, STAGES, RetracedSteps, weights_within
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
-# Rows that are differentiated at a time: some MB.
+# Rows that are differentiated together: some MB.
 _ROWS = 4096
 
 
 class Sweep:
-    """What numbers along a motion change by: its constants, its start, and inputs.
+    """The adjoint of a motion: derivatives with respect to its constants, its start, and inputs.
 
     Parameters
     ----------
     system : System
-        With derivatives by parameters.
+        With derivatives with respect to parameters.
     steps : RetracedSteps
         Of its motion.
     """
@@ -51,7 +52,8 @@ class Sweep:
         Parameters
         ----------
         places, point : tuple of ndarray
-            When the motion is looked at, and states and inputs there, see `RetracedSteps`.
+            Steps and parts of the evaluated times, with states and inputs there, see
+            `RetracedSteps`.
         weights : mapping
             Of signals and elements of the state at these times, by name.
         """
@@ -65,12 +67,12 @@ class Sweep:
                 pushed[:, system.state_names.index(name)] = row
         constants, by_states, held = self._summed("signals", states, inputs, of_signals)
         pushed_within = self._within(*places, pushed + by_states)
-        # functions over NumPy arrays; and refusals, which are raised here
+        # for functions over NumPy arrays, or to raise the error of a refused state
         found = self._compiled(*pushed_within) or self._at_once(*pushed_within)
         return constants + found[0], found[1], held + found[2]
 
     def _compiled(self, at_begin: Array, at_stages: Array) -> tuple[Array, Array, Array] | None:
-        """Return derivatives by constants, the start, and inputs; nothing if it cannot be done."""
+        """Return derivatives by constants, the start, and inputs; None if C cannot compute them."""
         steps, system = self._steps, self._system
         adjoint = system.equations.ADDRESSES.get("rhs_adjoint")
         if adjoint is None:
@@ -78,7 +80,7 @@ class Sweep:
         sizes = system.constants.size, steps.states.shape[-1], steps.inputs.shape[-1]
         constants, start, held = map(np.zeros, sizes)
         done = _steps.go_back(
-            adjoint, system.constants, STAGES, steps.length, steps.anew.view(np.uint8),
+            adjoint, system.constants, STAGES, steps.length, steps.restarts.view(np.uint8),
             steps.inputs, steps.states, at_begin, at_stages, constants, start, held,
         )  # fmt: skip
         return (constants, start, held) if done else None
@@ -92,7 +94,7 @@ class Sweep:
         rows = [array.reshape(count, array.shape[-1]) for array in (states, inputs, weights)]
         constants, found = np.zeros(self._system.constants.size), np.zeros_like(rows[0])
         held = np.zeros(rows[1].shape[-1])
-        if not weights.shape[-1]:  # there is no such function
+        if not weights.shape[-1]:  # a model without signals has no such function
             return constants, found, held
         for first in range(0, len(rows[0]), _ROWS):
             part = slice(first, first + _ROWS)
@@ -104,23 +106,23 @@ class Sweep:
         return constants, found, held
 
     def _within(self, step: Indices, part: Array, pushed: Array) -> tuple[Array, Array]:
-        """Return what states at places push at the begin of their steps, and at the stages."""
+        """Return contributions of states at places to the begin of steps, and to the stages."""
         weights = weights_within(part)
         count, size = self._steps.length.size, pushed.shape[-1]
         at_begin, at_stages = np.zeros((count, size)), np.zeros((count, NODES.size, size))
         np.add.at(at_begin, step, pushed)
         lengths = self._steps.length[step, None, None]
         np.add.at(at_stages, step, lengths * weights[:, :, None] * pushed[:, None])
-        # the last stage of a step is the first one of the next, where that does not begin anew
-        ends = np.flatnonzero(~self._steps.anew[1:])
+        # the last stage of a step is the first of the next, unless inputs jump between them
+        ends = np.flatnonzero(~self._steps.restarts[1:])
         at_stages[ends + 1, 0] += at_stages[ends, -1]
         at_stages[ends, -1] = 0.0
         return at_begin, at_stages
 
     def _at_once(self, at_begin: Array, at_stages: Array) -> tuple[Array, Array, Array]:
-        """Return the same, all steps at once."""
+        """Return the same as `_compiled`, for all steps together."""
         steps, size = at_begin.shape
-        # for each direction of l; the last column is what is pushed within
+        # for each direction of l; the last column has the contributions within steps
         columns = np.broadcast_to(np.eye(size, size + 1), (steps, size, size + 1))
         pushed = np.zeros((*at_stages.shape, size + 1))
         pushed[..., -1] = at_stages
@@ -135,7 +137,7 @@ class Sweep:
         return constants, counts[0], held
 
     def _through(self, counts: Array, at_stages: Array) -> tuple[Array, Array]:
-        """Return K of each stage, and l before each step, for columns of l behind it."""
+        """Return K of each stage, and l before each step, for columns of l after it."""
         states, length = self._steps.states, self._steps.length[:, None, None]
         jacobians = self._system.evaluate("rhs_jacobian", states, self._steps.inputs)
         stages, back = np.empty(at_stages.shape), np.zeros(at_stages.shape)

@@ -1,6 +1,6 @@
-"""For how long a step may be trusted near a dead point, in the numbers of ``native/trust.h``.
+"""Limits of steps near a dead point: the numbers of ``native/trust.h``.
 
-The reasons are there; a test compares the two.
+That file has the reasons; a test compares the two.
 """
 
 ACTS, SINGULAR = 1, 2

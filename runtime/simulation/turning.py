@@ -1,4 +1,4 @@
-"""Where an input turns, and which steps of an integration may pass over these times."""
+"""Extrema of inputs, and the steps of an integration that may pass over them."""
 
 from collections.abc import Sequence
 
@@ -8,24 +8,25 @@ from scipy.interpolate import PPoly
 
 Array = NDArray[np.float64]
 
-# Swings below this part of the range are noise: of a value, and of its derivatives, which a spline
-# through the values of a function has less well.
+# Swings below this part of the range are noise: of a value, and of its derivatives, which are less
+# accurate in a spline through values.
 _NOISE = (1e-9, 1e-6, 1e-3)
-# A step that passes over a turn is at most so many times as long as a value needs for a part of
-# the swing beside it. For a sine that is 2.4 times the time between two turns, so that about one at
-# most is between two stages of a step: errors by pulses are those of steps that end at all turns.
+# A step over an extremum is at most `_STEPS` times as long as the time in which the value changes
+# by `_NEAR` of the swing beside it. For a sine that is 2.4 times the time between two extrema, so
+# that at most about one is between two stages of a step, and pulses cause no more error than with
+# steps that end at all extrema.
 _NEAR, _STEPS = 0.1, 12.0
-# Nor so many times as long as it needs for most of the swing, which for a sine is as long: a value
-# may stay near the turn, as on a flat top, and then be gone within the step.
+# It is also at most `_FAR_STEPS` times as long as the time for `_FAR` of the swing, which for a
+# sine is the same: after a flat top, a value may change fast within the step.
 _FAR, _FAR_STEPS = 0.9, 3.1
 
 
 def turning_points(curve: PPoly, orders: Sequence[int]) -> Array:
-    """Return the times at which a curve, or one of its derivatives, turns.
+    """Return the times of extrema of a curve or its derivatives, and the longest steps over them.
 
-    Between two of them all rise or fall: a step from one to another sees how far. An integrator
-    that is free to pass over them may see nothing of a bump that begins and ends within its step.
-    A step sees what turns slowly beside it: up to the reach of a turn its stages lie close enough.
+    Between two of them every order is monotone: a step from one to the next captures the change. An
+    integrator that may pass over them could miss a bump that begins and ends within its step. A
+    step of at most the reach of an extremum has stages that are close enough.
 
     Parameters
     ----------
@@ -37,7 +38,7 @@ def turning_points(curve: PPoly, orders: Sequence[int]) -> Array:
     Returns
     -------
     ndarray, shape (2, n)
-        Times in order, and how long a step may be that passes over each [s].
+        Times in order, and the longest step that may pass over each: its reach [s].
 
     Examples
     --------
@@ -50,14 +51,7 @@ def turning_points(curve: PPoly, orders: Sequence[int]) -> Array:
 
 
 def merged(turns: Sequence[Array], near: float = 0.0) -> Array:
-    """Return all turns of some in order, those of one time with the least reach.
-
-    Parameters
-    ----------
-    turns : sequence of ndarray, shape (2, n)
-    near : float, optional
-        Times that differ by less are one [s].
-    """
+    """Return extrema of curves in order; of those closer than `near` [s] the least reach."""
     together = np.concatenate([*turns, np.empty((2, 0))], axis=1)
     together = together[:, np.argsort(together[0], kind="stable")]
     begins = np.flatnonzero(np.diff(together[0], prepend=-np.inf) > near)
@@ -71,7 +65,7 @@ def _of(curve: PPoly, noise: float) -> Array:
     values = curve(candidates)
     rises = np.diff(values)
     moves = np.flatnonzero(rises)
-    # of each stretch in one sense only the ends can be turning points
+    # extrema are at the ends of monotone parts
     turns = moves[1:][np.sign(rises[moves[1:]]) != np.sign(rises[moves[:-1]])]
     ends = np.concatenate(([0], turns, [values.size - 1]))
     kept = ends[_swings(values[ends], noise * np.ptp(values))]
@@ -81,21 +75,21 @@ def _of(curve: PPoly, noise: float) -> Array:
 
 
 def _reaches(times: Array, values: Array, turns: NDArray[np.intp], bends: Array) -> Array:
-    """Return how long steps may be that pass over turns, by how long the values stay beside them.
+    """Return the longest steps over extrema, from the times that the values stay beside them.
 
     Parameters
     ----------
     times, values : ndarray
-        Of the curve, which rises or falls between two of them.
+        Of the curve, which is monotone between two of them.
     turns : ndarray
-        Places of its extrema among them.
+        Indices of its extrema.
     bends : ndarray
         Magnitude of the second derivative there.
     """
     borders = np.concatenate(([0], turns, [values.size - 1]))
     swing = np.searchsorted(turns, np.arange(values.size), side="right")
     rise = np.diff(values[borders])
-    # a swing after the other, each from 0 to 1; the first and last may be none
+    # each swing from 0 to 1, in order; the first and last may be empty
     part = (values - values[borders[swing]]) / np.where(rise == 0.0, 1.0, rise)[swing]
     along = np.maximum.accumulate(swing + np.clip(part, 0.0, 1.0))
     number = np.arange(1, turns.size + 1)
@@ -105,7 +99,7 @@ def _reaches(times: Array, values: Array, turns: NDArray[np.intp], bends: Array)
             np.abs(np.interp(number + sense * part, along, times) - times[turns])
             for part in (_NEAR, _FAR)
         )
-        # beside the turn the curve is a parabola, and a straight line between its points farther on
+        # beside the extremum the curve is a parabola, farther away a line between its points
         size = np.abs(rise[number if sense > 0 else number - 1])
         with np.errstate(divide="ignore"):
             bent = np.sqrt(2.0 * _NEAR * size / bends)
@@ -116,7 +110,7 @@ def _reaches(times: Array, values: Array, turns: NDArray[np.intp], bends: Array)
 
 
 def _extrema(curve: PPoly) -> Array:
-    """Return where the derivative vanishes between the breaks."""
+    """Return the zeros of the derivative between the breaks."""
     if curve.c.shape[0] < 3:
         return np.empty(0)
     slope = curve.derivative()
@@ -131,7 +125,7 @@ def _extrema(curve: PPoly) -> Array:
 
 
 def _swings(values: Array, least: float) -> list[int]:
-    """Return which of alternating extrema exceed those beside them."""
+    """Return which of alternating extrema exceed their neighbours by a least difference."""
     if (np.abs(np.diff(values)) > least).all():
         return list(range(1, values.size - 1))
     kept: list[int] = []

@@ -1,6 +1,6 @@
-"""Where a motion leaves what a model describes.
+"""Motions beyond the bounds of a model.
 
-The equations go on there, and what they give has no meaning for the mechanism.
+The equations can be evaluated there, but the results are meaningless for the mechanism.
 """
 
 from collections.abc import Iterable, Iterator, Mapping
@@ -19,19 +19,19 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Bound:
-    """What a signal must not pass.
+    """A bound of the model on a signal.
 
     Attributes
     ----------
     signal : str
     limit : float or ndarray
-        Of one system, or of each of many, SI units; infinite where there is none.
+        Of one system, or of each of many, SI units; infinite without a bound.
     above : bool
-        Whether the signal must not be greater; else it must not be smaller.
+        Whether it is an upper bound; else a lower one.
     words : str
-        What is the case beyond, ready for a sentence.
+        Description of the state beyond, for a sentence.
     possible : bool
-        Whether the mechanism can go there, and only the data end.
+        Whether the mechanism can pass it, where only the data end.
     """
 
     signal: str
@@ -42,13 +42,13 @@ class Bound:
 
 
 def bounds_of(model: System, varied: Mapping[str, Array] | None = None) -> Iterator[Bound]:
-    """Yield what the signals of a model must not pass: as its forces were declared, and its file.
+    """Yield the bounds on signals of a model, declared with its forces or in its file.
 
     Parameters
     ----------
     model : System
     varied : mapping, optional
-        Parameters of which each of many systems has its own, by name, SI units.
+        Parameters that differ between systems, arrays by name, SI units.
     """
     parameters: Mapping[str, Values] = {**model.parameters, **(varied or {})}
     for signal, described in model.equations.SIGNALS.items():
@@ -69,20 +69,20 @@ def _ends(
     least = value_of(entry.get("least", -np.inf), parameters)
     most = value_of(entry.get("most", np.inf), parameters)
     void = value_of(entry.get("unless", 0.0), parameters)
-    says = (np.asarray(least) < most) & (np.asarray(void) == 0.0)
+    holds = (np.asarray(least) < most) & (np.asarray(void) == 0.0)
     possible = entry.get("possible", False)
     if "most" in entry:
-        # an index that is empty makes a number of an array without dimensions
-        limit = np.where(says, most, np.inf)[()]
+        # an empty index makes an array without dimensions a number
+        limit = np.where(holds, most, np.inf)[()]
         yield Bound(signal, limit, above=True, words=entry["above"], possible=possible)
     if "least" in entry:
-        limit = np.where(says, least, -np.inf)[()]
+        limit = np.where(holds, least, -np.inf)[()]
         yield Bound(signal, limit, above=False, words=entry["below"], possible=possible)
 
 
 @dataclass(frozen=True)
 class Excursion:
-    """A bound that was passed.
+    """A bound that a motion passed.
 
     Attributes
     ----------
@@ -90,11 +90,11 @@ class Excursion:
     unit : str
         SI unit of the signal.
     spans : tuple of (float, float)
-        First and last output of each time beyond [s].
+        First and last output of each time span beyond the bound [s].
     worst : float
-        The value furthest beyond, SI units.
+        The value farthest beyond, SI units.
     time : float
-        When that was [s].
+        Time of that value [s].
     """
 
     bound: Bound
@@ -118,7 +118,7 @@ class Excursion:
 def excursions(
     model: System, bounds: Iterable[Bound], times: Array, signals: Mapping[str, Array]
 ) -> tuple[Excursion, ...]:
-    """Return what a motion passes, by its outputs.
+    """Return the bounds that outputs of a motion pass.
 
     Parameters
     ----------
@@ -127,11 +127,7 @@ def excursions(
     times : ndarray, shape (n,)
         [s]
     signals : mapping
-        Name to array of shape (n,), SI units; NaN is not looked at.
-
-    Returns
-    -------
-    tuple of Excursion
+        Arrays of shape (n,) by name, SI units; NaN is ignored.
     """
     found = []
     for bound in bounds:

@@ -24,16 +24,17 @@ from .trust import (
 Array = NDArray[np.float64]
 
 _METHODS = {"RK45": RK45, "DOP853": DOP853, "Radau": Radau, "BDF": BDF, "LSODA": LSODA}
-# So many steps that gain less than this part of the whole time, all together, gain nothing: 1e11 of
-# that kind would be needed. It happens where the error of a step is that of rounding, close to a
-# dead point. Steps grow tenfold at most, so that a first one that is too short takes some tens.
+# An integration fails if this number of steps together covers less than this part of the whole
+# time: 1e11 such steps would be needed. That happens close to a dead point, where the error of a
+# step is that of rounding. Steps grow tenfold at most: a first step that is too short costs some
+# tens.
 _LOOKED_AT_EVERY, _NO_GAIN = 1000, 1e-8
 _COUNTS = ("nfev", "njev", "nlu")
 
 
 @dataclass(frozen=True)
 class _Watch:
-    """What the steps of a method are watched with."""
+    """The limits of the steps of a method."""
 
     approach: Approach
     last_tried: Callable[[], float]
@@ -60,17 +61,17 @@ def watched(
         Of the method.
     approach : Approach
     last_tried : callable
-        Returns the time at which the right-hand side was evaluated last.
+        Returns the time of the last evaluation of the right-hand side.
     milestones : ndarray
         Times that no step passes over, in the order of the integration [s].
     failed : callable
-        Takes why no further step can be taken: `DeadPoint`, `ModelError` where a state is refused
-        however short the step, or `TooManySteps`.
+        Called with the reason why no further step can be taken: `DeadPoint`, `ModelError` if a
+        state is refused after a step of any length, or `TooManySteps`.
 
     Returns
     -------
     type
-        For ``solve_ivp``, which keeps all that it found until a step fails.
+        For ``solve_ivp``, which keeps its results until a step fails.
     """
     base: Any = _METHODS[name]
     watch = _Watch(approach, last_tried, milestones, failed)
@@ -79,10 +80,10 @@ def watched(
 
 
 class _Steps(OdeSolver):
-    """Steps that are limited and taken back; what takes them is the class behind it."""
+    """Steps that are limited and taken back; the next base class takes them."""
 
     watch: _Watch
-    _trusted: float  # how long the next step may be
+    _trusted: float  # longest next step [s]
 
     def __init__(self, fun: Any, t0: float, y0: Array, t_bound: float, **options: Any) -> None:
         self._given, self._end, self._options = fun, t_bound, options
@@ -90,7 +91,8 @@ class _Steps(OdeSolver):
         super().__init__(fun, t0, y0, t_bound, **options)
         self._whole, self._longest, self._stuck = abs(t_bound - t0), 0.0, 0
         self._taken, self._noted = 0, t0
-        self._look(SMALLEST_OF_STEP * self._whole)
+        lapse = SMALLEST_OF_STEP * self._whole
+        self._limit(*self.watch.approach.look(self.t, self.y, lapse), lapse)
 
     def step(self) -> str | None:
         try:
@@ -101,13 +103,13 @@ class _Steps(OdeSolver):
             return str(error)
 
     def _trusted_step(self) -> str | None:
-        """Take a step, shorter ones until it can be trusted."""
+        """Take a step, or a shorter one until it can be trusted."""
         while True:
             time, state = self.t, self.y
             try:
                 message: str | None = self._limited()
             except ModelError:
-                self._anew(time, state, abs(self.watch.last_tried() - time))
+                self._restart(time, state, abs(self.watch.last_tried() - time))
                 continue
             if self.status == "failed":
                 return message
@@ -124,10 +126,10 @@ class _Steps(OdeSolver):
                 return message
             if SHORTER * step < self._smallest():
                 raise DeadPoint(guard, time, state)
-            self._anew(time, state, step)
+            self._restart(time, state, step)
 
     def _idle(self) -> bool:
-        """Return whether many steps, one after the other, have gained nothing."""
+        """Return whether many consecutive steps have covered almost no time."""
         self._taken += 1
         if self._taken % _LOOKED_AT_EVERY:
             return False
@@ -135,7 +137,7 @@ class _Steps(OdeSolver):
         return gained < _NO_GAIN * self._whole
 
     def _limited(self) -> str | None:
-        """Take a step that is no longer than what is trusted."""
+        """Take a step that is no longer than the trusted length."""
         while len(self._goals) > 1 and self.direction * (self._goals[0] - self.t) <= 0.0:
             del self._goals[0]
         stop = self.t + self.direction * self._trusted
@@ -149,29 +151,26 @@ class _Steps(OdeSolver):
 
     def _bound(self, time: float) -> None:
         self.t_bound = time
-        if isinstance(self, LSODA):  # it keeps the time that it must not pass in its workspace
+        if isinstance(self, LSODA):  # it has the time that it must not pass in its workspace
             held: Any = self
             held._lsoda_solver._integrator.rwork[0] = time  # noqa: SLF001 (no other way)
 
-    def _anew(self, time: float, state: Array, step: float) -> None:
-        """Begin anew with a shorter step; raise what is being handled if it is too short."""
+    def _restart(self, time: float, state: Array, step: float) -> None:
+        """Start again with a shorter step; raise the present exception if it is too short."""
         step *= SHORTER
         if step < self._smallest():
-            raise  # noqa: PLE0704 (called where an error is handled, or after the same check)
+            raise  # noqa: PLE0704 (called while an error is handled, or after the same check)
         counts = {name: getattr(self, name) for name in _COUNTS}
         options = self._options | {"first_step": step}
         super().__init__(self._given, time, state, self._end, **options)
         for name, count in counts.items():
             setattr(self, name, getattr(self, name) + count)
-        if not self.n:  # SciPy has no first step for what has no state, and goes to the end
+        if not self.n:  # without a state SciPy ignores the first step
             self._trusted = min(self._trusted, step)
 
     def _smallest(self) -> float:
         of_time = SMALLEST_OF_TIME * self._whole
         return min(of_time, SMALLEST_OF_STEP * self._longest) if self._longest else of_time
-
-    def _look(self, lapse: float) -> None:
-        self._limit(*self.watch.approach.look(self.t, self.y, lapse), lapse)
 
     def _limit(self, now: Array, gained: Array, lapse: float) -> None:
         self._trusted, guard, over = self.watch.approach.longest_step(now, gained, lapse)

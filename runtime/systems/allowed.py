@@ -1,4 +1,4 @@
-"""Lengths that an end is put to beside what the equations say."""
+"""Limits of lengths that are given beside the equations."""
 
 from collections.abc import Mapping
 from typing import NamedTuple
@@ -10,16 +10,16 @@ Array = NDArray[np.float64]
 
 
 class LengthLimit(NamedTuple):
-    """What a length may be.
+    """A limit of a length.
 
     Attributes
     ----------
     signal : str
         The signal of the equations that is the length.
     limit : float
-        The least length; the greatest, with a minus sign [m].
+        The least length; or minus the greatest length [m].
     part, end : str
-        What is as long, and which end of its length that is, where it was given.
+        The part with this length, and the name of the limit.
     """
 
     signal: str
@@ -28,16 +28,16 @@ class LengthLimit(NamedTuple):
     end: str
 
     def left(self, signals: Mapping[str, Array]) -> Array:
-        """Return what is left of the length, or the way beyond with a minus sign [m]."""
+        """Return the distance of the length from its limit, negative beyond it [m]."""
         found: Array = np.sign(self.limit) * signals[self.signal] - self.limit
         return found
 
     @property
     def meaning(self) -> str:
-        """What it means that the length is there."""
+        """Description of a length at the limit."""
         return f"the {self.part} is at its {self.end}"
 
     @property
     def beyond(self) -> str:
-        """What it means that the length is beyond."""
+        """Description of a length beyond the limit."""
         return f"the {self.part} is beyond its {self.end}"

@@ -33,29 +33,29 @@ def derivative(
         ``rhs``, ``signals``, ``relative_coordinates``, ``positions``, ``orientations`` or
         ``velocities``.
     along : mapping of str to array_like
-        The direction: by how much parameters, elements of the state and inputs change, by name, SI
-        units. What is not named stays. Arrays are broadcast with the leading dimensions of the
-        state, so that many directions are followed at once.
+        The direction: changes of parameters, elements of the state and inputs by name, SI units;
+        zero for names that are left out. Arrays are broadcast with the leading dimensions of the
+        state, for many directions in one call.
     state, inputs : array_like
-        Where, as for `System.evaluate`.
+        The point, as for `System.evaluate`.
 
     Returns
     -------
     ndarray
-        Shape of the result behind the leading dimensions.
+        Leading dimensions, then the shape of the function's result.
 
     Raises
     ------
     InputError
-        If an argument cannot be used; or if a direction leaves what the equations take to be zero,
-        such as hinges that are parallel: there they mean nothing.
+        If an argument cannot be used; or if a direction breaks an assumption of the equations, such
+        as that of parallel hinges: without it they are meaningless.
     ClosureError, ModelError
-        Where the function itself refuses the state.
+        If the function refuses the state.
 
     Notes
     -----
-    The derivative of what is computed, step by step (forward mode); nothing is differenced. It
-    takes three times the operations of the function.
+    The program of the function is differentiated step by step (forward mode), without finite
+    differences. It takes three times the operations of the function.
 
     Examples
     --------
@@ -101,29 +101,29 @@ def gradient(
     function : str
         As for `derivative`.
     weights : array_like
-        Of the elements of the result, in its shape; more dimensions in front are broadcast with
-        the leading ones of the state.
+        Weights of the elements of the result, in its shape; more dimensions in front are broadcast
+        with the leading ones of the state.
     state, inputs : array_like
-        Where, as for `System.evaluate`.
+        The point, as for `System.evaluate`.
 
     Returns
     -------
     dict of str to ndarray
         By the names of parameters, states and inputs: derivatives of the sum, SI units, over the
-        leading dimensions. NaN by a parameter that cannot move alone, since the equations take
-        something to be zero that it changes; `derivative` takes directions of several.
+        leading dimensions. NaN for a parameter that cannot change alone, because that would break
+        an assumption of the equations; `derivative` has directions of several parameters.
 
     Raises
     ------
     InputError
         If an argument cannot be used.
     ClosureError, ModelError
-        Where the function itself refuses the state.
+        If the function refuses the state.
 
     Notes
     -----
-    Backwards through the program (reverse mode): it takes three times the operations of the
-    function and of `prepare`, however many parameters there are.
+    The program is differentiated backwards (reverse mode): it takes three times the operations of
+    the function and of `prepare` for any number of parameters.
 
     Examples
     --------
@@ -165,18 +165,19 @@ def design_derivative(system: System, along: Mapping[str, ArrayLike]) -> dict[st
     system : System
         With equations that were compiled with ``parameter_derivatives=True``.
     along : mapping of str to array_like
-        By how much parameters change, by name, SI units.
+        Changes of parameters by name, SI units.
 
     Returns
     -------
     dict of str to ndarray
-        Derivatives of the elements of the state, by name: with ``along`` they are the direction in
-        which the design position moves, ``along | design_derivative(system, along)``.
+        Derivatives of the elements of the state, by name. ``along | design_derivative(system,
+        along)`` is the direction for `derivative` in which the design position changes with the
+        parameters.
 
     Raises
     ------
     InputError
-        As of `derivative`.
+        As for `derivative`.
     """
     with Validator("design_derivative") as given:
         directions = checked_directions(given, system)
@@ -192,11 +193,11 @@ def design_derivative(system: System, along: Mapping[str, ArrayLike]) -> dict[st
     return {name: found[..., i] for i, name in enumerate(system.state_names)}
 
 
-# -- what is given --------------------------------------------------------------------------------
+# -- arguments ------------------------------------------------------------------------------------
 
 
 def checked_directions(given: Validator, system: Any) -> Any:
-    """Return the derivatives that a system's equations have; None where that is refused."""
+    """Return the derivatives of a system's equations; refuse a system without any."""
     given.instance("system", system, System, System.NEEDED)
     if not given.failed and not system.equations.DIRECTIONS.of:
         given.fail(
@@ -268,7 +269,7 @@ def _go_together(given: Validator, what: str, shapes: list[tuple[int, ...]]) -> 
 
 
 def kept_together(system: System, directions: Directions, direction: Array) -> Array:
-    """Return the parameters of a system; refuse directions that leave its equations."""
+    """Return the parameters of a system; refuse directions that break its assumptions."""
     parameters = np.array([*system.parameters.values()])
     of_bound = np.where(directions.bound(parameters), direction, 0.0)
     for index in np.ndindex(direction.shape[:-1]):

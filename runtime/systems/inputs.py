@@ -1,4 +1,4 @@
-"""Which inputs of some equations are the time derivatives of another one, as the equations say."""
+"""Inputs of equations that are time derivatives of other inputs."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -8,14 +8,13 @@ Inputs = Mapping[str, Mapping[str, Any]]
 
 
 def rates_of(name: str, inputs: Inputs) -> tuple[str, ...]:
-    """Return the inputs that are the derivatives of another one, in order.
+    """Return the inputs that are the derivatives of an input, in order.
 
     Parameters
     ----------
     name : str
-        The other one.
     inputs : mapping
-        All inputs of the equations, with what each is the derivative of.
+        All inputs of the equations, with ``derivative_of``.
 
     Examples
     --------
@@ -31,21 +30,15 @@ def rates_of(name: str, inputs: Inputs) -> tuple[str, ...]:
 
 
 def derived_inputs(inputs: Inputs) -> dict[str, str]:
-    """Return the inputs that follow from another one, and from which: none that follows itself.
-
-    Parameters
-    ----------
-    inputs : mapping
-        All inputs of the equations, with what each is the derivative of.
-    """
+    """Return the inputs that follow from another one, with the name of that input."""
     given = [name for name, entry in inputs.items() if entry["derivative_of"] is None]
     return {rate: name for name in given for rate in rates_of(name, inputs)}
 
 
 def may_jump(rates: int) -> bool:
-    """Return whether an input may jump of which the equations take so many derivatives.
+    """Return whether an input may jump, from the number of its derivatives that equations read.
 
-    Where they take an acceleration, something with mass follows the input. A rate alone is what a
-    damper takes, which a jump of a road passes without a blow.
+    An input with an acceleration drives a mass. A rate alone is that of a damper, which a jump
+    passes without an impulse.
     """
     return rates < 2

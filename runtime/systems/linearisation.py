@@ -4,10 +4,10 @@ With ``x = state - state_0``, ``u = inputs - inputs_0`` and ``y = signals - sign
 
     x' = A x + B u + rate_0,        y = C x + D u,
 
-where ``rate_0`` is the time derivative of the state at the point itself. At an equilibrium, or in
-steady motion with nothing but the spin angle changing, it plays no part, and the eigenvalues of A
-are those of the motion. About any other state the matrices are exact, too, but describe the
-motion only as long as the state stays near: the modes are those of frozen coefficients.
+where ``rate_0`` is the time derivative of the state at the point. At an equilibrium, or in a steady
+motion in which only the spin angle changes, it has no effect, and the eigenvalues of A are those of
+the motion. About any other state the matrices are also exact, but describe the motion only near
+that state: the modes are those of frozen coefficients.
 """
 
 from collections.abc import Mapping, Sequence
@@ -35,11 +35,11 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-# A rate, relative to the forces' own accelerations, below which a state counts as steady.
+# Rate below which a state counts as steady, relative to the accelerations by the forces.
 _STEADY = 1e-6
-# How far a state goes on to see whether its equations stay: the element that changes most.
+# Change of the fastest element of a state, after which its equations are compared.
 _MOMENT = 1e-2
-# Its square must not overflow [Hz].
+# Its square does not overflow [Hz].
 _GREATEST_FREQUENCY = 1e100
 
 
@@ -50,7 +50,7 @@ class Linearisation:
     Attributes
     ----------
     state, inputs, outputs : ndarray
-        The point: state, inputs and the chosen signals there.
+        The point: state, inputs and the chosen signals, SI units.
     rate : ndarray, shape (states,)
         Time derivative of the state at the point; see `steady`.
     A : ndarray, shape (states, states)
@@ -59,14 +59,14 @@ class Linearisation:
     D : ndarray, shape (outputs, inputs)
         Derivatives of rate and outputs with respect to state and inputs, exact; SI units.
     layout : StateLayout
-        Which elements of the state are positions, and which are speeds.
+        Positions, speeds and internal states in the state.
     constant : bool
-        Whether the motions near the point have the same equations a moment later. So it is but for
-        free bodies: of one that spins, its axes turn against all that rests in the world.
+        Whether the equations of motions near the point do not change with time. False only for free
+        bodies, for example for one that spins, whose axes turn relative to the world.
     state_names, input_names, output_names : tuple of str
     state_units, input_units, output_units : tuple of str
     input_rates : mapping
-        Of each input, those that are its derivatives, in order.
+        For each input, the inputs that are its derivatives, in order.
     """
 
     state: Array
@@ -91,14 +91,14 @@ class Linearisation:
     def steady(self) -> bool:
         """Whether all rates at the point are zero, except of coordinates without effect.
 
-        That is the angle of a spinning rotor: it looks the same at every angle. A free body may
-        move on as long as its accelerations stay what they are, as along a circle on level ground.
+        Such a coordinate is the angle of a spinning rotor. A free body may move if its
+        accelerations are constant, for example along a circle on level ground.
         """
         changing: NDArray[np.bool_] = np.array(self.A.any(axis=0))
         free = np.ones(self.layout.positions, dtype=bool)
         free[list(self.layout.joints)] = False
         changing[: free.size][free] = False
-        # the size of what has to cancel: a state off by 1e-6 rad or m, or so
+        # rates after a change of the state by about 1e-6 rad or m
         scale = float(np.abs(self.A[changing]).max(initial=1.0))
         greatest = np.abs(self.rate[changing]).max(initial=0.0)
         return self.constant and bool(greatest <= _STEADY * scale)
@@ -107,13 +107,13 @@ class Linearisation:
     def eigenvalues(self) -> Complex:
         """Eigenvalues of the motions [1/s], those with the largest imaginary part first.
 
-        They are those of A, but for those that belong to the norms of quaternions; see `tangent`.
+        They are those of A without those of the norms of quaternions; see `tangent`.
         """
         return eigenvalues_of(self.tangent.A)
 
     @cached_property
     def tangent(self) -> Tangent:
-        """The motions near the point, counted in as many coordinates as there are speeds."""
+        """The motions near the point, in as many coordinates as there are speeds."""
         return Tangent.at(self.A, self.rate, self.state, self.layout)
 
     @property
@@ -127,14 +127,15 @@ class Linearisation:
         Parameters
         ----------
         coordinate : str
-            A position, the first of `state_names`; of a free body the displacement along an axis,
-            or a component e1, e2 or e3 of its quaternion for the turn about one.
+            Name of a position, from the first of `state_names` on; for a free body that of the
+            displacement along an axis, or of a component e1, e2 or e3 of its quaternion for the
+            rotation about one.
 
         Returns
         -------
         Mode
-            The pair of eigenvalues in which the coordinate and its rate take part most, see
-            `mode_of_states`.
+            The pair of eigenvalues with the largest participation of the coordinate and its rate,
+            see `mode_of_states`.
 
         Raises
         ------
@@ -157,20 +158,20 @@ class Linearisation:
         return StateSpace(self.A, self.B, self.C, self.D)
 
     def frequency_response(self, frequency: ArrayLike, source: str) -> dict[str, Complex]:
-        """Return how the outputs follow a small harmonic input.
+        """Return the response of the outputs to a small harmonic input.
 
         Parameters
         ----------
         frequency : array_like
             [Hz].
         source : str
-            An input. Where the model takes the rates of it as inputs of their own (the position of
-            what is prescribed, with its velocity and acceleration), they move along.
+            An input. Inputs that are its derivatives, such as velocity and acceleration of a
+            prescribed position, change with it.
 
         Returns
         -------
         dict
-            Output name to complex amplitude over that of the input, in the units of the two.
+            By output: complex amplitude divided by that of the input, in the SI units of both.
 
         Raises
         ------
@@ -181,14 +182,14 @@ class Linearisation:
         return {name: response[..., i, 0] for i, name in enumerate(self.output_names)}
 
     def state_response(self, frequency: ArrayLike, source: str) -> Complex:
-        """Return how the states follow a small harmonic input, (..., states).
+        """Return the response of the states to a small harmonic input, (..., states).
 
         Parameters
         ----------
         frequency : array_like
             [Hz].
         source : str
-            An input, as of `frequency_response`.
+            An input, as for `frequency_response`.
 
         Raises
         ------
@@ -205,7 +206,7 @@ class Linearisation:
         frequency : array_like
             [Hz].
         sources : sequence of str
-            Inputs, as of `frequency_response`.
+            Inputs, as for `frequency_response`.
 
         Returns
         -------
@@ -239,7 +240,7 @@ class Linearisation:
         return states, outputs
 
     def _harmonic(self, source: str, s: Complex) -> Complex:
-        """Return the amplitudes of all inputs while one of them moves with amplitude one."""
+        """Return the amplitudes of all inputs if one of them has the amplitude one."""
         column = np.zeros((*s.shape[:-1], len(self.input_names)), dtype=np.complex128)
         column[..., self.input_names.index(source)] = 1.0
         for order, rate in enumerate(self.input_rates[source], 1):
@@ -260,11 +261,11 @@ def linearise(
     ----------
     model : System or Model
     state, inputs : array_like
-        One state, and inputs: by default those that belong to the state, or zeros. A state of
-        rest is found by `kintrafo.equilibrium`; any other is allowed, see `Linearisation.steady`.
-        Quaternions of free bodies are taken with length one.
+        One state, and inputs: by default those of a `State`, or zeros. `kintrafo.equilibrium`
+        returns a state of rest; any other state is allowed, see `Linearisation.steady`. Quaternions
+        of free bodies are normalised.
     outputs : sequence of str, optional
-        Signals to take as outputs, all by default.
+        Signals that are outputs, all by default.
 
     Returns
     -------
@@ -329,7 +330,7 @@ def linearise(
 
 
 def _constant(model: System, state: Array, inputs: Array) -> bool:
-    """Return whether the motions near a state have the same equations a moment later."""
+    """Return whether the equations of motions near a state are the same a moment later."""
     if not model.layout.free:
         return True
     rate = model.evaluate("rhs", state, inputs)

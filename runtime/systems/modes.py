@@ -12,20 +12,21 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 
-# A motion that takes part less than that in an eigenvalue has no part in it.
+# A smaller participation counts as none.
 _LEAST_SHARE = 1e-6
 
 
 @dataclass(frozen=True)
 class Mode:
-    """One eigenvalue, or two that belong together: a conjugate pair, or an overdamped one.
+    """One eigenvalue, or a pair: two conjugate ones, or two real ones of an overdamped motion.
 
     Attributes
     ----------
     eigenvalues : tuple of complex
-        One or two [1/s]; that with positive imaginary part first, or else the faster one.
+        One or two [1/s]; the first has a positive imaginary part, or is the faster of two real
+        ones.
     shape : ndarray of complex, shape (states,)
-        Eigenvector of the first eigenvalue, its largest element being one. Elements are in the
+        Eigenvector of the first eigenvalue with one as its largest element. Elements are in the
         units of the state.
     state_names : tuple of str
     """
@@ -43,7 +44,7 @@ class Mode:
     def natural_frequency(self) -> float:
         """Undamped natural frequency [Hz]; that of the geometric mean of real eigenvalues.
 
-        NaN where one of two grows and the other one decays: nothing would swing there.
+        NaN if one of two grows and the other one decays, which is no oscillation.
         """
         if self._falls:
             return math.nan
@@ -53,9 +54,9 @@ class Mode:
 
     @property
     def damping_ratio(self) -> float:
-        """Damping ratio; above one for an overdamped pair, negative where the motion grows.
+        """Damping ratio; above one for an overdamped pair, negative for a growing motion.
 
-        NaN for an eigenvalue that is zero, and where there is no natural frequency.
+        NaN for an eigenvalue of zero, and without a natural frequency.
         """
         total = sum(self.eigenvalues).real
         size = len(self.eigenvalues) * 2.0 * math.pi * self.natural_frequency
@@ -69,7 +70,7 @@ class Mode:
 
     @property
     def eigenvalues_text(self) -> str:
-        """The eigenvalues for a person to read."""
+        """The eigenvalues as text."""
         first = self.eigenvalues[0]
         if self.oscillates:
             return f"{first.real:.4f} +- {abs(first.imag):.4f} i"
@@ -77,13 +78,14 @@ class Mode:
 
     @property
     def text(self) -> str:
-        """Frequency and damping for a person to read."""
+        """Frequency and damping as text."""
         if 0.0 in self.eigenvalues:
             return "neither swings nor returns: an eigenvalue is zero"
         text = f"{self.natural_frequency:.2f} Hz, damping ratio {self.damping_ratio:.3f}"
         if self.oscillates:
             return text
-        times = [_time(1.0 / abs(value.real)) for value in self.eigenvalues]
+        seconds = [1.0 / abs(value.real) for value in self.eigenvalues]
+        times = [f"{1e3 * t:.3g} ms" if t < 0.9995 else f"{t:.3g} s" for t in seconds]
         if max(value.real for value in self.eigenvalues) < 0.0:
             return f"{text}: overdamped, time constants {' and '.join(times)}"
         words = [
@@ -93,21 +95,8 @@ class Mode:
         return f"does not swing: {', '.join(words)}"
 
 
-def _time(value: float) -> str:
-    return f"{1e3 * value:.3g} ms" if value < 0.9995 else f"{value:.3g} s"
-
-
 def eigenvalues_of(matrix: Array) -> Complex:
-    """Return the eigenvalues of a matrix, those with the largest imaginary part first.
-
-    Parameters
-    ----------
-    matrix : ndarray, shape (n, n)
-
-    Returns
-    -------
-    ndarray of complex, shape (n,)
-    """
+    """Return the eigenvalues of a matrix, those with the largest imaginary part first."""
     values: Complex = np.linalg.eigvals(matrix).astype(np.complex128)
     return values[_order(values)]
 
@@ -122,11 +111,7 @@ def modes_of(matrix: Array, names: tuple[str, ...], lift: Array | None = None) -
     names : tuple of str
         Names of the states.
     lift : ndarray, shape (states, n), optional
-        From what the matrix is about to changes of the states: they are the same, by default.
-
-    Returns
-    -------
-    tuple of Mode
+        Matrix from the coordinates of A to changes of the states; the identity by default.
     """
     values, _, right = _decompose(matrix)
     shapes = right if lift is None else lift @ right
@@ -140,27 +125,23 @@ def modes_of(matrix: Array, names: tuple[str, ...], lift: Array | None = None) -
 def mode_of_states(
     matrix: Array, names: tuple[str, ...], places: Sequence[int], lift: Array | None = None
 ) -> Mode:
-    """Return the pair of eigenvalues, or the only one, in which some states take part most.
+    """Return the pair of eigenvalues, or the only one, with the largest participation of states.
 
     The participation of a state in an eigenvalue is the product of its elements in the left and in
-    the right eigenvector, which do not depend on units.
+    the right eigenvector, which does not depend on units.
 
     Parameters
     ----------
-    matrix : ndarray, shape (n, n)
-        A.
-    names : tuple of str
-        Names of the states.
+    matrix, names, lift
+        As for `modes_of`.
     places : sequence of int
-        Of those by which the mode is looked for, in the matrix: a coordinate and its rate.
-    lift : ndarray, shape (states, n), optional
-        As in `modes_of`.
+        Indices of the states in the matrix: a coordinate and its rate.
 
     Returns
     -------
     Mode
-        A conjugate pair, or the two real eigenvalues in which the states take part most; one
-        where they take part in one alone.
+        A conjugate pair, or the two real eigenvalues with the largest participation; one if the
+        states take part in no other.
     """
     values, left, right = _decompose(matrix)
     shares = _participation(left, right)[list(places)].sum(axis=0)
@@ -173,7 +154,7 @@ def mode_of_states(
             else int(np.argmin(np.abs(values - values[best].conj())))
         )
         return _mode((values[upper], values[upper].conjugate()), shapes[:, upper], names)
-    # the next one may be of a conjugate pair, or of another motion: with these it makes no pair
+    # the second real eigenvalue, unless it belongs to another motion
     real = np.flatnonzero((values.imag == 0.0) & (shares > _LEAST_SHARE))
     real = real if real.size else np.array([best])
     pair = sorted(real[np.argsort(shares[real])[-2:]], key=lambda k: values[k].real)
@@ -183,34 +164,34 @@ def mode_of_states(
 def modes_of_motions(
     matrix: Array, names: tuple[str, ...], motions: Array, weights: Array
 ) -> tuple[tuple[Mode, float], ...]:
-    """Return a mode for each motion, none of them twice, and the part of the motion in it.
+    """Return a distinct mode for each motion, and the part of the motion in it.
 
     The part of a motion in a mode is its kinetic energy there, over that of all motions. Modes are
     assigned so that the sum of the parts is greatest; the real eigenvalues of motions that do not
-    oscillate are assigned two at a time.
+    oscillate are assigned in pairs.
 
     Parameters
     ----------
     matrix, names
-        As in `mode_of_states`.
+        As for `modes_of`.
     motions : ndarray, shape (motions, states)
-        Amplitude of each motion by the states. There are no more motions than modes.
+        Amplitude of each motion from the states; there are at least as many modes.
     weights : ndarray, shape (motions,)
-        The mass or moment of inertia of each.
+        The mass [kg] or moment of inertia [kg m^2] of each.
     """
     from scipy.optimize import linear_sum_assignment  # noqa: PLC0415 (slow to import)
 
     values, _, right = _decompose(matrix)
     energies = weights[:, None] * np.abs(motions @ right) ** 2
     total = energies.sum(axis=0)
-    # without modes in which no motion takes part, such as the zeros of wheels that spin freely;
+    # modes without these motions, such as the zeros of freely spinning wheels, are left out;
     # eigenvectors have the length one, rates included
     size = total * (1.0 + np.abs(values) ** 2)
     moving = size > _LEAST_SHARE * size.max()
     shares = np.divide(energies, total, out=np.zeros_like(energies), where=moving)
     upper = np.flatnonzero(moving & (values.imag > 0.0))
     real = np.flatnonzero(moving & (values.imag == 0.0))
-    # a motion that does not oscillate takes part most in two of the real eigenvalues
+    # a motion that does not oscillate has two real eigenvalues
     in_two = 0.5 * np.sort(shares[:, real], axis=1)[:, -2:].sum(axis=1, keepdims=True)
     options = np.hstack([shares[:, upper], np.repeat(in_two, real.size // 2, axis=1)])
     rows, columns = linear_sum_assignment(options, maximize=True)
@@ -249,8 +230,8 @@ def _decompose(matrix: Array) -> tuple[Complex, Complex, Complex]:
 def _rounding(matrix: Array, left: Complex, right: Complex) -> Array:
     """Return the error of each eigenvalue from rounding of the matrix, to first order.
 
-    It is the rounding of the matrix over the product of left and right eigenvector, both of length
-    one. Two zeros with one eigenvector have an error of the square root of rounding.
+    It is the rounding error of the matrix over the product of left and right eigenvector, both of
+    length one. Two zeros with one eigenvector have an error of the square root of rounding.
     """
     eps, size = float(np.finfo(np.float64).eps), float(np.linalg.norm(matrix))
     product = np.abs(np.einsum("ik,ik->k", left.conj(), right))
@@ -263,10 +244,10 @@ def _order(values: Complex) -> NDArray[np.intp]:
 
 
 def _participation(left: Complex, right: Complex) -> Array:
-    """Return how much each state (row) takes part in each eigenvalue (column).
+    """Return the participation of each state (row) in each eigenvalue (column).
 
-    A repeated eigenvalue without eigenvectors enough, such as the zeros of a freely spinning wheel,
-    has left and right vectors at right angles; what is not shared out there stays zero.
+    A repeated eigenvalue with too few eigenvectors, such as the zeros of a freely spinning wheel,
+    has orthogonal left and right vectors; its participations are zero.
     """
     shares: Array = np.abs(left.conj() * right)
     total = np.abs(np.einsum("ik,ik->k", left.conj(), right))

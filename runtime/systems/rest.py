@@ -1,4 +1,4 @@
-"""Where a mechanism rests: no coordinate is accelerated."""
+"""States of rest of a mechanism, in which no coordinate is accelerated."""
 
 from collections.abc import Mapping
 
@@ -15,46 +15,46 @@ from .system import System
 Array = NDArray[np.float64]
 
 _MOST_STEPS, _HALVINGS = 100, 30
-# A step so small, beside a radian or a metre, changes nothing more but rounding.
+# A smaller step [rad, m] is a rounding error.
 _LAST_STEP = 1e-12
-# Part of the greatest slope: what a direction adds less than this to, nothing moves, as the angle
-# of a rotor; so much is also left at most, over a step of a radian or a metre.
+# Relative to the greatest slope: a smaller singular value is that of a direction without effect,
+# such as the angle of a rotor; and the largest residual, over a step of a radian or a metre.
 _NOTHING = 1e-9
 
 
 def rest(
     system: System, near: ArrayLike | None = None, inputs: Mapping[str, float] | None = None
 ) -> State:
-    """Return a position of rest of any mechanism, found from a position near it.
+    """Return a state of rest of any mechanism near a given state.
 
     Parameters
     ----------
     system : System or Model
-        Of a suspension on its road, `kintrafo.equilibrium` knows more.
+        For a suspension on a road `kintrafo.equilibrium` has more arguments.
     near : array_like, optional
-        State from which it is looked for; its rates do not matter. By default that at design.
+        State at which the search starts; its rates are ignored. By default the design position.
     inputs : mapping of str to float, optional
-        Forces and so on that act, by name, SI units. Others are those of `near` where it knows
-        them, see `State`, and zero else.
+        Forces and other inputs by name, SI units. Others are those of `near` if it is a `State`,
+        else zero.
 
     Returns
     -------
     State
-        With the rates zero, and the inputs.
+        With zero rates, and with the inputs.
 
     Raises
     ------
     InputError
-        If an argument cannot be used, or no rest is found.
+        If an argument cannot be used, or no state of rest is found.
     ClosureError
-        If a loop cannot close in the position to start from.
+        If a loop cannot close at the start.
 
     Notes
     -----
-    By Newton's method with the exact Jacobian of the accelerations; steps that bring loops to where
-    they cannot close, or no nearer, are halved. Whether it would return to rest or leave it,
-    `kintrafo.linearise` shows it: a pendulum rests upside down, too. A coordinate that nothing
-    drives to anywhere, such as the angle of a rotor, stays where it is.
+    Newton's method with the exact Jacobian of the accelerations; steps after which a loop cannot
+    close, or accelerations are not smaller, are halved. The state may be unstable, such as an
+    inverted pendulum: `kintrafo.linearise` has the eigenvalues. A coordinate without effect, such
+    as the angle of a rotor, does not change.
 
     Examples
     --------
@@ -80,9 +80,9 @@ def rest(
 
 
 class _Search:
-    """Newton's method on the accelerations of a system under some inputs, at rest.
+    """Newton's method on the accelerations of a system under given inputs, at rest.
 
-    Unknown are the positions and the internal states of forces, whose rates vanish, too.
+    The unknowns are the positions and the internal states of forces, whose rates are zero, too.
     """
 
     def __init__(self, system: System, inputs: Array) -> None:
@@ -91,7 +91,7 @@ class _Search:
         self._speeds = slice(positions, positions + self._layout.speeds)
 
     def from_state(self, state: Array) -> Array:
-        """Return the state of rest that is found from one near it, with any speeds."""
+        """Return the state of rest near a state, whose speeds are ignored."""
         state = self._layout.normalised(state)
         state[self._speeds] = 0.0
         left = self._accelerations(state)
@@ -101,13 +101,13 @@ class _Search:
             state, left, part = self._shortened(state, left, directions @ step)
             if np.abs(part * step).max(initial=0.0) <= _LAST_STEP:
                 break
-        # what no step can take away is no rounding
+        # a residual that no step reduces, and that exceeds rounding
         if np.abs(left).max(initial=0.0) > _NOTHING * max(1.0, np.abs(slopes).max(initial=0.0)):
             self._refuse(state, left)
         return state
 
     def _shortened(self, state: Array, left: Array, step: Array) -> tuple[Array, Array, float]:
-        """Return where a step leads, halved until it leads nearer; or nowhere."""
+        """Return the state after a step, halved until the residual decreases; or the same state."""
         part = 1.0
         for _ in range(_HALVINGS):
             moved = self._layout.normalised(state + part * step)
@@ -126,7 +126,7 @@ class _Search:
         return rates[self._layout.positions :]
 
     def _slopes(self, state: Array) -> tuple[Array, Array]:
-        """Return how accelerations change with the unknowns, and how the state does."""
+        """Return derivatives of accelerations, and of the state, by the unknowns."""
         jacobian = self._system.evaluate("rhs_jacobian", state, self._inputs)
         positions, basis = self._layout.positions, self._layout.basis(state)
         internal = len(state) - self._speeds.stop

@@ -1,4 +1,4 @@
-"""Where the points are that the bodies of a mechanism carry: what pictures of it are drawn from."""
+"""Points of the bodies of a mechanism, from which pictures are drawn."""
 
 from collections.abc import Mapping
 from functools import cached_property
@@ -13,12 +13,12 @@ from .system import System
 
 Array = NDArray[np.float64]
 End = tuple[str, str]
-# A body that is held in one place only is drawn to its centre of mass, too.
+# A body with points in one place only is drawn with its centre of mass.
 CENTER = "centre of mass"
 
 
 class Skeleton:
-    """The bodies of a mechanism as the points that they carry.
+    """The bodies of a mechanism as points.
 
     Parameters
     ----------
@@ -29,9 +29,9 @@ class Skeleton:
     ----------
     system : System
     ground : str
-        The body that rests.
+        Name of the body that does not move.
     bodies : dict
-        Names of the points of each body, the ground first; those without any are left out.
+        Names of the points of each body, the ground first; bodies without points are left out.
     joints : dict
         Names of the points of each joint that has some.
     guides, springs : list of tuple
@@ -63,7 +63,7 @@ class Skeleton:
         self.wheels: list[End] = [(body, point) for body, point in drawing["wheels"]]
 
     def _at_design(self, described: Mapping[str, Mapping[str, Any]]) -> dict[str, dict[str, Array]]:
-        """Return the places of the points of each body at the design position [m]."""
+        """Return the positions of the points of each body at the design position [m]."""
         found: dict[str, dict[str, Array]] = {}
         for body, points in described.items():
             places = {name: np.array([self._number(c) for c in p]) for name, p in points.items()}
@@ -90,7 +90,7 @@ class Skeleton:
         return bodies.index(body)
 
     def places(self, states: ArrayLike, inputs: ArrayLike | None = None) -> dict[str, Array]:
-        """Return where the points of each body are.
+        """Return the positions of the points of each body.
 
         Parameters
         ----------
@@ -100,8 +100,8 @@ class Skeleton:
         Returns
         -------
         dict
-            For each body of `bodies` an array of shape (..., points, 3), in the order of their
-            names [m], in the axes of the ground.
+            For each body of `bodies` an array of shape (..., points, 3) [m], in the order of the
+            names, in the axes of the ground.
         """
         centers = self.system.evaluate("positions", states, inputs)
         turns = self.system.evaluate("orientations", states, inputs)

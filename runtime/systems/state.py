@@ -1,4 +1,4 @@
-"""States that know the inputs they belong to."""
+"""States with the inputs that belong to them."""
 
 from typing import Any, NamedTuple
 
@@ -12,7 +12,7 @@ Array = NDArray[np.float64]
 
 
 class StateNames(NamedTuple):
-    """What the numbers of a state and of its inputs are.
+    """Names of the elements of a state and of its inputs.
 
     Attributes
     ----------
@@ -27,18 +27,18 @@ class StateNames(NamedTuple):
 class State(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
     """An array of a state's elements, with the inputs under which the state was found.
 
-    Rest is rest only on its own road and with its rack where it was. Every function that takes a
-    state and inputs takes these where none are given: ``signals``, ``evaluate``,
-    `kintrafo.linearise`, and for the inputs that are left out, `kintrafo.simulate`. Copies, and
-    sums such as ``state + small``, keep them; an array made of several states has none, and inputs
-    are zero then as everywhere. A model with other coordinates or inputs refuses it.
+    A state of rest belongs to the height of its road and the position of its rack. Functions with
+    arguments for a state and inputs use these if no inputs are given: ``signals``, ``evaluate``,
+    `kintrafo.linearise`, and `kintrafo.simulate` for the inputs that are left out. Copies, and sums
+    such as ``state + small``, keep them; an array of several states has none, and its inputs are
+    zero. A model with other coordinates or inputs refuses the state.
 
     Attributes
     ----------
     inputs : ndarray or None
-        In the order of ``model.input_names``.
+        In the order of ``model.input_names``, SI units.
     names : StateNames or None
-        Of the model that the state is one of.
+        Of the model to which the state belongs.
 
     Examples
     --------
@@ -61,9 +61,8 @@ class State(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
         Parameters
         ----------
         elements, inputs : array_like
-            [SI]
+            SI units.
         names : StateNames
-            Of both.
         """
         state = np.array(elements, dtype=np.float64).view(cls)
         state.inputs = np.array(inputs, dtype=np.float64)
@@ -82,18 +81,18 @@ class State(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
 
 
 def inputs_of(state: Any, names: StateNames) -> Array | None:
-    """Return the inputs that belong to a state, if it knows them.
+    """Return the inputs of a `State`; None for any other array.
 
     Parameters
     ----------
     state : array_like
     names : StateNames
-        Of the model that is to take it.
+        Of the model that uses the state.
 
     Raises
     ------
     InputError
-        The state is one of a model with other coordinates or inputs.
+        If the state belongs to a model with other coordinates or inputs.
     """
     if not isinstance(state, State) or state.names is None:
         return None

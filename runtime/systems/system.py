@@ -37,9 +37,9 @@ class System:
     parameters : dict
         Value of every parameter, SI units.
     constants : ndarray
-        Constants of the compiled functions for these parameters.
+        Constants of the compiled functions for these parameters, SI units.
     design_state : ndarray
-        State at the design position, at rest.
+        State at the design position, at rest, SI units.
 
     Examples
     --------
@@ -57,8 +57,8 @@ class System:
         with Validator("System") as given:
             if not (isinstance(equations, ModuleType) and hasattr(equations, "PARAMETERS")):
                 given.fail(
-                    f"equations = {shown(equations)}: a module of kintrafo.generated, or what "
-                    "kintrafo.compile returns, is needed. A suspension is a kintrafo.Model."
+                    f"equations = {shown(equations)}: a module of kintrafo.generated, or a result "
+                    "of kintrafo.compile, is needed. A suspension is a kintrafo.Model."
                 )
             given.mapping("parameters", {} if parameters is None else parameters, "names, values")
         self.equations = equations
@@ -67,16 +67,15 @@ class System:
         self.design_state: Array = equations.design_state(self.parameters)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        # modules cannot be pickled, but found again
-        where = self.equations.__name__, self.equations.__file__
-        return _found_again, (*where, self.parameters)
+        # modules cannot be pickled
+        return _unpickled, (self.equations.__name__, self.equations.__file__, self.parameters)
 
     def __repr__(self) -> str:
         return f"<System {self.equations.NAME}>"
 
     @cached_property
     def usual_margins(self) -> Array:
-        """The margins of the guards at the design position: the size of the numbers in them."""
+        """Sizes of the margins of the guards: their magnitudes at the design position."""
         margins = self.evaluate("margins", self.design_state)
         usual: Array = np.where(np.isfinite(margins), np.abs(margins), 0.0)
         return usual
@@ -85,7 +84,7 @@ class System:
 
     @property
     def layout(self) -> StateLayout:
-        """Which elements of the state are positions, and which are speeds."""
+        """Positions, speeds and internal states in the state."""
         layout: StateLayout = self.equations.LAYOUT
         return layout
 
@@ -101,7 +100,7 @@ class System:
 
     @cached_property
     def names_of_states(self) -> StateNames:
-        """Names of what a `State` of this system is made of."""
+        """Names of the elements and inputs of a `State` of this system."""
         return StateNames(self.state_names, self.input_names)
 
     @property
@@ -111,14 +110,14 @@ class System:
 
     @property
     def event_names(self) -> tuple[str, ...]:
-        """Names of the events that a simulation can watch for, in the order of their signals."""
+        """Names of the events that a simulation can detect, in the order of their signals."""
         described = self.equations.SIGNALS.values()
         return tuple(name for signal in described for name in signal.get("events", {}))
 
     # -- building arrays --------------------------------------------------------------------------
 
     def state(self, **values: float) -> Array:
-        """Return a state, at the design position and at rest where nothing is given.
+        """Return a state: the design position at rest, with the given elements.
 
         Parameters
         ----------
@@ -134,7 +133,7 @@ class System:
         return state
 
     def inputs(self, values: Mapping[str, float] | None = None) -> Array:
-        """Return the array of inputs, zero where nothing is given.
+        """Return an array of inputs, zero except for the given ones.
 
         Parameters
         ----------
@@ -159,13 +158,13 @@ class System:
         function : str
             Name of a function of `equations`.
         state, inputs : array_like
-            One or many, as in the compiled module. Without inputs those that belong to the state
-            (see `State`), or zeros.
+            One or many, as in the compiled module. By default inputs are those of a `State`, or
+            zeros.
 
         Returns
         -------
         ndarray
-            Shape of the result behind the leading dimensions.
+            Leading dimensions, then the shape of the function's result.
         """
         with Validator(f"{self.equations.NAME}.{function}") as given:
             given.among("function", function, _functions(self.equations))
@@ -191,7 +190,8 @@ class System:
         Returns
         -------
         dict
-            Name to array over the leading dimensions; see ``equations.SIGNALS`` for units, signs.
+            By name arrays over the leading dimensions; see ``equations.SIGNALS`` for units and
+            signs.
         """
         if not self.signal_names:
             return {}
@@ -206,7 +206,7 @@ class System:
         name : str
             One of `signal_names`.
         state, inputs : array_like
-            As of `signals`.
+            As for `signals`.
 
         Returns
         -------
@@ -218,13 +218,13 @@ class System:
         return self.signals(state, inputs)[name]
 
     def allowed_lengths(self) -> tuple[LengthLimit, ...]:
-        """Return lengths that have an end of which the equations know nothing."""
+        """Return limits of lengths that the equations do not have."""
         return ()
 
     def eigenvalues(
         self, state: ArrayLike, inputs: ArrayLike | None = None
     ) -> NDArray[np.complex128]:
-        """Return the eigenvalues of the equations linearised at a state, inputs held.
+        """Return the eigenvalues of the equations linearised at a state, with fixed inputs.
 
         Parameters
         ----------
@@ -251,12 +251,12 @@ def _functions(equations: ModuleType) -> tuple[str, ...]:
     return tuple(name for name, made in vars(equations).items() if hasattr(made, "labels"))
 
 
-def _found_again(name: str, file: str, parameters: Mapping[str, float]) -> System:
+def _unpickled(name: str, file: str, parameters: Mapping[str, float]) -> System:
     return System(find(name, file), parameters)
 
 
 def _filled(equations: ModuleType, values: Mapping[str, float]) -> dict[str, float]:
-    """Return values for all parameters, the defaults where nothing is given."""
+    """Return values for all parameters: the defaults, replaced by the given ones."""
     known = {name: entry["default"] for name, entry in equations.PARAMETERS.items()}
     units = {name: entry["unit"] for name, entry in equations.PARAMETERS.items()}
     with Validator(equations.NAME) as given:

@@ -1,15 +1,15 @@
-"""Motions near a state, counted in as many coordinates as it can move.
+"""Motions near a state in independent coordinates.
 
 A quaternion has four elements and three degrees of freedom: linear equations of all elements of a
-state have an eigenvalue that belongs to the norm and to no motion. Motions near a state are these
-instead: of a hinge or a guide, its coordinate; of a free body, a displacement and a small turn in
-its own axes. With T the directions in which elements of the state change then, ``x = T y`` in
-``x' = A x`` leaves
+state have an eigenvalue of its norm, which is no motion. Here the coordinates of motions near a
+state are: for a hinge or a guide its coordinate; for a free body a displacement and a small
+rotation in its own axes. With T the derivatives of the state with respect to them, ``x = T y`` in
+``x' = A x`` leads to
 
     y' = T^+ (A T - T') y,
 
-where T' is how these axes turn on the way. In them a steady motion along a circle has constant
-coefficients.
+where T' is the rate of T along the motion. In these coordinates a steady motion along a circle has
+constant coefficients.
 """
 
 from dataclasses import dataclass
@@ -31,7 +31,7 @@ class Tangent:
     A : ndarray
         Their matrix.
     lift : ndarray, shape (states, len(A)), or None
-        From what it is about to changes of the elements of the state; None: they are the same.
+        Matrix from their coordinates to changes of the state; None for the identity.
     """
 
     A: Array
@@ -39,13 +39,13 @@ class Tangent:
 
     @classmethod
     def at(cls, jacobian: Array, rate: Array, state: Array, layout: StateLayout) -> "Tangent":
-        """Return them from the derivative of the rates of a state.
+        """Return the equations from the Jacobian of the rates of a state.
 
         Parameters
         ----------
         jacobian : ndarray, shape (states, states)
         rate, state : ndarray, shape (states,)
-            With quaternions of length one, as that of the derivative.
+            At the same point, with quaternions of length one.
         layout : StateLayout
         """
         if not layout.free:
@@ -56,7 +56,7 @@ class Tangent:
 
 
 def _of_all(positions: Array, size: int, others: float) -> Array:
-    """Return directions of all elements of the state: positions have some, others their own."""
+    """Return directions of all elements of a state, from those of its positions."""
     count, directions = positions.shape
     found = np.zeros((size, size - count + directions))
     found[:count, :directions] = positions

@@ -1,10 +1,9 @@
-"""What the generator found out about a compiled mechanism: bodies, joints, loops, transformers.
+"""The structure of a compiled mechanism: bodies, joints, loops, transformers.
 
-It is read from the manifest that comes with the model, so that nothing is derived again and SymPy
-is not needed.
+It is read from the model's manifest, so nothing is derived and SymPy is not needed.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from pkgutil import iter_modules
@@ -22,21 +21,22 @@ class Topology:
     Attributes
     ----------
     title : str
-        What the mechanism is, and what the model makes of it.
+        Title of the mechanism and of its model.
     bodies : tuple of str
         The moving bodies.
     joints : tuple of dict
-        Name, type, the two bodies, number of degrees of freedom, what the bodies have in common.
+        Name, type, the two bodies, number of degrees of freedom, and the geometry that both bodies
+        share.
     mobility : int
         Number of independent coordinates (Grübler).
     numbers : tuple of int
         The numbers of all bodies, the ground among them.
     paths : tuple of tuple of tuple of str
-        All shortest paths from each body to each, as the numbers of the bodies on the way; a joint
-        is as long as its number of degrees of freedom.
+        All shortest paths from each body to each, as the numbers of the bodies along them; the
+        length of a joint is its number of degrees of freedom.
     candidates : dict
-        What Horton's construction tries: ``pairs`` of a body and a joint that do not touch, how
-        many of them are ``closing``, and to how many ``cycles``, with repetitions.
+        Counts in Horton's construction: ``pairs`` of a body and a joint that do not touch, those
+        that are ``closing``, and their ``cycles``, with repetitions.
     cycles : tuple of tuple
         The bodies of each simple cycle that may be chosen, and its length.
     loops : tuple of tuple of str
@@ -85,7 +85,7 @@ def topology(model: str | ModuleType = "macpherson") -> Topology:
     if not isinstance(equations, ModuleType):
         with Validator("topology") as given:
             named = {module.name for module in iter_modules(generated.__path__)}
-            needed = "a name, or what kintrafo.compile returns, is needed"
+            needed = "a name, or a result of kintrafo.compile, is needed"
             given.instance("model", model, str, needed)
             if not given.failed:
                 given.among("model", model, sorted(n for n in named if not n.startswith("_")))
@@ -101,15 +101,14 @@ def topology(model: str | ModuleType = "macpherson") -> Topology:
         numbers=tuple(numbers.values()),
         paths=tuple(tuple(map(tuple, row)) for row in manifest["paths"]),
         candidates=manifest["candidates"],
-        cycles=tuple((_named(c["bodies"], numbers), c["length"]) for c in manifest["cycles"]),
+        cycles=tuple(
+            (" - ".join(f"{numbers[body]} {body}" for body in cycle["bodies"]), cycle["length"])
+            for cycle in manifest["cycles"]
+        ),
         loops=tuple(tuple(t["bodies"]) for t in transformers),
         pairs=tuple(tuple(map(_pair, t["pairs"])) for t in transformers),
         transformers=tuple(transformers),
     )
-
-
-def _named(bodies: Sequence[str], numbers: Mapping[str, int]) -> str:
-    return " - ".join(f"{numbers[body]} {body}" for body in bodies)
 
 
 def _joint(joint: Mapping[str, Any], numbers: Mapping[str, int]) -> dict[str, str]:

@@ -17,7 +17,7 @@ from .jax_ffi import handlers
 from .text import environment
 
 STEPS, STEP = 100, 1e-4
-"""How many steps the example takes, and their length [s]."""
+"""Number of steps of the example, and their length [s]."""
 
 _TEMPLATES = {
     "{name}_values.h": "values.h.jinja",
@@ -33,7 +33,7 @@ _TEMPLATES = {
 
 
 def check(path: Path) -> None:
-    """Refuse a path at which there is something else than a folder."""
+    """Refuse the path of something that is not a folder."""
     with as_input_errors(path):
         if path.exists() and not path.is_dir():
             problem = "there is something here that is not a folder. Give the name of a folder."
@@ -41,47 +41,26 @@ def check(path: Path) -> None:
 
 
 def write(emitted: Emitted, path: Path, *, force: bool, read: Paths) -> Path:
-    """Write a folder of C.
-
-    Parameters
-    ----------
-    emitted : Emitted
-    path : Path
-        The folder; it may be there if nothing else is in it.
-    force : bool
-        Whether files of this name that kintrafo did not write are replaced.
-    read : iterable of str or pathlib.Path
-        Files that are never replaced.
-
-    Returns
-    -------
-    Path
-        The folder.
-
-    Raises
-    ------
-    InputError
-        If other files are in the folder, or it cannot be written.
-    """
+    """Write a folder of C, which may exist without other files; see `export_model`."""
     texts = files(emitted)
     _refuse_others(path, texts)
     listed = list(read)
     new = not path.exists()
     try:
-        with ExitStack() as stack:  # all are complete before the first one appears
+        with ExitStack() as stack:  # all files are complete before the first one appears
             for name, text in texts.items():
                 target = stack.enter_context(replacing(path / name, force=force, inputs=listed))
                 target.write_text(text, encoding="utf-8", newline="\n")
     except BaseException:
         if new:
             with suppress(OSError):
-                path.rmdir()  # nothing has appeared in it
+                path.rmdir()  # it is empty
         raise
     return path
 
 
 def files(emitted: Emitted) -> dict[str, str]:
-    """Return the files of the folder, by name."""
+    """Return the files of the folder by name."""
     templates, headers = environment("c_files"), _of_lanes(emitted)
     known = _known(emitted) | {"lanes": [*headers]}
     made = {
@@ -92,7 +71,7 @@ def files(emitted: Emitted) -> dict[str, str]:
 
 
 def _of_lanes(emitted: Emitted) -> dict[str, str]:
-    """Return the headers that compile emitted equations for vectors, by file name."""
+    """Return the headers that compile emitted equations for vectors, by name."""
     named = {"lanes.h": READER} | {name: name for name in HEADERS}
     if not _iterating(emitted.manifest):
         del named["follow.h"]  # only for loops without a closed form
@@ -107,6 +86,7 @@ def _known(emitted: Emitted) -> dict[str, Any]:
     costs = {"prepare": manifest["prepare"]["operations"]}
     costs |= {name: entry["operations"] for name, entry in compiled.items()}
     functions = ["prepare", "design_state", "rhs", "signals", "bounded", "margins"]
+    iterating = [manifest["functions"][name].get("stage", name) for name in _iterating(manifest)]
     return {
         "name": emitted.name,
         "upper": emitted.name.upper(),
@@ -121,9 +101,10 @@ def _known(emitted: Emitted) -> dict[str, Any]:
         "described_inputs": list(manifest["inputs"].items()),
         "described_signals": list(manifest["signals"].items()),
         "costs": list(costs.items()),
-        "iterates": _stages_of(_iterating(manifest), manifest),
+        "iterates": list(dict.fromkeys(iterating)),
         "renamed": [*functions, *(f"rhs_{held}" for held in manifest["held_variants"])],
-        "stack": _stack(costs.values()),
+        # kB of intermediate results, if each has its own place
+        "stack": 1 + max(8 * counts["total"] for counts in costs.values()) // 1000,
         "externals": externals(emitted),
         "handlers": handlers(emitted),
         "steps": STEPS,
@@ -139,18 +120,8 @@ def _numbered(names: Iterable[str], values: Iterable[float]) -> list[tuple[str, 
     return [(name, float(value)) for name, value in zip(names, values, strict=True)]
 
 
-def _stages_of(names: Iterable[str], manifest: Mapping[str, Any]) -> list[str]:
-    """Return the C functions that compute some results, each once."""
-    return list(dict.fromkeys(manifest["functions"][n].get("stage", n) for n in names))
-
-
-def _stack(costs: Iterable[Mapping[str, int]]) -> int:
-    """Return how many kB of intermediate results there are, if each has its own place."""
-    return 1 + max(8 * counts["total"] for counts in costs) // 1000
-
-
 def _refuse_others(path: Path, texts: Mapping[str, str]) -> None:
-    """Refuse a folder with other files."""
+    """Refuse a folder with other files, and a path that is not a folder."""
     check(path)
     with as_input_errors(path):
         found = path.iterdir() if path.exists() else ()

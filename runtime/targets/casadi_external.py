@@ -9,14 +9,13 @@ FUNCTIONS = {
     "rhs": ("rhs_jacobian", "rhs_input_jacobian"),
     "signals": ("signals_jacobian", "signals_input_jacobian"),
 }
-"""What other libraries call, each with its derivatives by state and by inputs."""
+"""Functions for other libraries, each with its derivatives by state and by inputs."""
 
 
 def externals(emitted: Emitted) -> list[dict[str, Any]]:
-    """Return what the template prints of each function, that of its derivatives behind it.
+    """Return the data of the template: each function, followed by that of its derivatives.
 
-    Where a mechanism has no derivatives there is no such function, and CasADi refuses to
-    differentiate.
+    A mechanism without derivatives has no such function, and CasADi refuses to differentiate.
     """
     return [made for name in FUNCTIONS for made in _made(emitted, name)]
 
@@ -41,7 +40,7 @@ def _made(emitted: Emitted, name: str) -> Iterator[dict[str, Any]]:
 
 
 def _part(emitted: Emitted, name: str, place: int, rows: int, columns: int) -> dict[str, Any]:
-    """Return where a result is computed, and where it goes."""
+    """Return the C function of a result, its place there, and its place in the output."""
     found = emitted.result(name)
     assert found is not None
     return {

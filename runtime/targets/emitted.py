@@ -1,4 +1,4 @@
-"""What is exported: emitted sources, the numbers of one parameter set, where results lie."""
+"""The exported data: emitted sources, numbers of one parameter set, places of results."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -16,16 +16,16 @@ Array = NDArray[np.float64]
 
 
 class Result(NamedTuple):
-    """Where a result is among what a C function computes.
+    """A result of a C function.
 
     Attributes
     ----------
     function : str
         The C function.
     size : int
-        Number of all that it computes.
+        Number of elements that it computes.
     start, length : int
-        The first element, and how many there are.
+        First element of the result, and number of its elements.
     """
 
     function: str
@@ -42,7 +42,7 @@ class Emitted:
     ----------
     system : System
     state, inputs : ndarray
-        Where others start.
+        At the start.
     """
 
     system: System
@@ -51,52 +51,52 @@ class Emitted:
 
     @property
     def name(self) -> str:
-        """Of the equations, which all their C names begin with."""
+        """Name of the equations, with which all their C names begin."""
         return str(self.manifest["name"])
 
     @property
     def title(self) -> str:
-        """What the mechanism is."""
+        """Title of the mechanism."""
         return str(self.manifest["title"])
 
     @property
     def manifest(self) -> dict[str, Any]:
-        """What the equations are: names, units, meanings, guards, functions."""
+        """Manifest of the equations: names, units, meanings, guards, functions."""
         found: dict[str, Any] = self.system.equations.equations.manifest
         return found
 
     @cached_property
     def sources(self) -> dict[str, str]:
-        """The emitted files, by name.
+        """The emitted files by name.
 
         Raises
         ------
         InputError
-            If there are none.
+            If a file is missing.
         """
         files = sources_of(self.system.equations)
         missing = [name for name, path in files.items() if not path.is_file()]
         if missing:
             problem = (
-                f"the C code of {self.name} is incomplete, {', '.join(missing)} is not there. "
+                f"the C code of {self.name} is incomplete: {', '.join(missing)} is missing. "
                 "Compile the mechanism again, or install kintrafo again."
             )
             raise InputError([problem], str(next(iter(files.values())).parent))
         return {name: path.read_text(encoding="utf-8") for name, path in files.items()}
 
     def result(self, name: str) -> Result | None:
-        """Return where a result is computed; None where the mechanism has none of it."""
+        """Return the place of a result; None if the mechanism does not have it."""
         return result_of(self.manifest, name)
 
     def compiled(self) -> dict[str, dict[str, Any]]:
-        """Return what is said of each C function of constants, state and inputs, by its name."""
+        """Return the manifest's entries of C functions of constants, state and inputs, by name."""
         functions = self.manifest["functions"].items()
         stages: dict[str, dict[str, Any]] = self.manifest["stages"]
         return {n: f for n, f in functions if "stage" not in f and n != "residuals"} | stages
 
 
 def result_of(manifest: Mapping[str, Any], name: str) -> Result | None:
-    """Return where a result of some equations is computed; None where they have none of it."""
+    """Return the place of a result of some equations; None if they do not have it."""
     functions, stages = manifest["functions"], manifest["stages"]
     described = functions.get(name)
     if described is None:

@@ -1,4 +1,4 @@
-"""From a system to files for other programs."""
+"""Export of a system to files for other programs."""
 
 from collections.abc import Callable, Mapping
 from functools import partial
@@ -20,21 +20,21 @@ TARGETS: Mapping[str, Write] = {
     "casadi": python_module.write_casadi,
     "jax": python_module.write_jax,
 }
-"""What writes each kind of export: of an `Emitted` and a path, with options of its own."""
+"""Function that writes each kind of export: of an `Emitted` and a path, with options of its own."""
 CHECKS: Mapping[str, Callable[..., None]] = {
     "c": c_folder.check,
     "fmu": fmu.check,
     "casadi": partial(python_module.check, "casadi"),
     "jax": partial(python_module.check, "jax"),
 }
-"""What refuses a path, and options of its own, before there is a model."""
+"""Check of a path, and of options of its own, before a model exists."""
 ENDINGS: Mapping[str, str] = {
     "c": "_c",
     "fmu": fmu.ENDING,
     "casadi": f"_casadi{python_module.ENDING}",
     "jax": f"_jax{python_module.ENDING}",
 }
-"""What is added to a name where no path is given."""
+"""Endings of names of files if no path is given."""
 
 
 def export_model(
@@ -60,20 +60,20 @@ def export_model(
     to : {'c', 'fmu', 'casadi', 'jax'}
         'c': plain C99 without dependencies, with a CMake file and an example. 'fmu': a functional
         mock-up unit for Model Exchange and Co-Simulation. 'casadi': a Python module of functions
-        of CasADi. 'jax': one of functions over arrays of JAX. Both are derived anew, for which the
-        packages of the extra "generator" are needed.
+        of CasADi. 'jax': one of functions over arrays of JAX. For 'casadi' and 'jax' the equations
+        are derived again, which needs the packages of the extra "generator".
     state : array_like, optional
-        State at the start; by default the design position at rest. A state of `equilibrium`
-        contains its inputs.
+        Initial state; by default the design position at rest.
     inputs : mapping, optional
-        Values that inputs start with, by name, SI units; zero, or those of the state, by default.
+        Initial inputs by name, SI units; by default zero, or those of a `State`, such as that of
+        `equilibrium`.
     force : bool, optional
         Whether files that kintrafo did not write are replaced, see `kintrafo.core.files`.
     read : iterable of str or pathlib.Path, optional
         Files that are never replaced, such as that of the suspension.
     **options
-        Of 'fmu': ``fmi``, 2 or 3, the version of the standard, 2 by default; ``platforms``, names
-        from 'linux' and 'windows', for which there is a compiled library, by default this one.
+        Of 'fmu': ``fmi``, the version of the standard, 2 (default) or 3; ``platforms``, a sequence
+        of 'linux' and 'windows' for compiled libraries, by default this platform.
 
     Returns
     -------
@@ -86,11 +86,11 @@ def export_model(
         If an argument cannot be used, or an existing file must not be replaced; for 'casadi' and
         'jax', if the equations iterate.
     MissingPackageError
-        If equations must be derived, and the packages for that are not installed.
+        If the packages for deriving equations are needed and not installed.
     ClosureError
-        If there is no motion from the state at the start, since a loop cannot close there.
+        If a loop cannot close in the initial state.
     CompilerError
-        If a library is to be compiled, and there is no compiler for it, or it fails.
+        If there is no compiler for a library, or it fails.
 
     Examples
     --------
@@ -129,7 +129,7 @@ def check_export(
     Parameters
     ----------
     path, to, force, read, **options
-        As of `export_model`.
+        As for `export_model`.
 
     Raises
     ------
@@ -145,19 +145,19 @@ def check_export(
         if not given.failed:
             _refuse_options(given, to, options)
     CHECKS[to](Path(path), **options)
-    if to != "c":  # whose files have names of their own
+    if to != "c":  # a folder of files with their own names
         refuse([path], force=force, inputs=read)
 
 
 def _evaluate(system: System, state: ArrayLike, inputs: ArrayLike) -> None:
-    """Raise the error of a state at which the equations do not hold."""
+    """Raise the error of a state in which the equations cannot be evaluated."""
     for name in ("rhs", "signals"):
         if name in system.equations.equations.functions:
             system.evaluate(name, state, inputs)
 
 
 def _refuse_options(given: Validator, to: str, options: Mapping[str, Any]) -> None:
-    """Refuse options that another kind of export has."""
+    """Refuse options that only another kind of export has."""
     known = TARGETS[to].__kwdefaults__ or {}
     for name in options:
         if name not in known:

@@ -18,23 +18,12 @@ from .fmi.tables import tables
 ENDING = ".fmu"
 VERSIONS: Mapping[int, ModuleType] = {2: fmi2, 3: fmi3}
 
-# Files have no date: what is exported again has the same bytes.
+# The same export has the same bytes.
 _NO_DATE = (1980, 1, 1, 0, 0, 0)
 
 
 def check(path: Path, *, fmi: int = 2, platforms: Sequence[str] = binaries.HERE) -> None:
-    """Refuse arguments that `write` cannot use.
-
-    Parameters
-    ----------
-    path : Path
-    fmi : {2, 3}, optional
-    platforms : sequence of str, optional
-
-    Raises
-    ------
-    InputError
-    """
+    """Refuse arguments that `write` cannot use, by an InputError."""
     with Validator("export") as given:
         given.among("fmi", str(fmi), map(str, VERSIONS))
         given.names("platforms", platforms, binaries.PLATFORMS)
@@ -52,46 +41,20 @@ def write(
     fmi: int = 2,
     platforms: Sequence[str] = binaries.HERE,
 ) -> Path:
-    """Write a unit.
-
-    Parameters
-    ----------
-    emitted : Emitted
-    path : Path
-        Ends in ``.fmu``.
-    force : bool
-        Whether a file that kintrafo did not write is replaced.
-    read : iterable of str or pathlib.Path
-        Files that are never replaced.
-    fmi : {2, 3}, optional
-        Version of the standard.
-    platforms : sequence of str, optional
-        'linux', 'windows': what there is a compiled library for. The sources are there in any case.
-
-    Returns
-    -------
-    Path
-
-    Raises
-    ------
-    InputError
-        If the file cannot be written.
-    CompilerError
-        If there is no compiler for a platform, or it fails.
-    """
+    """Write a unit; see `export_model`."""
     with replacing(path, force=force, inputs=read) as temporary:
         _pack(temporary, contents(emitted, int(fmi), tuple(dict.fromkeys(platforms))))
     return path
 
 
 def contents(emitted: Emitted, fmi: int, platforms: Sequence[str]) -> dict[str, bytes]:
-    """Return what is in a unit, by path."""
+    """Return the contents of a unit by path."""
     version: Any = VERSIONS[fmi]
     known = ModelDescription(emitted)
     token = known.token(fmi)
     of_model = tables(known.manifest, token, known.values)
     sources = source_files(emitted.sources, of_model, [version.FRONT])
-    # the library of a model is compiled once, for both versions and all values of its parameters
+    # one library of a model serves both versions and all values of its parameters
     any_numbers = library_files(emitted)
     compiled = [name for name in sources if name.endswith(".c")]
     found = {"modelDescription.xml": version.model_description(known, compiled).encode()}

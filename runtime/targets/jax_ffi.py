@@ -9,7 +9,7 @@ from .emitted import Emitted
 
 
 def handlers(emitted: Emitted) -> list[dict[str, Any]]:
-    """Return what the templates print of each function, those of its derivatives behind it.
+    """Return the data of the templates: each function, followed by those of its derivatives.
 
     A mechanism without derivatives has no such functions, and JAX refuses to differentiate.
     """
@@ -30,7 +30,7 @@ def _made(emitted: Emitted, name: str) -> Iterator[dict[str, Any]]:
 
 
 def _handler(emitted: Emitted, name: str) -> dict[str, Any]:
-    """Return where a result is computed, and its shape."""
+    """Return the C function of a result, its place there, and its shape."""
     found = emitted.result(name)
     assert found is not None
     return {

@@ -1,4 +1,4 @@
-"""A Python module of the equations, for CasADi or JAX: with values of one parameter set."""
+"""A Python module of the equations with the numbers of one parameter set, for CasADi or JAX."""
 
 import warnings
 from collections.abc import Mapping
@@ -22,23 +22,12 @@ ENDING = ".py"
 MOST_OF_JAX = 3000
 """Operations of a right-hand side that XLA compiles within about 15 s.
 
-Its time grows with their cube: 1 s for the 1,154 of an axle, 95 s for the 5,385 of a car.
+The time grows with their cube: 1 s for the 1,154 of an axle, 95 s for the 5,385 of a car.
 """
 
 
 def check(library: str, path: Path) -> None:
-    """Refuse names of files that are no module, or hide a library, and missing packages.
-
-    Parameters
-    ----------
-    library : {'casadi', 'jax'}
-    path : Path
-
-    Raises
-    ------
-    InputError
-    MissingPackageError
-    """
+    """Refuse files that are not modules or would hide a library, and missing packages."""
     if path.suffix != ENDING or path.stem in (library, "numpy"):
         stem = path.stem or "model"
         problem = f"the name of a module such as {stem}_{library}{ENDING} is needed."
@@ -66,32 +55,14 @@ def write_jax(emitted: Emitted, path: Path, *, force: bool, read: Paths) -> Path
 
 
 def _write(library: str, emitted: Emitted, path: Path, *, force: bool, read: Paths) -> Path:
-    """Write a module.
-
-    Parameters
-    ----------
-    library : {'casadi', 'jax'}
-        The back end of the generator, and the template, of this name.
-    emitted : Emitted
-    path : Path
-        Ends in ``.py``.
-    force : bool
-        Whether a file that kintrafo did not write is replaced.
-    read : iterable of str or pathlib.Path
-        Files that are never replaced.
-
-    Returns
-    -------
-    Path
-
-    Raises
-    ------
-    InputError
-        If the equations iterate or are not known to the generator, or the file cannot be written.
-    """
+    """Write a module with the template, and by the back end, of a library; see `export_model`."""
     _refuse_iterations(library, emitted)
+    from ..generator.backends.casadi.dialect import CASADI  # noqa: PLC0415 (an extra)
+    from ..generator.backends.jax.dialect import JAX  # noqa: PLC0415
+
+    dialect = {"casadi": CASADI, "jax": JAX}[library]
     with replacing(path, force=force, inputs=read) as temporary:
-        facts = _facts(emitted, derived_again(emitted.system.equations), _dialects()[library])
+        facts = _facts(emitted, derived_again(emitted.system.equations), dialect)
         text = environment("python_files").get_template(f"{library}.py.jinja").render(facts)
         temporary.write_text(text, encoding="utf-8", newline="\n")
     return path
@@ -107,13 +78,6 @@ def _refuse_iterations(library: str, emitted: Emitted) -> None:
             "casadi.external and jax.ffi call with their derivatives, or to 'fmu'."
         )
         raise InputError([problem], emitted.name)
-
-
-def _dialects() -> Mapping[str, "Dialect"]:
-    from ..generator.backends.casadi.dialect import CASADI  # noqa: PLC0415 (an extra)
-    from ..generator.backends.jax.dialect import JAX  # noqa: PLC0415
-
-    return {"casadi": CASADI, "jax": JAX}
 
 
 def _facts(emitted: Emitted, derived: "Derivation", dialect: "Dialect") -> Mapping[str, Any]:

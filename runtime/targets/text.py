@@ -1,11 +1,11 @@
-"""Numbers and words as C has them, and the templates of this package."""
+"""Numbers and texts in C, and the templates of this package."""
 
 import re
 from collections.abc import Iterable
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
-# What stands in a C string as it is; a question mark may begin a trigraph.
+# Characters of a C string that need no escape; a question mark may begin a trigraph.
 _PLAIN = re.compile(r"[ -~]")
 _ESCAPED = frozenset('"\\?')
 
@@ -35,23 +35,23 @@ def quoted(text: str) -> str:
 def _character(byte: int) -> str:
     letter = chr(byte)
     if not _PLAIN.fullmatch(letter):
-        return f"\\{byte:03o}"  # three digits: what follows is none of it
+        return f"\\{byte:03o}"  # three digits, so that no further digit belongs to it
     return f"\\{letter}" if letter in _ESCAPED else letter
 
 
 def comment(text: str) -> str:
-    """Return a text that ends no comment of C."""
+    """Return a text without the marks of comments in C."""
     return " ".join(text.split()).replace("*/", "* /").replace("/*", "/ *")
 
 
 def operations(counts: dict[str, int]) -> str:
-    """Return counts of operations in words, as headers have them."""
+    """Return counts of operations in words, as in headers."""
     kinds = ", ".join(f"{n} {kind}" for kind, n in counts.items() if n and kind != "total")
     return f"{counts['total']} operations ({kinds or 'none'})"
 
 
 def wrapped(parts: Iterable[str], indent: str = "    ", width: int = 100) -> str:
-    """Return parts behind each other, with commas, in lines of some width."""
+    """Return parts, separated by commas, in lines of some width."""
     lines, line = [], indent
     for part in parts:
         if line.strip() and len(line) + len(part) > width:
@@ -62,12 +62,7 @@ def wrapped(parts: Iterable[str], indent: str = "    ", width: int = 100) -> str
 
 
 def environment(folder: str) -> Environment:
-    """Return what fills the templates in a folder of this package.
-
-    Parameters
-    ----------
-    folder : str
-    """
+    """Return the environment for the templates in a folder of this package."""
     made = Environment(
         loader=PackageLoader(__package__, folder),
         autoescape=False,  # noqa: S701 (C and plain text; XML is built as a tree)

@@ -1,4 +1,4 @@
-"""What the commands print: results on stdout, everything else on stderr."""
+"""Output of commands: results on stdout, everything else on stderr."""
 
 import json
 import math
@@ -20,9 +20,8 @@ if TYPE_CHECKING:
 
     from ..core.tabulated import Tabulated
 
-# Where the output goes into a file, it is wide enough for the tables.
-_WIDTH_OF_FILES = 110
-# Every so many positions are in a table, so that round distances stay round.
+_WIDTH_OF_FILES = 110  # for output that is not on a terminal
+# Strides of the positions in a table, so that round distances stay round.
 _STRIDES = [factor * 10**power for power in range(9) for factor in (1, 2, 5)]
 
 console = Console(width=None if sys.stdout and sys.stdout.isatty() else _WIDTH_OF_FILES)
@@ -30,12 +29,12 @@ problems = Console(stderr=True, soft_wrap=True)
 
 
 def print_json(result: Any) -> None:
-    """Print a result for scripts: JSON and nothing else; what is not defined is null."""
+    """Print a result for scripts: JSON only; undefined numbers are null."""
     sys.stdout.write(json.dumps(_plain(result), indent=2, allow_nan=False) + "\n")
 
 
 def _plain(value: Any) -> Any:
-    """Return a value as JSON has it."""
+    """Return a value that JSON can represent."""
     if isinstance(value, dict):
         return {str(key): _plain(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
@@ -46,18 +45,18 @@ def _plain(value: Any) -> Any:
 
 
 def say(text: str) -> None:
-    """Print a line in which brackets mean nothing."""
+    """Print a line without markup in brackets."""
     console.print(text, markup=False, highlight=False, soft_wrap=True)
 
 
 def note(text: str) -> None:
-    """Print a line on stderr, beside the results, in which brackets mean nothing."""
+    """Print a line on stderr, without markup in brackets."""
     problems.print(text, markup=False, highlight=False)
 
 
 @contextmanager
 def progress_bar(text: str) -> Iterator[Callable[[float], None]]:
-    """Show on stderr how much is done of something that may take long."""
+    """Show on stderr the finished part of a task, from 0 to 1."""
     columns = TextColumn("{task.description}"), BarColumn(), TimeRemainingColumn()
     with Progress(*columns, console=problems, transient=True) as progress:
         task = progress.add_task(text, total=1.0)
@@ -65,20 +64,9 @@ def progress_bar(text: str) -> Iterator[Callable[[float], None]]:
 
 
 def curve_table(dataset: "Dataset", names: Sequence[str], title: str) -> Table:
-    """Return a table of some variables at some of the positions of a dataset.
+    """Return a table of some variables of a dataset over one dimension.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        Over one dimension.
-    names : sequence of str
-        Variables, one column each.
-    title : str
-
-    Returns
-    -------
-    rich.table.Table
-        With 17 rows at most, zero among them where it is a position.
+    It has at most 17 rows, among them zero if that is a position.
     """
     from ..core.quantities import bracketed, displayed
 
@@ -115,7 +103,7 @@ def table(
     rows : iterable of iterable of str
         A cell for each column.
     words : collection of int, optional
-        The columns that are words; the others are numbers.
+        Indices of the columns of words; the others have numbers.
     caption : str, optional
         Below the table.
     """
@@ -128,7 +116,7 @@ def table(
 
 
 def print_table(tabulated: "Tabulated", *, ruled: bool = True) -> None:
-    """Print a table that is made for the terminal and a page alike, narrower if it is not ruled."""
+    """Print a table of texts, narrower if it is not ruled."""
     shown = table(tabulated.title, tabulated.columns, tabulated.rows, tabulated.words)
     if not ruled:
         shown.box, shown.show_edge, shown.padding = SIMPLE_HEAD, False, (0, 1, 0, 0)

@@ -1,4 +1,4 @@
-"""How the command line ends: messages and exit codes."""
+"""Messages and exit codes at the end of the command line."""
 
 import os
 import sys
@@ -15,18 +15,18 @@ class Exit(IntEnum):
     """The exit code, for scripts."""
 
     DONE = 0
-    REFUSED = 1  # what was asked cannot be done, or a check found a problem
+    REFUSED = 1  # an operation is not possible, or a check found a problem
     MISTAKE = 2  # in the arguments or in a file; or a file cannot be written
-    MISSING = 3  # a package that is needed is not installed
+    MISSING = 3  # a required package is not installed
 
 
 @contextmanager
 def standing_streams() -> Iterator[None]:
-    """See that what is printed goes somewhere, or that a message says where it does not.
+    """Ensure that output is written, or that a message reports that it is not.
 
-    A stream that was closed leads nowhere, and its number not to the next file that is opened.
-    What an encoding cannot say is written as Python writes it. A full disk ends the program with a
-    message and exit code 2, a reader that has gone with exit code 1.
+    A stream that was closed is replaced by one without effect, so that no file gets its number.
+    Characters that an encoding does not have are written as escapes of Python. A full disk ends the
+    program with a message and exit code 2, a closed pipe with exit code 1.
     """
     _replace_closed()
     for stream in (sys.stdout, sys.stderr):
@@ -48,25 +48,25 @@ def standing_streams() -> Iterator[None]:
 def _replace_closed() -> None:
     for number, name, mode in ((0, "stdin", "r"), (1, "stdout", "w"), (2, "stderr", "w")):
         if getattr(sys, name) is None:
-            # the lowest number that is free, which is that of the stream
+            # the lowest free number, which is that of the stream
             os.open(os.devnull, os.O_RDWR)
             setattr(sys, name, open(number, mode, encoding="utf-8", closefd=False))  # noqa: SIM115 (open as long as the program runs)
 
 
 def _lost_output(error: OSError) -> int:
-    """Say that the results could not be printed, and drop what is left of them."""
+    """Report that results could not be printed, drop the rest of them, and return the exit code."""
     with suppress(OSError):
-        # what is still to be printed must not fail again when the interpreter ends
+        # so that the rest of the output does not fail again when the interpreter ends
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     if isinstance(error, BrokenPipeError):
-        return Exit.REFUSED  # and no word: a reader that has seen enough is no mistake
+        return Exit.REFUSED  # without a message: a reader may close the pipe
     _print(f"error: standard output cannot be written: {error.strerror}.", "red")
     return Exit.MISTAKE
 
 
 @contextmanager
 def guarded() -> Iterator[None]:
-    """Turn what the user can do something about into a message on stderr and an exit code."""
+    """Turn errors that a user can correct into a message on stderr and an exit code."""
     try:
         with warnings.catch_warnings():
             warnings.showwarning = _show_warning
@@ -83,12 +83,12 @@ def guarded() -> Iterator[None]:
 
 
 def show_usage_error(error: Any) -> None:
-    """Show a mistake in the arguments as all errors are shown.
+    """Show a mistake in the arguments in the form of other errors.
 
     Parameters
     ----------
     error : click.ClickException
-        Its context, where it has one, names the command.
+        Its context, if it has one, names the command.
     """
     from .usage import usage_problem
 
@@ -106,7 +106,7 @@ def show_usage_error(error: Any) -> None:
 
 def _explained(error: Exception) -> tuple[str, Exit] | None:
     """Return message and exit code; None for a defect of the program."""
-    # imported here, because only a run that fails needs them
+    # imported here, since only a run that fails needs them
     from ..core.errors import InputError, KintrafoError
     from ..core.files import reason
     from ..core.optional import MissingPackageError
@@ -132,13 +132,13 @@ def _show_warning(
     file: TextIO | None = None,
     line: str | None = None,
 ) -> None:
-    """Show a warning as a note, without the place in the program that raised it."""
+    """Show a warning as a note, without its place in the program."""
     del category, filename, lineno, file, line
     _print(f"note: {message}", "yellow")
 
 
 def _print(text: str, style: str) -> None:
-    """Print on stderr; where that cannot be written either, only the exit code shows it."""
+    """Print on stderr; if that fails, only the exit code reports the error."""
     with suppress(OSError):
-        # no markup: the names of sections stand in brackets
+        # no markup: names of sections are in brackets
         problems.print(text, style=style, highlight=False, markup=False)

@@ -1,6 +1,6 @@
-"""Mistakes in the arguments of a command, in the style of all other errors.
+"""Mistakes in the arguments of a command, in the form of all other errors.
 
-Click and Typer find them; the sentences are written here, with what to write instead.
+Click and Typer find them; their sentences are written here, with the correction.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -12,14 +12,12 @@ from typer.core import TyperArgument, TyperCommand, TyperGroup, TyperOption
 
 from ..core.suggestions import nearest, suggestion
 
-# Options that every command has, which no message needs to list.
-_COMMON = {"--help", "-h"}
-# A message names the commands that have an option unless there are more than these.
-_FEW = 3
+_COMMON = {"--help", "-h"}  # options of every command, which messages do not list
+_FEW = 3  # most commands that a message about an option names
 
 
 class Command(TyperCommand):
-    """A command whose help has no mark-up in brackets, and whose mistakes are explained.
+    """A command with help without markup in brackets, and explained mistakes.
 
     Attributes
     ----------
@@ -36,14 +34,14 @@ class Command(TyperCommand):
                 parameter.help = escape(parameter.help)
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Return the remaining arguments, of which there are none."""
+        """Return the remaining arguments: an empty list."""
         ctx.allow_extra_args = True
         try:
             left = super().parse_args(ctx, args)
         except typer.BadParameter:
             raise
         except Exception as error:
-            # the parser of options does not know of which command they are
+            # the parser of options does not set the command
             if getattr(error, "ctx", ctx) is None:
                 vars(error)["ctx"] = ctx
             raise
@@ -53,12 +51,12 @@ class Command(TyperCommand):
 
 
 class CommandGroup(TyperGroup):
-    """Commands by name; one that there is not is answered with the nearest that there is.
+    """Commands by name; an unknown one has a message with the nearest known one.
 
     Attributes
     ----------
     instead : mapping of str to str
-        What to write for names by which commands may be looked for.
+        Commands for other names that users may try.
     """
 
     instead: ClassVar[Mapping[str, str]] = {}
@@ -90,16 +88,16 @@ def usage_problem(error: Any) -> str:
     Parameters
     ----------
     error : click.ClickException
-        Of Click, or of the copy of it that Typer has. Its context names the command.
+        Of Click, or of the copy of it in Typer. Its context names the command.
 
     Returns
     -------
     str
-        Sentences; empty where the help is all that is to be shown.
+        Sentences; empty if only the help is to be shown.
     """
     context = getattr(error, "ctx", None)
     command = getattr(context, "command", None)
-    # by their names, because Click and Typer have classes of their own
+    # by name, since Click and Typer have different classes
     match type(error).__name__:
         case "NoArgsIsHelpError":
             return ""
@@ -115,7 +113,7 @@ def usage_problem(error: Any) -> str:
 
 
 def _named(parameter: Any) -> str:
-    """Return an option as it is written, an argument as the help writes it."""
+    """Return the longest name of an option, or an argument as in the help."""
     if parameter.param_type_name == "option":
         return str(max(parameter.opts, key=len))
     return str(parameter.metavar or parameter.name.upper())
@@ -144,7 +142,7 @@ def _options(command: Any) -> Iterator[str]:
 
 
 def _bad_usage(command: Any, name: str) -> str:
-    """Return that an option lacks its value, or has one that it does not take."""
+    """Return a message about an option without its value, or a flag with one."""
     wanted = next((p for p in command.params if name in (*p.opts, *p.secondary_opts)), None)
     if wanted is None or getattr(wanted, "is_flag", False):
         return f"{name} takes no value. Write {name} alone."
@@ -161,7 +159,7 @@ def _too_many(command: Any, left: Sequence[str]) -> str:
 
 
 def _example(command: Any, name: str = "") -> str:
-    """Return a sentence with an example that has an option, or with the first one."""
+    """Return a sentence with an example of an option, or with the first example."""
     examples = getattr(command, "examples", ())
     found = next((line for line in examples if not name or name in line.split()), "")
     return f" For example: {found}" if found else ""

@@ -254,7 +254,7 @@ class _AxleLook:
 def as_dict(found: Checkup) -> dict[str, Any]:
     """Return a checkup as plain numbers, texts and nested dictionaries, SI units."""
     with Validator("as_dict") as given:
-        given.instance("found", found, Checkup, "what checkup returns is needed")
+        given.instance("found", found, Checkup, "a result of checkup is needed")
     if found.axle is None:
         return found.wheels[0].as_dict()
     sides = {one.side: one.as_dict() for one in found.wheels}

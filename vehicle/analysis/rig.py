@@ -198,7 +198,7 @@ def beside(
         if not (assemblies or given.failed):
             given.fail("subjects is empty: one or more are needed.")
         if not given.failed and len({*measured.dims} & {*_ALONG}) != 1:
-            given.fail("measured: what kintrafo.rig.measured_curves returns is needed.")
+            given.fail("measured: a result of kintrafo.rig.measured_curves is needed.")
         if not given.failed:
             for label, assembly in assemblies.items():
                 _refuse_other_motions(given, label, assembly, measured)

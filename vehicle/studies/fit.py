@@ -209,7 +209,7 @@ def _targets(
     over = [name for name in ways if name in measured.dims]
     if len(over) != 1:
         given.fail(
-            "measured: what kintrafo.rig.measured_curves returns is needed, over "
+            "measured: a result of kintrafo.rig.measured_curves is needed, over "
             f"{' or '.join(reversed(ways))}."
         )
         return []

@@ -1,19 +1,19 @@
-"""Which systems go together: thousands, beside which a piece costs little by itself."""
+"""Division of an ensemble into chunks, each large enough that its overhead is small."""
 
 from collections.abc import Iterable
 
 from ..collected import Collected
 
 Span = tuple[int, int]
-"""The first of some systems, and the one behind the last."""
+"""The first of some systems, and the one after the last."""
 
 _FEWEST, _MOST, _PARTS = 1000, 4096, 8
-# What is found of a piece goes over a network, and is held here until it is put into the whole.
+# Results of a chunk are sent over a network, and are held in memory until they are collected.
 _BYTES = 2**26
 
 
 def left_of(count: int, done: Iterable[Span]) -> list[Span]:
-    """Return what is left of some systems when some of them, which may overlap, are done."""
+    """Return the systems that are left when some of them, which may overlap, are done."""
     behind, left = 0, []
     for first, last in sorted([*done, (count, count)]):
         if first > behind:
@@ -23,26 +23,14 @@ def left_of(count: int, done: Iterable[Span]) -> list[Span]:
 
 
 def spans_of(collected: Collected, left: Iterable[Span], threads: int) -> list[Span]:
-    """Return what is left to do, in pieces.
-
-    Parameters
-    ----------
-    collected : Collected
-    left : iterable
-        What is left, in a row.
-    threads : int
-        How many work at a time.
-    """
+    """Return the systems that are left, in chunks for a number of threads."""
     count = collected.problem.systems.count
     size = min(max(count // (threads * _PARTS), _FEWEST), _MOST)
-    size = min(size, max(_BYTES // _bytes_of_one(collected), collected.problem.width))
+    arrays = (collected.samples, *collected.of_series.values(), collected.problem.outcome.finals)
+    of_one = sum(array.nbytes for array in arrays) // max(1, count) + 1
+    size = min(size, max(_BYTES // of_one, collected.problem.width))
     return [
         (start, min(start + size, last))
         for first, last in left
         for start in range(first, last, size)
     ]
-
-
-def _bytes_of_one(collected: Collected) -> int:
-    arrays = (collected.samples, *collected.of_series.values(), collected.problem.outcome.finals)
-    return sum(array.nbytes for array in arrays) // max(1, len(collected.samples)) + 1

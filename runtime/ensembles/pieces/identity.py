@@ -1,4 +1,4 @@
-"""What an ensemble is known by: digests of all that its numbers depend on."""
+"""Digests that identify an ensemble: of everything on which its numbers depend."""
 
 import hashlib
 from collections.abc import Iterator, Mapping
@@ -16,9 +16,9 @@ Identity = dict[str, str]
 
 
 def identity_of(collected: Collected) -> Identity:
-    """Return a digest for each of what a person gave.
+    """Return a digest for each of the arguments.
 
-    How it is done is not in it, threads, lanes and workers: the numbers are the same bits.
+    Threads, lanes and workers are left out: the bits of the results do not depend on them.
     """
     problem, asked = collected.problem, collected.asked
     systems = problem.systems
@@ -40,13 +40,13 @@ def identity_of(collected: Collected) -> Identity:
 def _digest(value: Any) -> str:
     digest = hashlib.sha256()
     for word in _words(value):
-        # with its length, so that no two rows of words are one
+        # with its length, so that no two sequences of words agree
         digest.update(len(word).to_bytes(8, "little") + word)
     return digest.hexdigest()
 
 
 def _words(value: Any) -> Iterator[bytes]:
-    """Yield everything that is in a value, in its order."""
+    """Yield the contents of a value in their order."""
     yield type(value).__name__.encode()
     if isinstance(value, np.ndarray):
         yield from (value.dtype.str.encode(), repr(value.shape).encode(), value.tobytes())
@@ -60,7 +60,7 @@ def _words(value: Any) -> Iterator[bytes]:
         yield from _all_words(value)
     elif is_dataclass(value):
         yield from _all_words(getattr(value, field.name) for field in fields(value))
-    else:  # numbers and texts, whose words are all that they are
+    else:  # numbers and texts
         yield repr(value).encode()
 
 

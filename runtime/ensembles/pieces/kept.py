@@ -1,7 +1,7 @@
-"""A folder in which what was found of an ensemble is kept until all of it is there.
+"""A folder with results of an ensemble, in which it is kept until it is complete.
 
-`ensemble.json` shows which ensemble it is of; each other file is what was found of some systems,
-written whole or not at all. It is a file of NumPy (.npz) with the digest of its bytes behind them.
+`ensemble.json` identifies the ensemble; each other file has the results of some systems, and is
+written completely or not at all. It is a file of NumPy (.npz) followed by the digest of its bytes.
 """
 
 import hashlib
@@ -38,9 +38,9 @@ class Kept:
     ----------
     folder : Path
     ensemble : str
-        A digest of all that it is known by.
+        A digest of its identity.
     collected : Collected
-        What is to be found, of which every file has a part.
+        The whole, of which every file has a part.
     """
 
     folder: Path
@@ -48,12 +48,12 @@ class Kept:
     collected: Collected
 
     def found(self) -> Iterator[ChunkResult]:
-        """Yield what is there; damaged parts are left out with a warning.
+        """Yield the results in the folder; damaged files are left out with a warning.
 
         Raises
         ------
         InputError
-            If something that is no file has the name of one.
+            If a folder, or another entry that is not a file, has the name of one.
         """
         for path in sorted(self.folder.iterdir()):
             name = _FILE.fullmatch(path.name)
@@ -72,7 +72,7 @@ class Kept:
                 warnings.warn(message, RuntimeWarning, stacklevel=2)
 
     def keep(self, found: ChunkResult) -> None:
-        """Keep what was found of some systems."""
+        """Write the results of some systems."""
         name = f"systems-{found.first:09d}-{found.last:09d}.npz"
         content = io.BytesIO()
         np.savez(content, **self._arrays(found))  # type: ignore[arg-type]  # its names are data
@@ -80,7 +80,7 @@ class Kept:
             temporary.write_bytes(content.getvalue() + _digest(content.getvalue()))
 
     def _arrays(self, found: ChunkResult) -> Arrays:
-        """Return all that is written to a file, by name."""
+        """Return the arrays of a file by name."""
         return {
             "ensemble": np.array(self.ensemble),
             "systems": np.array([found.first, found.last]),
@@ -92,7 +92,7 @@ class Kept:
         }
 
     def _found(self, span: Span, arrays: Arrays) -> ChunkResult:
-        """Return what was found of some systems; a `ValueError` if it is not exactly that."""
+        """Return the results of some systems; a ValueError if names, shapes or systems differ."""
         wanted = self._arrays(taken(self.collected, *span))
         if _layout(arrays) != _layout(wanted):
             raise ValueError(span)
@@ -113,7 +113,7 @@ class Kept:
 
 
 def _arrays_in(content: bytes) -> Arrays:
-    """Return what was written to a file; a `ValueError` if a bit of it has changed since."""
+    """Return the arrays of a file; a ValueError if a bit of it has changed since."""
     whole, digest = content[:-_DIGEST_SIZE], content[-_DIGEST_SIZE:]
     if digest != _digest(whole):
         message = "its digest is another"
@@ -138,13 +138,12 @@ def _layout(arrays: Arrays) -> list[tuple[str, str, tuple[int, ...]]]:
 
 
 def kept_in(folder: str | Path, collected: Collected) -> Kept:
-    """Return the folder of an ensemble, made if there is none.
+    """Return the folder of an ensemble, created if there is none.
 
     Raises
     ------
     InputError
-        If it is the folder of another ensemble or of something else, or the system does not let it
-        be read or written.
+        If it is of another ensemble or has other contents, or cannot be read or written.
     """
     path, identity = Path(folder), identity_of(collected)
     with as_input_errors(path):
@@ -165,7 +164,7 @@ def kept_in(folder: str | Path, collected: Collected) -> Kept:
 def _check(path: Path, identity: Identity) -> None:
     """Refuse the folder of another ensemble."""
     try:
-        # reading a pipe would wait without end
+        # reading a pipe would wait forever
         known: Any = json.loads((path / _NAME).read_bytes()) if (path / _NAME).is_file() else None
         other = [name for name, digest in identity.items() if known.get(name) != digest]
     except (ValueError, AttributeError, RecursionError):

@@ -1,6 +1,6 @@
-"""Some of the systems of an ensemble, and what was found of them: both go from machine to machine.
+"""A chunk of an ensemble and its results, both of which are sent from machine to machine.
 
-The results of a piece are the same bits on any worker, and for any division into pieces.
+The results of a chunk have the same bits on any worker, and for any division into chunks.
 """
 
 from collections.abc import Callable, Mapping
@@ -29,7 +29,7 @@ Report = Callable[[int], None]
 
 @dataclass(frozen=True)
 class Common:
-    """What all pieces have in common.
+    """The data that all chunks share.
 
     Attributes
     ----------
@@ -38,15 +38,15 @@ class Common:
         Of the model.
     drives : tuple of TimeInputs
     wanted : LaneOutputs
-        Without the limits, which each system has for itself.
+        Without the limits, which differ between systems.
     asked : OutputSpec
     accuracy : Accuracy
     width, stiff_after : int
-        As of `Problem`.
+        As for `Problem`.
     again : bool
-        Whether what lanes cannot do is done again.
+        Whether systems that lanes do not finish are simulated again.
     versions : dict
-        Of the process that asks for it.
+        Of the process that distributes the chunks.
     """
 
     equations: SerializedModel
@@ -68,11 +68,11 @@ class Chunk:
     Attributes
     ----------
     first : int
-        Place of the first of them in the ensemble.
+        Index of the first of them in the ensemble.
     systems : Systems
-        Without the drives, which all have in common.
+        Without the drives, which are in `Common`.
     limits : ndarray
-        Of what bounds allow.
+        Limits of the bounds.
     """
 
     first: int
@@ -82,20 +82,20 @@ class Chunk:
 
 @dataclass(frozen=True)
 class ChunkResult:
-    """What was found of some systems.
+    """The results of some systems.
 
     Attributes
     ----------
     first, last : int
-        The first of them, and the one behind the last.
+        The first of them, and the one after the last.
     outcome : dict
         The arrays of `Outcome` by name.
     samples : ndarray
     of_series : tuple of ndarray
-        In the order of what was asked for.
+        In the order of the requested reductions.
     solvers : ndarray of str
     reasons : dict
-        By the place in the ensemble.
+        By the index in the ensemble.
     """
 
     first: int
@@ -108,7 +108,7 @@ class ChunkResult:
 
 
 def common_of(collected: Collected) -> Common:
-    """Return what the pieces of an ensemble have in common."""
+    """Return the data that the chunks of an ensemble share."""
     problem, asked = collected.problem, collected.asked
     model = problem.model
     return Common(
@@ -130,7 +130,7 @@ def piece_of(problem: Problem, first: int, last: int) -> Chunk:
     systems = problem.systems
 
     def own(rows: NDArray[Any]) -> NDArray[Any]:
-        """Return the rows of these systems; there may be one for all."""
+        """Return the rows of these systems; a single row is that of all."""
         return rows if len(rows) == 1 else rows[first:last]
 
     cut = replace(
@@ -149,12 +149,12 @@ def piece_of(problem: Problem, first: int, last: int) -> Chunk:
 def found_of(
     common: Common, piece: Chunk, threads: int, report: Report | None = None
 ) -> ChunkResult:
-    """Simulate a piece.
+    """Return the results of a chunk, which is simulated here.
 
     Raises
     ------
     InputError
-        If this process has other versions than that which asks for it, or no lanes.
+        If this process has no lanes, or other versions than the one that distributes the chunks.
     """
     other = differences(common.versions)
     if other:
@@ -165,7 +165,7 @@ def found_of(
         replace(piece.systems, drives=common.drives),
         replace(common.wanted, limits=piece.limits),
         common.accuracy,
-        # another processor may have other vectors, which give the same bits
+        # vectors of another width give the same bits
         max((w for w in widths() if w <= common.width), default=0),
         common.stiff_after,
     )
@@ -180,7 +180,7 @@ def found_of(
 
 
 def taken(collected: Collected, first: int, last: int) -> ChunkResult:
-    """Return what there is of some systems in the whole; `put` brings it back."""
+    """Return the results of some systems from the whole; the inverse of `put`."""
     here = slice(first, last)
     return ChunkResult(
         first,
@@ -194,7 +194,7 @@ def taken(collected: Collected, first: int, last: int) -> ChunkResult:
 
 
 def put(found: ChunkResult, collected: Collected) -> None:
-    """Put what was found of a piece into the whole."""
+    """Put the results of a chunk into the whole."""
     here = slice(found.first, found.last)
     for name, values in found.outcome.items():
         getattr(collected.problem.outcome, name)[here] = values

@@ -1,4 +1,4 @@
-"""Pieces that are handed to workers, and what comes back."""
+"""Chunks that are submitted to workers, and their results."""
 
 from collections.abc import Generator, Iterator
 from concurrent.futures import CancelledError
@@ -13,10 +13,9 @@ from ...simulation.lanes.problem import Problem
 from .cutting import Span
 from .piece import Chunk, ChunkResult, Common, found_of, piece_of
 
-# Pieces for each thread that are under way: so many that none waits, so few that they fill no
-# memory here or there.
+# Submitted chunks for each thread: enough that none waits, few enough for the memory.
 _AHEAD = 3
-# How long the main thread waits before it looks at signals [s].
+# Time after which the main thread handles signals [s].
 _PATIENCE = 0.1
 
 
@@ -27,10 +26,10 @@ class ClusterError(KintrafoError, RuntimeError):
 def by_workers(
     client: Any, common: Common, problem: Problem, spans: list[Span]
 ) -> Generator[ChunkResult | None, None, None]:
-    """Yield what was found of pieces as they are done; nothing, now and then, between them.
+    """Yield results of chunks as they are done, and now and then None between them.
 
-    What was lost with a worker is done again by another. When the caller wants no more, what waits
-    is cancelled, and what is being done ends at once.
+    The chunk of a lost worker is simulated by another. When the generator is closed, waiting chunks
+    are cancelled, and running ones end at once.
 
     Parameters
     ----------
@@ -38,14 +37,14 @@ def by_workers(
     common : Common
         Sent once to each worker.
     problem : Problem
-        From which the pieces are cut.
+        The whole, from which chunks are cut.
     spans : list
-        Those that are to be done.
+        The chunks.
 
     Raises
     ------
     ClusterError
-        If the scheduler is lost, or several workers one after another with the same piece.
+        If the scheduler is lost, or several workers in a row with the same chunk.
     """
     with _reached():
         queue = _Queue(client, problem, _shared(client, common), iter(spans))
@@ -62,20 +61,20 @@ def by_workers(
 
 @dataclass
 class _Queue:
-    """Pieces that are under way.
+    """Submitted chunks.
 
     Attributes
     ----------
     client : distributed.Client
     problem : Problem
     shared : Future
-        Of what all pieces have in common.
+        Of the data that all chunks share.
     left : iterator
-        What is still to be handed out.
+        Chunks that are not submitted yet.
     waiting : dict
-        What was handed out, by its future.
+        Submitted chunks by their futures.
     done : SimpleQueue
-        Futures that have come to an end.
+        Finished futures.
     """
 
     client: Any
@@ -86,7 +85,7 @@ class _Queue:
     done: SimpleQueue[Any] = field(default_factory=SimpleQueue)
 
     def fill(self) -> None:
-        """Hand out as many as the threads of all workers, who come and go, have use for."""
+        """Submit chunks for all threads of the workers, whose number may change."""
         with _reached():
             most = _AHEAD * max(1, sum(self.client.nthreads().values()))
             for first, last in islice(self.left, max(0, most - len(self.waiting))):
@@ -97,7 +96,7 @@ class _Queue:
                 future.add_done_callback(self.done.put)
 
     def next(self) -> ChunkResult | None:
-        """Return what was found of one; nothing if none is done soon."""
+        """Return the results of a chunk; None if none is done soon."""
         try:
             future = self.done.get(timeout=_PATIENCE)
         except Empty:
@@ -105,14 +104,14 @@ class _Queue:
         return _result(future, self.waiting.pop(future))
 
     def end(self) -> None:
-        """Cancel what is under way."""
-        with suppress(OSError):  # there may be no scheduler any more
+        """Cancel all submitted chunks."""
+        with suppress(OSError):  # the scheduler may be lost
             self.client.cancel([*self.waiting, self.shared], force=True)
 
 
 @contextmanager
 def _reached() -> Iterator[None]:
-    """Say in words that a scheduler does not answer."""
+    """Raise a ClusterError if the scheduler does not answer."""
     try:
         yield
     except OSError as error:
@@ -121,20 +120,16 @@ def _reached() -> Iterator[None]:
 
 
 def _shared(client: Any, common: Common) -> Any:
-    """Return what all pieces have in common as something that no lost worker takes with it."""
+    """Return the shared data as a future that survives the loss of workers."""
     import dask  # noqa: PLC0415 (of an extra)
 
-    # the scheduler keeps the task, and so what it is of; that may be much, and is sent once
+    # the scheduler keeps the task with its data, which may be large and are sent once
     with dask.config.set({"distributed.admin.large-graph-warning-threshold": "1 TB"}):
-        return client.submit(_same, common, pure=False)
-
-
-def _same(common: Common) -> Common:
-    return common
+        return client.submit(lambda data: data, common, pure=False)
 
 
 def _result(future: Any, span: Span) -> ChunkResult:
-    """Return what was found; where it was lost on its way here, that takes until it is again."""
+    """Return results; those lost on their way here are waited for until they are found again."""
     from distributed.scheduler import KilledWorker  # noqa: PLC0415 (of an extra)
 
     try:
@@ -143,7 +138,7 @@ def _result(future: Any, span: Span) -> ChunkResult:
     except KilledWorker as error:
         message = (
             f"systems {span[0]} to {span[1]}: several workers in a row were lost with them. See "
-            "what they say; they may have had too little memory."
+            "their output; they may have had too little memory."
         )
         raise ClusterError(message) from error
     except CancelledError as error:
@@ -153,7 +148,7 @@ def _result(future: Any, span: Span) -> ChunkResult:
 
 
 def _do(common: Common, piece: Chunk) -> ChunkResult:
-    """Simulate a piece in a thread of a worker, which has others for other pieces."""
+    """Simulate a chunk in one thread of a worker."""
     from distributed import get_worker  # noqa: PLC0415 (of an extra)
 
     worker = get_worker()

@@ -1,4 +1,4 @@
-"""What the numbers of an ensemble depend on besides its arguments."""
+"""Versions on which the numbers of an ensemble depend."""
 
 import hashlib
 from collections.abc import Mapping
@@ -9,17 +9,17 @@ from importlib.resources.abc import Traversable
 
 from ...simulation.solvers import native_version
 
-# What derives nothing and draws nothing: the rest makes no numbers of an ensemble.
+# Folders whose code computes the numbers of an ensemble.
 _PACKAGES = ("ensembles", "equations", "generated", "simulation", "systems")
 _ENDINGS = (".py", ".c", ".h", ".json")
 
 FILES = "files of kintrafo"
-"""A text in place of the sources that determine numbers: development versions are alike."""
+"""Name of the digest of the sources, since development versions may share a version number."""
 
 
 @cache
 def versions() -> Mapping[str, str]:
-    """Return versions by name, of this process."""
+    """Return versions of this process by name."""
     return {
         "kintrafo": version("kintrafo"),
         FILES: _digest(),
@@ -30,7 +30,7 @@ def versions() -> Mapping[str, str]:
 
 
 def differences(theirs: Mapping[str, str]) -> str:
-    """Say which versions are others than here; nothing if none is."""
+    """Return which versions differ from those of this process; empty if none does."""
     lines = [
         f"other {name}" if name == FILES else f"{name} {theirs.get(name)} instead of {own}"
         for name, own in versions().items()

@@ -1,4 +1,4 @@
-"""All pieces of an ensemble: by threads of this process, or by workers."""
+"""All chunks of an ensemble: by threads of this process, or by workers."""
 
 from collections.abc import Iterable, Iterator
 from contextlib import closing, contextmanager
@@ -18,20 +18,20 @@ def run_in_pieces(
     kept: Kept | None,
     report: Report | None,
 ) -> None:
-    """Simulate an ensemble in pieces, but those that were kept.
+    """Simulate an ensemble in chunks, except those that a folder has already.
 
     Parameters
     ----------
     collected : Collected
-        What is found is put there.
+        Receives the results.
     workers : Workers or None
         None: threads of this process.
     threads : int
         Of this process.
     kept : Kept or None
-        Where each piece is kept as soon as it is done.
+        The folder that each chunk is written to as soon as it is done.
     report : callable, optional
-        Called with how many systems are done, now and then.
+        Called now and then with the number of finished systems.
     """
     notify = report or (lambda _: None)
     done: list[Span] = []
@@ -58,18 +58,16 @@ def run_in_pieces(
 def _pieces(
     collected: Collected, workers: Workers | None, threads: int, left: list[Span]
 ) -> Iterator[Iterable[ChunkResult | None]]:
-    """Yield what yields what was found of what is left; what works for it ends with this."""
+    """Yield an iterator over results of chunks; workers of our own end with the block."""
     if workers is None:
-        yield _by_threads(collected, threads, spans_of(collected, left, threads))
+        common = common_of(collected)
+        yield (
+            found_of(common, piece_of(collected.problem, first, last), threads)
+            for first, last in spans_of(collected, left, threads)
+        )
         return
     with workers.client() as client:
         cores = max(1, sum(client.nthreads().values()))
         spans = spans_of(collected, left, cores)
         with closing(by_workers(client, common_of(collected), collected.problem, spans)) as pieces:
             yield pieces
-
-
-def _by_threads(collected: Collected, threads: int, spans: list[Span]) -> Iterator[ChunkResult]:
-    common = common_of(collected)
-    for first, last in spans:
-        yield found_of(common, piece_of(collected.problem, first, last), threads)

@@ -1,4 +1,4 @@
-"""Where the workers are: processes of this machine, or those of a scheduler of Dask."""
+"""Workers of an ensemble: processes of this machine, or those of a scheduler of Dask."""
 
 import errno
 import os
@@ -24,22 +24,22 @@ _NEEDED = (
     "running dask.distributed.Client that is not asynchronous is needed"
 )
 _ADDRESS = re.compile(r"(\w+://)?[^\s/:]+:\d+")
-# How long a scheduler may take to answer, and its first worker to be there [s].
+# Longest time until a scheduler answers, and until it has a worker [s].
 _PATIENCE = 30.0
-# How long a network may take to say whether anything listens [s].
+# Longest time until a connection is accepted or refused [s].
 _ANSWERED = 5.0
 
 
 @dataclass(frozen=True)
 class Workers:
-    """Workers that are used.
+    """The workers of an ensemble.
 
     Attributes
     ----------
     of : int, str or Client
-        How many are started here, the address of a scheduler, or its client.
+        Number of processes that are started here, the address of a scheduler, or its client.
     threads : int
-        Of each that is started here.
+        Of each process that is started here.
     """
 
     of: Any
@@ -47,7 +47,7 @@ class Workers:
 
     @contextmanager
     def client(self) -> Iterator[Any]:
-        """Yield a client of a scheduler whose workers are as this process; what is ours ends."""
+        """Yield a client of a scheduler with matching workers; our own ones end with the block."""
         distributed = _package()
         if isinstance(self.of, int):
             with _local(distributed, self.of, self.threads) as cluster, _of(cluster) as client:
@@ -61,17 +61,17 @@ class Workers:
 
 
 def workers_of(given: Validator, cluster: Any, cores: int, *, threads: Any) -> Workers | None:
-    """Check which workers are used; None: threads of this process.
+    """Return the checked workers; None for threads of this process.
 
     Parameters
     ----------
     given : Validator
     cluster
-        The argument.
+        The argument of `ensemble`.
     cores : int
-        How many threads there are here.
+        Number of threads of this process.
     threads
-        As it was given; workers of a scheduler have threads of their own.
+        The argument of `ensemble`; workers of a scheduler have threads of their own.
 
     Raises
     ------
@@ -122,13 +122,13 @@ def _package() -> Any:
 
 @contextmanager
 def _local(distributed: Any, number: int, threads: int) -> Iterator[Any]:
-    """Yield workers of this machine, which end with it."""
+    """Yield workers of this machine, which end with the block."""
     try:
         cluster = distributed.LocalCluster(
             n_workers=number,
             threads_per_worker=threads,
             processes=True,
-            dashboard_address="127.0.0.1:0",  # any that is free: there may be several ensembles
+            dashboard_address="127.0.0.1:0",  # any free port: there may be several ensembles
         )
     except RuntimeError as error:
         problem = f"cluster = {number}: local workers cannot be started. {_why_not(error)}"
@@ -140,7 +140,7 @@ def _local(distributed: Any, number: int, threads: int) -> Iterator[Any]:
 
 
 def _why_not(error: BaseException) -> str:
-    """Say why workers of this machine ended as they began, as far as that can be known here."""
+    """Return the probable reason why workers of this machine ended at their start."""
     if not _is_guarded():
         return (
             "They read the script that starts them: let it call ensemble only below "
@@ -148,20 +148,20 @@ def _why_not(error: BaseException) -> str:
         )
     while error.__cause__ is not None:
         error = error.__cause__
-    # an assertion of Dask says only that there is no worker
-    said = "" if isinstance(error, AssertionError) else f" ({type(error).__name__}: {error})"
+    # an assertion of Dask has no details
+    details = "" if isinstance(error, AssertionError) else f" ({type(error).__name__}: {error})"
     return (
-        f"They ended as they began{said}. What they have printed says why: they may lack a package "
+        f"They ended at their start{details}. Their output has the reason: they may lack a package "
         "or memory. Without cluster, threads of this process do the same."
     )
 
 
 def _is_guarded() -> bool:
-    """Return whether what workers read does nothing where it is not the main program."""
-    if getattr(current_process(), "_inheriting", False):  # a worker, which reads it just now
+    """Return whether the script that workers read does nothing where it is not the main program."""
+    if getattr(current_process(), "_inheriting", False):  # a worker that is reading it
         return False
     script = getattr(sys.modules.get("__main__"), "__file__", None)
-    if script is None:  # typed in, or in a notebook: nothing is read
+    if script is None:  # an interactive session or notebook: nothing is read
         return True
     try:
         return "__main__" in Path(script).read_text(encoding="utf-8", errors="replace")
@@ -170,14 +170,14 @@ def _is_guarded() -> bool:
 
 
 def _refuse_dead(address: str) -> None:
-    """Refuse an address at once where no scheduler is: Dask would try again, or wait forever."""
+    """Refuse an address without a scheduler at once: Dask would retry, or wait forever."""
     protocol, _, place = address.rpartition("://")
     host, _, port = place.partition(":")
     if protocol not in ("", "tcp", "tls"):
         return
     try:
         with socket.create_connection((host, int(port)), timeout=_ANSWERED) as connection:
-            if protocol != "tls":  # where the client speaks first; else a scheduler greets it
+            if protocol != "tls":  # a scheduler sends first, except with TLS
                 connection.settimeout(_PATIENCE)
                 greeted = connection.recv(1)
                 if not greeted:
@@ -208,7 +208,7 @@ def _of(where: Any) -> Iterator[Any]:
 
 
 def _check(client: Any) -> None:
-    """Refuse workers on which numbers would be others than here, and a scheduler without any."""
+    """Refuse workers on which numbers would differ, and a scheduler without workers."""
     try:
         client.wait_for_workers(1, timeout=_PATIENCE)
     except TimeoutError as error:
@@ -223,7 +223,7 @@ def _check(client: Any) -> None:
 
 
 def _other(found: Any) -> str:
-    """Say what is wrong with a worker; nothing if all is right, or if it was lost just now."""
+    """Return a message about an unfit worker; empty for a fit one, or one lost just now."""
     if isinstance(found, OSError):
         return ""
     if isinstance(found, Exception):

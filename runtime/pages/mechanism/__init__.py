@@ -1,1 +1,1 @@
-"""Pages of any mechanism: a report to move by hand, and a motion to play."""
+"""Pages of any mechanism: a report with sliders, and a motion to play."""

@@ -1,4 +1,4 @@
-// Draws a mechanism from the places of its points, one row of them for each position of a slider.
+// Draws a mechanism from the positions of its points, which have a row for each position of a slider.
 const data = JSON.parse(document.getElementById("payload").textContent);
 const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#7b5ea7", "#56a0d3", "#a6761d", "#666600"];
 const INK = "#222222", GREY = "#8a8a8a", WIDE = 720, HIGH = 540;
@@ -10,7 +10,7 @@ let current = { scene: 0, index: 0 };
 
 // -- numbers ----------------------------------------------------------------------------------
 
-// units that are shown: degrees and millimetres
+// display units: degrees and millimetres
 const READ = { rad: [180 / Math.PI, "°"], "rad/s": [180 / Math.PI, "°/s"], m: [1000, "mm"], "m/s": [1, "m/s"] };
 function read(unit) { return READ[unit] ?? [1, unit === "1" ? "" : unit]; }
 function text(value, unit) {
@@ -21,7 +21,7 @@ function text(value, unit) {
   return `${far ? shown.toExponential(2) : shown}`.replace("-", "−") + (sign ? ` ${sign}` : "");
 }
 
-// -- where the points are ---------------------------------------------------------------------
+// -- positions of points ----------------------------------------------------------------------
 
 function placesOf({ scene, index }) {
   const { places, still } = data.scenes[scene];
@@ -180,7 +180,7 @@ function charts() {
     if (at) { mark.setAttribute("cx", at[0]); mark.setAttribute("cy", at[1]); }
   }
 }
-/** Whether a curve changes by no more than rounding. */
+/** Return whether a curve varies by rounding errors only. */
 function constant(values) {
   const known = values.filter((v) => v !== null);
   const [low, high] = [Math.min(...known), Math.max(...known)];
@@ -198,7 +198,7 @@ function chart(scene, name, values) {
   const xs = scene.values.map((v) => v * fx), ys = values.map((v) => (v === null ? null : v * fy));
   const known = ys.filter((v) => v !== null);
   let [low, high] = [Math.min(...known), Math.max(...known)];
-  // a curve that hardly changes does not fill its chart
+  // a curve with small variation does not fill its chart
   const least = 1e-3 * Math.max(Math.abs(low), Math.abs(high), 1e-9);
   if (high - low < least) [low, high] = [low - least, high + least];
   const ends = [Math.min(...xs), Math.max(...xs)];

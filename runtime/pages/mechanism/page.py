@@ -19,11 +19,11 @@ from ...systems.system import System
 from ..embedded import asset, embedded, moving_script, page_environment
 from .scenes import Scene, by_hand, extent, of_motion
 
-# Of eigenvalues that are zero twice, the root of that of doubles is left, and some powers of ten.
+# Relative rounding error of a double zero eigenvalue: the root of that of doubles, and a margin.
 _ROUNDING = 1e-6
 
 SECONDS = 1.0
-"""How long a mechanism is left to itself, where no motion of it is given."""
+"""Duration of the motion from the design position, if no motion is given [s]."""
 
 
 def report_page(system: System, title: str | None, motion: Simulation | None) -> str:
@@ -33,9 +33,9 @@ def report_page(system: System, title: str | None, motion: Simulation | None) ->
     ----------
     system : System
     title : str or None
-        Heading; by default what the mechanism is.
+        Heading; by default the title of the mechanism.
     motion : Simulation or None
-        What is played; by default a second from the design position at rest, without inputs.
+        The motion to play; by default a second from the design position at rest, without inputs.
     """
     skeleton = Skeleton(system)
     scenes = [*by_hand(skeleton)]
@@ -52,7 +52,7 @@ def motion_page(result: Simulation, title: str | None) -> str:
 
 
 def _motion(skeleton: Skeleton, motion: Simulation | None) -> tuple[Scene | None, str]:
-    """Return the motion that is played, and what is to be said of it."""
+    """Return the scene of the motion, and a remark about it."""
     if motion is not None:
         return of_motion(skeleton, motion), "The motion is one that was given."
     system = skeleton.system
@@ -101,7 +101,7 @@ def _parameters(system: System) -> list[tuple[str, str, str, str]]:
 
 
 def _modes(system: System) -> dict[str, Any]:
-    """Return where it rests near the design position, and its modes there; or why there is none."""
+    """Return the equilibrium near the design position with its modes, or why there is none."""
     try:
         found = rest(system)
         modes = linearise(system, found).modes
@@ -119,7 +119,7 @@ def _modes(system: System) -> dict[str, Any]:
 
 
 def _grows(modes: Sequence[Mode]) -> bool:
-    """Return whether a mode grows, by more than the rounding of the fastest one."""
+    """Return whether a mode grows by more than rounding errors of the fastest one."""
     values = np.array([value for mode in modes for value in mode.eigenvalues])
     return bool((values.real > _ROUNDING * np.abs(values).max(initial=0.0)).any())
 
@@ -145,7 +145,7 @@ def _data(skeleton: Skeleton, scenes: Sequence[Scene]) -> Markup:
                 "unit": s.unit,
                 "meaning": s.meaning,
                 "values": _short(s.values),
-                # to a 100,000th of the extent: no screen shows less
+                # to a 100,000th of the extent, less than a pixel
                 "places": {
                     body: np.round(p.reshape(len(s.values), -1), _digits(size)).tolist()
                     for body, p in s.places.items()
@@ -168,5 +168,5 @@ def _digits(size: float) -> int:
 
 
 def _short(values: Any) -> list[float | None]:
-    """Return numbers of six digits, and nothing for what is none."""
+    """Return numbers of six digits, and None for those that are not finite."""
     return [float(f"{v:.6g}") if np.isfinite(v) else None for v in np.asarray(values)]

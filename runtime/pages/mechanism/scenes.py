@@ -1,4 +1,4 @@
-"""What a page of a mechanism moves through: each coordinate by itself, inputs, time."""
+"""Scenes of a page of a mechanism: positions over each coordinate, each input, or time."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -14,31 +14,31 @@ from ...systems.skeleton import Skeleton
 
 Array = NDArray[np.float64]
 
-# Positions on each side of the design position, and frames of a motion at most.
+# Positions on each side of the design position; most frames of a motion.
 _TO_EACH_SIDE, MOST_FRAMES = 60, 400
-# How far a coordinate is tried: half a turn, or half of the extent of the mechanism.
+# Largest change of a coordinate: half a turn [rad], or this part of the mechanism's extent.
 _MOST_TURN, _MOST_SLIDE = np.pi, 0.5
-# What an input changes less than this, relative to the extent, does not move anything.
+# A smaller displacement, relative to the extent, is a rounding error.
 _MOVES = 1e-9
 
 
 @dataclass(frozen=True)
 class Scene:
-    """Positions in a row, over a coordinate, an input or time.
+    """Positions over a coordinate, an input or time.
 
     Attributes
     ----------
     name, unit, meaning : str
-        Of what it is over: the unit is that of SI.
+        Of the variable; SI unit.
     values : ndarray, shape (n,)
-        What it is over.
+        Of the variable.
     places : dict
-        Of each body an array of shape (n, points, 3) [m].
+        Points of each body, shape (n, points, 3) [m].
     states : ndarray, shape (n, elements)
     signals : dict
-        Arrays of shape (n,), SI units; NaN where there is none.
+        Arrays of shape (n,), SI units; NaN where the model has no value.
     remark : str
-        What is to be said of it.
+        A sentence for the reader.
     """
 
     name: str
@@ -52,15 +52,7 @@ class Scene:
 
 
 def of_motion(skeleton: Skeleton, result: Simulation, remark: str = "") -> Scene:
-    """Return the scene of a simulation, at no more than `MOST_FRAMES` of its outputs.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-    result : Simulation
-    remark : str, optional
-        What is to be said of it.
-    """
+    """Return the scene of a simulation, with no more than `MOST_FRAMES` of its outputs."""
     count = len(result.t)
     even = np.linspace(result.t[0], result.t[-1], min(count, MOST_FRAMES))
     kept = np.unique([int(np.abs(result.t - time).argmin()) for time in even])
@@ -80,8 +72,8 @@ def of_motion(skeleton: Skeleton, result: Simulation, remark: str = "") -> Scene
 def by_hand(skeleton: Skeleton) -> Iterator[Scene]:
     """Yield a scene for each coordinate, and for each input that moves the mechanism.
 
-    The others stay where they are at the design position, and so do free bodies: where they are
-    moves the whole scene.
+    All others stay at the design position. Free bodies have no scene: they would move the whole
+    mechanism.
     """
     system = skeleton.system
     start, none = system.design_state, np.zeros(len(system.input_names))
@@ -166,7 +158,7 @@ def _scene(
 
 
 def _reach(skeleton: Skeleton, at: Position, middle: float, most: float) -> float:
-    """Return how far a coordinate goes before a loop no longer closes: by steps, then halving."""
+    """Return the last value before a loop no longer closes, by steps and bisection."""
 
     def closes(value: float) -> bool:
         try:

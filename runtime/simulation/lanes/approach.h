@@ -1,7 +1,7 @@
 /*
- * How near each lane is to a dead point, and for how long its steps may be trusted there.
+ * Distance of each lane from dead points, and limits of its steps there.
  *
- * It is what ../native/margins.h explains and ../native/margins.c and integrate.c do for one system.
+ * ../native/margins.h explains it; ../native/margins.c and integrate.c do the same for one system.
  */
 #ifndef KINTRAFO_APPROACH_H
 #define KINTRAFO_APPROACH_H
@@ -18,13 +18,13 @@ static real smallest_step(const crew *w)
     return choose((of_step > 0.0) & (of_step < of_time), of_step, SPREAD(of_time));
 }
 
-/* Note a guard for lanes that have none yet. */
+/* Set a guard for lanes without one. */
 static void blame(crew *w, bits lanes, int guard)
 {
     w->guard = choose_bits(lanes & (w->guard == NO_GUARD), (bits){0} + guard, w->guard);
 }
 
-/* Blame guards whose margins are not positive at the end of a step where they must be. */
+/* Note guards whose margins at the end of a step must be positive and are not. */
 static void see_crossed(crew *w, bits lanes)
 {
     for (int i = 0; i < w->p->guard_count; ++i) {
@@ -34,7 +34,7 @@ static void see_crossed(crew *w, bits lanes)
     }
 }
 
-/* Return the lanes in which a margin has changed so much that its rate is needed. */
+/* Return the lanes in which the change of a margin is so large that its rate is needed. */
 static bits changed(const crew *w, real step, real next)
 {
     real little = KT_LITTLE / greater(next / step, SPREAD(1.0));
@@ -48,7 +48,7 @@ static bits changed(const crew *w, real step, real next)
     return found;
 }
 
-/* Evaluate the margins of what is a short time ahead of the step's end, on a straight way. */
+/* Evaluate the margins a short time after the step's end, along a tangent. */
 static void look_ahead(crew *w, real time, real lapse)
 {
     int n = w->p->state_count, positions = w->p->position_count;
@@ -60,7 +60,7 @@ static void look_ahead(crew *w, real time, real lapse)
     w->margins(w->constants, w->stage, w->inputs, w->ahead);
 }
 
-/* Blame guards whose margins rise as if they had been zero within the step. */
+/* Note guards whose margins rise as if they had been zero within the step. */
 static void see_reflected(crew *w, bits lanes, real lapse, real step)
 {
     for (int i = 0; i < w->p->guard_count; ++i) {
@@ -71,7 +71,7 @@ static void see_reflected(crew *w, bits lanes, real lapse, real step)
     }
 }
 
-/* Limit the steps of some lanes by the margins ahead; blame the guards of those that are at the end. */
+/* Limit the steps of some lanes by the margins ahead; note the guards of lanes at a dead point. */
 static void limit(crew *w, bits lanes, real lapse, real step)
 {
     real longest = SPREAD(INFINITY);
@@ -96,7 +96,7 @@ static void limit(crew *w, bits lanes, real lapse, real step)
     w->guard = choose_bits(lanes & over, nearest, w->guard);
 }
 
-/* Make the margins of the step's end those of the state that is reached. */
+/* Accept the margins at the step's end as those of the state that is reached. */
 static void reach(crew *w, bits lanes)
 {
     for (int i = 0; i < w->p->guard_count; ++i) {

@@ -1,4 +1,4 @@
-/* Inputs over time, for each lane at a time of its own. */
+/* Inputs over time, with a time of its own for each lane. */
 #ifndef KINTRAFO_COURSES_H
 #define KINTRAFO_COURSES_H
 
@@ -18,7 +18,7 @@ static void load_piece(course_now *now, const kt_course *course, int lane, int p
     now->constant[lane] = c[3 * n];
 }
 
-/* Begin a segment. */
+/* Start a segment. */
 static void open_courses(crew *w, int lane)
 {
     const kt_segment *segment = segment_of(w, lane);
@@ -27,7 +27,7 @@ static void open_courses(crew *w, int lane)
     }
 }
 
-/* Let each lane have the piece that its time is in. */
+/* Load for each lane the piece of its time. */
 static void follow_course(crew *w, int which, real time)
 {
     course_now *now = &w->courses[which];

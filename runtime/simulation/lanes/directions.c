@@ -1,4 +1,4 @@
-/* Along the steps of a motion, one direction in each lane. */
+/* Directions along the steps of a motion, one in each lane. */
 #include "directions.h"
 
 #include "../native/dormand_prince.h"
@@ -9,15 +9,15 @@ typedef bits (*kt_tangent)(const real *constants, const real *state, const real 
 typedef struct {
     const kt_motion *m;
     kt_tangent rhs, signals;
-    /* what the model reads: values, which all lanes have in common, and behind them how they change */
+    /* arguments of the model: values, the same in all lanes, followed by their changes */
     real *constants, *state, *inputs;
-    real *begin, *end; /* how the state changes at the begin and at the end of a step */
-    real *rates;       /* how its rates change at each stage: stages x states */
-    real *shown;       /* how signals and state change at an output */
+    real *begin, *end; /* change of the state at the begin and at the end of a step */
+    real *rates;       /* change of its rates at each stage: stages x states */
+    real *shown;       /* change of signals and state at an output */
     bits refused;
 } crew;
 
-/* Let all lanes have a row of numbers. */
+/* Set all lanes to a row of numbers. */
 static void spread(real *to, const double *row, int count)
 {
     for (int i = 0; i < count; ++i) {
@@ -25,7 +25,7 @@ static void spread(real *to, const double *row, int count)
     }
 }
 
-/* Let each lane have the row of its direction; lanes that have none stay as they are. */
+/* Set each lane to the row of its direction; lanes without one are unchanged. */
 static void take(real *to, const double *rows, int size, long first, int count)
 {
     for (int l = 0; l < count; ++l) {
@@ -35,7 +35,7 @@ static void take(real *to, const double *rows, int size, long first, int count)
     }
 }
 
-/* Return what some of the stages' rates, weighted, add to how an element of the state changes. */
+/* Return the weighted sum of changes of rates, for an element of the state. */
 static real added(const crew *w, const double *weights, int stages, int element, double length)
 {
     real sum = {0.0};
@@ -45,12 +45,12 @@ static real added(const crew *w, const double *weights, int stages, int element,
     return length * sum;
 }
 
-/* Find how the rates of all stages change, and the state at the end. */
+/* Compute the changes of the rates of all stages, and of the state at the end. */
 static void go_through(crew *w, long step)
 {
     const kt_motion *m = w->m;
     int n = m->state_count;
-    int first = !m->anew[step]; /* else it is the last stage of the step before */
+    int first = !m->restarts[step]; /* else the first stage is the last one of the step before */
     memcpy(w->rates, w->rates + (STAGES - 1) * n, (size_t)n * sizeof *w->rates);
     for (int s = first; s < STAGES; ++s) {
         long place = step * STAGES + s;
@@ -58,13 +58,13 @@ static void go_through(crew *w, long step)
         spread(w->inputs, m->inputs + place * m->input_count, m->input_count);
         for (int i = 0; i < n; ++i) {
             w->end[i] = w->begin[i] + added(w, TABLE[s], s, i, m->lengths[step]);
-            w->state[n + i] = w->end[i]; /* of the last stage it is the end */
+            w->state[n + i] = w->end[i]; /* for the last stage this is the end */
         }
         w->refused |= w->rhs(w->constants, w->state, w->inputs, w->rates + s * n);
     }
 }
 
-/* Find how signals and state change at an output within a step. */
+/* Compute the changes of signals and state at an output within a step. */
 static void show(crew *w, long output, double length)
 {
     const kt_motion *m = w->m;
@@ -92,7 +92,7 @@ static void keep(const crew *w, long output, long first, int count)
     }
 }
 
-/* Follow as many directions as there are lanes, or fewer. */
+/* Integrate at most as many directions as there are lanes. */
 static void follow(crew *w, long first, int count)
 {
     const kt_motion *m = w->m;
@@ -127,6 +127,6 @@ int NAME_OF(kt_follow_, WIDTH)(const kt_motion *m, long first, long last)
     for (long next = first; next < last && !any(w.refused); next += WIDTH) {
         follow(&w, next, last - next < WIDTH ? (int)(last - next) : WIDTH);
     }
-    free(w.constants); /* the first part of the memory */
+    free(w.constants); /* begin of the memory */
     return any(w.refused) ? 2 : 0;
 }

@@ -1,4 +1,4 @@
-"""Directions in which a system moves, followed along the steps of its motion: one in each lane."""
+"""Directions in which a system changes, along the steps of its motion: one in each lane."""
 
 import ctypes
 from collections.abc import Mapping, Sequence
@@ -32,7 +32,7 @@ _FIELDS: list[tuple[str, Any]] = [
     ("constants", _DOUBLES),
     ("step_count", ctypes.c_long),
     ("lengths", _DOUBLES),
-    ("anew", _INTS),
+    ("restarts", _INTS),
     *((name, _DOUBLES) for name in ("states", "inputs")),
     ("time_count", ctypes.c_long),
     ("step_of", _LONGS),
@@ -41,7 +41,7 @@ _FIELDS: list[tuple[str, Any]] = [
     ("items", _INTS),
     *((name, _DOUBLES) for name in ("of_constants", "of_start", "of_inputs", "found")),
 ]
-"""Of ``kt_motion`` in ``directions.h``."""
+"""Fields of ``kt_motion`` in ``directions.h``."""
 
 
 class _Motion(ctypes.Structure):
@@ -50,12 +50,12 @@ class _Motion(ctypes.Structure):
 
 @dataclass(frozen=True)
 class Along:
-    """Directions: by how much everything changes that a motion depends on.
+    """Directions: changes of everything on which a motion depends.
 
     Attributes
     ----------
     constants, start, inputs : ndarray, shape (directions, elements)
-        Of the equations; of the state at the start; inputs that do not vary.
+        Of the equations; of the initial state; of inputs that do not vary.
     """
 
     constants: Array
@@ -71,9 +71,9 @@ def followed(
     items: Sequence[int],
     width: int | None = None,
 ) -> Array | None:
-    """Return how what is looked at changes along directions.
+    """Return the derivatives of items of a motion along directions.
 
-    The same bits in any number of lanes, and with any other directions.
+    Their bits do not depend on the number of lanes or on other directions.
 
     Parameters
     ----------
@@ -81,17 +81,17 @@ def followed(
     steps : RetracedSteps
         Of its motion.
     times : ndarray
-        When the motion is looked at, increasing [s].
+        Increasing times at which items are evaluated [s].
     along : Along
     items : sequence of int
-        What is looked at: places of signals, and behind the last of them elements of the state.
+        Indices of signals, followed by those of elements of the state.
     width : int, optional
-        How many lanes; by default as many as the processor can.
+        Number of lanes; by default the most that the processor supports.
 
     Returns
     -------
     ndarray or None, shape (directions, times, items)
-        Nothing where the equations cannot be had in lanes, refuse a state there, or have no finite
+        None if the equations cannot be compiled for lanes, refuse a state, or have no finite
         derivative.
     """
     there = library.widths()
@@ -122,7 +122,7 @@ def followed(
 def _described(
     system: System, steps: RetracedSteps, times: Array, along: Along, items: Sequence[int]
 ) -> dict[str, Any]:
-    """Return everything of ``kt_motion`` but functions and what is found."""
+    """Return the fields of ``kt_motion`` except functions and the result."""
     step, part = steps.places(times)
     states, inputs = steps.point(step, part)
     return {
@@ -133,7 +133,7 @@ def _described(
         "constants": system.constants,
         "step_count": steps.length.size,
         "lengths": steps.length,
-        "anew": steps.anew,
+        "restarts": steps.restarts,
         "states": steps.states,
         "inputs": steps.inputs,
         "time_count": times.size,
@@ -150,7 +150,7 @@ def _described(
 
 
 def _in_c(values: Mapping[str, Any]) -> tuple[_Motion, list[NDArray[Any]]]:
-    """Return values as C takes them, and the arrays that it reads, which are to be kept."""
+    """Return values for C, and the arrays that it reads, which must stay in memory."""
     motion = _Motion()
     kept: list[NDArray[Any]] = []
     for name, kind in _FIELDS:

@@ -1,7 +1,8 @@
 /*
- * Loops without a closed form, followed in all lanes at a time: line by line what the emitted function
- * `follow` does for one, with its limits, and so with its bits. Each lane has stages of its own way; what it
- * does not take part in leaves it as it is. Emitted code includes this behind its limits and `struct loops`.
+ * Loops without a closed form, followed in all lanes together: each line does for lanes what that of the emitted
+ * function `follow` does for one system, with the same limits and so the same bits. Each lane has its own stages;
+ * steps in which it does not take part do not change it. Emitted code includes this file after its limits and
+ * `struct loops`.
  */
 #ifndef KINTRAFO_FOLLOW_H
 #define KINTRAFO_FOLLOW_H
@@ -19,10 +20,10 @@ static real square(const real *values, int count)
     return sum;
 }
 
-/* Take over a number in some lanes. */
+/* Assign a number in some lanes. */
 INLINE void put(bits lanes, real *place, real value) { *place = choose(lanes, value, *place); }
 
-/* Follows loops in some lanes; returns those in which they arrive. */
+/* Follows loops in some lanes; returns those in which they reach the end. */
 static bits follow(const struct loops *loops, const real *given, const real *start, const real *end,
                    const real *unit, bits lanes, real *found)
 {
@@ -88,7 +89,7 @@ static bits follow(const struct loops *loops, const real *given, const real *sta
         put(further, &size, lesser(0.95 * LONGEST / root(square(slope, n)), size));
         put(further, &part, target);
 
-        /* on with the same stage */
+        /* the same stage continues */
         for (int k = 0; k < n; ++k) {
             put(on, &from[k], out[k]);
             put(on, &step[k], correction[k]);
@@ -96,7 +97,7 @@ static bits follow(const struct loops *loops, const real *given, const real *sta
         }
         put(on, &before, change);
 
-        /* again, shorter; or the next stage */
+        /* a shorter stage, or the next one */
         put(again, &size, size * greater(SPREAD(0.1), lesser(SPREAD(0.5), room)));
         const bits next = further | again;
         put(next, &target, lesser(one, part + size));
@@ -111,7 +112,7 @@ static bits follow(const struct loops *loops, const real *given, const real *sta
     return arrived;
 }
 
-/* The same, but for whole turns of an angle. Returns 0, or 1 where the loops do not arrive. */
+/* The same without whole turns of an angle. Returns 0, or 1 if loops do not reach the end. */
 static real follow_turns(const struct loops *loops, const real *given, const real *start, real *end,
                          const real *unit, real *found)
 {

@@ -1,6 +1,6 @@
 /*
  * Dormand and Prince's method of order 5 with an error estimate of order 4, a step size for each lane.
- * A lane whose system has come to its end gets the next one at once.
+ * A lane whose system has ended gets the next one at once.
  */
 #include "approach.h"
 #include "outputs.h"
@@ -8,9 +8,9 @@
 
 #include "../native/powers.h"
 
-/* -- systems that wait ------------------------------------------------------------------------ */
+/* -- waiting systems -------------------------------------------------------------------------- */
 
-/* Take over the parameters of some systems, one in each lane. */
+/* Load the parameters of some systems, one in each lane. */
 static void set_parameters(const kt_problem *p, long first, int count, real *parameters)
 {
     for (int i = 0; i < p->parameter_count; ++i) {
@@ -24,7 +24,7 @@ static void set_parameters(const kt_problem *p, long first, int count, real *par
     }
 }
 
-/* Prepare as many of the next systems as there are lanes. */
+/* Prepare the next systems, as many as there are lanes. */
 static void fill_queue(crew *w)
 {
     const kt_problem *p = w->p;
@@ -48,7 +48,7 @@ static void fill_queue(crew *w)
 
 /* -- begin and end of a system ---------------------------------------------------------------- */
 
-/* Let the next milestone, or else the end of the segment, be the goal. */
+/* Set the goal: the next milestone, or else the end of the segment. */
 static void set_goal(crew *w, int lane)
 {
     const kt_segment *s = segment_of(w, lane);
@@ -91,14 +91,14 @@ static void end_system(crew *w, int lane, int end, int code, double time)
     w->running[lane] = 0;
 }
 
-/* Give a lane one of the systems that are prepared. */
+/* Assign a prepared system to a lane. */
 static void begin_system(crew *w, int lane)
 {
     const kt_problem *p = w->p;
     const waiting *q = &w->queue;
     int from = q->taken;
     long system = q->first + from;
-    if (q->failed[from]) { /* it never began: nothing is known of it but that */
+    if (q->failed[from]) { /* it has no results */
         p->ends[system] = KT_PARAMETERS;
         p->codes[system] = (int)q->failed[from];
         return;
@@ -127,7 +127,7 @@ static void begin_system(crew *w, int lane)
     open_segment(w, lane);
 }
 
-/* Give work to lanes that have none, as long as there is some. */
+/* Assign systems to idle lanes. */
 static void refill(crew *w)
 {
     for (int l = 0; l < WIDTH; ++l) {
@@ -148,7 +148,7 @@ static void refill(crew *w)
 
 /* -- a step ----------------------------------------------------------------------------------- */
 
-/* Return the first turn of a lane's inputs that a step of some length does not pass over, or else the goal. */
+/* Return the first extremum of a lane's inputs that limits a step of some length, or else the goal. */
 static double next_turn(crew *w, int lane, double step)
 {
     const kt_segment *s = segment_of(w, lane);
@@ -165,7 +165,7 @@ static double next_turn(crew *w, int lane, double step)
     return w->goal[lane];
 }
 
-/* Let each lane aim at its goal, or at a turn of its inputs before. */
+/* Set the target of each lane: its goal, or an earlier extremum of its inputs. */
 static void take_aim(crew *w, real step)
 {
     w->aim = w->goal;
@@ -176,20 +176,20 @@ static void take_aim(crew *w, real step)
     }
 }
 
-/* Return how long a step may be; `lands` are the lanes that reach with it what they aim at. */
+/* Return the lengths of steps; `lands` are the lanes that reach their target. */
 static real planned(crew *w, bits *lands)
 {
     real most = lesser(lesser(w->step, w->trusted), SPREAD(w->p->max_step));
     take_aim(w, most);
     real left = w->aim - w->time;
-    /* two equal steps, rather than one and what remains */
+    /* two equal steps instead of one and a short remainder */
     real step = choose(left < 2.0 * most, 0.5 * left, most);
     *lands = (left <= most) & ~w->fresh;
     step = choose(*lands, left, step);
     return choose(w->fresh | ~w->running, SPREAD(0.0), step);
 }
 
-/* Find the rates of all stages and the state at the end; return the lanes that the model refuses. */
+/* Compute the rates of all stages and the state at the end; return the lanes that the model refuses. */
 static bits attempt(crew *w, real step)
 {
     int n = w->p->state_count;
@@ -210,7 +210,7 @@ static bits attempt(crew *w, real step)
     return w->running & (w->status != 0);
 }
 
-/* Return the mean square of some numbers, each measured by what is tolerated. */
+/* Return the mean square of some numbers, each divided by its tolerance. */
 static real mean_square(const crew *w, const real *numbers)
 {
     int n = w->p->state_count;
@@ -237,9 +237,9 @@ static real error_of(crew *w, real step)
 }
 
 /*
- * See in which lanes stability, not accuracy, limits the step: Hairer and Wanner, Solving Ordinary
- * Differential Equations II, IV.2. The last two stages are at one time, and what their rates differ by tells
- * how fast the fastest motion is; beyond 3.25 the method is not stable.
+ * Note the lanes in which stability, not accuracy, limits the step: Hairer and Wanner, Solving Ordinary
+ * Differential Equations II, IV.2. The last two stages are at one time, and the difference of their rates shows
+ * the rate of the fastest motion; if it times the step is more than 3.25, the method is not stable.
  */
 static void see_stiff(crew *w, bits good, real step)
 {
@@ -262,7 +262,7 @@ static void see_stiff(crew *w, bits good, real step)
     w->stiff &= ~(asked & (w->calm >= OFTEN_CALM));
 }
 
-/* Return the first step, by the size of the state and of its rates at the start. */
+/* Return the first step, from the size of the state and of its rates at the start. */
 static real first_step(const crew *w)
 {
     const kt_problem *p = w->p;
@@ -274,7 +274,7 @@ static real first_step(const crew *w)
     return lesser(step, SPREAD(p->end - p->start));
 }
 
-/* Return the next step after one that is believed, or whose error is too large. */
+/* Return the next step after an accepted one, or after one with too large an error. */
 static real next_step(crew *w, real step, real error, bits good)
 {
     real now = bounded_logarithm(error);
@@ -284,15 +284,15 @@ static real next_step(crew *w, real step, real error, bits good)
     factor = lesser(greater(factor, SPREAD(MOST_SHORTER)), SPREAD(MOST_LONGER));
     factor = choose(w->again | ~good, lesser(factor, SPREAD(1.0)), factor);
     real next = step * factor;
-    /* a step that was shorter for its goal says nothing against the length that was planned */
+    /* a step that was shortened to reach its goal does not reduce the planned length */
     next = choose(good & ~w->again & (step < w->step), greater(next, w->step), next);
     w->error = choose(good & ~w->fresh, greater(now, SPREAD(LOG2_LEAST_SQUARE)), w->error);
     return choose(w->running & ~w->fresh, next, w->step);
 }
 
-/* -- whether a step is believed ---------------------------------------------------------------- */
+/* -- acceptance of a step ---------------------------------------------------------------------- */
 
-/* Ask the margins; return the lanes that have looked ahead, with which lapse. */
+/* Check the margins; return the lanes whose margins ahead were evaluated, and the lapse. */
 static bits ask_margins(crew *w, bits lanes, real reached, real step, real next, real *lapse)
 {
     w->guard = (bits){0} + NO_GUARD;
@@ -307,7 +307,7 @@ static bits ask_margins(crew *w, bits lanes, real reached, real step, real next,
     return looks;
 }
 
-/* Make the step's end the state that is reached. */
+/* Accept the step's end as the state that is reached. */
 static void commit(crew *w, bits lanes, real step, real reached)
 {
     int n = w->p->state_count;
@@ -322,7 +322,7 @@ static void commit(crew *w, bits lanes, real step, real reached)
     reach(w, lanes);
 }
 
-/* Go on to the next milestone or segment; a system ends with its last segment. */
+/* Continue to the next milestone or segment; a system ends with its last segment. */
 static void pass_goal(crew *w, int lane)
 {
     const kt_problem *p = w->p;
@@ -337,7 +337,7 @@ static void pass_goal(crew *w, int lane)
     }
 }
 
-/* End a system whose steps cannot get shorter. */
+/* End a system whose steps cannot become shorter. */
 static void give_up(crew *w, int lane, real step)
 {
     if (w->guard[lane] != NO_GUARD) {
@@ -349,7 +349,7 @@ static void give_up(crew *w, int lane, real step)
     }
 }
 
-/* Let systems go on, or end, after a step. */
+/* Continue or end systems after a step. */
 static void settle(crew *w, bits good, bits lands, bits refused, real step)
 {
     const kt_problem *p = w->p;
@@ -379,13 +379,13 @@ static void settle(crew *w, bits good, bits lands, bits refused, real step)
 
 /* -- all steps -------------------------------------------------------------------------------- */
 
-/* Take a step in every lane, or find that it has to be shorter. */
+/* Take a step in every lane, or note that it must be shorter. */
 static void sweep(crew *w)
 {
     bits lands, fresh = w->fresh;
     real step = planned(w, &lands), lapse;
     real reached = choose(lands, w->aim, w->time + step);
-    real took = reached - w->time; /* as times have it, which margins go by */
+    real took = reached - w->time; /* the difference of times, which margins use */
     bits refused = attempt(w, step);
     see_stiff(w, w->running & ~refused & ~fresh, step);
     real error = error_of(w, step);
@@ -400,7 +400,7 @@ static void sweep(crew *w)
     if (any(good & looks)) {
         limit(w, good & looks, lapse, took);
     }
-    w->again = ~good & ~refused; /* what is refused begins anew */
+    w->again = ~good & ~refused; /* a refused step restarts */
     w->error = choose(refused, SPREAD(0.0), w->error);
     w->step = choose(refused, KT_SHORTER * choose(doubted, took, step), next);
     w->tried -= w->running & ~fresh;
@@ -411,7 +411,7 @@ static void sweep(crew *w)
     settle(w, good, lands, refused, step);
 }
 
-/* Return 0, or 1 where there is no memory. */
+/* Return 0, or 1 without memory. */
 static int open_crew(crew *w, const kt_problem *p)
 {
     int n = p->state_count, shown = p->signal_count + n, margins = p->guard_count;
@@ -449,6 +449,6 @@ int NAME_OF(kt_integrate_, WIDTH)(const kt_problem *p, long first, long last, co
     for (refill(&w); any(w.running) && !*stop; refill(&w)) {
         sweep(&w);
     }
-    free(w.constants); /* the first part of the memory */
+    free(w.constants); /* begin of the memory */
     return 0;
 }

@@ -1,4 +1,4 @@
-"""The compiled libraries for lanes, and which of their widths the processor has."""
+"""The compiled libraries for lanes, and the widths that the processor supports."""
 
 import ctypes
 from collections.abc import Callable, Mapping
@@ -15,7 +15,7 @@ _SOLVER = f"{__package__}._integrate"
 
 
 def widths() -> tuple[int, ...]:
-    """Return how many lanes vectors may have on this machine, the fewest first; none: not built."""
+    """Return the numbers of lanes on this machine in ascending order; () if none were built."""
     solver = _library(_SOLVER)
     if solver is None:
         return ()
@@ -24,21 +24,16 @@ def widths() -> tuple[int, ...]:
 
 
 def solver(what: str, width: int) -> Callable[..., int]:
-    """Return a C function that solves in so many lanes; it is called without the lock.
+    """Return the C function ``integrate`` (many systems) or ``follow`` (directions) of a width.
 
-    Parameters
-    ----------
-    what : str
-        ``integrate``, of many systems; ``follow``, along many directions.
-    width : int
-        One of `widths`.
+    It is called without the interpreter's lock.
     """
     function: Callable[..., int] = getattr(_library(_SOLVER), f"kt_{what}_{width}")
     return function
 
 
 def functions(equations: ModuleType, width: int, variant: str) -> Mapping[str, int]:
-    """Return the addresses of a model's functions in so many lanes; those that it has not are zero.
+    """Return the addresses of a model's functions in some lanes; zero for those it does not have.
 
     Parameters
     ----------
@@ -46,12 +41,12 @@ def functions(equations: ModuleType, width: int, variant: str) -> Mapping[str, i
     width : int
         One of `widths`.
     variant : str
-        Suffix of the name of the right-hand side without the coordinates at rest.
+        Suffix of the name of the right-hand side without coordinates at rest.
 
     Raises
     ------
     InputError
-        If the equations cannot be had in lanes.
+        If the equations cannot be compiled for lanes.
     """
     name: str = equations.NAME
     if not widths():
@@ -68,19 +63,13 @@ def functions(equations: ModuleType, width: int, variant: str) -> Mapping[str, i
 
 @cache
 def tangents(equations: ModuleType, width: int) -> Mapping[str, int] | None:
-    """Return the addresses of a model's functions along directions in so many lanes.
-
-    Parameters
-    ----------
-    equations : module
-    width : int
-        One of `widths`.
+    """Return the addresses of a model's functions along directions in one of `widths`.
 
     Returns
     -------
     mapping or None
-        ``rhs_tangent``, and ``signals_tangent``, zero where there are no signals. Nothing where
-        nothing compiles them.
+        ``rhs_tangent``, and ``signals_tangent``, which is zero without signals. None if there is no
+        compiler.
     """
     if not is_own(equations):
         return None
@@ -93,18 +82,18 @@ def tangents(equations: ModuleType, width: int) -> Mapping[str, int] | None:
 
 
 def compiled(equations: ModuleType) -> ctypes.CDLL | None:
-    """Return the library of equations that come with the project; None where it was not built."""
+    """Return the library of equations that come with the project; None if it was not built."""
     package = equations.__name__.rpartition(".")[0]
     return _library(f"{package}._{equations.NAME}_lanes")
 
 
 @cache
 def _of(equations: ModuleType, width: int) -> tuple[ctypes.CDLL, str]:
-    """Return the library of equations, and how the names of its functions end."""
+    """Return the library of equations, and the suffix of the names of its functions."""
     if is_own(equations):
         return _loaded(str(library_of(equations, width))), ""
     library = compiled(equations)
-    assert library is not None  # built with the solver, as those that do not iterate
+    assert library is not None  # built with the solver
     return library, f"_{width}"
 
 
@@ -115,7 +104,7 @@ def _address(library: ctypes.CDLL, name: str) -> int:
 
 @cache
 def _library(name: str) -> ctypes.CDLL | None:
-    """Load a library; None where there is none."""
+    """Load a library; return None if there is none."""
     try:
         module = import_module(name)
     except ModuleNotFoundError:

@@ -1,6 +1,6 @@
 /*
- * One file of emitted equations, read as one about vectors: every number that it calls a double is one of
- * each lane. MODEL is its name, in quotes.
+ * A file of emitted equations, compiled for vectors: every double in it becomes a number of each lane. MODEL is
+ * its name, in quotes.
  */
 #define KINTRAFO_LANES
 
@@ -40,7 +40,7 @@ INLINE bits first_not_finite(const real *values, int count)
     return found;
 }
 
-/* What equations name may be called like something of these headers, but not like these. */
+/* Names in equations may be those of these headers, except these. */
 INLINE real kt_root(real x) { return root(x); }
 
 INLINE real kt_magnitude(real x) { return magnitude(x); }
@@ -49,7 +49,7 @@ INLINE real kt_with_sign_of(real x, real sign) { return with_sign_of(x, sign); }
 
 INLINE real is_positive(real x) { return choose(x > 0.0, SPREAD(1.0), SPREAD(0.0)); }
 
-/* Numbers that depend on nothing are written as such, and come here as such. */
+/* Constant numbers stay numbers. */
 #define number(x) SPREAD(x)
 #define at_least(x, least) at_least(SPREAD(x), SPREAD(least))
 #define is_positive(x) is_positive(SPREAD(x))

@@ -1,6 +1,6 @@
 /*
- * Makes a library one that Python imports, so that it is found and installed as others are. Its functions
- * are called through their addresses. MODULE is its name.
+ * Makes a library importable by Python, so that it is found and installed like other modules. Its functions are
+ * called by their addresses. MODULE is its name.
  */
 #include <Python.h>
 

@@ -1,4 +1,4 @@
-/* What is kept of the motion on its way: samples, reductions, and what passes bounds. */
+/* Results of the motion: samples, reductions, and values beyond bounds. */
 #ifndef KINTRAFO_OUTPUTS_H
 #define KINTRAFO_OUTPUTS_H
 
@@ -29,7 +29,7 @@ static void begin_outputs(crew *w, int lane)
     }
 }
 
-/* Find the powers of the part of a step by which the states within are interpolated. */
+/* Compute the polynomial that interpolates the states within a step. */
 static void find_terms(crew *w, real step)
 {
     int n = w->p->state_count;
@@ -48,7 +48,7 @@ static void find_terms(crew *w, real step)
     }
 }
 
-/* Evaluate the state at a part of the step, and the signals there; where they are refused, tell how. */
+/* Evaluate the state at a part of the step, and the signals there; note the status if they are refused. */
 static bits show(crew *w, real part, real time)
 {
     const kt_problem *p = w->p;
@@ -66,7 +66,7 @@ static bits show(crew *w, real part, real time)
     return w->signals(w->constants, state, w->inputs, w->shown);
 }
 
-/* Find how long the outputs stand for the motion, and how long after the ones before they come. */
+/* Load the weights of the outputs in time, and their distances from the ones before. */
 static real weights_now(const crew *w, bits lanes, real *lapse)
 {
     real weight = {0.0};
@@ -81,12 +81,12 @@ static real weights_now(const crew *w, bits lanes, real *lapse)
     return weight;
 }
 
-/* Return which part of a straight line is above zero; none where it has no begin. */
+/* Return the part of a straight line above zero; zero if it has no begin. */
 static real part_above(real from, real to)
 {
     real nothing = {0.0}, part = (greater(from, nothing) + greater(to, nothing))
         / (magnitude(from) + magnitude(to));
-    return choose(part > 0.0, part, nothing); /* nor a NaN */
+    return choose(part > 0.0, part, nothing); /* also for NaN */
 }
 
 static void reduce(crew *w, bits lanes)
@@ -123,7 +123,7 @@ static void see_bounds(crew *w, bits lanes)
     }
 }
 
-/* Keep the outputs that are due, and go on to the next ones. */
+/* Store the outputs that are due, and advance to the next ones. */
 static void keep(crew *w, bits lanes)
 {
     const kt_problem *p = w->p;
@@ -146,7 +146,7 @@ static void copy(real *to, const real *from, int count)
     memcpy(to, from, (size_t)count * sizeof *to);
 }
 
-/* Let some lanes be as they were before the step's outputs; samples are written again. */
+/* Restore some lanes to their state before the step's outputs; samples are written again. */
 static void take_back(crew *w, bits lanes, const long *output)
 {
     for (int i = 0; i < w->p->reduction_count; ++i) {
@@ -164,8 +164,8 @@ static void take_back(crew *w, bits lanes, const long *output)
 }
 
 /*
- * Put out what is due within a step. Returns the lanes in which the model refuses an output: they have
- * none of the step's.
+ * Write the outputs that are due within a step. Returns the lanes in which the model refuses an output: they have
+ * none of this step.
  */
 static bits put_out(crew *w, bits lanes, real reached)
 {

@@ -1,7 +1,6 @@
-"""Equations that were compiled on this machine, compiled in lanes when they are first asked for."""
+"""Equations that were compiled on this machine, compiled for lanes at first use."""
 
 import hashlib
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
@@ -12,7 +11,7 @@ from ...systems.compile.compiler import Compiler, find_compiler
 from .options import OF_WIDTH, SCHEDULED
 
 _HERE = Path(__file__).parent
-# the file that compiles emitted equations for vectors, and its headers
+# the source that compiles emitted equations for vectors, and its headers
 READER, HEADERS = "model.c", ("follow.h", "vectors.h")
 
 
@@ -22,24 +21,24 @@ def is_own(equations: ModuleType) -> bool:
 
 
 def library_of(equations: ModuleType, width: int, part: str = "") -> Path:
-    """Return the library of equations in so many lanes, compiled if that was not done before.
+    """Return the library of equations in some lanes, which is compiled at first use.
 
     Parameters
     ----------
     equations : module
-        As `kintrafo.compile` returns it.
+        A result of `kintrafo.compile`.
     width : int
-        How many lanes, of those that this processor has.
+        Number of lanes, which the processor supports.
     part : str, optional
-        Of the emitted code: what its file adds to the name.
+        Suffix of the emitted file.
 
     Raises
     ------
     InputError
-        If there is no compiler, or what was compiled cannot be kept, or another user may have
-        written to it.
+        If there is no compiler, the library cannot be written, or another user may have written to
+        it.
     CompilerError
-        If it fails.
+        If the compiler fails.
     """
     file = "_".join(filter(None, (equations.NAME, part)))
     compiler = _with_vectors(find_compiler(), file, width)
@@ -50,9 +49,10 @@ def library_of(equations: ModuleType, width: int, part: str = "") -> Path:
     library = f"lib{name}.so"
     if damage(target):
         with appearing(target) as temporary:
-            for text in (*_included(folder), *map(_HERE.joinpath, HEADERS)):
+            emitted = (*folder.glob("*.c"), *folder.glob("*.h"))
+            for text in (*emitted, *map(_HERE.joinpath, HEADERS)):
                 (temporary / text.name).write_bytes(text.read_bytes())
-            reader = temporary / f"_{READER}"  # a model may be called model, but not _model
+            reader = temporary / f"_{READER}"  # no name of a model begins with an underscore
             reader.write_bytes((_HERE / READER).read_bytes())
             compiler.build([reader], temporary / library)
             seal(temporary, target.name)
@@ -61,7 +61,7 @@ def library_of(equations: ModuleType, width: int, part: str = "") -> Path:
 
 
 def _with_vectors(compiler: Compiler | None, file: str, width: int) -> Compiler:
-    """Return a compiler with its options for a file in so many lanes."""
+    """Return a compiler with its options for a file in some lanes."""
     if compiler is None:
         problem = (
             f"the equations of {file} are not compiled in lanes, and there is no C compiler to do "
@@ -73,11 +73,6 @@ def _with_vectors(compiler: Compiler | None, file: str, width: int) -> Compiler:
     macros = [f'-DMODEL="{file}.c"', f"-DWIDTH={width}"]
     options = (*compiler.command, *OF_WIDTH[width], *scheduled, *macros)
     return replace(compiler, command=options)
-
-
-def _included(folder: Path) -> Iterator[Path]:
-    yield from folder.glob("*.c")
-    yield from folder.glob("*.h")
 
 
 def _digest() -> str:

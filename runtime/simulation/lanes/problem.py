@@ -1,4 +1,4 @@
-"""Many systems of one model that are to be integrated, as C takes them."""
+"""Many systems of one model in the form that C integrates."""
 
 import ctypes
 from collections.abc import Sequence
@@ -20,7 +20,7 @@ Numbers = NDArray[np.int32]
 
 
 class End(IntEnum):
-    """How a system ends; as in ``ensemble.h``."""
+    """The end of a system; the numbers of ``ensemble.h``."""
 
     WAITING = 0
     DONE = 1
@@ -33,7 +33,7 @@ class End(IntEnum):
 
 
 class Kind(IntEnum):
-    """What is kept of a signal on its way; as in ``ensemble.h``."""
+    """A number that C accumulates of a signal; the numbers of ``ensemble.h``."""
 
     GREATEST = 0
     LEAST = 1
@@ -45,16 +45,16 @@ class Kind(IntEnum):
 
 
 class Reduction(NamedTuple):
-    """What is kept of one signal on its way.
+    """A number that C accumulates of one signal.
 
     Attributes
     ----------
     item : int
-        Place among the items.
+        Index among the items.
     kind : Kind
     origin : int
-        Of a sum: place of the reduction that keeps the first value, which comes before; of
-        `Kind.ABOVE`: that which keeps the last value, which comes behind.
+        For a sum: index of the reduction with the first value, which is before it; for
+        `Kind.ABOVE`: that with the last value, which is after it.
     level : float
         Of `Kind.ABOVE`.
     """
@@ -67,26 +67,26 @@ class Reduction(NamedTuple):
 
 @dataclass(frozen=True)
 class Systems:
-    """What the systems have of their own.
+    """The values of the systems.
 
     Attributes
     ----------
     count : int
     parameters : ndarray
-        Those that all have in common, in the order of the model's.
+        Common values, in the order of the model's parameters.
     varied : ndarray
-        Places of those that each has for itself.
+        Indices of the parameters that differ between systems.
     variants : ndarray, shape (count, number of varied)
     states : ndarray, shape (count or 1, number of state elements)
-        At the start; NaN for that of the design position.
+        Initial states; NaN for elements of the design position.
     inputs : ndarray, shape (count or 1, number of inputs)
-        Values of those that do not vary with time.
+        Values of the inputs that do not vary with time.
     drives : sequence of TimeInputs
-        What inputs do over time; the same of them vary in all.
+        Inputs over time; the same inputs vary in all.
     drive_of : ndarray, shape (count,)
-        Which of the drives each system has.
+        Index into the drives for each system.
     left_out : ndarray of bool, shape (count,)
-        Systems that are none, since their parameters are out of their ranges.
+        Systems with parameters out of their ranges, which are not integrated.
     """
 
     count: int
@@ -102,23 +102,23 @@ class Systems:
 
 @dataclass(frozen=True)
 class LaneOutputs:
-    """What is kept of each motion.
+    """The results of each motion.
 
     Attributes
     ----------
     times : ndarray
         Of the outputs, increasing [s].
     items : ndarray
-        Places of signals, and behind the last of them elements of the state.
+        Indices of signals, followed by those of elements of the state.
     sample_count : int
-        So many of the items are kept at all times.
+        Number of items, from the first, that are kept at all times.
     reductions : sequence of Reduction
     weights : ndarray
         Weight of each output in time [s].
     bound_items : ndarray
-        Places of signals that have a bound.
+        Indices of signals that have a bound.
     above : ndarray
-        1 where a bound is a greatest value, else 0.
+        1 for an upper bound, else 0.
     limits : ndarray, shape (count or 1, number of bounds)
     """
 
@@ -133,22 +133,22 @@ class LaneOutputs:
 
 
 class Outcome:
-    """What comes of many integrations.
+    """The results of many integrations.
 
     Attributes
     ----------
     ends : ndarray
         An `End` for each system.
     codes : ndarray
-        What says more: of prepare, a status word, the place of a guard.
+        Details: the return value of prepare, a status word, or the index of a guard.
     ended : ndarray
-        The time that was reached, or at which something was refused [s].
+        The time that was reached, or at which a state was refused [s].
     finals : ndarray, shape (count, number of state elements)
         The state that was reached.
     steps : ndarray
     reduced : ndarray, shape (count, reductions)
     beyond : ndarray, shape (count, bounds)
-        The value furthest beyond a bound; NaN where there is none.
+        The value farthest beyond a bound; NaN if it was not passed.
     """
 
     def __init__(self, systems: Systems, wanted: LaneOutputs, state_count: int) -> None:
@@ -256,7 +256,7 @@ class _Problem(ctypes.Structure):
 
 @dataclass
 class Problem:
-    """The same in memory of C, which lasts as long as this object.
+    """Systems in the memory of C, which exists as long as this object.
 
     Parameters
     ----------
@@ -265,9 +265,9 @@ class Problem:
     wanted : LaneOutputs
     accuracy : Accuracy
     width : int
-        How many lanes.
+        Number of lanes.
     stiff_after : int
-        So many steps are tried before a system that is stiff ends; 0: none ends for that.
+        Steps after which a stiff system ends; 0: it does not.
     """
 
     model: System
@@ -291,17 +291,17 @@ class Problem:
             **self._of_accuracy(),
             **self._of_wanted(),
             **self._of_outcome(),
-            # the samples of some systems come with their integration
+            # samples are set in `integrate`
         )
         self._call = library.solver("integrate", self.width)
 
     def integrate(self, first: int, last: int, stop: "ctypes.c_int") -> Array:
-        """Integrate some of the systems; as soon as `stop` is not zero, no further.
+        """Integrate some of the systems, until `stop` is not zero.
 
         Returns
         -------
         ndarray, shape (last - first, sample_count, number of times)
-            The samples; NaN behind where a system ends.
+            The samples; NaN after the end of a system.
         """
         wanted = self.wanted
         samples = np.full((last - first, wanted.sample_count, wanted.times.size), np.nan)
@@ -323,7 +323,7 @@ class Problem:
         return self._pointer(values, np.int32, _INTS)
 
     def _pointer(self, values: Any, kind: type, pointer: Any) -> Any:
-        """Return a pointer to numbers, which are kept; those of an outcome are not copied."""
+        """Return a pointer to numbers, which stay in memory; those of an outcome are not copied."""
         array: NDArray[Any] = np.ascontiguousarray(values, dtype=kind)
         self._kept.append(array)
         return array.ctypes.data_as(pointer)
@@ -381,10 +381,13 @@ class Problem:
         }
 
     def _drive(self, drive: TimeInputs) -> _Drive:
+        def course(curve: Any) -> _Course:
+            return _Course(curve.c.shape[1], self._doubles(curve.x), self._doubles(curve.c))
+
         segments = [
             _Segment(
                 segment.end,
-                self._array(_Course, [self._course(s.curve) for s in segment.splines]),
+                self._array(_Course, [course(s.curve) for s in segment.splines]),
                 milestones.size,
                 self._doubles(milestones),
                 turns.shape[1],
@@ -395,9 +398,6 @@ class Problem:
             for milestones, turns in (segment.free,)
         ]
         return _Drive(len(segments), self._array(_Segment, segments))
-
-    def _course(self, curve: Any) -> _Course:
-        return _Course(curve.c.shape[1], self._doubles(curve.x), self._doubles(curve.c))
 
     def _of_accuracy(self) -> dict[str, Any]:
         accuracy, segments = self.accuracy, self.systems.drives[0].segments
@@ -445,15 +445,16 @@ class Problem:
 
 @dataclass(frozen=True)
 class _Shown:
-    """What is evaluated at outputs: all signals, or those with ranges if no other is asked for.
+    """Signals that are evaluated at outputs: all, or those with ranges if no other is requested.
 
     Attributes
     ----------
     bounded : bool
-        Whether those with ranges are all.
+        Whether only those with ranges are evaluated.
     signal_count : int
     places : ndarray
-        Of all signals, and behind the last of them the elements of the state, in what it shows.
+        Indices of all signals, followed by those of elements of the state, among the evaluated
+        ones.
     """
 
     bounded: bool
@@ -474,6 +475,6 @@ class _Shown:
 
 
 def _common_variant(drives: Sequence[TimeInputs]) -> str:
-    """Return the ending of functions that serve all drives; the general ones always do."""
+    """Return the suffix of functions for all drives; empty for the general ones."""
     variants = {drive.variant for drive in drives}
     return variants.pop() if len(variants) == 1 else ""

@@ -1,4 +1,4 @@
-"""Integrate many systems on all cores, without the interpreter's lock."""
+"""Integration of many systems on all cores, without the interpreter's lock."""
 
 import ctypes
 import os
@@ -13,17 +13,17 @@ from .problem import Problem
 Report = Callable[[int], None]
 Finish = Callable[[int, int, NDArray[np.float64], Callable[[], bool]], None]
 
-# Systems that a thread takes at a time: so many that lanes which have nothing left to do at their
-# end are little beside them, and so few that all threads end together.
+# Systems of one call in a thread: enough that idle lanes at the end matter little, few enough that
+# all threads end at about the same time.
 _FEWEST, _MOST, _PARTS = 64, 2048, 8
-# Samples that a thread holds at a time, with which many systems would fill the memory [bytes].
+# Samples of one call in a thread, which limits the memory [bytes].
 SAMPLES = 2**23
-# How long the main thread waits before it looks at signals and reports progress [s].
+# Time after which the main thread handles signals and reports progress [s].
 _PATIENCE = 0.1
 
 
 def usual_threads() -> int:
-    """Return how many cores this process may use."""
+    """Return the number of cores that this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
@@ -38,11 +38,10 @@ def run(problem: Problem, threads: int, finish: Finish, report: Report | None = 
         Its outcome is filled.
     threads : int
     finish : callable
-        Called with the first of some systems and the one behind the last, their samples, and what
-        returns whether the caller wants an end; from several threads at a time, with systems of
-        their own.
+        Called in several threads with the first of some systems and the one after the last, their
+        samples, and a function that returns whether the caller wants to stop.
     report : callable, optional
-        Called with how many systems have been integrated, now and then.
+        Called now and then with the number of integrated systems.
     """
     stop = ctypes.c_int(0)
 

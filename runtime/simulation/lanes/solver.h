@@ -1,4 +1,4 @@
-/* What solvers in lanes share: names for each width, and memory for rows of vectors. */
+/* Common parts of solvers in lanes: names for each width, and memory for rows of vectors. */
 #ifndef KINTRAFO_SOLVER_H
 #define KINTRAFO_SOLVER_H
 
@@ -11,15 +11,15 @@
 #define JOINED(name, width) name##width
 #define NAME_OF(name, width) JOINED(name, width)
 
-/* A row: where its address is to be, and its length. */
+/* A row: where its address is stored, and its length. */
 typedef struct {
     real **place;
     int count;
 } part;
 
 /*
- * Reserve rows, all zero, and so many bytes behind them, whose address is returned; null where there is no
- * memory. To be freed at the first row.
+ * Allocate rows, all zero, followed by some bytes, whose address is returned; null without memory. The first row
+ * is to be freed.
  */
 static void *reserve(const part *parts, size_t part_count, size_t more)
 {

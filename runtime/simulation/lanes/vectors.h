@@ -1,34 +1,34 @@
 /*
- * Vectors of numbers, one system in each lane, and what the emitted equations call for them.
+ * Vectors of numbers, one system in each lane, and the functions of emitted equations for them.
  *
- * Vectors are those of GCC and Clang: every operation is that of each lane by itself, so that a lane has
- * the same bits whatever the width, and whatever is in the others.
+ * Vectors are those of GCC and Clang: every operation acts on each lane separately, so that the bits of a lane do
+ * not depend on the width or on the other lanes.
  */
 #ifndef KINTRAFO_VECTORS_H
 #define KINTRAFO_VECTORS_H
 
 #include <math.h>
 
-/* How many lanes: 2 are in every processor of 64 bits, 4 in one with AVX2, 8 in one with AVX-512. */
+/* Number of lanes: 2 for every processor of 64 bits, 4 with AVX2, 8 with AVX-512. */
 #ifndef WIDTH
 #define WIDTH 2
 #endif
 
 typedef double kt_real __attribute__((vector_size(8 * WIDTH)));
-typedef kt_real real; /* which equations may call something of theirs */
+typedef kt_real real; /* equations may use these names */
 typedef long long bits __attribute__((vector_size(8 * WIDTH)));
 typedef unsigned long long digits __attribute__((vector_size(8 * WIDTH)));
 
 #define INLINE static inline __attribute__((always_inline))
 
-/* The same number in all lanes; nothing is changed by it, nor is a vector. */
+/* The same number in all lanes; a vector is unchanged. */
 #define SPREAD(x) ((x) - (kt_real){0.0})
 
-/* The bits of numbers, and numbers of bits. */
+/* The bits of numbers, and numbers from bits. */
 #define BITS(x) ((bits)(x))
 #define REAL(x) ((real)(x))
 
-/* A vector, or the other one, lane by lane: a mask has all bits of a lane, or none. */
+/* The first or the second vector, by lane: a mask has all bits of a lane, or none. */
 INLINE bits choose_bits(bits mask, bits one, bits other) { return (one & mask) | (other & ~mask); }
 
 INLINE real choose(bits mask, real one, real other)
@@ -52,7 +52,7 @@ INLINE real with_sign_of(real x, real sign)
     return (real)((bits)magnitude(x) | ((bits)sign & ~0x7fffffffffffffffLL));
 }
 
-/* The compiler makes one instruction of each of these. */
+/* The compiler makes each of these one instruction. */
 INLINE real greater(real x, real y)
 {
     real z;
@@ -80,7 +80,7 @@ INLINE real root(real x)
     return y;
 }
 
-/* Where a number is neither NaN nor infinite. */
+/* Mask of the lanes with a finite number. */
 INLINE bits is_finite(real x) { return x - x == 0.0; }
 
 #endif

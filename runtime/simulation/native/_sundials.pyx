@@ -1,5 +1,5 @@
 # cython: language_level=3, boundscheck=False, wraparound=False
-"""Call `kt_integrate` with NumPy arrays, without the interpreter lock."""
+"""Calls of `kt_integrate` with NumPy arrays, without the interpreter lock."""
 
 import numpy as np
 
@@ -140,11 +140,11 @@ cdef int _call_roots(double time, const double *state, double *out, void *data) 
 
 
 cdef int _interrupted(void *data) noexcept with gil:
-    """Raise what a signal has to raise, KeyboardInterrupt above all: only Python sees signals."""
+    """Raise KeyboardInterrupt, or any other exception of a signal: only Python handles signals."""
     cdef _Roots roots = <_Roots> data
     try:
         PyErr_CheckSignals()
-        if roots.stopped is not None and roots.stopped(): # in a thread, which sees no signals
+        if roots.stopped is not None and roots.stopped(): # in a thread, which receives no signals
             raise KeyboardInterrupt
     except BaseException as error:
         roots.error = error
@@ -268,10 +268,10 @@ def integrate(
 
 
 cdef class Motion:
-    """A motion that is advanced piece by piece; `kintrafo.simulation.stepper` is its face.
+    """A motion that is advanced piece by piece; `kintrafo.simulation.stepper` is its interface.
 
-    State and inputs are the caller's arrays. Where a piece is done, they are those at its end: inputs that
-    have a rate move by it, and others stay.
+    State and inputs are the caller's arrays. After a piece they have the values at its end: inputs with a
+    rate are integrated, and others do not change.
     """
 
     cdef kt_problem problem
@@ -279,7 +279,7 @@ cdef class Motion:
     cdef kt_result result
     cdef kt_motion *motion
     cdef kt_spline *splines
-    cdef double *curves  # of each spline 2 breaks and 4 coefficients
+    cdef double *curves  # 2 breaks and 4 coefficients of each spline
     cdef const double[::1] constants, atol, usual_margins
     cdef const int[::1] guards
     cdef double[::1] state, inputs
@@ -334,7 +334,7 @@ cdef class Motion:
         free(self.curves)
 
     cdef void _let_inputs_move(self, double start, double end) noexcept nogil:
-        """Make the curves of the inputs that have a rate: by it, and by its own rate, within the piece."""
+        """Set the curves of inputs with a rate, from it and from its own rate, within the piece."""
         cdef double *curve
         cdef int i, rate, second
         for i in range(self.problem.spline_count):
@@ -364,7 +364,7 @@ cdef class Motion:
         return self.start + self.taken * self.length
 
     cpdef bint advance(self):
-        """Advance by one step; return whether that is done, else nothing has changed."""
+        """Advance by one step; return whether it succeeded. Else nothing has changed."""
         cdef double times[2]
         cdef int outcome
         # whole steps from the start, so that times do not drift

@@ -104,7 +104,7 @@ static int interpolate(worker *w, double time, int derivative, double *out)
     return 0;
 }
 
-static int begin_anew(worker *w, double time, double length)
+static int restart(worker *w, double time, double length)
 {
     multistep *m = w->own;
     return CVodeReInit(m->memory, time, m->vectors.y) || CVodeSetInitStep(m->memory, length);
@@ -138,6 +138,6 @@ static void count(worker *w, kt_statistics *total)
 }
 
 const kt_solver kt_cvode = {
-    open_cvode, close_cvode, step, set_stop, interpolate, begin_anew,
+    open_cvode, close_cvode, step, set_stop, interpolate, restart,
     next_step, count, CV_TOO_MUCH_ACC, 0,
 };

@@ -1,6 +1,6 @@
 /*
- * Dormand and Prince's method of order 5, for one system alone. Its free interpolant gives outputs and
- * finds events without an evaluation more.
+ * Dormand and Prince's method of order 5, for a single system. Its free interpolant evaluates outputs and
+ * finds events without further evaluations.
  */
 #include "dormand_prince.h"
 #include "number.h"
@@ -15,7 +15,7 @@
 /* Terms of the interpolant. */
 #define TERMS 5
 
-/* A code that is never returned: tolerances that are too small end in steps that are. */
+/* A code that is never returned: too small tolerances lead to too small steps. */
 #define NEVER 1
 
 typedef struct {
@@ -23,10 +23,10 @@ typedef struct {
     double *state, *end_state, *stage;
     double *rates;  /* stages x states */
     double *terms;  /* TERMS x states: powers of the part of the step */
-    double sign;    /* of the time's direction */
-    double time, reached; /* the last step goes from the one to the other; equal before it is taken */
-    double next;    /* how long the next one is to be; 0: to be chosen */
-    double error;   /* binary logarithm of the square of that of the step before */
+    double sign;    /* direction of time */
+    double time, reached; /* begin and end of the last step; equal before the first */
+    double next;    /* planned length of the next step; 0: to be chosen */
+    double error;   /* binary logarithm of the square of the error of the step before */
     double stop;
     int fresh;      /* the rates at `time` are not known */
     int fitted;     /* the terms are those of the last step */
@@ -35,7 +35,7 @@ typedef struct {
 
 /* -- begin and end ---------------------------------------------------------------------------- */
 
-static int begin_anew(worker *w, double time, double length)
+static int restart(worker *w, double time, double length)
 {
     method *m = w->own;
     size_t size = (size_t)w->problem->state_count * sizeof *m->state;
@@ -70,7 +70,7 @@ static int open_method(worker *w, double start)
     m->terms = m->rates + STAGES * n;
     m->sign = w->end > w->start ? 1.0 : -1.0;
     m->stop = w->end;
-    begin_anew(w, start, w->options->first_step);
+    restart(w, start, w->options->first_step);
     return KT_DONE;
 }
 
@@ -92,7 +92,7 @@ static int rates_at(worker *w, double time, const double *state, double *out)
     return kt_rates(w, time, state, out);
 }
 
-/* Return the mean square of some numbers, each measured by what is tolerated. */
+/* Return the mean square of some numbers, each divided by its tolerance. */
 static double mean_square(const worker *w, const double *numbers, const double *other)
 {
     const method *m = w->own;
@@ -106,7 +106,7 @@ static double mean_square(const worker *w, const double *numbers, const double *
     return sum / n;
 }
 
-/* Return the length of the first step, by the size of the state and of its rates. */
+/* Return the length of the first step, from the size of the state and of its rates. */
 static double first_step(const worker *w)
 {
     const method *m = w->own;
@@ -117,7 +117,7 @@ static double first_step(const worker *w)
     return lesser(step, size > 1.0e-10 ? of_state : 1.0e-4);
 }
 
-/* Return how long the next step is: as planned, if nothing is in its way; and the time that limits it. */
+/* Return the length of the next step, as planned unless a time limits it, and that time. */
 static double planned(worker *w, double *goal)
 {
     const method *m = w->own;
@@ -127,11 +127,11 @@ static double planned(worker *w, double *goal)
     *goal = kt_next_turn(w, m->time, m->sign * far, most);
     *goal = *goal == m->sign * far ? m->stop : *goal;
     double left = m->sign * (*goal - m->time);
-    /* two equal steps, rather than one and what remains */
+    /* two equal steps instead of one and a short remainder */
     return left <= most ? left : left < 2.0 * most ? 0.5 * left : most;
 }
 
-/* Find the rates of all stages and the state at the end of a step; positive where one is refused. */
+/* Compute the rates of all stages and the state at the end of a step; positive if a state is refused. */
 static int attempt(worker *w, double step)
 {
     method *m = w->own;
@@ -166,7 +166,7 @@ static double error_of(const worker *w, double step)
     return mean_square(w, m->stage, m->end_state);
 }
 
-/* Let the end of the last step be the begin of the next one, and see that its rates are known. */
+/* Start the next step at the end of the last one, and ensure that its rates are known. */
 static int go_on(worker *w)
 {
     method *m = w->own;
@@ -189,7 +189,7 @@ static int go_on(worker *w)
     return 0;
 }
 
-/* Take a step, as long as its error allows. */
+/* Take a step whose length its error permits. */
 static int take_step(worker *w)
 {
     method *m = w->own;
@@ -212,13 +212,13 @@ static int take_step(worker *w)
         int good = square <= 1.0;
         m->next = length * (again || !good ? lesser(factor, 1.0) : factor);
         if (good) {
-            /* a step that was shorter for its goal says nothing against the length that was planned */
+            /* a step that was shortened to reach its goal does not reduce the planned length */
             m->next = !again && length < plan ? greater(m->next, plan) : m->next;
             break;
         }
         again = 1;
         ++m->counted.error_test_failures;
-        if (!(m->next >= least)) { /* nor a NaN */
+        if (!(m->next >= least)) { /* also for NaN */
             return KT_TOO_SMALL;
         }
     }
@@ -230,7 +230,7 @@ static int take_step(worker *w)
 
 /* -- within the step -------------------------------------------------------------------------- */
 
-/* Find the powers by which the states within the last step are interpolated. */
+/* Compute the polynomial that interpolates the states within the last step. */
 static void fit(worker *w)
 {
     method *m = w->own;
@@ -272,7 +272,7 @@ static int interpolate(worker *w, double time, int derivative, double *out)
     return 0;
 }
 
-/* -- what `integrate.c` calls ----------------------------------------------------------------- */
+/* -- called by `integrate.c` ------------------------------------------------------------------ */
 
 static int step(worker *w, double goal, double *time)
 {
@@ -310,6 +310,6 @@ static void count(worker *w, kt_statistics *total)
 }
 
 const kt_solver kt_dormand_prince = {
-    open_method, close_method, step, set_stop, interpolate, begin_anew,
+    open_method, close_method, step, set_stop, interpolate, restart,
     next_step, count, NEVER, 1,
 };

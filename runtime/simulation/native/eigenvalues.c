@@ -1,20 +1,20 @@
-/* Bounds of eigenvalues, by the norms of powers, and balancing. */
+/* Bounds of eigenvalues from the norms of powers, and balancing. */
 #include "eigenvalues.h"
 
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
 
-/* The last bound is that of the power 2^8 of the matrix: some per cent above the largest eigenvalue at most. */
+/* The last bound is that of the power 2^8 of the matrix: at most some per cent above the largest eigenvalue. */
 #define SQUARINGS 8
 
-/* Sweeps of balancing; a row and its column are scaled if that makes their sum smaller than this part of it. */
+/* Sweeps of balancing; a row and its column are scaled if that reduces their sum below this part. */
 #define SWEEPS 8
 #define WORTHWHILE 0.95
 
 /* -- powers ----------------------------------------------------------------------------------- */
 
-/* Return the greatest sum of a row's magnitudes, by which all entries are divided. */
+/* Return the greatest sum of magnitudes in a row, and divide all entries by it. */
 static double normalise(double *matrix, int n)
 {
     double norm = 0.0;
@@ -46,8 +46,8 @@ static void square(const double *matrix, int n, double *out)
 }
 
 /*
- * The norm of a power of the matrix is not below that power of any eigenvalue, and the root of the norm comes
- * down to the largest as the power grows (Gelfand).
+ * The norm of a power of the matrix is at least that power of every eigenvalue, and the root of the norm
+ * converges to the largest eigenvalue as the power grows (Gelfand).
  */
 double kt_bound_eigenvalues(double *matrix, double *spare, int n, double enough)
 {
@@ -59,7 +59,7 @@ double kt_bound_eigenvalues(double *matrix, double *spare, int n, double enough)
             matrix = spare;
             spare = other;
         }
-        logarithm += part * log2(normalise(matrix, n)); /* of zero: nothing moves */
+        logarithm += part * log2(normalise(matrix, n)); /* the zero matrix */
         if (logarithm <= log2(enough)) {
             break;
         }
@@ -81,7 +81,7 @@ static void weigh(double *matrix, int n, int element, double weight)
     }
 }
 
-/* Make a row and its column equally large; return whether that made their sum smaller. */
+/* Scale a row and its column to equal size; return whether that reduced their sum. */
 static int balance_element(double *matrix, int n, int element, double *weight)
 {
     double own = fabs(matrix[element * n + element]), row = 0.0, column = 0.0;
@@ -96,7 +96,7 @@ static int balance_element(double *matrix, int n, int element, double *weight)
         *weight = 0.0;
         return was;
     }
-    /* sums below the diagonal element are taken to be as large as it */
+    /* a sum is at least the diagonal element */
     double by = sqrt(fmax(column, own) / fmax(row, own));
     if (!(row * by + column / by < WORTHWHILE * (row + column))) {
         return 0;

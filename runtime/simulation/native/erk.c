@@ -12,9 +12,9 @@ typedef struct {
 } runge_kutta;
 
 /*
- * ERKStep of SUNDIALS 6.4 takes every method whose last stage is at the end of the step for one whose
- * last stage is the first of the next step. Where that is not so, an added stage makes it so: it
- * is at the step's end, with no weight. The method stays the same, and evaluates as often.
+ * ERKStep of SUNDIALS 6.4 assumes that a last stage at the end of the step is the first stage of the next
+ * step. For a method without that property, a stage at the end with a weight of zero is added. The method
+ * stays the same, and has as many evaluations.
  */
 static ARKodeButcherTable table_of(const char *name)
 {
@@ -66,7 +66,7 @@ static int open_erk(worker *w, double start)
     if (unknown) {
         return KT_BAD_TABLE;
     }
-    /* Nothing is interpolated then, and a cubic needs no evaluations of its own. */
+    /* Without interpolation a cubic suffices, which needs no evaluations of its own. */
     int exact = o->stop_at_outputs && !o->dense && !kt_root_count(w);
     double sign = w->end > w->start ? 1.0 : -1.0;
     int bad = ARKodeSetUserData(m->memory, w)
@@ -115,7 +115,7 @@ static int interpolate(worker *w, double time, int derivative, double *out)
     return 0;
 }
 
-static int begin_anew(worker *w, double time, double length)
+static int restart(worker *w, double time, double length)
 {
     runge_kutta *m = w->own;
     return ERKStepReInit(m->memory, kt_call_rates, time, m->vectors.y)
@@ -144,6 +144,6 @@ static void count(worker *w, kt_statistics *total)
 }
 
 const kt_solver kt_erk = {
-    open_erk, close_erk, step, set_stop, interpolate, begin_anew,
+    open_erk, close_erk, step, set_stop, interpolate, restart,
     next_step, count, ARK_TOO_MUCH_ACC, 0,
 };

@@ -1,4 +1,4 @@
-/* Methods with steps of one length. */
+/* Methods with a fixed step. */
 #include "fixed_step.h"
 #include "polynomial.h"
 
@@ -6,17 +6,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Part of a step that is not taken for one: rounding of times. */
+/* A time span below this part of a step is a rounding error. */
 #define SLIVER 1.0e-9
 
 /*
- * A motion passes a jump more than once if rates jump in the former number of steps, with fewer than the latter in a
- * row between them in which they do not.
+ * Rates alternate if they jump in the first number of steps, with fewer than the second number of consecutive steps
+ * without a jump between them.
  */
 #define OFTEN_JUMPS 15
 #define OFTEN_CALM 6
 
-/* -- when steps end --------------------------------------------------------------------------- */
+/* -- ends of steps ---------------------------------------------------------------------------- */
 
 static double longest(const worker *w)
 {
@@ -39,7 +39,7 @@ static double end_of_step(const kt_fixed_times *t, double most)
     return is_whole(t, most) ? t->origin + t->sign * (double)(t->since + 1) * most : t->time + t->sign * t->next;
 }
 
-/* Note that the step to this time is taken. */
+/* Note that the step to this time was taken. */
 static void reach(kt_fixed_times *t, double end, double most)
 {
     int restarted = lands(t, most) || !is_whole(t, most);
@@ -111,7 +111,7 @@ int kt_fixed_rates(worker *w, double time, const double *state, double *out)
     return kt_rates(w, time, state, out);
 }
 
-/* Begin where the last step ended, and evaluate the rates there if they are not known. */
+/* Start at the end of the last step, and evaluate the rates there if they are not known. */
 static int go_on(worker *w)
 {
     kt_fixed *m = w->own;

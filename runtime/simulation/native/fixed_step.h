@@ -1,4 +1,4 @@
-/* Methods with steps of one length: when each step ends, and all that they have in common. Lengths have no sign. */
+/* Common parts of methods with a fixed step, and the ends of their steps. Lengths have no sign. */
 #ifndef KINTRAFO_FIXED_STEP_H
 #define KINTRAFO_FIXED_STEP_H
 
@@ -14,29 +14,29 @@
 
 /* One method: its memory, and its steps, whose codes are those of a solver, zero for no error. */
 typedef struct {
-    size_t size;                                        /* of its struct, which begins with a kt_fixed [bytes] */
-    int stages;                                         /* whose rates it keeps, from that at the begin on */
-    int vectors, matrices;                              /* of states, of states x states: its further arrays */
+    size_t size;                                        /* size of its struct, which begins with a kt_fixed [bytes] */
+    int stages;                                         /* number of stages with stored rates, the first at the begin */
+    int vectors, matrices;                              /* numbers of further arrays: of states, of states x states */
     int (*prepare)(worker *w, double step);             /* before the stages; may refuse the step */
-    int (*attempt)(worker *w, double end, double step); /* find the end, or a code */
-    int (*jumped)(worker *w, double step);              /* whether rates jump back and forth in the step, or a code */
-    int (*refuse_jumps)(worker *w, double step);        /* the code of steps that do so again and again */
-    void (*fit)(worker *w);                             /* find the polynomial within the last step */
+    int (*attempt)(worker *w, double end, double step); /* compute the end, or return a code */
+    int (*jumped)(worker *w, double step);              /* whether rates alternate in the step, or a code */
+    int (*refuse_jumps)(worker *w, double step);        /* the code if they do so repeatedly */
+    void (*fit)(worker *w);                             /* compute the polynomial within the last step */
 } kt_fixed_method;
 
 typedef struct {
-    double sign;          /* of the time's direction */
-    double time, reached; /* the last step goes from the one to the other; equal before it is taken */
+    double sign;          /* direction of time */
+    double time, reached; /* begin and end of the last step; equal before the first */
     double origin;        /* times of the steps are counted from here, so that they do not drift */
     long since;           /* steps since then */
-    double next;          /* how long the next one is at most: shorter where the model refused a state */
+    double next;          /* longest next step: shorter after the model refused a state */
     double stop;          /* no step passes over this time */
 } kt_fixed_times;
 
 /* The first member of the struct of a method. */
 typedef struct {
     const kt_fixed_method *method;
-    double *memory;            /* of all arrays */
+    double *memory;            /* memory of all arrays */
     kt_fixed_times times;
     double *state, *end_state; /* of the last step */
     double *rates, *end_rates; /* stages x states, at the begin first; at the end, which is the next begin */

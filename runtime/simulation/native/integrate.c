@@ -1,4 +1,4 @@
-/* What comes of the steps of a solver: outputs, events, dead points, and the end. */
+/* Outputs, events, dead points and the end of an integration, from the steps of a solver. */
 #include "pieces.h"
 #include "worker.h"
 
@@ -36,7 +36,7 @@ static int append_state(kt_table *table, double time, const double *state, int c
 
 /* -- inputs ----------------------------------------------------------------------------------- */
 
-/* Evaluate the inputs at a time by the polynomials of another one, which is near. */
+/* Evaluate the inputs at a time by the polynomials of another, near time. */
 static void evaluate_inputs_near(worker *w, double other, double time)
 {
     for (int i = 0; i < w->problem->spline_count; ++i) {
@@ -80,7 +80,7 @@ double kt_next_turn(worker *w, double time, double end, double step)
 
 /* -- the model -------------------------------------------------------------------------------- */
 
-/* A refused state is recoverable: the solver tries a smaller step, and gives up by itself. */
+/* A refused state is recoverable: the solver tries a smaller step, and ends if that fails, too. */
 static int refuse(worker *w, int status, double time, const double *state)
 {
     kt_result *r = w->result;
@@ -113,7 +113,7 @@ int kt_rates_by_time(worker *w, double time, const double *state, double lapse, 
     double *const rates[2] = {scratch, out};
     for (int i = 0; i < 2; ++i) {
         double moved = time + (i ? lapse : -lapse);
-        evaluate_inputs_near(w, time + lapse, moved); /* where the step goes, also backward from a kink */
+        evaluate_inputs_near(w, time + lapse, moved); /* on the side of the step, also backward from a kink */
         int status = p->rhs(p->constants, state, w->inputs, rates[i]);
         if (status) {
             return refuse(w, status, moved, state);
@@ -198,16 +198,16 @@ static void tear_down(worker *w)
 
 /* -- stepping --------------------------------------------------------------------------------- */
 
-/* Begin anew with a step of this length. */
-static int begin_anew(worker *w, double time, double step)
+/* Restart with a step of this length. */
+static int restart(worker *w, double time, double step)
 {
     w->solver->count(w, &w->result->statistics);
     memcpy(w->y, w->result->state, (size_t)w->problem->state_count * sizeof *w->y);
     w->reached = time;
-    return w->solver->begin_anew(w, time, w->end > w->start ? step : -step);
+    return w->solver->restart(w, time, w->end > w->start ? step : -step);
 }
 
-/* Translate the solver's way of giving up. */
+/* Return the outcome for an error code of the solver. */
 static int explain(worker *w, int code)
 {
     kt_result *r = w->result;
@@ -230,7 +230,7 @@ static int explain(worker *w, int code)
     return r->refused_status ? KT_STATE : KT_FAILED;
 }
 
-/* Note the crossings at the present root; tell whether one of them ends the integration. */
+/* Note the crossings at the present root; return whether one of them ends the integration. */
 static int note_events(worker *w, double time)
 {
     const kt_problem *p = w->problem;
@@ -251,7 +251,7 @@ static int note_events(worker *w, double time)
     return stop;
 }
 
-/* Keep the derivatives of the step's polynomial at its end. */
+/* Store the derivatives of the step's polynomial at its end. */
 static int keep_polynomial(worker *w, double from, double to)
 {
     int n = w->problem->state_count;
@@ -276,7 +276,7 @@ static void evaluate_margins(worker *w, double time, const double *state, double
     w->problem->margins(w->problem->constants, state, w->inputs, out);
 }
 
-/* Evaluate the margins of what is a short time ahead of a state on its way. */
+/* Evaluate the margins a short time ahead of a state of the motion. */
 static void look_ahead(worker *w, double time, const double *state, double lapse)
 {
     const kt_problem *p = w->problem;
@@ -284,7 +284,7 @@ static void look_ahead(worker *w, double time, const double *state, double lapse
     const double *rates = state + p->position_count;
     if (p->position_count != p->speed_count) {
         kt_evaluate_inputs(w, time);
-        p->rhs(p->constants, state, w->inputs, w->moved); /* the model took the state before */
+        p->rhs(p->constants, state, w->inputs, w->moved); /* the model accepted the state before */
         rates = w->moved;
     }
     for (int i = 0; i < p->state_count; ++i) {
@@ -300,7 +300,7 @@ static double smallest_step(const worker *w)
     return of_step > 0.0 && of_step < of_time ? of_step : of_time;
 }
 
-/* End at the dead point of a guard, a time after the state that was reached. */
+/* End at the dead point of a guard, some time after the state that was reached. */
 static int end_at(worker *w, int guard, double left)
 {
     kt_result *r = w->result;
@@ -310,7 +310,7 @@ static int end_at(worker *w, int guard, double left)
     return KT_STATE;
 }
 
-/* Go back to the state that was reached and try a shorter step; KT_STATE when it is too short. */
+/* Return to the state that was reached for a shorter step; KT_STATE if it is too short. */
 static int shorten(worker *w, double step)
 {
     step *= KT_SHORTER;
@@ -318,30 +318,30 @@ static int shorten(worker *w, double step)
         return KT_STATE;
     }
     w->result->refused_status = 0;
-    return begin_anew(w, w->result->time, step) ? KT_FAILED : KT_DONE;
+    return restart(w, w->result->time, step) ? KT_FAILED : KT_DONE;
 }
 
 /* -- running ---------------------------------------------------------------------------------- */
 
-/* In place of a guard, or of an outcome. */
+/* Instead of the number of a guard, or of an outcome. */
 enum { KT_NONE = -1, KT_NO_MEMORY = -2, KT_AGAIN = -3 };
 
 typedef struct {
     const double *times;
-    long count, next; /* `next` is the first time that is still to come */
+    long count, next; /* `next` is the first time that was not reached yet */
     int every_step;
     double sign;    /* of the time's direction */
-    long milestone; /* the first that is still to come */
+    long milestone; /* the first one not reached yet */
 } course;
 
-/* Return a guard that does not let an output within a step be evaluated. */
+/* Return a guard that prevents the evaluation of an output within a step. */
 static int crossed_at(worker *w, double time, const double *state)
 {
     evaluate_margins(w, time, state, w->margins.between);
     return kt_crossed(&w->margins, w->margins.between);
 }
 
-/* Put out all times up to the one reached; return a guard that does not let one be evaluated. */
+/* Write the outputs up to the time reached; return a guard that prevents the evaluation of one. */
 static int put_out(worker *w, course *c, double reached)
 {
     int n = w->problem->state_count, steady = kt_steady(&w->margins);
@@ -364,8 +364,8 @@ static int put_out(worker *w, course *c, double reached)
 }
 
 /*
- * Return a guard that says that a step is not to be believed; else what it covers is put out. `looked`
- * tells whether the margins ahead had to be looked at.
+ * Return a guard that makes a step untrustworthy; else write the outputs in the step. `looked` returns whether
+ * the margins ahead had to be evaluated.
  */
 static int doubt(worker *w, course *c, double reached, double step, int *looked)
 {
@@ -387,8 +387,8 @@ static int doubt(worker *w, course *c, double reached, double step, int *looked)
 }
 
 /*
- * Limit the next step by the margins ahead; tell whether this is a dead point. It is one also
- * where rounding, not the margin, has made the solver's own steps so short that they lead nowhere.
+ * Limit the next step by the margins ahead; return whether this is a dead point. That is also the case where
+ * rounding, not the margin, has made the solver's own steps too short for any progress.
  */
 static int limit(worker *w, double lapse)
 {
@@ -400,7 +400,7 @@ static int limit(worker *w, double lapse)
     return over ? end_at(w, nearest, KT_LEFT * w->trusted) : KT_DONE;
 }
 
-/* Make the end of a step the state that is reached, or take it back. */
+/* Accept the end of a step as the state that is reached, or take the step back. */
 static int accept(worker *w, course *c, double reached)
 {
     kt_result *r = w->result;
@@ -439,7 +439,7 @@ static double sooner(const worker *w, course *c, double goal)
         ? p->milestones[*next] : goal;
 }
 
-/* Return up to where the solver may step: it must not be told a time that it has passed. */
+/* Return the time up to which the solver may step, which must not be one that it has passed. */
 static double stop_of(worker *w, const course *c, double goal)
 {
     if (w->solver->heeds_trust) {
@@ -450,15 +450,15 @@ static double stop_of(worker *w, const course *c, double goal)
     return limits ? stop : goal;
 }
 
-/* Ask the caller every so many steps, and seconds, whether to go on. */
+/* Ask the caller after some steps, and some seconds, whether to continue. */
 #define STEPS_BETWEEN 16
 #define SECONDS_BETWEEN 0.05
 
-/* By the clock on the wall, which is read faster than what a process has used; it may be put back. */
+/* Wall-clock time, which is faster to read than the time of the process; it may be set back. */
 static double seconds(void)
 {
 #ifdef _WIN32
-    /* timespec_get is not in every library of C for Windows; its clock is that on the wall */
+    /* some libraries of C for Windows lack timespec_get; clock() is there wall-clock time */
     return (double)clock() / CLOCKS_PER_SEC;
 #else
     struct timespec now;
@@ -480,7 +480,7 @@ static int interrupted(worker *w, long tried)
     return w->problem->interrupted(w->problem->interrupted_data);
 }
 
-/* Take a step, or go on within the last one behind a root; the time that this leads to has its state in w->y. */
+/* Take a step, or continue within the last one after a root; w->y is the state at the time reached. */
 static int move(worker *w, double goal, double *time, int *root)
 {
     int rest = w->reached != w->result->time;
@@ -494,7 +494,7 @@ static int move(worker *w, double goal, double *time, int *root)
     return code;
 }
 
-/* Take a step; KT_AGAIN where it came to nothing and a shorter one is to be tried. */
+/* Take a step; KT_AGAIN if it was taken back and a shorter one is to be tried. */
 static int advance(worker *w, course *c, int *root)
 {
     kt_result *r = w->result;
@@ -513,15 +513,15 @@ static int advance(worker *w, course *c, int *root)
         }
         return outcome;
     }
-    /* Steps that shrink towards a refused state would go on for ever. */
+    /* Steps that shrink towards a refused state would never end. */
     if (r->refused_status && fabs(reached - r->time) < smallest_step(w)) {
         return KT_STATE;
     }
-    r->refused_status = 0; /* a smaller step has got past it */
+    r->refused_status = 0; /* a smaller step has passed it */
     return accept(w, c, reached);
 }
 
-/* Look for a dead point at the state from which a motion begins. */
+/* Check for a dead point at the state from which a motion begins. */
 static int look(worker *w, double lapse)
 {
     kt_result *r = w->result;
@@ -531,7 +531,7 @@ static int look(worker *w, double lapse)
     return limit(w, lapse);
 }
 
-/* `goes_on`: the motion has come to this state before. */
+/* `goes_on`: the motion continues from this state. */
 static int run(worker *w, const double *times, long count, int every_step, int goes_on)
 {
     kt_result *r = w->result;
@@ -618,11 +618,11 @@ int kt_advance(kt_motion *w, const double *state, const double *inputs, const do
         w->stuck = 0;
     }
     double first = w->options->first_step > 0.0 ? w->options->first_step : fabs(times[1] - times[0]);
-    int outcome = begin_anew(w, times[0], first) ? KT_FAILED : KT_DONE;
+    int outcome = restart(w, times[0], first) ? KT_FAILED : KT_DONE;
     w->rates_known = 0;
     outcome = outcome == KT_DONE ? run(w, times, 2, 0, goes_on) : outcome;
     if (outcome != KT_DONE) {
-        r->output.rows = 0; /* nothing goes on from here */
+        r->output.rows = 0; /* the integration has ended */
     }
     return outcome;
 }

@@ -1,7 +1,7 @@
 /*
- * Integrate a generated model, from the first step to the last without leaving C.
+ * Integration of a generated model, from the first step to the last in C.
  *
- * One call is independent of all others: it owns its memory, and the context of SUNDIALS where it has one.
+ * A call is independent of all others: it owns its memory, and its context of SUNDIALS if it has one.
  */
 #ifndef KINTRAFO_INTEGRATE_H
 #define KINTRAFO_INTEGRATE_H
@@ -10,13 +10,13 @@
 typedef int (*kt_function)(const double *constants, const double *state, const double *inputs,
                            double *out);
 
-/* A root function given by the caller; returns 0, or non-zero to give up. */
+/* A root function of the caller; returns 0, or another number to end the integration. */
 typedef int (*kt_root)(double time, const double *state, double *out, void *data);
 
-/* Asked now and then, it tells whether the caller wants the integration to end. */
+/* Called now and then; returns whether the caller wants the integration to end. */
 typedef int (*kt_interrupted)(void *data);
 
-/* A time-varying input: a cubic spline, and which inputs get its value and derivatives. */
+/* A time-varying input: a cubic spline, and the inputs with its value and derivatives. */
 typedef struct {
     int pieces;
     const double *breaks;       /* pieces + 1 times, increasing */
@@ -36,27 +36,27 @@ typedef struct {
     kt_function signals;
     kt_function margins;
     int state_count, input_count, signal_count;
-    int position_count, speed_count; /* positions come first in the state, and then speeds; of as many of
-                                        both each is the rate of one */
+    int position_count, speed_count; /* the state begins with positions, followed by speeds; with equal
+                                        numbers each speed is the rate of a position */
     const double *constants;
-    const double *inputs; /* values of those that do not vary */
+    const double *inputs; /* values of the inputs that do not vary */
     int spline_count;
     const kt_spline *splines;
     long milestone_count;
     const double *milestones; /* times that no step passes over, in the order of the integration */
     long turn_count;
-    const double *turns; /* times at which inputs turn, likewise */
-    const double *reaches; /* no step passes over a turn that is longer than this */
-    int event_count; /* of the model's signals; they come before the caller's */
+    const double *turns; /* times of extrema of inputs, in the same order */
+    const double *reaches; /* longest step that may pass over each */
+    int event_count; /* events of the model's signals, which come before the caller's */
     const kt_event *events;
-    int root_count; /* of the caller */
+    int root_count; /* the caller's events */
     kt_root roots;
     void *root_data;
     const int *directions; /* of all events: -1 falling, +1 rising, 0 both */
     const int *terminal;   /* of all events: 0 never, n stops at the n-th crossing */
     int guard_count;
-    const int *guards;           /* what each guard means, see margins.h */
-    const double *usual_margins; /* their size */
+    const int *guards;           /* effect of each guard, see margins.h */
+    const double *usual_margins; /* usual size of the margins */
     kt_interrupted interrupted;
     void *interrupted_data;
 } kt_problem;
@@ -69,10 +69,10 @@ typedef struct {
     double rtol;
     const double *atol;
     double first_step; /* 0: chosen by the solver */
-    double max_step;   /* 0: unlimited; of KT_RK4 and KT_RODASP that of all steps */
+    double max_step;   /* 0: unlimited; the fixed step of KT_RK4 and KT_RODASP */
     long max_steps;
-    int stop_at_outputs; /* step onto every output instead of interpolating */
-    int dense;           /* keep the polynomial of every step */
+    int stop_at_outputs; /* steps end at every output, instead of interpolation */
+    int dense;           /* store the polynomial of every step */
 } kt_options;
 
 typedef struct {
@@ -92,11 +92,11 @@ enum kt_outcome {
     KT_EVENT,           /* a terminal event */
     KT_STATE,           /* the model refused a state: see refused_* */
     KT_TOO_MANY_STEPS,
-    KT_TOO_ACCURATE,    /* the tolerances are below what the arithmetic can do */
-    KT_CALLER,          /* a root function gave up, or the caller wants an end */
-    KT_UNSTABLE,        /* steps of one length are too long: see longest_step */
-    KT_JUMPS,           /* rates jump back and forth within steps of one length */
-    KT_SINGULAR_STEP,   /* the linear equations of a step have no one solution */
+    KT_TOO_ACCURATE,    /* the tolerances are below the limit of the arithmetic */
+    KT_CALLER,          /* a root function failed, or the caller wants an end */
+    KT_UNSTABLE,        /* the fixed step is too long: see longest_step */
+    KT_JUMPS,           /* rates alternate from step to step */
+    KT_SINGULAR_STEP,   /* the matrix of a step is singular */
     KT_BAD_TABLE,       /* the installed SUNDIALS has no such Runge-Kutta table */
     KT_MEMORY,
     KT_FAILED           /* anything else: see code */
@@ -113,8 +113,8 @@ typedef struct {
     int refused_guard; /* the guard at whose dead point the motion ends; -1: none */
     double refused_time;
     double *refused_state;
-    double longest_step; /* the longest that is stable, where one is not */
-    int code;          /* of the solver, as SUNDIALS has them */
+    double longest_step; /* the longest stable step, if the fixed one is not stable */
+    int code;          /* counts of the solver, as in SUNDIALS */
 } kt_result;
 
 enum { KT_MAX_ORDER = 12 };
@@ -122,31 +122,30 @@ enum { KT_MAX_ORDER = 12 };
 /*
  * Integrate from times[0] to times[count - 1]. With `every_step`, the output is every internal step
  * and only the first and last time matter; else it is exactly at the times.
- * The result must be freed with kt_free, whatever the outcome.
+ * The result must be freed with kt_free after any outcome.
  */
 int kt_integrate(const kt_problem *problem, const kt_options *options, const double *state,
                  const double *times, long count, int every_step, kt_result *result);
 
 void kt_free(kt_result *result);
 
-/* A motion that a caller advances piece by piece, with inputs that are steady within each. */
+/* A motion that the caller advances piece by piece. */
 typedef struct worker kt_motion;
 
 /*
- * Return a motion, or NULL where there is no memory. Problem, options and result must last as long as it
- * does; the result is filled by `kt_advance`. Only for methods that need no SUNDIALS.
+ * Return a motion, or NULL without memory. Problem, options and result must exist as long as it does; `kt_advance`
+ * fills the result. Only for methods that do not need SUNDIALS.
  */
 kt_motion *kt_open_motion(const kt_problem *problem, const kt_options *options, const double *state,
                           double length, kt_result *result);
 
 /*
- * Advance from a state at one time to another time, with the first step of the options, or one over all of
- * the time if there is none; allocates nothing. The state reached, and its time, are in
- * the result, also where the outcome is not KT_DONE.
+ * Advance from a state at one time to another time, with the first step of the options, or by default one over
+ * the whole time; allocates nothing. The state reached, and its time, are in the result after any outcome.
  */
 int kt_advance(kt_motion *motion, const double *state, const double *inputs, const double *times);
 
-/* Return the length of the step that would come next, a first step for the next piece. */
+/* Return the planned length of the next step, as first step of the next piece. */
 double kt_next_step(kt_motion *motion);
 
 void kt_close_motion(kt_motion *motion);

@@ -1,6 +1,6 @@
 /*
- * A number, where lanes have a vector of numbers (../lanes/vectors.h): what serves both is written of reals.
- * The header of emitted equations, elementary.h, has the same of its own, since these are used alone.
+ * A number, for code that is shared with lanes, where a `real` is a vector of numbers (../lanes/vectors.h).
+ * The header of emitted equations, elementary.h, has its own definitions, since these are used separately.
  */
 #ifndef KINTRAFO_NUMBER_H
 #define KINTRAFO_NUMBER_H
@@ -31,7 +31,7 @@ INLINE real REAL(bits x)
 
 INLINE real choose(bits either, real one, real other) { return either ? one : other; }
 
-/* One instruction each, where fmax and fmin may be calls. */
+/* One instruction each; fmax and fmin may be calls. */
 INLINE real greater(real x, real y) { return x < y ? y : x; }
 
 INLINE real lesser(real x, real y) { return y < x ? y : x; }

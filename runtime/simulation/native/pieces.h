@@ -1,8 +1,8 @@
-/* Where in a piecewise polynomial a time is. */
+/* The piece of a piecewise polynomial at a time. */
 #ifndef KINTRAFO_PIECES_H
 #define KINTRAFO_PIECES_H
 
-/* Times go forward mostly, so the piece of the last evaluation, or a near one, is the right one. */
+/* Times mostly increase, so the search starts at the piece of the last evaluation. */
 static inline int kt_find_piece(const double *breaks, int pieces, int piece, double time)
 {
     while (piece > 0 && time < breaks[piece]) {

@@ -1,10 +1,10 @@
-/* Polynomials by which the states within a step are interpolated. */
+/* Polynomials that interpolate the states within a step. */
 #ifndef KINTRAFO_POLYNOMIAL_H
 #define KINTRAFO_POLYNOMIAL_H
 
 /*
- * Evaluate a derivative of `count` polynomials at a part of a step. Their terms, `terms` x `count`, belong to
- * the powers of the part, the lowest first.
+ * Evaluate a derivative of `count` polynomials at a part of a step. Their coefficients, `terms` x `count`, are
+ * those of the powers of the part, the lowest first.
  */
 static inline void kt_interpolate(const double *terms, int term_count, int count, double part,
                                   double step, int derivative, double *restrict out)

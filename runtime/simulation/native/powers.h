@@ -1,11 +1,11 @@
 /*
- * Logarithm and power of two as well as the choice of a step needs them: to a ten-thousandth, and the same
- * bits everywhere. Of numbers or of vectors: what includes this file has defined which.
+ * Logarithm and power of two, accurate enough for the choice of a step (1e-4), with the same bits on every
+ * machine. The including file defines whether a `real` is a number or a vector.
  */
 #ifndef KINTRAFO_POWERS_H
 #define KINTRAFO_POWERS_H
 
-/* Added to a number, it leaves a whole one in the last digits; taken away again, it has rounded. */
+/* Added to a number and subtracted again, it rounds the number to an integer. */
 #define WHOLE 6755399441055744.0
 
 /* Of a normal positive number. Polynomials through Chebyshev's nodes, here between 1 and 2. */
@@ -19,7 +19,7 @@ INLINE real logarithm(real x)
         - m * 0.07844068))));
 }
 
-/* For exponents of a size below 1000. */
+/* For exponents of magnitude below 1000. */
 INLINE real exponential(real x)
 {
     real moved = x + WHOLE, part = x - (moved - WHOLE);
@@ -27,7 +27,7 @@ INLINE real exponential(real x)
     return REAL((bits)((digits)BITS(m) + ((digits)BITS(moved) << 52)));
 }
 
-/* A logarithm that is one also of zero, of infinity, and of what is no number. */
+/* A logarithm that is finite for zero, infinity and NaN, too. */
 INLINE real bounded_logarithm(real x)
 {
     x = choose(x < 1.0e60, x, SPREAD(1.0e60));

@@ -1,15 +1,15 @@
 /*
- * The classical Runge-Kutta method of order 4 with steps of one length, as it runs in real time: four
- * evaluations a step for any motion. What lies within a step is interpolated by the cubic through both of
- * its ends (Hermite), at no evaluations.
+ * The classical Runge-Kutta method of order 4 with a fixed step, for real time: four evaluations a step for any
+ * motion. States within a step are interpolated by the cubic through both of its ends (Hermite), without further
+ * evaluations.
  *
- * In a step that is too long fast motions grow, and no error estimate shows it. So the largest eigenvalue of
- * the exact Jacobian is bounded, and a step that is not stable is refused. The Jacobian costs more than the
- * step, and is evaluated at the first step, at one in many, and at each step whose own rates differ by more than
- * the last Jacobian explains. A motion that grows shows in these differences long before it shows in the state.
+ * If the step is too long, fast motions grow, and no error estimate detects it. So the largest eigenvalue of the
+ * exact Jacobian is bounded, and a step that is not stable is refused. The Jacobian costs more than the step; it is
+ * evaluated at the first step, at one in many, and at each step whose rates differ by more than the last Jacobian
+ * explains. A growing motion appears in these differences long before it appears in the state.
  *
- * Rates may also jump back and forth between the stages, as those of friction that sticks, where no Jacobian shows
- * it: the rates of the stages do.
+ * Rates may also alternate between the stages, such as those of friction that sticks. No Jacobian shows that, but
+ * the rates of the stages do.
  */
 #include "eigenvalues.h"
 #include "fixed_step.h"
@@ -25,30 +25,30 @@
  */
 #define STABLE 2.61
 
-/* Rates differ by little if the step times their difference is below this part of the difference of states. */
+/* A difference of rates is small if the step times it is below this part of the difference of states. */
 #define LITTLE 0.25
 
-/* The same part near the limit of stability, from where each step has its own Jacobian. */
+/* The same near the limit of stability, where each step has its own Jacobian. */
 #define NEAR (0.5 * STABLE)
 
 /* Most steps that share one Jacobian. */
 #define STEPS_OF_ONE 128
 
 /*
- * Rates jump where the step, times the change of rates between two stages that the Jacobian does not explain, is more
- * than this part of the change of the state, and more than so many roundings.
+ * Rates jump if the step, times the change of rates between two stages that the Jacobian does not explain, is more
+ * than this part of the change of the state, and more than this number of roundings.
  */
 #define JUMP 0.5
 #define ROUNDINGS 1.0e6
 
-/* Halvings of the way between two stages, to find the steepest rates. */
+/* Bisections between two stages, to find the steepest rates. */
 #define HALVINGS 30
 
 typedef struct {
     kt_fixed fixed;
     double *stage;                      /* the state of a stage */
     double *jacobian, *matrix, *square; /* states x states */
-    double *weights; /* of the states, in which the Jacobian is balanced */
+    double *weights; /* weights of the states with which the Jacobian is balanced */
     double *most;    /* largest differences of each state since the last Jacobian: between stages at one time; at two */
     double norm;     /* of the balanced Jacobian */
     double length;   /* of the step that was stable by the Jacobian */
@@ -59,7 +59,7 @@ typedef struct {
 
 /* -- stability -------------------------------------------------------------------------------- */
 
-/* Refuse a step that is not stable by the Jacobian of a state, and note the longest one that is. */
+/* Refuse a step that is not stable by the Jacobian of a state, and note the longest stable one. */
 static int check(worker *w, double time, const double *state, double step)
 {
     method *m = w->own;
@@ -82,7 +82,7 @@ static int check(worker *w, double time, const double *state, double step)
     return 0;
 }
 
-/* The same by the Jacobian at the begin of the step, unless it was evaluated there before. */
+/* The same by the Jacobian at the begin of the step, unless that has been evaluated. */
 static int check_here(worker *w, double step)
 {
     method *m = w->own;
@@ -110,13 +110,13 @@ static int rounded(const method *m, int n, int row, double beyond)
     for (int j = 0; j < n; ++j) {
         size += fabs(m->jacobian[row * n + j] * m->fixed.state[j]);
     }
-    return beyond <= ROUNDINGS * DBL_EPSILON * size; /* no NaN is */
+    return beyond <= ROUNDINGS * DBL_EPSILON * size; /* false for NaN */
 }
 
 /*
- * Return whether the last Jacobian explains the difference of each rate but for a little, relative to the difference
- * of its state and to the terms of the Jacobian. This test is independent of units, and it also holds for states that
- * had a part only in eigenvalues of zero, such as those of a body that falls onto something stiff.
+ * Return whether the last Jacobian explains the difference of each rate up to a small part, relative to the difference
+ * of its state and to the terms of the Jacobian. This test is independent of units, and is also valid for states that
+ * took part only in eigenvalues of zero, such as those of a body that falls onto a stiff one.
  */
 static int rows_explained(const method *m, int n, double *most, const double *states, const double *rates)
 {
@@ -137,8 +137,8 @@ static int rows_explained(const method *m, int n, double *most, const double *st
 }
 
 /*
- * Return whether the rates at two states of one time differ as in a stable step: by little, or as the last Jacobian
- * explains it. Both differences are overwritten. The next step may be longer than this one.
+ * Return whether the difference of the rates at two states of one time is that of a stable step: small, or explained
+ * by the last Jacobian. Both differences are overwritten. The next step may be longer than this one.
  */
 static int explained(const method *m, int n, double *states, double *rates)
 {
@@ -204,7 +204,7 @@ static int other_explained(const worker *w, double step, int stage)
 
 /* -- a step ----------------------------------------------------------------------------------- */
 
-/* Find the rates of the stages, and state and rates at the end; positive where the model refuses one. */
+/* Compute the rates of the stages, and state and rates at the end; positive if the model refuses a state. */
 static int find_end(worker *w, double end, double step)
 {
     static const double NODES[4] = {0.0, 0.5, 0.5, 1.0};
@@ -226,7 +226,7 @@ static int find_end(worker *w, double end, double step)
     return kt_fixed_rates(w, end, m->fixed.end_state, m->fixed.end_rates);
 }
 
-/* Find the end. If the model refuses a state on the way, the cause may be a step that is not stable. */
+/* Compute the end. If the model refuses a state, the cause may be a step that is not stable. */
 static int attempt(worker *w, double end, double step)
 {
     if (!find_end(w, end, step)) {
@@ -248,8 +248,8 @@ static int prepare(worker *w, double step)
 /* -- jumps ------------------------------------------------------------------------------------ */
 
 /*
- * Return whether rates jump between the second and the third stage, which are at one time. Rates of positions do
- * not; the change of the others is compared with that of all.
+ * Return whether rates jump between the second and the third stage, which are at one time. Rates of positions do not
+ * jump; the change of the others is compared with that of all.
  */
 static int jump(const worker *w, double step)
 {
@@ -275,7 +275,7 @@ static int jump(const worker *w, double step)
     return fabs(step) * beyond > JUMP * moved && beyond > ROUNDINGS * DBL_EPSILON * rounding;
 }
 
-/* The same, only if the last Jacobian does not explain the rates; a code if the step is not stable by that here. */
+/* The same, only if the last Jacobian does not explain the rates; a code if the step is not stable with that here. */
 static int jumped(worker *w, double step)
 {
     method *m = w->own;
@@ -294,7 +294,7 @@ static double change(const double *from, const double *to, int count)
     return sum;
 }
 
-/* Find the state with the steepest rates between both stages, and note the longest step that is stable there. */
+/* Find the state with the steepest rates between both stages, and note the longest stable step there. */
 static int refuse_jumps(worker *w, double step)
 {
     method *m = w->own;
@@ -319,13 +319,13 @@ static int refuse_jumps(worker *w, double step)
         memcpy(first ? rates_high : rates_low, m->fixed.rates, (size_t)n * sizeof *low);
     }
     int code = check(w, time, m->stage, fabs(step));
-    m->due = 1; /* since no step begins here */
+    m->due = 1; /* no step begins here */
     return code;
 }
 
 /* -- within the step -------------------------------------------------------------------------- */
 
-/* Find the cubic that has state and rates of both ends of the last step. */
+/* Compute the cubic with state and rates of both ends of the last step. */
 static void fit(worker *w)
 {
     method *m = w->own;

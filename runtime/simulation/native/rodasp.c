@@ -1,12 +1,13 @@
 /*
- * A linearly implicit method with steps of one length, for stiff equations: each step evaluates the rates six
- * times and the exact Jacobian once, and solves linear equations six times by one factorisation. It is
- * L-stable, so that motions too fast for a step decay, and its last stage is its result (stiffly accurate).
+ * A linearly implicit method with a fixed step, for stiff equations: each step evaluates the rates six times and the
+ * exact Jacobian once, and solves linear equations six times by one factorisation. It is L-stable, so that motions
+ * too fast for a step decay, and its last stage is its result (stiffly accurate).
  *
- * How rates change with time, by inputs that move, is a central difference along their polynomials.
+ * The derivative of the rates with respect to time, by varying inputs, is a central difference along the polynomials
+ * of the inputs.
  *
- * A Jacobian does not show a jump of the rates that is ahead. Where they jump back and forth from step to step, as
- * those of friction that sticks, the last two stages show it, and such steps are refused.
+ * A Jacobian does not show a jump of the rates ahead. If rates alternate from step to step, such as those of friction
+ * that sticks, the last two stages show it, and such steps are refused.
  */
 #include "rodasp.h"
 #include "fixed_step.h"
@@ -18,15 +19,15 @@
 #include <string.h>
 
 /*
- * Part of a step over which the difference by time is taken. Its error is of the step's square, a millionth of
- * it; its rounding is that of rates, a thousand times.
+ * Part of a step for the central difference. Its error is a millionth of the square of the step, and its rounding
+ * error a thousand times that of rates.
  */
 #define LAPSE (1.0 / 1024.0)
 
 /*
- * Rates jump where the change of rates between the last two stages that the Jacobian does not explain would move the
- * end of the step by more than this part of the difference of both stages, which itself is more than so many
- * roundings. The part is below a tenth for smooth motions, and above a half where friction is passed over.
+ * Rates jump if their change between the last two stages that the Jacobian does not explain would move the end of the
+ * step by more than this part of the difference of both stages, and that difference is more than this number of
+ * roundings. The part is below a tenth for smooth motions, and above a half where a step passes over friction.
  */
 #define JUMP 0.2
 #define ROUNDINGS 1.0e6
@@ -35,14 +36,14 @@ typedef struct {
     kt_fixed fixed;
     double *by_time;
     double *stages;            /* STAGES x states: the k of the method */
-    double *point, *found, *before; /* where a stage is evaluated; rates of the last two stages */
+    double *point, *found, *before; /* the point of a stage; rates of the last two stages */
     double *jacobian, *matrix; /* states x states; the latter is factorised */
     int *order;                /* of the rows of the matrix */
 } method;
 
 /* -- linear equations ------------------------------------------------------------------------- */
 
-/* Bring the row with the largest entry of a column to its place; return whether there is one. */
+/* Exchange rows for the largest entry of a column as pivot; return whether there is one. */
 static int choose_pivot(method *m, int n, int column)
 {
     int best = column;
@@ -63,7 +64,7 @@ static int choose_pivot(method *m, int n, int column)
     return pivot > 0.0 && pivot <= DBL_MAX; /* nor a NaN */
 }
 
-/* Factorise I / (step GAMMA) - J by rows, with partial pivoting; return whether that can be done. */
+/* Factorise I / (step GAMMA) - J by rows, with partial pivoting; return whether it is regular. */
 static int factorise(method *m, int n, double step)
 {
     double *a = m->matrix;
@@ -122,10 +123,10 @@ static double combined(const method *m, int n, const double *weights, int count,
     return sum;
 }
 
-/* Find one stage by the rates at its point, which are in `found`. */
+/* Compute one stage from the rates at its point, which are in `found`. */
 static void find_stage(method *m, int n, int stage, double step)
 {
-    double *right = m->point; /* which has been evaluated */
+    double *right = m->point; /* it has been evaluated */
     for (int i = 0; i < n; ++i) {
         right[i] = m->found[i] + combined(m, n, C[stage], stage, i) / step
             + BY_TIME[stage] * step * m->by_time[i];
@@ -133,7 +134,7 @@ static void find_stage(method *m, int n, int stage, double step)
     solve(m, n, right, m->stages + stage * n);
 }
 
-/* Find all stages, and state and rates at the end, or refuse them where the model does. */
+/* Compute all stages, and state and rates at the end, unless the model refuses a state. */
 static int attempt(worker *w, double end, double step)
 {
     method *m = w->own;
@@ -188,7 +189,7 @@ static int refuse_jumps(worker *w, double step)
     return KT_JUMPING_RATES;
 }
 
-/* Find the common terms of all stages: the factorised matrix, and the derivative of rates by time. */
+/* Compute the common terms of all stages: the factorised matrix, and the derivative of rates by time. */
 static int prepare(worker *w, double step)
 {
     method *m = w->own;
@@ -211,7 +212,7 @@ static int prepare(worker *w, double step)
 
 /* -- within the step -------------------------------------------------------------------------- */
 
-/* Find the powers by which the states within the last step are interpolated. */
+/* Compute the polynomial that interpolates the states within the last step. */
 static void fit(worker *w)
 {
     method *m = w->own;

@@ -1,5 +1,5 @@
 /*
- * RODASP, a method of Rosenbrock's type of order 4 in six stages, in numbers: Steinebach, Order-reduction of
+ * Coefficients of RODASP, a Rosenbrock method of order 4 in six stages: Steinebach, Order-reduction of
  * ROW-methods for DAEs and method of lines applications, Preprint 1741, TH Darmstadt, 1995. The form is that of
  * Hairer and Wanner, Solving Ordinary Differential Equations II, IV.7: with W = I / (h GAMMA) - J, and f the
  * rates,

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Times nearer to each other than this part of them are one. */
+/* Times whose relative difference is smaller are equal. */
 #define RESOLVED (100.0 * DBL_EPSILON)
 
 int kt_open_search(worker *w, double start)
@@ -41,7 +41,7 @@ static int look_at(worker *w, double time, double *values)
     return 0;
 }
 
-/* Return the sense in which a function passes zero between two values, if it is wanted; else 0. */
+/* Return the direction in which a function passes zero between two values, if it is requested; else 0. */
 static int sense(const worker *w, int which, double from, double to)
 {
     int wanted = w->problem->directions[which], way = from < 0.0 ? 1 : -1;
@@ -49,7 +49,7 @@ static int sense(const worker *w, int which, double from, double to)
     return passes && wanted * way >= 0 ? way : 0;
 }
 
-/* Tell whether a function that passes in this step does so between two rows of values. */
+/* Return whether a function that passes in this step does so between two rows of values. */
 static int any_passes(const worker *w, const double *from, const double *to)
 {
     int some = 0;
@@ -59,19 +59,19 @@ static int any_passes(const worker *w, const double *from, const double *to)
     return some;
 }
 
-/* Give functions that are zero where the search begins the values just behind it. */
+/* Set functions that are zero at the begin of the search to their values just after it. */
 static void leave(worker *w)
 {
     kt_search *s = &w->search;
     for (int i = 0; i < kt_root_count(w); ++i) {
         if (s->passed[i] == 0.0) {
             s->passed[i] = s->middle[i];
-            s->idle[i] |= s->middle[i] == 0.0 && s->begins; /* it waits until it leaves zero */
+            s->idle[i] |= s->middle[i] == 0.0 && s->begins; /* it does not count until it leaves zero */
         }
     }
 }
 
-/* Tell whether a function is zero at the root that was passed, behind it, and at the end of a step. */
+/* Return whether a function is zero at the root that was passed, after it, and at the end of a step. */
 static int stays_zero(const worker *w)
 {
     const kt_search *s = &w->search;
@@ -92,7 +92,7 @@ static int leaves_zero(const worker *w)
     return some;
 }
 
-/* Return the part of a time after which a function passes zero first, as straight lines tell it. */
+/* Return the part of a time span after which a function first passes zero, by straight lines. */
 static double first_crossing(const worker *w, double weight)
 {
     const kt_search *s = &w->search;
@@ -100,14 +100,14 @@ static double first_crossing(const worker *w, double weight)
     for (int i = 0; i < kt_root_count(w); ++i) {
         if (s->found[i] && sense(w, i, s->low[i], s->high[i])) {
             double crossed = s->low[i] / (s->low[i] - weight * s->high[i]);
-            /* half way to an end that is zero, since all before it may be so too */
+            /* half way to an end that is zero, since it may be zero before, too */
             part = fmin(part, s->high[i] == 0.0 ? 0.5 : crossed);
         }
     }
     return part;
 }
 
-/* Narrow down the first of what is found between two times: the rule of false position, as Illinois has it. */
+/* Bracket the first root between two times: false position with the Illinois modification. */
 static int narrow(worker *w, double from, double *end, double resolved)
 {
     kt_search *s = &w->search;
@@ -122,7 +122,7 @@ static int narrow(worker *w, double from, double *end, double resolved)
         if (code) {
             return code;
         }
-        /* the end that stays counts half, again and again */
+        /* the value of the end that stays is halved */
         if (any_passes(w, s->low, s->middle)) {
             *end = time;
             memcpy(s->high, s->middle, size);
@@ -138,7 +138,7 @@ static int narrow(worker *w, double from, double *end, double resolved)
     return 0;
 }
 
-/* Know the values from which functions go, behind the begin of the motion or the root that was passed. */
+/* Evaluate the functions after the begin of the motion or after the root that was passed. */
 static int set_out(worker *w, double end, double resolved)
 {
     kt_search *s = &w->search;
@@ -190,9 +190,9 @@ int kt_find_root(worker *w, double end, int rest, double *time)
 }
 
 /*
- * Functions that pass zero together to rounding may come in any order, and each of them would be on its
- * old side again at the root of the next one. So what has passed is taken to be where the step ends: each
- * function passes at most once in a step, and once where its ends lie on two sides.
+ * Functions that pass zero together up to rounding may come in any order, and each of them would be on its
+ * old side again at the root of the next one. So a function that has passed gets its value at the end of the
+ * step: each function passes at most once in a step, and once if its values at the ends have different signs.
  */
 void kt_pass_root(worker *w)
 {

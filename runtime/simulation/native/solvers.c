@@ -1,4 +1,4 @@
-/* The solvers by the numbers of their methods, and the library that some of them are from. */
+/* The solvers by the numbers of their methods, and the version of SUNDIALS. */
 #include "versions.h"
 #include "worker.h"
 

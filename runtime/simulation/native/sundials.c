@@ -3,7 +3,7 @@
 #include <string.h>
 
 /*
- * The sum of products that every stage of a Runge-Kutta method begins with, in the order of SUNDIALS and
+ * The sum of products with which every stage of a Runge-Kutta method begins, in the order of SUNDIALS and
  * so with the same bits. SUNDIALS keeps the sums in memory, and Debian's package of it is not optimised.
  */
 static int combine(int count, sunrealtype *factors, N_Vector *vectors, N_Vector out)

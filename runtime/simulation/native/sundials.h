@@ -1,4 +1,4 @@
-/* What the two solvers of SUNDIALS share: a context, and vectors over arrays of one's own. */
+/* Common parts of the two solvers of SUNDIALS: a context, and vectors over our own arrays. */
 #ifndef KINTRAFO_SUNDIALS_H
 #define KINTRAFO_SUNDIALS_H
 
@@ -9,15 +9,15 @@
 
 typedef struct {
     SUNContext context;
-    N_Vector y, tolerance, scratch; /* y is about the worker's */
+    N_Vector y, tolerance, scratch; /* y is over the worker's array */
 } kt_vectors;
 
-/* Returns 0, or another number where there is no memory. */
+/* Returns 0, or another number without memory. */
 int kt_open_vectors(kt_vectors *v, worker *w);
 
 void kt_close_vectors(kt_vectors *v);
 
-/* Evaluate the right-hand side, as SUNDIALS calls it; `data` is the worker. */
+/* Evaluate the right-hand side for SUNDIALS; `data` is the worker. */
 int kt_call_rates(sunrealtype time, N_Vector y, N_Vector out, void *data);
 
 #endif

@@ -1,59 +1,58 @@
 /*
- * For how long a step may be trusted near a dead point, in numbers; margins.h says why. One system alone
- * (margins.c, integrate.c) and systems in lanes (../lanes/approach.h) go by the same ones.
+ * Limits of steps near a dead point; margins.h has the reasons. They are those of a single system (margins.c,
+ * integrate.c) and of systems in lanes (../lanes/approach.h).
  */
 #ifndef KINTRAFO_TRUST_H
 #define KINTRAFO_TRUST_H
 
-/* What a guard of the model means for an integration; a guard may have both bits. */
+/* Effects of a guard of the model on an integration; a guard may have both bits. */
 enum {
-    KT_ACTS = 1,  /* where its margin is not positive, the model refuses to be evaluated */
-    KT_SINGULAR = 2 /* the rates are singular where its margin is zero, and no step passes over that */
+    KT_ACTS = 1,  /* the model refuses a state if the margin is not positive */
+    KT_SINGULAR = 2 /* the rates are singular if the margin is zero, and no step passes over that */
 };
 
 /*
- * Part of the time that is left, margin over rate, which a step may take. The root of a margin is used
- * up in twice that time: a step takes a quarter of it, see KT_LEFT.
+ * Longest step relative to the time left, margin over rate. The root of a margin is zero after twice that time:
+ * a step takes a quarter of it, see KT_LEFT.
  */
 #define KT_PART 0.5
 
-/* How much longer than the longest step the root of a margin takes to zero in a straight line. */
+/* Time until the root of a margin is zero along a straight line, relative to the longest step. */
 #define KT_LEFT 4.0
 
-/* Part of a margin that may change in a step before its rate is looked at. */
+/* Change of a margin in a step, relative to it, from which on its rate is evaluated. */
 #define KT_LITTLE 0.125
 
 /*
- * Part of its greatest value below which a margin that falls is taken for zero. It is a difference of
- * numbers of that size or some ten times that, each with a rounding of 1e-16; the coordinates behind it
- * carry the errors of the integration, of which a hundredth is a part of 1e-12 or more. The height that
- * is its root is then a 100,000th of what it has been, and no motion of that accuracy tells whether it
- * turns before zero.
+ * A falling margin counts as zero below this part of its greatest value. It is a difference of numbers of that
+ * size or some ten times that, each with a rounding of 1e-16; the coordinates in it have the errors of the
+ * integration, a hundredth of which is 1e-12 or more. The height, its root, is then a 100,000th of its greatest
+ * value, and such errors hide whether the motion turns before zero.
  */
 #define KT_NOTHING 1.0e-10
 
 /*
- * Part of a step over which the rates of the margins are measured, along a straight line of the motion.
- * The line leaves the motion with its acceleration, which is great near a dead point: a sixteenth of a
- * step made the time that is left ten times too long. A margin of 1e-10 of its greatest changes by 1e-13
- * of that within this part of a step, and its rounding is 1e-16 to 1e-15.
+ * Part of a step over which the rates of the margins are measured, along a tangent of the motion. The motion
+ * leaves its tangent with its acceleration, which is great near a dead point: with a sixteenth of a step the time
+ * left was ten times too long. A margin of 1e-10 of its greatest value changes by 1e-13 of that within this
+ * part of a step, and its rounding is 1e-16 to 1e-15.
  */
 #define KT_LAPSE (1.0 / 256.0)
 
-/* Parts of the whole time, and of the longest step: one below both, next to what is refused, is the end. */
+/* Parts of the whole time and of the longest step: next to a refused state, a shorter step is the end. */
 #define KT_SMALLEST_OF_TIME 1.0e-9
 #define KT_SMALLEST_OF_STEP 1.0e-6
 
-/* Part of the longest step: where less is left, a dead point is near. */
+/* Part of the longest step: a dead point is near if less time is left. */
 #define KT_NEAR 1.0e-3
 
-/* So many very short steps in a row near a dead point lead nowhere; one may end at an output. */
+/* This number of consecutive very short steps near a dead point is the end; one may end at an output. */
 #define KT_MOST_STUCK 8
 
-/* Part of the time since zero that a clock of double precision tells apart, some times. */
+/* Some times the relative resolution of time in double precision. */
 #define KT_SMALLEST_PART 1.0e-14
 
-/* Part of a step that remains after a state was refused. */
+/* Length of a step after a refused state, relative to the last one. */
 #define KT_SHORTER 0.25
 
 #endif

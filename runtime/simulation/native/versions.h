@@ -1,5 +1,5 @@
 /*
- * What is not the same in all versions of SUNDIALS, in the terms of the newest: 6.4 and 7.x are used.
+ * Differences between versions of SUNDIALS (6.4 and 7.x), with the names of the newest.
  */
 #ifndef KINTRAFO_VERSIONS_H
 #define KINTRAFO_VERSIONS_H
@@ -12,7 +12,7 @@
 #include <sundials/sundials_config.h>
 #include <sundials/sundials_context.h>
 
-/* The steppers of ARKODE have had common functions since 7.1. */
+/* The steppers of ARKODE have common functions since 7.1. */
 #if SUNDIALS_VERSION_MAJOR < 7 || (SUNDIALS_VERSION_MAJOR == 7 && SUNDIALS_VERSION_MINOR < 1)
 #define ARKodeEvolve ERKStepEvolve
 #define ARKodeFree ERKStepFree
@@ -34,7 +34,7 @@
 #define ARKodeGetNumRhsEvals(solver, part, count) ERKStepGetNumRhsEvals(solver, count)
 #endif
 
-/* Errors are told by return codes alone: each solver was silenced before 7.0, and the context since. */
+/* Errors are reported by return codes only: messages are silenced, since 7.0 by the context. */
 #if SUNDIALS_VERSION_MAJOR < 7
 
 static inline void be_silent(int code, const char *module, const char *function, char *message, void *data)

@@ -28,9 +28,9 @@ Backend = Literal["auto", "c", "numpy"]
 Report = Callable[[str], None]
 
 _REMEDY = "Install a C compiler (on Debian: apt-get install gcc libc6-dev), or name one in CC"
-_COMPILED_PER_S = 8_000  # operations: of a file by GCC, on the processors that this was written on
+_COMPILED_PER_S = 8_000  # operations of a file by GCC on a processor of 2024
 _warned = False
-# by the name of the module: the declaration, and whether there are derivatives by parameters
+# by the name of the module: the declaration, and whether it has derivatives by parameters
 _declared: dict[str, "tuple[Formulation, bool]"] = {}
 
 
@@ -54,17 +54,18 @@ def compile_mechanism(
     Parameters
     ----------
     declared : Formulation, Mechanism, str or Path
-        A declaration, see `kintrafo.generator`, or a Python file with one at its top level. Of a
-        mechanism alone, a model with all bodies massive and the first independent coordinates is
-        made from which every loop closes in closed form.
+        A declaration, see `kintrafo.generator`, or a Python file with one at its top level. For a
+        `Mechanism` the model has mass in all bodies, and the first independent coordinates for
+        which every loop closes in closed form.
     name : str, optional
         Name of the model or mechanism, if the file has several.
     backend : {'auto', 'c', 'numpy'}, optional
-        'c': compiled by the C compiler of this machine, which ``CC`` and ``CFLAGS`` may name.
-        'numpy': the same program over NumPy arrays, slower. 'auto': C where there is a compiler.
+        'c': compiled by the C compiler of this machine; the variables ``CC`` and ``CFLAGS`` may
+        name another one and its options. 'numpy': the same program over NumPy arrays, slower.
+        'auto': C if there is a compiler.
     parameter_derivatives : bool, optional
-        Also exact derivatives with respect to parameters, states and inputs, for
-        `System.derivative` and `System.gradient`: some six times as much code.
+        Whether to add exact derivatives with respect to parameters, states and inputs, for
+        `kintrafo.derivative` and `kintrafo.gradient`: some six times as much code.
     folder : str or Path, optional
         Folder of compiled mechanisms; by default that of the environment variable
         ``KINTRAFO_CACHE``, or else the user's cache folder. Its contents are executed, so that it
@@ -134,7 +135,8 @@ def compile_mechanism(
     target = kept / f"{model.name}-{key}"
     problem = damage(target)
     if problem and target.exists():
-        _warn_of_damage(target, problem)
+        message = f"{target}: {problem}. The compiled files are damaged, and are built again."
+        warnings.warn(message, RuntimeWarning, stacklevel=2)
     if problem:
         with appearing(target) as temporary, shown() as notify:
             build(derived or derive(notify), temporary, compiler, name=target.name, report=notify)
@@ -147,20 +149,10 @@ def compile_mechanism(
 def derived_again(equations: ModuleType) -> "Derivation":
     """Return the derivation of equations that come with the project or were compiled here.
 
-    Parameters
-    ----------
-    equations : module
-        One of `kintrafo.generated`, or what `compile_mechanism` returned in this process.
-
-    Returns
-    -------
-    Derivation
-        Of which the C code of `equations` was emitted.
-
     Raises
     ------
     InputError
-        If the declaration is not known, or gives other equations now.
+        If the declaration is not known, or now has other equations.
     MissingPackageError
         If the packages of the extra "generator" are not installed.
     """
@@ -179,19 +171,13 @@ def derived_again(equations: ModuleType) -> "Derivation":
     with on_terminal(f"derive {model.name}") as notify, translated_errors(model):
         derived = generate(model, parameter_derivatives=by_parameters, progress=notify)
     if mechanism_hash(derived) != equations.MECHANISM_HASH:
-        problem = "the declaration gives other equations now. Compile the mechanism again."
+        problem = "the declaration now has other equations. Compile the mechanism again."
         raise InputError([problem], str(equations.NAME))
     return derived
 
 
 def require_generator() -> None:
-    """See that the packages are there that deriving equations needs.
-
-    Raises
-    ------
-    MissingPackageError
-        With the command that installs them.
-    """
+    """Raise a MissingPackageError if a package for deriving equations is not installed."""
     for package in ("sympy", "networkx"):
         require(package, purpose="Deriving equations", extra="generator")
 
@@ -212,13 +198,8 @@ def _compiler(backend: Backend) -> Compiler | None:
     return compiler
 
 
-def _warn_of_damage(target: Path, problem: str) -> None:
-    message = f"{target}: {problem}. What was compiled before is damaged, and is made again."
-    warnings.warn(message, RuntimeWarning, stacklevel=3)
-
-
 def _warn_once() -> None:
-    global _warned  # noqa: PLW0603 (said once in a process)
+    global _warned  # noqa: PLW0603 (once in a process)
     if not _warned:
         _warned = True
         warnings.warn(
@@ -244,11 +225,11 @@ def build(
     derived : Derivation
         From `kintrafo.generator.equations.outputs.generate`.
     folder : Path
-        An empty folder; `kintrafo.systems.compile.loader.load` makes a module of it.
+        An empty folder, for `kintrafo.systems.compile.loader.load`.
     compiler : Compiler or None
         None: functions over NumPy arrays instead of C.
     name : str, optional
-        What the folder will be called; by default what it is called now.
+        Final name of the folder; by default its present one.
     report : callable, optional
         Called with a short description of the present step.
     """
@@ -275,7 +256,7 @@ def build(
 
 
 def _operations_of(derived: "Derivation") -> dict[str, int]:
-    """Return how many operations are emitted into each file."""
+    """Return the number of operations in each emitted file."""
     from ...generator.backends.counting import operations_of
 
     sizes: dict[str, int] = {}
@@ -285,7 +266,7 @@ def _operations_of(derived: "Derivation") -> dict[str, int]:
 
 
 def _estimated(sizes: list[int]) -> str:
-    """Say about how long it takes to compile files of so many operations, where that is long."""
+    """Return a text about the time to compile files with these operations; empty if it is short."""
     from ...generator.progress import WORTH_REPORTING_S
 
     in_turn = sum(sizes) / min(len(sizes), os.cpu_count() or 1)

@@ -1,7 +1,8 @@
-"""How compiled mechanisms are kept: under which name, complete and unchanged.
+"""The cache of compiled mechanisms: names of its folders, and checks that these are unchanged.
 
-The folder of one has a manifest with size and digest of each of its files. What is read is compared
-with it, so that a file that was cut off, changed or lost is found before any of it runs.
+The folder of a mechanism has a manifest with size and digest of each of its files. Files are
+checked against it before they are loaded: a file that was cut off, changed or lost is found before
+any of its code runs.
 """
 
 import errno
@@ -44,26 +45,17 @@ __all__ = [
 ]
 
 MANIFEST = "manifest.json"
-# In every folder that is being filled: what has it may be removed, and nothing else.
+# A file in every unfinished folder: only folders with it may be removed.
 _MARK = ".kintrafo-unfinished"
 _MARKED = b"kintrafo fills this folder, or was stopped doing so.\n"
-_LONG_AGO_S = 24 * 3600.0  # nothing takes that long to be derived and compiled
+_LONG_AGO_S = 24 * 3600.0  # longer than deriving and compiling any mechanism takes
 
 
 def fingerprint(declared: str, *, built_by: str) -> str:
-    """Return a name for what comes out of a declaration, here and now.
+    """Return a name for the compiled result of a declaration: 16 hexadecimal digits.
 
-    Parameters
-    ----------
-    declared : str
-        Everything that a person declared, as text.
-    built_by : str
-        Compiler with its options and version, or what replaces it.
-
-    Returns
-    -------
-    str
-        16 hexadecimal digits of a hash of both, of the generator and of the machine.
+    It is a hash of the whole declaration as text, of the compiler with its options and version (or
+    'numpy'), of the generator and of the machine.
     """
     parts = (declared, built_by, _generator_hash(), platform.machine(), sys.platform)
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
@@ -71,11 +63,11 @@ def fingerprint(declared: str, *, built_by: str) -> str:
 
 @cache
 def _generator_hash() -> str:
-    """Return a hash of everything that derives, emits, and reads what was emitted."""
+    """Return a hash of the sources that derive and emit equations, and that read the result."""
     import sympy
 
     digest = hashlib.sha256(sympy.__version__.encode())
-    for package in ("kintrafo.generator", "kintrafo.equations"):  # what emits, and what reads it
+    for package in ("kintrafo.generator", "kintrafo.equations"):
         for name, content in sorted(_contents(files(package), "")):
             digest.update(name.encode() + b"\0" + content)
     return digest.hexdigest()
@@ -90,15 +82,7 @@ def _contents(folder: Traversable, path: str) -> Iterator[tuple[str, bytes]]:
 
 
 def seal(folder: Path, name: str) -> None:
-    """Write down what is in a folder, so that `damage` finds what is not so any more.
-
-    Parameters
-    ----------
-    folder : Path
-        With the files of a compiled mechanism, all of them complete.
-    name : str
-        What the folder will be called.
-    """
+    """Write the manifest of a folder with the final name `name`, whose files are complete."""
     listed = {p.name: _described(p) for p in sorted(folder.iterdir()) if p.name != _MARK}
     text = json.dumps({"folder": name, "files": listed}, indent=1)
     (folder / MANIFEST).write_text(text, encoding="utf-8", newline="\n")
@@ -110,24 +94,16 @@ def _described(path: Path) -> list[Any]:
 
 
 def _content(path: Path) -> bytes:
-    """Return the bytes of a file; a pipe would keep its reader waiting."""
+    """Return the bytes of a file; refuse a pipe, whose reader would wait."""
     if path.exists() and not path.is_file():
         raise OSError(errno.EINVAL, "no ordinary file")
     return path.read_bytes()
 
 
 def damage(folder: Path) -> str:
-    """Say what is wrong with the folder of a compiled mechanism.
+    """Return how the folder of a compiled mechanism differs from its manifest; or "".
 
-    Parameters
-    ----------
-    folder : Path
-        It need not exist.
-
-    Returns
-    -------
-    str
-        Empty if all files are as they were when it was sealed; other files do not matter.
+    The folder need not exist; further files in it are ignored.
     """
     try:
         manifest = json.loads(_content(folder / MANIFEST))
@@ -145,33 +121,12 @@ def damage(folder: Path) -> str:
 
 
 def foreign(folder: Path) -> str:
-    """Say who else may have written to what a compiled mechanism is loaded from.
-
-    Parameters
-    ----------
-    folder : Path
-        As of `damage`. The folder that it is in counts, too, and all files.
-
-    Returns
-    -------
-    str
-        As of `kintrafo.core.folders.shared`.
-    """
+    """Return who else may have written to the files of a compiled mechanism; see `shared`."""
     return shared(*_places(folder))
 
 
 def refuse_foreign(folder: Path) -> None:
-    """Refuse a compiled mechanism that another user may have written to.
-
-    Parameters
-    ----------
-    folder : Path
-        As of `foreign`.
-
-    Raises
-    ------
-    InputError
-    """
+    """Refuse a compiled mechanism that another user may have written to."""
     refuse_shared(*_places(folder))
 
 
@@ -181,7 +136,7 @@ def _places(folder: Path) -> list[Path]:
 
 
 def _changed(folder: Path, name: str, size: int, digest: str) -> str:
-    """Say how a file differs from what it was; empty if it does not."""
+    """Return how a file differs from its entry in the manifest; empty if it does not."""
     try:
         found = _described(folder / name)
     except FileNotFoundError:
@@ -195,11 +150,10 @@ def _changed(folder: Path, name: str, size: int, digest: str) -> str:
 
 @contextmanager
 def appearing(target: Path) -> Iterator[Path]:
-    """Let a caller fill a folder that appears only when it is complete.
+    """Yield a temporary folder that replaces the target once it is complete.
 
-    Where two processes make the same one at a time, the first wins, and the second takes its work.
-    Where there is one that is damaged, its files are replaced, each of them at once: who has an old
-    one open keeps it.
+    If two processes create the same folder, the first one is kept, and both use it. Files of a
+    damaged folder are replaced one by one: a process that has an old file open keeps it.
 
     Parameters
     ----------
@@ -214,7 +168,7 @@ def appearing(target: Path) -> Iterator[Path]:
     Raises
     ------
     InputError
-        If nothing can be written there, or others can write there, too.
+        If it cannot be written, or others can write there, too.
     """
     try:
         make_folder(target.parent)
@@ -227,7 +181,7 @@ def appearing(target: Path) -> Iterator[Path]:
                 (temporary / _MARK).write_bytes(_MARKED)
             yield temporary
             with held():
-                temporary.chmod(0o755)  # mkdtemp lets only its owner in
+                temporary.chmod(0o755)  # mkdtemp permits access to its owner only
                 for path in temporary.iterdir():
                     keep_to_owner(path)
                 _move(temporary, target)
@@ -241,7 +195,7 @@ def appearing(target: Path) -> Iterator[Path]:
 
 
 def _move(temporary: Path, target: Path) -> None:
-    """Put a complete folder in its place, or its files into what is left of an older one."""
+    """Rename a complete folder to its target, or replace the files of a damaged one."""
     try:
         temporary.rename(target)
     except OSError:
@@ -252,7 +206,7 @@ def _move(temporary: Path, target: Path) -> None:
         return
     if damage(target):
         made = [path for path in temporary.iterdir() if path.name != _MARK]
-        # the manifest last: until it is there, the folder counts as damaged
+        # the manifest last: until then the folder counts as damaged
         for path in sorted(made, key=lambda path: path.name == MANIFEST):
             path.replace(target / path.name)
 
@@ -269,7 +223,7 @@ def _remove_leftovers(folder: Path) -> None:
 
 
 def _remove(folder: Path) -> None:
-    """Remove a temporary folder, its mark last: what is left of it is still known."""
+    """Remove a temporary folder, its mark last, so that a remainder is still recognised."""
     with suppress(OSError):
         for path in folder.iterdir():
             if path.is_dir() and not path.is_symlink():

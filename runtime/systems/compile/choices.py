@@ -1,4 +1,4 @@
-"""Which coordinates of a user's mechanism can be independent."""
+"""Coordinates of a user's mechanism that can be independent."""
 
 from typing import TYPE_CHECKING
 
@@ -20,30 +20,29 @@ def proposals(
     name: str | None = None,
     seconds: float | None = None,
 ) -> "Iterator[Proposal]":
-    """Find the sets of joints whose coordinates can be independent, the preferred one first.
+    """Return the sets of joints whose coordinates can be independent, the preferred one first.
 
-    Sets of reported angles and slides are tried, as many at a time as there are degrees of freedom,
-    joints on the ground before others. Those from which every loop closes in closed form come
-    first, and behind them those that need an iteration, which `Formulation.allow_iteration`
-    permits. A trial takes milliseconds and compiles nothing; where there are many sets, take the
-    first few.
+    A set has as many angles and slides of joints as there are degrees of freedom; joints on the
+    ground are tried before others. Sets with which every loop closes in closed form come first,
+    followed by those that need an iteration, which `Formulation.allow_iteration` permits. A trial
+    takes milliseconds and compiles nothing; of many sets, take the first few.
 
     Parameters
     ----------
     declared : Formulation, Mechanism, str or Path
-        A declaration, or a Python file with one at its top level. What a model prescribes stays
-        prescribed; its own choice of independent joints does not count.
+        A declaration, or a Python file with one at its top level. Coordinates that a model
+        prescribes stay prescribed; its own choice of independent joints is ignored.
     name : str, optional
         Name of the model or mechanism, if the file has several.
     seconds : float, optional
-        Each of the two searches, without and with iteration, ends after this time [s]; left out,
-        when all sets have been tried.
+        Time after which each of the two searches, without and with iteration, ends [s]; by default
+        all sets are tried.
 
     Returns
     -------
     iterator of Proposal
-        Each with ``independent``, the names of the joints, and ``iterates``; tried one by one, as
-        they are asked for.
+        Each with ``independent``, the names of the joints, and ``iterates``. The next set is tried
+        when the iterator is advanced.
 
     Raises
     ------

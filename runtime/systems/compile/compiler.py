@@ -1,4 +1,4 @@
-"""The C compiler of this machine, as far as an emitted model needs one."""
+"""The C compiler of this machine."""
 
 import os
 import shlex
@@ -17,9 +17,9 @@ from typing import IO
 from ...core.errors import KintrafoError
 from ...core.interrupts import held
 
-# As of the models that come with the project: no errno, so that roots become single instructions;
-# no contraction into fused operations, so that every machine computes the same bits. No vectors
-# out of neighbouring statements: GCC finds hardly any, and looks for them longer than for all else.
+# The flags of the models that come with the project: no errno, so that roots become single
+# instructions; no contraction into fused operations, so that every machine computes the same bits;
+# no vectors of neighbouring statements: GCC finds hardly any, and most of its time is the search.
 FLAGS = (
     "-std=c99",
     "-O2",
@@ -30,7 +30,7 @@ FLAGS = (
 )
 _LINK_FLAGS = ("-dynamiclib",) if sys.platform == "darwin" else ("-shared",)
 _SHOWN_LINES = 12
-_LOOKED_AT_S = 0.02  # how often it is looked whether compilers have ended
+_LOOKED_AT_S = 0.02  # time between two checks whether compilers have ended
 
 
 class CompilerError(KintrafoError, RuntimeError):
@@ -39,14 +39,14 @@ class CompilerError(KintrafoError, RuntimeError):
 
 @dataclass(frozen=True)
 class Compiler:
-    """A C compiler that takes the options of GCC.
+    """A C compiler with the options of GCC.
 
     Attributes
     ----------
     command : tuple of str
         Program and options.
     version : str
-        First line of what it says about itself.
+        First line of its version message.
     """
 
     command: tuple[str, ...]
@@ -55,24 +55,23 @@ class Compiler:
     def build(
         self, sources: Sequence[Path], library: Path, done: Callable[[int], None] | None = None
     ) -> None:
-        """Compile sources, as many at a time as there are cores, into a shared library.
+        """Compile sources into a shared library, on all cores.
 
-        Where that is interrupted, or one of them fails, the other compilers are ended at once, and
-        what they have written is removed.
+        After an interruption or an error the other compilers are ended at once, and their files
+        removed.
 
         Parameters
         ----------
         sources : sequence of Path
             C files, in one folder.
         library : Path
-            What to write.
         done : callable, optional
-            Called with how many sources are compiled, whenever another one is.
+            Called with the number of compiled sources after each.
 
         Raises
         ------
         CompilerError
-            With the command and what the compiler said.
+            With the command and the output of the compiler.
         """
         objects = [source.with_suffix(".o") for source in sources]
         parts = [("-c", c, "-o", o) for c, o in zip(sources, objects, strict=True)]
@@ -94,7 +93,7 @@ class Compiler:
         folder: str,
         done: Callable[[int], None] = lambda _: None,
     ) -> None:
-        """Call the compiler with several lists of arguments."""
+        """Call the compiler with several lists of arguments, on all cores."""
         waiting, running, count = list(calls)[::-1], list[_Running](), 0
         try:
             while waiting or running:
@@ -102,7 +101,7 @@ class Compiler:
                     words = [*self.command, *map(str, waiting.pop())]
                     with held():
                         running.append(_Running.of(words, folder))
-                with suppress(subprocess.TimeoutExpired):  # another one may end before
+                with suppress(subprocess.TimeoutExpired):  # another one may end earlier
                     running[0].process.wait(_LOOKED_AT_S)
                 for ended in [one for one in running if one.process.poll() is not None]:
                     running.remove(ended)
@@ -116,58 +115,58 @@ class Compiler:
 
 @dataclass(frozen=True)
 class _Running:
-    """A compiler that was started.
+    """A running compiler.
 
     Attributes
     ----------
     command : list of str
     process : Popen
-        The first of a group of its own, in which what it starts is, too.
-    said : file
-        What it says.
+        The first of a process group of its own, which includes its children.
+    output : file
+        Its messages.
     """
 
     command: list[str]
     process: "subprocess.Popen[str]"
-    said: IO[str]
+    output: IO[str]
 
     @classmethod
     def of(cls, command: list[str], folder: str) -> "_Running":
-        """Start a compiler that has its temporary files in some folder."""
-        said = tempfile.TemporaryFile("w+", errors="backslashreplace", dir=folder)  # noqa: SIM115 (open as long as it runs)
+        """Start a compiler with its temporary files in a folder."""
+        output = tempfile.TemporaryFile("w+", errors="backslashreplace", dir=folder)  # noqa: SIM115 (open as long as it runs)
         try:
             process = subprocess.Popen(
                 command,
                 stdin=subprocess.DEVNULL,
-                stdout=said,
+                stdout=output,
                 stderr=subprocess.STDOUT,
                 text=True,
                 env=os.environ | {"TMPDIR": folder},
                 process_group=0 if os.name == "posix" else None,
             )
         except OSError as error:
-            said.close()
+            output.close()
             message = f"{command[0]} cannot be run: {error.strerror}. Name a C compiler in CC."
             raise CompilerError(message) from error
-        return cls(command, process, said)
+        return cls(command, process, output)
 
     def check(self) -> None:
-        """See that it has compiled what it should."""
-        with self.said as file:
+        """Raise a CompilerError if the compiler failed."""
+        with self.output as file:
             file.seek(0)
             lines = file.read().splitlines()
         if self.process.returncode != 0:
-            said = "\n".join(lines[:_SHOWN_LINES])
+            shown = "\n".join(lines[:_SHOWN_LINES])
             message = (
                 f"the C compiler ended with exit code {self.process.returncode}:\n"
-                f"  {shlex.join(self.command)}\n{said}\n"
+                f"  {shlex.join(self.command)}\n{shown}\n"
                 'Name another compiler in the variable CC, or use backend="numpy".'
             )
             raise CompilerError(message)
 
     def stop(self) -> None:
-        """End it, with what it has started: what is called gcc waits for what compiles."""
-        with self.said:
+        """End the compiler with its children, since gcc is a driver of the compiler proper."""
+        with self.output:
             if os.name == "posix":
                 with suppress(ProcessLookupError):  # it has ended meanwhile
                     os.killpg(self.process.pid, signal.SIGKILL)
@@ -177,27 +176,25 @@ class _Running:
 
 
 def find_compiler() -> Compiler | None:
-    """Return the compiler that ``CC`` names, or else the first that is installed.
+    """Return the compiler that ``CC`` names, or else the first installed one; None without any.
 
-    Options in ``CFLAGS`` come behind those of this project.
-
-    Returns
-    -------
-    Compiler or None
-        None where there is none.
+    Options in ``CFLAGS`` follow those of this project.
 
     Raises
     ------
     CompilerError
-        If ``CC`` names a program that there is not, or one of the variables has a quotation mark
-        that nothing closes.
+        If ``CC`` names a program that does not exist, or a variable has an unclosed quotation mark.
     """
     named, more = _words_of("CC"), _words_of("CFLAGS")
     built_by = (sysconfig.get_config_var("CC") or "").split()
     for words in [named] if named else [built_by, ["cc"], ["gcc"], ["clang"]]:
         if words and shutil.which(words[0]):
             options = (*words[1:], *FLAGS, *more)
-            return Compiler((words[0], *options), _version(words[0]))
+            shown = subprocess.run(
+                [words[0], "--version"], capture_output=True, text=True, check=False
+            )
+            version = (shown.stdout or shown.stderr).partition("\n")[0]
+            return Compiler((words[0], *options), version)
     if named:
         message = (
             f"CC = {shlex.join(named)}: there is no such program. Name a C compiler, or unset CC."
@@ -207,15 +204,10 @@ def find_compiler() -> Compiler | None:
 
 
 def _words_of(variable: str) -> list[str]:
-    """Return what an environment variable says, word by word."""
+    """Return the words of an environment variable."""
     text = os.environ.get(variable, "")
     try:
         return shlex.split(text)
     except ValueError as error:  # "No closing quotation", "No escaped character"
         problem = f"{variable} = {text}: {str(error).lower()}. Close the quotation, or unset it."
         raise CompilerError(problem) from error
-
-
-def _version(program: str) -> str:
-    said = subprocess.run([program, "--version"], capture_output=True, text=True, check=False)
-    return (said.stdout or said.stderr).partition("\n")[0]

@@ -1,4 +1,4 @@
-"""What a person wrote: a file with a declaration, a mechanism, or a model of one."""
+"""A user's declaration: a file, a mechanism, or a model of one."""
 
 import sys
 import traceback
@@ -30,12 +30,12 @@ class MechanismError(KintrafoError, ValueError):
 
 @contextmanager
 def translated_errors(model: "Formulation | None" = None) -> Iterator[None]:
-    """Turn the generator's refusals into errors of this package.
+    """Raise the generator's errors as errors of this package.
 
     Parameters
     ----------
     model : Formulation, optional
-        What is being derived: where a loop does not close, the error names other choices of
+        The model that is derived: if a loop does not close, the error names other choices of
         independent coordinates.
     """
     from ...generator import DeclarationError
@@ -55,24 +55,19 @@ def translated_errors(model: "Formulation | None" = None) -> Iterator[None]:
 def model_of(
     declared: "Formulation | Mechanism | str | Path", name: str | None = None
 ) -> "Formulation":
-    """Return the model that is meant.
+    """Return the model of a declaration; for a mechanism one with proposed coordinates.
 
     Parameters
     ----------
     declared : Formulation, Mechanism, str or Path
-        A model; a mechanism, of which a model with proposed coordinates is made; or a Python file
-        with one of these.
+        A declaration, or a Python file with one.
     name : str, optional
-        Which one, where a file has several.
-
-    Returns
-    -------
-    Formulation
+        Name of the model or mechanism, if the file has several.
 
     Raises
     ------
     InputError
-        If the file cannot be run, or does not say what is meant.
+        If the file cannot be run, or has no or several declarations.
     MechanismError
         If the declaration contradicts itself.
     """
@@ -89,15 +84,7 @@ def model_of(
 def given_by(
     declared: "Formulation | Mechanism | str | Path", name: str | None
 ) -> "Formulation | Mechanism":
-    """Return what was declared, the file having been run if it is one.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be run, or does not say what is meant.
-    MechanismError
-        If the declaration contradicts itself.
-    """
+    """Return a declaration; a file is run. The errors are those of `model_of`."""
     from ...generator import Formulation, Mechanism
 
     with Validator("compile") as checked:
@@ -124,7 +111,7 @@ def given_by(
 
 
 def _run(path: Path) -> ModuleType:
-    """Run a file and return what it defines."""
+    """Run a file and return its module."""
     from ...generator import DeclarationError
 
     try:
@@ -135,7 +122,7 @@ def _run(path: Path) -> ModuleType:
         raise InputError([problem], str(path)) from error
     module = ModuleType(path.stem)
     module.__file__ = str(path)
-    module.__package__ = _package_of(path)  # what its relative imports are relative to
+    module.__package__ = _package_of(path)  # for its relative imports
     try:
         with _neighbours(path.parent.resolve()):
             exec(compile(source, str(path), "exec"), vars(module))
@@ -160,8 +147,8 @@ def _run(path: Path) -> ModuleType:
 
 
 def _package_of(path: Path) -> str:
-    """Return the package of a page of the generator's own, such as one that ships; else nothing."""
-    # `from ... import generator` would go by way of the front door, which imports this
+    """Return the package of a file that is in the generator's own folder; else an empty text."""
+    # `from ... import generator` would be a circular import
     from ...generator import __file__ as file
     from ...generator import __name__ as name
 
@@ -173,10 +160,10 @@ def _package_of(path: Path) -> str:
 
 @contextmanager
 def _neighbours(folder: Path) -> Iterator[None]:
-    """Let a file import those beside it, as it can when it is run by itself.
+    """Permit a file to import those beside it, as a script can.
 
-    They are run as they are now: what was imported before counts as little as compiled bytes, which
-    Python trusts by date and size of the source, and they are forgotten afterwards.
+    They are run in their present state: modules imported before are ignored, and compiled bytes,
+    which Python trusts by date and size of the source, too. They are forgotten afterwards.
     """
     before = _modules_beside(folder)
     hook = FileFinder.path_hook(
@@ -189,7 +176,7 @@ def _neighbours(folder: Path) -> Iterator[None]:
         return hook(path)
 
     forget(before)
-    _find_anew(folder)
+    _forget_files(folder)
     sys.path.insert(0, str(folder))
     sys.path_hooks.insert(0, of_folder)
     try:
@@ -197,21 +184,21 @@ def _neighbours(folder: Path) -> Iterator[None]:
     finally:
         sys.path.remove(str(folder))
         sys.path_hooks.remove(of_folder)
-        _find_anew(folder)
+        _forget_files(folder)
         forget(_modules_beside(folder))
         sys.modules.update(before)
 
 
 def _modules_beside(folder: Path) -> dict[str, Any]:
-    """Return the modules that were found in a folder, or are of a package that was, by name."""
-    # thousands of modules are of some hundred packages, whose paths take long to resolve
+    """Return the modules of a folder, and those of packages in it, by name."""
+    # thousands of modules belong to some hundred packages, whose paths take long to resolve
     tops = {n: getattr(m, "__name__", "").partition(".")[0] for n, m in sys.modules.items()}
     beside = {top for top in set(tops.values()) if _is_beside(top, folder)}
     return {name: sys.modules[name] for name, top in tops.items() if top in beside}
 
 
 def _is_beside(name: str, folder: Path) -> bool:
-    """Return whether a package or a module at the top was found in a folder."""
+    """Return whether a package or module of the top level is in a folder."""
     if name in ("__main__", __name__.partition(".")[0]):
         return False
     top = sys.modules.get(name)
@@ -220,19 +207,19 @@ def _is_beside(name: str, folder: Path) -> bool:
 
 
 def _other_places(folder: Path) -> set[Path]:
-    """Return where modules are looked for besides a folder."""
+    """Return the folders of modules except one."""
     return {Path(entry).resolve() for entry in sys.path} - {folder}
 
 
 def _is_inside(path: str, folder: Path, others: set[Path]) -> bool:
-    """Return whether a place for modules is in a folder, and not below another such place in it."""
+    """Return whether a path is in a folder, and not below another place for modules in it."""
     place = Path(path).resolve()
     between = [place, *place.parents]
     return folder in between and others.isdisjoint(between[: between.index(folder)])
 
 
-def _find_anew(folder: Path) -> None:
-    """Forget what was known of the files of a folder."""
+def _forget_files(folder: Path) -> None:
+    """Forget cached listings of the files of a folder."""
     others = _other_places(folder)
     for path in list(sys.path_importer_cache):
         if _is_inside(path, folder, others):
@@ -240,18 +227,18 @@ def _find_anew(folder: Path) -> None:
 
 
 def _where(error: BaseException, path: Path) -> str:
-    """Say where in a file an error occurred, and what it says."""
+    """Return the line and the text of an error in a file."""
     return f"{_line(error, path)}{type(error).__name__}: {error}"
 
 
 def _line(error: BaseException, path: Path) -> str:
-    """Return the line of a file at which an error occurred, maybe deep in what the line calls."""
+    """Return the last line of a file in the traceback of an error."""
     lines = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == str(path)]
     return f"Line {lines[-1]}: " if lines else ""
 
 
 def _chosen(module: ModuleType, path: str, name: str | None) -> "Formulation | Mechanism":
-    """Return the model of a file or, where it has none, the mechanism."""
+    """Return the model of a file, or its mechanism if it has no model."""
     from ...generator import Formulation, Mechanism
 
     defined = [v for v in vars(module).values() if isinstance(v, Formulation | Mechanism)]

@@ -1,4 +1,4 @@
-"""The derivation of a mechanism's equations, to be read and printed."""
+"""The derivation of a mechanism's equations as a document."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -18,17 +18,17 @@ def write_derivation(
     name: str | None = None,
     force: bool = False,
 ) -> list[Path]:
-    """Write the derivation of the equations of a mechanism, from its joints to M, B and Q.
+    """Write a document that derives the equations of a mechanism, from its joints to M, B and Q.
 
-    Nothing is compiled. What is written in LaTeX asks for the packages of a small installation
-    (on Debian: texlive-latex-recommended), and is compiled by ``pdflatex`` or ``lualatex``.
+    Nothing is compiled. ``pdflatex`` or ``lualatex`` compiles a document in LaTeX; it needs the
+    packages of a small installation (on Debian: texlive-latex-recommended).
 
     Parameters
     ----------
     declared : Formulation, Mechanism, str or Path
         A declaration, or a Python file with one at its top level, as for `kintrafo.compile`.
     path : str or Path
-        The file: .tex, beside which four figures are written as PDF, or .md.
+        The file: ``.tex``, with four figures beside it as PDF, or ``.md``.
     name : str, optional
         Name of the model or mechanism, if the file has several.
     force : bool, optional
@@ -37,7 +37,7 @@ def write_derivation(
     Returns
     -------
     list of Path
-        The files that were written, the text first.
+        The written files, the text first.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What a declaration is, as far as anything that is derived from it can depend on it."""
+"""Identity of a declaration: a hash of everything on which derived equations can depend."""
 
 import hashlib
 from collections.abc import Iterator, Mapping
@@ -10,28 +10,20 @@ if TYPE_CHECKING:
     from ...generator.equations.outputs import Derivation
 
 _PLAIN = (str, int, float, bool, type(None))
-# When something was written, counted in this process: lists of the mechanism have that order.
+# The order of declaration in this process: lists of the mechanism have it, too.
 _COUNTED = ("order",)
 
 
 class _UnknownError(Exception):
-    """Something is in a declaration of which not all is known."""
+    """A declaration has an object whose contents are not all known."""
 
 
 def identity(model: "Formulation") -> str | None:
-    """Return a hash of a declaration; None where not all that counts can be read from it.
+    """Return a hash of a declaration; None if it has an object whose contents are not all known.
 
     All fields count, also those that its text leaves out. The code of the generator's own classes
     is hashed with the generator (`cache.fingerprint`). A force, a law or a path of a user's own
     class may call any code, so only the derived equations identify it.
-
-    Parameters
-    ----------
-    model : Formulation
-
-    Returns
-    -------
-    str or None
     """
     try:
         return _Reader().read(model).hex()
@@ -40,14 +32,14 @@ def identity(model: "Formulation") -> str | None:
 
 
 class _Reader:
-    """Reads values, each object once: a point is referred to by many."""
+    """Hashes values, each object once: many others refer to a point."""
 
     def __init__(self) -> None:
-        # the object beside its hash: it must not end, or another one may get its id
+        # with the object, since another one may get the id of a deleted object
         self._known: dict[int, tuple[Any, bytes]] = {}
 
     def read(self, value: Any) -> bytes:
-        """Return a hash of a value and of all that is in it."""
+        """Return a hash of a value and its contents."""
         if id(value) not in self._known:
             digest = hashlib.sha256()
             for part in self._parts(value):
@@ -73,25 +65,15 @@ class _Reader:
                     yield entry.name.encode()
                     yield self.read(getattr(value, entry.name))
         elif kind.__module__.partition(".")[0] == "sympy":
-            yield _written(value)
+            from sympy import srepr
+
+            yield srepr(value).encode()
         else:
             raise _UnknownError(kind)
 
 
-def _written(expression: Any) -> bytes:
-    from sympy import srepr
-
-    text: str = srepr(expression)
-    return text.encode()
-
-
 def identity_of_derived(derived: "Derivation") -> str:
-    """Return a hash of all that is emitted of a model.
-
-    Parameters
-    ----------
-    derived : Derivation
-    """
+    """Return a hash of all emitted files of a model."""
     from ...generator.backends.files import own_files
 
     digest = hashlib.sha256()

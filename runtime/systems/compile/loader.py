@@ -1,4 +1,4 @@
-"""A folder of the cache as a Python module."""
+"""Loading a folder of the cache as a Python module."""
 
 import sys
 from collections.abc import Iterable
@@ -18,10 +18,10 @@ _lock = RLock()
 
 
 class AsItIs(SourceFileLoader):
-    """Runs a file as it is: compiled bytes of an earlier time are neither read nor written."""
+    """Runs a source file; compiled bytes are neither read nor written."""
 
     def path_stats(self, path: Any) -> Any:
-        """Raise: no date is known, and so there are no compiled bytes."""
+        """Raise: without a date there are no compiled bytes."""
         raise OSError(path)
 
 
@@ -31,12 +31,7 @@ def load(folder: Path) -> ModuleType:
     Parameters
     ----------
     folder : Path
-        The package of one model, as `kintrafo.compile` leaves it: named by model and fingerprint.
-
-    Returns
-    -------
-    module
-        As those of `kintrafo.generated`.
+        The package of one model from `kintrafo.compile`, named by model and fingerprint.
 
     Raises
     ------
@@ -58,7 +53,7 @@ def load(folder: Path) -> ModuleType:
 
 
 def _run(files: dict[str, Path], folder: Path) -> None:
-    """Run the files of a package in their order; none of them is known if one fails."""
+    """Run the files of a package in their order; remove all from `sys.modules` if one fails."""
     try:
         for name, path in files.items():
             _run_file(name, path)
@@ -87,29 +82,13 @@ def _run_file(name: str, path: Path) -> None:
 
 
 def forget(names: Iterable[str]) -> None:
-    """Let modules be imported anew.
-
-    Parameters
-    ----------
-    names : iterable of str
-        Of modules, which need not be known.
-    """
+    """Remove modules, which need not be loaded, so that they are imported again."""
     for name in names:
         sys.modules.pop(name, None)
 
 
 def refuse_damaged(folder: Path) -> None:
-    """Refuse a compiled mechanism that is not as it was made.
-
-    Parameters
-    ----------
-    folder : Path
-        As of `load`.
-
-    Raises
-    ------
-    InputError
-    """
+    """Raise an InputError for a compiled mechanism whose files have changed."""
     problem = damage(folder)
     if problem:
         text = f"{problem}: the compiled files are damaged. Compile the mechanism again."
@@ -117,14 +96,7 @@ def refuse_damaged(folder: Path) -> None:
 
 
 def find(name: str, file: str) -> ModuleType:
-    """Return a module of equations by what another process knows of it: for unpickling.
-
-    Parameters
-    ----------
-    name : str
-        ``__name__`` of the module.
-    file : str
-        ``__file__`` of the module.
+    """Return a module of equations by its ``__name__`` and ``__file__``, for unpickling.
 
     Raises
     ------

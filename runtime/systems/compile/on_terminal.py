@@ -1,4 +1,4 @@
-"""What is being done, on the screen of who waits for it."""
+"""Progress of a task on the terminal."""
 
 import sys
 from collections.abc import Callable, Iterator
@@ -7,19 +7,19 @@ from contextlib import contextmanager
 
 @contextmanager
 def on_terminal(text: str) -> Iterator[Callable[[str], None]]:
-    """Show a line while something lasts: what is being done, and for how long.
+    """Show a line on standard error inside a block: a text and the elapsed time.
 
-    It is on standard error, and gone afterwards. Where that is no terminal, nothing is shown.
+    It is removed afterwards. Nothing is shown without a terminal.
 
     Parameters
     ----------
     text : str
-        What is shown at first.
+        The first text.
 
     Yields
     ------
     callable
-        To be called with what is being done, in a few words.
+        Takes the next text, a few words.
     """
     if sys.stderr is None or not sys.stderr.isatty():
         yield lambda _: None

@@ -1,4 +1,4 @@
-"""Equations on their way to another process, which may be on another machine."""
+"""Equations that are sent to another process, maybe on another machine."""
 
 import json
 import sys
@@ -15,15 +15,14 @@ _OF_PROJECT = "kintrafo."
 
 @dataclass(frozen=True)
 class SerializedModel:
-    """What another process finds equations by.
+    """Equations in a form that another process can load.
 
     Attributes
     ----------
     name, file : str
-        ``__name__`` and ``__file__`` of the module, as it is here.
+        ``__name__`` and ``__file__`` of the module in this process.
     files : tuple
-        Names and contents of the files of what was compiled on this machine; empty for what comes
-        with the project.
+        Names and contents of the compiled files; empty for equations that come with the project.
     """
 
     name: str
@@ -31,12 +30,12 @@ class SerializedModel:
     files: tuple[tuple[str, bytes], ...] = ()
 
     def module(self) -> ModuleType:
-        """Return the module, where it was compiled, from the cache of this machine, or unpacked.
+        """Return the module: from its folder, from the cache of this machine, or unpacked.
 
         Raises
         ------
         InputError
-            If it cannot be kept or loaded.
+            If it cannot be written or loaded.
         """
         if self.name.startswith(_OF_PROJECT):
             return import_module(self.name)
@@ -54,7 +53,7 @@ class SerializedModel:
 
 
 def shipped(equations: ModuleType) -> SerializedModel:
-    """Return what another process finds equations by."""
+    """Return equations in a form that another process can load."""
     name, file = equations.__name__, str(equations.__file__)
     if name.startswith(_OF_PROJECT):
         return SerializedModel(name, file)
@@ -67,14 +66,14 @@ def shipped(equations: ModuleType) -> SerializedModel:
 
 
 def sources_of(equations: ModuleType) -> dict[str, Path]:
-    """Return the emitted C files of equations, by name, those that others include first."""
+    """Return the paths of the emitted C files of equations by name, included ones first."""
     folder = Path(str(equations.__file__)).parent
     code = folder / "c" if equations.__name__.startswith(_OF_PROJECT) else folder
     return {source: code / source for source in equations.equations.manifest["sources"]}
 
 
 def words_of(equations: ModuleType) -> bytes:
-    """Return what was emitted of equations: the same bytes wherever they are compiled."""
+    """Return the emitted text of equations: the same bytes on every machine."""
     manifest = Path(str(equations.__file__)).parent / f"{equations.NAME}.json"
     texts = [manifest, *sources_of(equations).values()]
     return b"\0".join(text.name.encode() + b"\0" + text.read_bytes() for text in texts)

@@ -1,4 +1,4 @@
-"""Shared libraries of a unit, without numbers of their own: compiled once for a model.
+"""Shared libraries of a unit, which are compiled once for a model and filled with its numbers.
 
 Those of models that come with the project are compiled with it.
 """
@@ -19,9 +19,9 @@ from ...systems.compile.compiler import FLAGS, Compiler, CompilerError, find_com
 from .files import digest, filled, token_of
 
 PLATFORMS = ("linux", "windows")
-"""What there can be libraries for, all of them for processors of the kind x86-64."""
+"""Platforms of libraries, all for x86-64 processors."""
 HERE = ("linux",) if (sys.platform, machine.machine()) == ("linux", "x86_64") else ()
-"""The platform of this machine, if it is one of them."""
+"""The platform of this machine, if it is among them."""
 
 _MORE = (
     "-std=c11",
@@ -45,40 +45,18 @@ _NO_CROSS_COMPILER = (
 def library(
     sources: Mapping[str, str], name: str, platform: str, token: str, values: Sequence[float]
 ) -> bytes:
-    """Return a shared library with some numbers.
+    """Return a shared library with some numbers, from C files by path, which have any numbers.
 
-    Parameters
-    ----------
-    sources : mapping
-        C files by path, as of `sources.source_files`, with any numbers.
-    name : str
-        Of the model.
-    platform : {'linux', 'windows'}
-    token : str
-    values : sequence of float
-
-    Raises
-    ------
-    CompilerError
-        If there is no compiler, or it fails.
+    A CompilerError is raised if there is no compiler, or it fails.
     """
     made = shipped(sources, name) if platform == "linux" else None
     return filled(made or _compiled(sources, name, platform), token, values)
 
 
 def shipped(sources: Mapping[str, str], name: str) -> bytes | None:
-    """Return the library for Linux that was compiled with this package.
+    """Return the library for Linux that was compiled with this package, from the same sources.
 
-    Parameters
-    ----------
-    sources : mapping
-        As of `library`.
-    name : str
-
-    Returns
-    -------
-    bytes or None
-        None if there is none, or if it was compiled from other sources.
+    Return None if there is none, or if it was compiled from other sources.
     """
     file = files(generated) / f"_{name}_unit{get_config_var('EXT_SUFFIX')}"
     if not file.is_file():
@@ -88,7 +66,7 @@ def shipped(sources: Mapping[str, str], name: str) -> bytes | None:
 
 
 def _compiled(sources: Mapping[str, str], name: str, platform: str) -> bytes:
-    """Return the library of a model, from the cache or compiled now."""
+    """Return the library of a model from the cache, or compile it."""
     compiler = _compiler(platform)
     text = "\0".join((digest(sources), *compiler.command, compiler.version))
     folder = cache_folder() / f"unit_{name}-{hashlib.sha256(text.encode()).hexdigest()[:16]}"
@@ -111,7 +89,7 @@ def _built(compiler: Compiler, sources: Mapping[str, str], folder: Path, file: s
 
 
 def _compiler(platform: str) -> Compiler:
-    """Return what compiles for a platform."""
+    """Return the compiler for a platform."""
     if platform == "windows":
         return _cross_compiler()
     if platform not in HERE:

@@ -9,18 +9,20 @@ from typing import Any
 class Crossing:
     """A zero crossing that is reported as an event.
 
+    It is that of a signal minus `level`, minus `sign` times a parameter; or that of the margin of a
+    guard.
+
     Attributes
     ----------
     name, meaning : str
     signal, guard : int
-        Place of the signal, or -1 and that of the guard.
+        Index of the signal, or -1 and that of the guard.
     level : float
-        What is taken away from the signal.
     parameter : int
-        Place of a parameter that is taken away, with `sign`; -1 for none.
+        Index of the parameter; -1 for none.
     sign : float
     needs : int
-        Place of a parameter without which it cannot happen; -1 for none.
+        Index of a parameter without which it cannot occur; -1 for none.
     """
 
     name: str
@@ -44,7 +46,7 @@ def _of_signals(manifest: Mapping[str, Any]) -> Iterator[Crossing]:
         seen = set()
         for name, entry in signal.get("events", {}).items():
             level = entry["level"]
-            if level in seen:  # the same, from the other side
+            if level in seen:  # the same crossing in the other direction
                 continue
             seen.add(level)
             needs = entry.get("needs")

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from ...core.si_units import rate_of
 from ..emitted import Emitted
 from .crossings import Crossing, crossings
 
@@ -40,15 +41,13 @@ class Variable:
     reference : int
         Its value reference; they count from zero, in order.
     name, meaning, unit : str
-    causality, variability : str
-        As FMI has them.
-    initial : str
-        As FMI has it; empty for none.
+    causality, variability, initial : str
+        As in FMI; `initial` is empty for none.
     start : float or None
     derivative_of : int or None
-        Reference of the variable that this is the derivative of.
+        Reference of the variable of which this is the derivative.
     least, most : float
-        Infinite for no bound.
+        Infinite without a bound.
     """
 
     reference: int
@@ -66,7 +65,7 @@ class Variable:
 
 @dataclass(frozen=True)
 class ModelDescription:
-    """What a unit is.
+    """The description of a unit.
 
     Attributes
     ----------
@@ -77,12 +76,12 @@ class ModelDescription:
 
     @property
     def identifier(self) -> str:
-        """Of the model, as C has it: its libraries have this name."""
+        """Identifier of the model in C; its libraries have this name."""
         return self.emitted.name
 
     @property
     def manifest(self) -> dict[str, Any]:
-        """What the equations are."""
+        """Manifest of the equations."""
         return self.emitted.manifest
 
     @cached_property
@@ -156,7 +155,7 @@ class ModelDescription:
         count = self._state_count
         return [
             Variable(
-                first + k, f"der({name})", f"derivative of {name}", _over_time(entry["unit"]),
+                first + k, f"der({name})", f"derivative of {name}", rate_of(entry["unit"]),
                 "local", initial="calculated", derivative_of=first + k - count,
             )
             for k, (name, entry) in enumerate(self.manifest["state"].items())
@@ -219,21 +218,13 @@ class ModelDescription:
 
     @property
     def values(self) -> list[float]:
-        """Parameters, start and inputs, as the library has them."""
+        """Parameters, initial state and initial inputs, in the order of the library."""
         emitted = self.emitted
         return [*emitted.system.parameters.values(), *map(float, (*emitted.state, *emitted.inputs))]
 
     def token(self, version: int) -> str:
-        """Return what the description and the library of one export have in common."""
+        """Return the token that the description and the library of one export share."""
         text = repr((version, self.variables, self.crossings, self.manifest["mechanism"]))
         digits = hashlib.sha256(text.encode()).hexdigest()
         parts = (digits[a:b] for a, b in ((0, 8), (8, 12), (12, 16), (16, 20), (20, 32)))
         return f"{{{'-'.join(parts)}}}"
-
-
-def _over_time(unit: str) -> str:
-    """Return the unit of a derivative."""
-    if "/s^" in unit:
-        head, _, power = unit.rpartition("/s^")
-        return f"{head}/s^{int(power) + 1}"
-    return f"{unit}^2" if unit.endswith("/s") else f"{unit}/s"

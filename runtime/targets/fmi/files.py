@@ -1,6 +1,6 @@
-"""The C files that are the same in every unit, and how a compiled library is marked.
+"""The C files that are the same in every unit, and the mark in a compiled library.
 
-`setup.py` reads this file, too: it needs nothing but the standard library.
+`setup.py` reads this file, too: it imports only the standard library.
 """
 
 import hashlib
@@ -15,7 +15,7 @@ EQUATIONS = "equations"
 """Folder of the emitted files."""
 
 _CORE = ("dead_points.c", "derivatives.c", "model.h", "steps.c", "unit.c", "unit.h")
-# What integrates, without what needs SUNDIALS.
+# The integrators that do not need SUNDIALS.
 _NATIVE = (
     "dormand_prince.c", "dormand_prince.h", "eigenvalues.c", "eigenvalues.h", "fixed_step.c",
     "fixed_step.h", "integrate.c", "integrate.h", "margins.c", "margins.h", "number.h", "pieces.h",
@@ -26,18 +26,13 @@ HEADERS = {
     "fmi2.c": ("fmi2Functions.h", "fmi2FunctionTypes.h", "fmi2TypesPlatform.h"),
     "fmi3.c": ("fmi3Functions.h", "fmi3FunctionTypes.h", "fmi3PlatformTypes.h"),
 }
-"""The C file of each version of FMI, and the headers of the standard that it needs."""
+"""The C file of each version of FMI, and the headers of the standard that it includes."""
 
 
 def common_files(here: Any, native: Any, fronts: Iterable[str]) -> dict[str, Any]:
-    """Return the files that every unit has, by path below ``sources``.
+    """Return the files of every unit by path below ``sources``, with fronts from `HEADERS`.
 
-    Parameters
-    ----------
-    here, native : Path or Traversable
-        This folder, and that of the integration in C.
-    fronts : iterable of str
-        The required keys of `HEADERS`.
+    `here` is this folder, and `native` that of the integrators in C.
     """
     chosen = list(fronts)
     headers = [header for front in chosen for header in HEADERS[front]]
@@ -49,13 +44,13 @@ def common_files(here: Any, native: Any, fronts: Iterable[str]) -> dict[str, Any
 
 
 def digest(texts: Mapping[str, str]) -> str:
-    """Return a hash of C files, of their names and contents, in any order."""
+    """Return a hash of C files by name, which does not depend on their order."""
     parts = (part for name in sorted(texts) for part in (name, texts[name]))
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:32]
 
 
 def filled(content: bytes, token: str, values: Sequence[float] = ()) -> bytes:
-    """Return a library with another token, and other numbers, behind its mark."""
+    """Return a library with another token, and other numbers, after its mark."""
     numbers = struct.pack(f"<{len(values)}d", *values)
     text = token.encode().ljust(_TOKEN_SIZE, b"\0") + numbers
     at = _behind_mark(content)

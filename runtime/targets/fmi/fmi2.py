@@ -15,14 +15,7 @@ FOLDERS = {"linux": "linux64", "windows": "win64"}
 
 
 def model_description(known: ModelDescription, sources: Sequence[str]) -> str:
-    """Return ``modelDescription.xml``.
-
-    Parameters
-    ----------
-    known : ModelDescription
-    sources : sequence of str
-        The C files.
-    """
+    """Return ``modelDescription.xml``, with the names of the C files."""
     root = ET.Element(
         "fmiModelDescription",
         {
@@ -85,7 +78,7 @@ def _variable(parent: ET.Element, variable: Variable) -> None:
 
 
 def _structure(root: ET.Element, known: ModelDescription) -> None:
-    """Add what is computed, by places that count from 1."""
+    """Add the computed variables, by indices from 1."""
     structure = ET.SubElement(root, "ModelStructure")
     unknowns = sorted([*known.outputs, *known.rates], key=lambda v: v.reference)
     for tag, listed in (

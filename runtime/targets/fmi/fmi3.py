@@ -15,7 +15,7 @@ FOLDERS = {"linux": "x86_64-linux", "windows": "x86_64-windows"}
 
 
 def model_description(known: ModelDescription, sources: Sequence[str]) -> str:
-    """Return ``modelDescription.xml``; `sources` are reported by the build description."""
+    """Return ``modelDescription.xml``; the build description has the `sources`."""
     del sources
     root = ET.Element(
         "fmiModelDescription",
@@ -68,7 +68,7 @@ def _variable(parent: ET.Element, variable: Variable) -> None:
 
 
 def _structure(root: ET.Element, known: ModelDescription) -> None:
-    """Add what is computed, and what of: some importers need that to be said though it is all."""
+    """Add the computed variables with their dependencies, which some importers require."""
     structure = ET.SubElement(root, "ModelStructure")
     moving = " ".join(str(v.reference) for v in (*known.states, *known.inputs))
     fixed = " ".join(str(v.reference) for v in known.parameters)
@@ -85,14 +85,7 @@ def _structure(root: ET.Element, known: ModelDescription) -> None:
 
 
 def build_description(known: ModelDescription, sources: Sequence[str]) -> str:
-    """Return ``sources/buildDescription.xml``.
-
-    Parameters
-    ----------
-    known : ModelDescription
-    sources : sequence of str
-        The C files.
-    """
+    """Return ``sources/buildDescription.xml``, with the names of the C files."""
     root = ET.Element("fmiBuildDescription", {"fmiVersion": "3.0"})
     made = element(root, "BuildConfiguration", {"modelIdentifier": known.identifier})
     files = element(made, "SourceFileSet", {"language": "C11"})

@@ -1,4 +1,4 @@
-"""The C that a unit is compiled from."""
+"""The C sources of a unit."""
 
 from collections.abc import Iterable, Mapping
 from importlib.resources import files
@@ -13,16 +13,16 @@ from .tables import any_tables
 def source_files(
     emitted: Mapping[str, str], tables: Mapping[str, str], fronts: Iterable[str]
 ) -> dict[str, str]:
-    """Return all files, by path below ``sources``.
+    """Return all files by path below ``sources``.
 
     Parameters
     ----------
     emitted : mapping
         C of the equations, by name.
     tables : mapping
-        As of `kintrafo.targets.fmi.tables.tables`.
+        From `kintrafo.targets.fmi.tables.tables`.
     fronts : iterable of str
-        The required keys of `kintrafo.targets.fmi.files.HEADERS`.
+        Keys of `kintrafo.targets.fmi.files.HEADERS`.
     """
     common = common_files(files(__package__), files(native), fronts)
     return {
@@ -33,7 +33,7 @@ def source_files(
 
 
 def library_files(emitted: Emitted) -> dict[str, str]:
-    """Return the files of a library for all versions of FMI, with no token and no numbers."""
+    """Return the files of a library for all versions of FMI, without token and numbers."""
     return source_files(emitted.sources, any_tables(emitted.manifest), HEADERS)
 
 

@@ -1,4 +1,4 @@
-"""The C files that are written for each model: its tables, and its numbers."""
+"""The C files of one model: its tables and its numbers."""
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
@@ -13,22 +13,22 @@ from .files import MARK
 
 
 def tables(manifest: Mapping[str, Any], token: str, values: Sequence[float]) -> dict[str, str]:
-    """Return the files of a model, by name.
+    """Return the files of a model by name.
 
     Parameters
     ----------
     manifest : mapping
         Of the equations.
     token : str
-        The same as in the description of the unit.
+        The token of the description of the unit.
     values : sequence of float
-        Parameters, start and inputs.
+        Parameters, initial state and initial inputs.
     """
     return {"model.c": _model(manifest), "numbers.c": _numbers(manifest, token, values)}
 
 
 def any_tables(manifest: Mapping[str, Any]) -> dict[str, str]:
-    """Return the files of a model with no token, and zero for all numbers."""
+    """Return the files of a model without a token, with zero for all numbers."""
     count = sum(len(manifest[group]) for group in ("parameters", "state", "inputs"))
     return tables(manifest, "", [0.0] * count)
 
@@ -68,7 +68,7 @@ def _model(manifest: Mapping[str, Any]) -> str:
 
 
 def _functions(manifest: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the C functions by their purpose, and the places of derivatives."""
+    """Return the C functions by purpose, and the places of derivatives."""
     derivatives = ("rhs_input_jacobian", "signals_jacobian", "signals_input_jacobian")
     found = {name: result_of(manifest, name) for name in derivatives}
     there = [result for result in found.values() if result is not None and result.length]

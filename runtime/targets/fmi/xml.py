@@ -1,4 +1,4 @@
-"""XML that both versions of FMI have in common."""
+"""XML that both versions of FMI share."""
 
 from collections.abc import Iterable, Mapping
 from xml.etree import ElementTree as ET
@@ -16,13 +16,13 @@ def number(value: float) -> str:
 
 
 def element(parent: ET.Element, tag: str, attributes: Mapping[str, object]) -> ET.Element:
-    """Add an element, with those of its attributes that are there."""
+    """Add an element with those of its attributes that have a value."""
     entries = {name: str(value) for name, value in attributes.items() if value not in (None, "")}
     return ET.SubElement(parent, tag, entries)
 
 
 def unit_definitions(parent: ET.Element, variables: Iterable[Variable]) -> None:
-    """Add the units of variables, in SI base units, and those in which people read them."""
+    """Add the units of variables in SI base units, with their display units."""
     definitions = ET.SubElement(parent, "UnitDefinitions")
     for unit in sorted({v.unit for v in variables} - {_NONE}):
         defined = ET.SubElement(definitions, "Unit", {"name": unit})
@@ -36,7 +36,7 @@ def unit_definitions(parent: ET.Element, variables: Iterable[Variable]) -> None:
 
 
 def units_of(variable: Variable) -> dict[str, str]:
-    """Return the attributes that say in which units a variable is."""
+    """Return the attributes of a variable with its units."""
     if variable.unit == _NONE:
         return {}
     shown = display_of({"units": variable.unit}).units

@@ -70,7 +70,7 @@ def attempt(random: Generator) -> None:
             found = computed(root)
         if found != values:
             raise WrongError("other numbers than those of a sound one")
-        if (damaged and there) != any("made again" in str(one.message) for one in shown):
+        if (damaged and there) != any("built again" in str(one.message) for one in shown):
             raise WrongError(f"damaged: {damaged}, warned: {[str(one.message) for one in shown]}")
         if damage(folder) or computed(root) != values:
             raise WrongError("not healed")

@@ -429,8 +429,8 @@ def test_what_listens_and_is_no_scheduler(car: Model, monkeypatch: Any) -> None:
 
 SCRIPTS = {
     "x": "They read the script that starts them",
-    "if __name__ == '__main__': x": "They ended as they began (ImportError: no such module)",
-    None: "They ended as they began (ImportError: no such module)",
+    "if __name__ == '__main__': x": "They ended at their start (ImportError: no such module)",
+    None: "They ended at their start (ImportError: no such module)",
 }
 
 

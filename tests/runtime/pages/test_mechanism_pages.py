@@ -131,7 +131,7 @@ def test_what_cannot_be_shown_is_refused_by_name(spun, tmp_path, options, refuse
 
 def test_other_things_than_motions_and_systems_are_refused(tmp_path):
     """With what is needed."""
-    with pytest.raises(kintrafo.InputError, match=r"kintrafo\.simulate returns"):
+    with pytest.raises(kintrafo.InputError, match=r"result of kintrafo\.simulate"):
         kintrafo.animate("reference_car", tmp_path / "a.gif")
     with pytest.raises(kintrafo.InputError, match=r"kintrafo\.System"):
         kintrafo.report.write("reference_car", tmp_path / "a.html")

@@ -56,9 +56,9 @@ def forget():
 
 
 def check_healing(cache, made):
-    """It is told and made again, and what comes out is what a fresh one computes."""
+    """It is reported and built again, and what comes out is what a fresh one computes."""
     (target,) = cache.iterdir()
-    with pytest.warns(RuntimeWarning, match="damaged, and is made again"):
+    with pytest.warns(RuntimeWarning, match="damaged, and are built again"):
         module = kintrafo.compile(FOUR_BAR, folder=cache)
     np.testing.assert_array_equal(module.rhs(STATES), made[2])
     assert not damage(target)
@@ -148,7 +148,7 @@ class TestHealing:
         module = kintrafo.compile(FOUR_BAR, folder=cache)
         (target,) = cache.iterdir()
         cache_damage.cut(target / "four_bar.py")
-        with pytest.warns(RuntimeWarning, match="made again"):
+        with pytest.warns(RuntimeWarning, match="built again"):
             assert kintrafo.compile(FOUR_BAR, folder=cache) is module
         np.testing.assert_array_equal(module.rhs(STATES), made[2])
 

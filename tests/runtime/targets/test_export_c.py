@@ -94,7 +94,7 @@ def test_the_readme_has_the_costs_of_the_header(tmp_path):
         assert f" {counts['total']} operations" in line
     assert "iterate," not in readme
     iterating = kintrafo.export_model(system_named("multi_link"), tmp_path / "m", "c")
-    assert "These iterate" in (iterating / "README.txt").read_text(encoding="utf-8")
+    assert "These functions iterate" in (iterating / "README.txt").read_text(encoding="utf-8")
 
 
 def test_equations_without_a_compiler_have_their_c_all_the_same(tmp_path):
@@ -151,7 +151,7 @@ def test_nothing_is_half_written(tmp_path):
 def test_damaged_equations_are_named(tmp_path, monkeypatch):
     system = system_named("four_bar")
     monkeypatch.setitem(system.equations.equations.manifest, "sources", ["gone.c"])
-    with pytest.raises(kintrafo.InputError, match=r"gone\.c is not there"):
+    with pytest.raises(kintrafo.InputError, match=r"gone\.c is missing"):
         kintrafo.export_model(system, tmp_path / "c", "c")
 
 

@@ -110,8 +110,8 @@ def test_inertia_keeps_parts_of_a_motion_in_equilibrium(tmp_path: Path) -> None:
         ({"parts": []}, "one or more are needed"),
         ({"axes": "road"}, "axes 'road' is not known"),
         ({"length": "in"}, "length 'in' is not known"),
-        ({"dataset": xr.Dataset()}, "static or along returns is needed"),
-        ({"dataset": 3}, "static or along returns is needed"),
+        ({"dataset": xr.Dataset()}, "static or along is needed"),
+        ({"dataset": 3}, "static or along is needed"),
     ],
 )
 def test_what_cannot_be_written(

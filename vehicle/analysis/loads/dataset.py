@@ -32,7 +32,7 @@ AXES = {
 """Axes of points and components, and their names in tables."""
 
 _ENDS = "min", "min_case", "max", "max_case"
-_NEEDED = "what kintrafo.loads.static or along returns is needed"
+_NEEDED = "a result of kintrafo.loads.static or along is needed"
 
 
 def loads_of(

@@ -112,4 +112,4 @@ def _per_second(run: Run, most: int) -> float:
     return min(_FPS, (most - 1) / max(float(times[-1] - times[0]), 1.0))
 
 
-_NEEDED = "what kintrafo.handling.drive or kintrafo.ride.run returns is needed"
+_NEEDED = "a result of kintrafo.handling.drive or kintrafo.ride.run is needed"

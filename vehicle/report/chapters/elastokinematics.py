@@ -64,7 +64,7 @@ def _about(given: Validator, dataset: xr.Dataset, goals: Sequence[Goal]) -> list
     """
     if goals and "over" not in dataset.attrs:
         given.fail(
-            'goals: the dataset does not say over what it goes, attrs["over"]. Compute it anew, or '
+            'goals: the dataset has no attrs["over"], the name of its motion. Compute it again, or '
             "leave the goals out."
         )
     own = [

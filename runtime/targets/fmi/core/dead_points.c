@@ -1,9 +1,9 @@
 /*
- * Model Exchange: whether a step of the importer has passed a dead point.
+ * Model Exchange: dead points that a step of the importer has passed.
  *
- * margins.h says what that is: a height, the root of a margin, passes zero with its speed, and the equations, which
- * know its square alone, go on with the reflected motion: the height rises again at once. Where a motion turns before
- * zero, it has been accelerated, and the accelerations at both ends of the step say by how much. A change of
+ * margins.h explains them: a height, the root of a margin, passes zero with its speed, and the equations, which
+ * contain only its square, continue with the reflected motion: the height rises again at once. A motion that turns
+ * before zero has been accelerated, and the accelerations at both ends of the step show by how much. A change of
  * speed that they do not explain is a dead point.
  */
 #include "unit.h"
@@ -13,10 +13,10 @@
 #include <math.h>
 #include <string.h>
 
-/* How many times as much as the greater of both accelerations explains a speed may change in a turn. */
+/* Most change of speed in a turn, relative to the one explained by the greater of both accelerations. */
 #define EXPLAINED 1.5
 
-/* How many times the step a height takes to zero at its speed, at most, where zero may be within the step. */
+/* Longest time of a height to zero at its speed, relative to the step, if zero may be within the step. */
 #define WITHIN 8.0
 
 typedef struct {
@@ -35,7 +35,7 @@ static int any_singular(void)
     return 0;
 }
 
-/* Move inputs whose rates are inputs. */
+/* Advance inputs whose rates are inputs. */
 static void move_inputs(double lapse, double *inputs)
 {
     const km_model *m = &km_this;
@@ -46,7 +46,7 @@ static void move_inputs(double lapse, double *inputs)
     }
 }
 
-/* Evaluate the state that a motion with some rates has after a lapse, and the margins there. */
+/* Compute the state after a lapse with some rates, and the margins there. */
 static void put_ahead(unit *u, double lapse, const double *state, const double *rates, double *margins)
 {
     const km_model *m = &km_this;
@@ -57,8 +57,8 @@ static void put_ahead(unit *u, double lapse, const double *state, const double *
 }
 
 /*
- * Evaluate the margins of a point and of the motion after one lapse and two; return whether there are any. By the
- * rules of Heun and of the midpoint, both are exact where accelerations are steady, also at rest.
+ * Evaluate the margins of a point and of the motion after one lapse and two; return whether the model accepts them.
+ * Heun's rule and the midpoint rule are exact for constant accelerations, also at rest.
  */
 static int look(unit *u, double lapse, const double *state, const double *inputs, double *margins)
 {
@@ -79,7 +79,7 @@ static int look(unit *u, double lapse, const double *state, const double *inputs
     return !word;
 }
 
-/* Return the height of a margin, and how it moves, from its values at three points. */
+/* Return the height of a margin with its speed and acceleration, from its values at three points. */
 static ku_height height_of(const double *margins, int guard, double lapse)
 {
     double now = margins[guard], next = margins[km_this.guards + guard], last = margins[2 * km_this.guards + guard];
@@ -91,7 +91,7 @@ static ku_height height_of(const double *margins, int guard, double lapse)
 
 /*
  * Return whether a motion that begins at rest near zero has passed it: its speed is zero at the begin of the step, but
- * by its acceleration the height is zero within the step. Behind zero the true height is negative, so that speed and
+ * with its acceleration the height is zero within the step. Beyond zero the true height is negative, so that speed and
  * acceleration at the end have the other sign. It has passed zero if these explain the change of the speed better.
  */
 static int fell(ku_height before, ku_height now, double step)
@@ -120,7 +120,7 @@ void ku_usual_margins(unit *u, double *usual)
     }
 }
 
-/* Remember where the way goes on from. */
+/* Store the point from which the motion continues. */
 void ku_mark(unit *u)
 {
     const km_model *m = &km_this;

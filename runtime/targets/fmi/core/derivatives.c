@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-/* A step along a direction, as a part of the greatest length, which what is taken to be zero must stand. */
+/* A step along a direction relative to the greatest length, after which assumptions are checked. */
 #define STEP 1.0e-6
 
 /* Evaluate the Jacobians that are not known at the present values. */
@@ -40,7 +40,7 @@ static double entry(const unit *u, int of_signal, int row, int by_input, int col
     return u->linearised[start + row * width + column];
 }
 
-/* Find the row of an unknown; reported where it has none. */
+/* Find the row of an unknown; report an error if it has none. */
 static int row_of(const unit *u, unsigned reference, int *of_signal, int *row)
 {
     const km_model *m = &km_this;
@@ -50,7 +50,7 @@ static int row_of(const unit *u, unsigned reference, int *of_signal, int *row)
     *row = place;
     if (block == KU_EVENT && m->event[place].signal >= 0) {
         int needs = m->event[place].needs;
-        /* an indicator that cannot cross is a number */
+        /* an indicator that cannot cross is constant */
         *row = needs >= 0 && u->now.parameters[needs] == 0.0 ? -1 : m->event[place].signal;
         return KU_OK;
     }
@@ -85,7 +85,7 @@ static int is_geometry(const char *unit)
     return !strcmp(unit, "m") || !strcmp(unit, "rad") || !strcmp(unit, "1");
 }
 
-/* Find out what the equations take to be zero and a direction does not keep; NULL: it keeps all. */
+/* Return the assumption of the equations that a direction breaks; NULL: none. */
 static const km_assumption *left_by(unit *u, const double *direction)
 {
     const km_model *m = &km_this;
@@ -106,8 +106,8 @@ static const km_assumption *left_by(unit *u, const double *direction)
     return number > 0 && number <= m->zeros ? &m->assumption[number - 1] : NULL;
 }
 
-/* The same of the direction behind the parameters: of those of them that cannot move alone, which would be too small
-   to be seen beside the rest. */
+/* The same for the direction that follows the parameters: only for parameters that cannot change alone, which could
+   be too small beside the others. */
 static const km_assumption *broken(unit *u)
 {
     const km_model *m = &km_this;
@@ -121,7 +121,7 @@ static const km_assumption *broken(unit *u)
     return m->zeros ? left_by(u, bound) : NULL;
 }
 
-/* Evaluate how rates and signals change along the direction that is behind the parameters. */
+/* Evaluate the changes of rates and signals along the direction that follows the parameters. */
 static int follow(unit *u)
 {
     const km_model *m = &km_this;
@@ -146,7 +146,7 @@ static int follow(unit *u)
     return word ? ku_refused(u, "partial derivatives", word) : KU_OK;
 }
 
-/* Return how an unknown changes along it; the level of an indicator may be a parameter. */
+/* Return the change of an unknown along it; the level of an indicator may be a parameter. */
 static double followed(const unit *u, unsigned unknown, int of_signal, int row)
 {
     const km_model *m = &km_this;
@@ -166,7 +166,7 @@ static void clear_direction(unit *u)
     }
 }
 
-/* Add what parameters do: all at a time along a direction, or of each by itself to its own place. */
+/* Add the effect of parameters: of all along a direction, or of each separately at its own place. */
 static int add_parameters(unit *u, const unsigned *unknowns, size_t rows, const unsigned *knowns,
                           size_t columns, const double *seed, double *found, int transposed)
 {
@@ -215,7 +215,7 @@ int ku_derivative(unit *u, const unsigned *unknowns, size_t rows, const unsigned
         status = row_of(u, unknowns[r], &of_signal, &row);
         for (size_t c = 0; status == KU_OK && c < columns; ++c) {
             status = column_of(u, knowns[c], &block, &column);
-            /* nothing depends on the time but by inputs */
+            /* time has an effect through inputs only */
             if (status == KU_OK && row >= 0 && (block == KU_STATE || block == KU_INPUT)) {
                 double slope = entry(u, of_signal, row, block == KU_INPUT, column);
                 found[transposed ? c : r] += slope * seed[transposed ? r : c];

@@ -1,4 +1,4 @@
-/* FMI 2.0: what it calls, as calls of an instance. */
+/* The functions of FMI 2.0, as calls of an instance. */
 #include "fmi2Functions.h"
 #include "unit.h"
 
@@ -7,8 +7,7 @@
 enum { LINE = 2000 };
 
 /*
- * The message is the format itself, in which no sign is one of a conversion: importers that do not look at
- * further arguments show it, too.
+ * The message is the format itself, without conversions: importers that ignore further arguments show it, too.
  */
 static void report(const unit *u, int status, const char *category, const char *message)
 {
@@ -27,7 +26,7 @@ static void report(const unit *u, int status, const char *category, const char *
     }
 }
 
-/* End a function that is called of nothing, or when it may not be. */
+/* Return from a function that is called without an instance, or in a wrong state. */
 #define NEEDS(modes)                                                              \
     unit *u = c;                                                                  \
     if (!u || !ku_may(u, __func__, modes)) {                                      \
@@ -119,7 +118,7 @@ fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nv
     return (fmi2Status)ku_set(u, vr, nvr, value);
 }
 
-/* All variables are real numbers: of other types there are none. */
+/* All variables are real numbers: there are none of other types. */
 static fmi2Status of_another_type(unit *u, const char *function, size_t count)
 {
     if (count) {

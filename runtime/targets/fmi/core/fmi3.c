@@ -1,4 +1,4 @@
-/* FMI 3.0: what it calls, as calls of an instance. */
+/* The functions of FMI 3.0, as calls of an instance. */
 #include "fmi3Functions.h"
 #include "unit.h"
 
@@ -17,7 +17,7 @@ static void report(const unit *u, int status, const char *category, const char *
     }
 }
 
-/* End a function that is called of nothing, or when it may not be. */
+/* Return from a function that is called without an instance, or in a wrong state. */
 #define NEEDS(modes)                                                              \
     unit *u = instance;                                                           \
     if (!u || !ku_may(u, __func__, modes)) {                                      \
@@ -170,7 +170,7 @@ fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference valueR
     return (fmi3Status)ku_set(u, valueReferences, nValueReferences, values);
 }
 
-/* All variables are Float64: of other types there are none. */
+/* All variables are Float64: there are none of other types. */
 static fmi3Status of_another_type(unit *u, const char *function, size_t count)
 {
     if (count) {
@@ -316,7 +316,7 @@ fmi3Status fmi3GetAdjointDerivative(
     return (fmi3Status)ku_derivative(u, unknowns, nUnknowns, knowns, nKnowns, seed, sensitivity, 1);
 }
 
-/* -- what there is none of -------------------------------------------------------------------- */
+/* -- features without an implementation ------------------------------------------------------- */
 
 static fmi3Status missing(fmi3Instance instance, const char *function)
 {
@@ -526,7 +526,7 @@ fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance instance, size_t *nConti
 
 fmi3Status fmi3EnterStepMode(fmi3Instance instance)
 {
-    return missing(instance, __func__); /* there is no event mode that it would lead out of */
+    return missing(instance, __func__); /* there is no event mode */
 }
 
 fmi3Status fmi3GetOutputDerivatives(fmi3Instance instance, const fmi3ValueReference valueReferences[],

@@ -8,10 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Communication points that differ by less than this part of their size, or seconds, are one. */
+/* Communication points are equal if they differ by less than this, relative to their size or in seconds. */
 #define RESOLVED 1.0e-9
 
-/* An absolute tolerance is this part of the relative one. */
+/* Absolute tolerance divided by the relative one. */
 #define ABSOLUTE 1.0e-3
 
 enum { MOST_STEPS = 10000000 };
@@ -97,7 +97,7 @@ void ku_close_steps(unit *u)
 
 /* -- inputs within a step --------------------------------------------------------------------- */
 
-/* Return the place of the input that is the derivative of another one; -1: none. */
+/* Return the index of the input that is the derivative of another one; -1: none. */
 static int rate_of(int input)
 {
     const km_model *m = &km_this;
@@ -109,7 +109,7 @@ static int rate_of(int input)
     return -1;
 }
 
-/* Return where a derivative of an input is kept: an input of its own, or a slope; NULL beyond those. */
+/* Return the place of a derivative of an input: an input of its own, or a slope; NULL beyond those. */
 static double *derivative_at(unit *u, int input, int order)
 {
     int base = input;
@@ -124,7 +124,7 @@ static double *derivative_at(unit *u, int input, int order)
     return &u->now.inputs[base];
 }
 
-/* Note which inputs move by themselves, and where their derivatives are. */
+/* Note the inputs that are no derivatives, and the places of their derivatives. */
 static void find_courses(unit *u)
 {
     const km_model *m = &km_this;
@@ -171,7 +171,7 @@ int ku_set_slopes(unit *u, const unsigned *references, size_t count, const int *
     return KU_OK;
 }
 
-/* Read the derivatives that an input has at the begin of a step; tell whether any is not zero. */
+/* Read the derivatives of an input at the begin of a step; return whether any is not zero. */
 static int derivatives_of(const ku_course *c, double *found)
 {
     int moves = 0;
@@ -182,7 +182,7 @@ static int derivatives_of(const ku_course *c, double *found)
     return moves;
 }
 
-/* Go on with inputs by what is known of their derivatives: polynomials over the step. */
+/* Extrapolate inputs with their known derivatives, by polynomials over the step. */
 static void lay_splines(unit *u, double time, double end)
 {
     int count = 0;
@@ -205,7 +205,7 @@ static void lay_splines(unit *u, double time, double end)
     u->problem.spline_count = count;
 }
 
-/* Give the inputs the values that they have come to. */
+/* Set the inputs to their values at a time. */
 static void move_inputs(unit *u, double length)
 {
     for (int i = 0; u->problem.spline_count && i < u->course_count; ++i) {
@@ -269,11 +269,11 @@ static int explain(unit *u, int outcome)
     return ku_say(u, KU_DISCARD, "the steps of the solver have become too small at %.9g s.", time);
 }
 
-/* Move the states over a step; the time that was reached is noted. */
+/* Integrate the states over a step; the time that was reached is noted. */
 static int integrate(unit *u, double end)
 {
     const double times[2] = {*u->now.time, end};
-    /* all steps have one length, or the first one that which was planned */
+    /* the fixed step, or the planned first one */
     u->options.first_step = *u->now.step > 0.0 ? *u->now.step : *u->now.next;
     int outcome = kt_advance(u->motion, u->now.state, u->now.inputs, times);
     *u->now.time = u->result.time;
@@ -282,7 +282,7 @@ static int integrate(unit *u, double end)
     return outcome;
 }
 
-/* Let the next step begin anew: nothing is known of what was before. */
+/* Start the next step without data of the last one. */
 void ku_begin_anew(unit *u) { u->result.output.rows = 0; }
 
 int ku_step(unit *u, double time, double length)

@@ -1,4 +1,4 @@
-/* The life of an instance, and its values. */
+/* Creation and deletion of an instance, and its values. */
 #include "unit.h"
 
 #include "trust.h"
@@ -11,10 +11,10 @@
 
 enum { MESSAGE = 2000, NOT_FINITE_BIT = 30, LAST_GUARD_BIT = 29 };
 
-/* Inertia whose principal moments miss what a body can have by less than this part of the largest. */
+/* Tolerance of the principal moments of a possible inertia, relative to the largest. */
 #define INERTIA_ROUNDING 1.0e-9
 
-/* By default as integrations of this project are. */
+/* Default tolerance, as in other integrations of this project. */
 #define USUAL_TOLERANCE 1.0e-6
 
 /* -- messages --------------------------------------------------------------------------------- */
@@ -76,9 +76,9 @@ int ku_is(const unit *u, const char *function, int co_simulation)
     return 0;
 }
 
-/* -- life ------------------------------------------------------------------------------------- */
+/* -- creation and deletion -------------------------------------------------------------------- */
 
-/* Let the parts of saved numbers point into an array; return how many there are. */
+/* Set the pointers of saved numbers into an array; return their count. */
 static int lay_out(ku_numbers *n, double *at)
 {
     const km_model *m = &km_this;
@@ -273,8 +273,8 @@ static int in_range(const unit *u, int i)
 }
 
 /*
- * Principal moments are those of a body where the matrix tr(J) / 2 - J is positive semidefinite: its
- * eigenvalues are half of what two moments exceed the third by. So no principal minor is negative.
+ * Principal moments are possible if the matrix tr(J) / 2 - J is positive semidefinite: its eigenvalues are
+ * half of the difference of the sum of two moments and the third. So no principal minor may be negative.
  */
 static int of_a_body(const unit *u, const km_inertia *t)
 {
@@ -351,7 +351,7 @@ int ku_ready(unit *u)
     return KU_OK;
 }
 
-/* -- what is known ---------------------------------------------------------------------------- */
+/* -- evaluation ------------------------------------------------------------------------------- */
 
 void ku_forget(unit *u)
 {
@@ -443,7 +443,7 @@ static double event_value(const unit *u, int i)
     return u->signals[e->signal] - level;
 }
 
-/* Evaluate what an event is a crossing of. */
+/* Evaluate the function whose zeros are an event. */
 static int know_event(unit *u, int i)
 {
     return km_this.event[i].signal < 0 ? ku_know_margins(u) : ku_know_signals(u);
@@ -500,7 +500,7 @@ int ku_get(unit *u, const unsigned *references, size_t count, double *values)
     return KU_OK;
 }
 
-/* Tell whether a variable can be set now, and report why not. */
+/* Return whether a variable can be set now; report an error if not. */
 static int can_be_set(const unit *u, unsigned reference, double value)
 {
     const km_model *m = &km_this;
@@ -530,7 +530,7 @@ static int can_be_set(const unit *u, unsigned reference, double value)
     return 0;
 }
 
-/* Set a variable; return whether its value was another one. */
+/* Set a variable; return whether its value has changed. */
 static int set(unit *u, unsigned reference, double value)
 {
     int place;
@@ -560,7 +560,7 @@ static int set(unit *u, unsigned reference, double value)
 
 int ku_set(unit *u, const unsigned *references, size_t count, const double *values)
 {
-    for (size_t i = 0; i < count; ++i) { /* all or nothing */
+    for (size_t i = 0; i < count; ++i) { /* all or none are set */
         if (!can_be_set(u, references[i], values[i])) {
             return KU_ERROR;
         }
@@ -592,7 +592,7 @@ int ku_set_time(unit *u, double time)
     if (!isfinite(time)) {
         return ku_say(u, KU_ERROR, "time = %g s: a finite number is needed.", time);
     }
-    *u->now.time = time; /* nothing depends on it but by inputs */
+    *u->now.time = time; /* it has an effect through inputs only */
     return KU_OK;
 }
 
@@ -679,7 +679,7 @@ int ku_update(unit *u, int *over)
 
 /* -- saved instances -------------------------------------------------------------------------- */
 
-/* Forget what a solver knows of the way behind: what goes on here, and from what was saved, is the same. */
+/* Discard the solver's data of earlier steps, so that a motion continues as after a restored state. */
 static int forget_the_way(unit *u)
 {
     ku_close_steps(u);
@@ -708,12 +708,12 @@ int ku_restore(unit *u, const void *saved)
     if (!*u->now.ready) {
         return KU_OK;
     }
-    *u->now.ready = 0.0; /* the constants are made anew */
+    *u->now.ready = 0.0; /* the constants are computed again */
     int status = ku_ready(u);
     return status == KU_OK ? forget_the_way(u) : status;
 }
 
-/* What is sent: a mark, the token, the numbers. */
+/* Serialised form: a mark, the token, the numbers. */
 static const char MARK[8] = "kintrafo";
 
 enum { TOKEN = 64 };

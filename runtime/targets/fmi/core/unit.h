@@ -11,7 +11,7 @@
 
 enum { KU_OK, KU_WARNING, KU_DISCARD, KU_ERROR, KU_FATAL };
 
-/* What an instance may be asked depends on where it is; bits, so that a call names several. */
+/* States of an instance, on which the allowed calls depend; bits, so that a call can name several. */
 enum {
     KU_INSTANTIATED = 1, KU_INITIALISING = 2, KU_EVENTS = 4, KU_CONTINUOUS = 8, KU_STEPPING = 16,
     KU_TERMINATED = 32, KU_FAILED = 64,
@@ -20,34 +20,34 @@ enum {
     KU_ANY = KU_SET_UP | KU_RUNNING | KU_TERMINATED | KU_FAILED
 };
 
-/* Derivatives of an input that are known at the begin of a step: itself, and up to the third. */
+/* Derivatives of an input that are known at the begin of a step, from order zero to three. */
 enum { KU_ORDERS = 4 };
 
-/* An input that is the derivative of no other: the places of it and its derivatives, and where they are kept. */
+/* An input that is no derivative: its index and those of its derivatives, and their places. */
 typedef struct {
     int targets[3];
     double *at[KU_ORDERS];
 } ku_course;
 
-/* Model Exchange: the point that the last step came to, and room to look at how the margins go on. */
+/* Model Exchange: the point that the last step reached, and memory for margins ahead. */
 typedef struct {
     int known, begins; /* whether there is a point; whether the motion begins at it */
     double time;
     double *state, *inputs, *rates, *rates_ahead, *ahead, *inputs_ahead, *margins, *usual;
 } ku_way;
 
-/* Values with a direction behind them, and how rates and signals change along it. */
+/* Values followed by a direction, and the changes of rates and signals along it. */
 typedef struct {
     double *parameters, *constants, *state, *inputs, *rates, *signals;
-    double *one, *bound; /* directions of one parameter, and of those that cannot move alone */
+    double *one, *bound; /* directions of one parameter, and of those that cannot change alone */
 } ku_tangents;
 
 typedef struct unit unit;
 typedef void (*ku_report)(const unit *u, int status, const char *category, const char *message);
 
-/* Numbers that a saved instance has, each of them a double, so that they can be sent anywhere. */
+/* Numbers of a saved instance, all doubles, so that they can be serialised. */
 typedef struct {
-    double *all; /* what follows, behind each other */
+    double *all; /* the arrays below, one after the other */
     int count;
     double *time, *mode, *ready, *tolerance, *next;
     double *parameters, *state, *inputs, *slopes, *step, *implicit;
@@ -63,8 +63,8 @@ struct unit {
     double *constants, *rates, *signals, *margins, *jacobian, *linearised, *before;
     int rates_known, signals_known, margins_known, jacobian_known, linearised_known, before_known;
     char *message;
-    double last_time; /* of the last step that came to its end */
-    int stopped;      /* a step came to a dead point */
+    double last_time; /* end of the last complete step */
+    int stopped;      /* a step reached a dead point */
     ku_way way;
     ku_tangents tangents;
     /* Co-Simulation */
@@ -78,21 +78,21 @@ struct unit {
     kt_motion *motion;
 };
 
-/* Value references: blocks behind each other, in this order. */
+/* Value references: consecutive blocks in this order. */
 enum ku_block {
     KU_TIME, KU_STATE, KU_RATE, KU_INPUT, KU_SIGNAL, KU_EVENT, KU_PARAMETER, KU_STEP, KU_IMPLICIT,
     KU_NOTHING
 };
 
-/* -- life ------------------------------------------------------------------------------------- */
+/* -- creation and deletion -------------------------------------------------------------------- */
 
-/* NULL where there is no memory or the token is that of another model; the latter is reported to `front`. */
+/* NULL without memory, or if the token is that of another model, which is reported to `front`. */
 unit *ku_open(const char *label, const char *token, int co_simulation, int logging,
               ku_report report, void *front);
 void ku_close(unit *u);
 void ku_reset(unit *u);
 
-/* Report a message, made as by printf, and return the status. */
+/* Report a message, formatted as by printf, and return the status. */
 int ku_say(const unit *u, int status, const char *format, ...);
 
 /* Return whether a function may be called now; an error is reported if not. */
@@ -105,7 +105,7 @@ int ku_mode(const unit *u);
 void ku_enter(unit *u, int mode);
 
 int ku_start(unit *u, double time, int tolerance_defined, double tolerance);
-int ku_begin(unit *u); /* behind initialisation */
+int ku_begin(unit *u); /* after initialisation */
 
 /* -- values ----------------------------------------------------------------------------------- */
 
@@ -120,19 +120,19 @@ int ku_get_events(unit *u, double *values, size_t count);
 int ku_set_slopes(unit *u, const unsigned *references, size_t count, const int *orders,
                   const double *values);
 
-/* Which block a reference belongs to, and its place there. */
+/* The block of a reference, and its index there. */
 enum ku_block ku_find(unsigned reference, int *place);
 
-/* Make constants of the parameters, if they were changed; an error is reported. */
+/* Compute the constants if parameters were changed; errors are reported. */
 int ku_ready(unit *u);
 
-/* Evaluate what is not known at the present values. */
+/* Evaluate the results that are not known at the present values. */
 int ku_know_rates(unit *u);
 int ku_know_signals(unit *u);
 int ku_know_margins(unit *u);
 void ku_forget(unit *u);
 
-/* Say which guards refuse the present values: a status word of a function of the model. */
+/* Report the guards that refuse the present values, from a status word of the model. */
 int ku_refused(unit *u, const char *what, int word);
 
 /* -- derivatives ------------------------------------------------------------------------------ */
@@ -143,14 +143,14 @@ int ku_derivative(unit *u, const unsigned *unknowns, size_t rows, const unsigned
 
 /* -- events ----------------------------------------------------------------------------------- */
 
-/* Report which events have happened; `over` becomes 1 if the model ends here, else 0. */
+/* Report the events that have occurred; `over` becomes 1 if the model ends here, else 0. */
 int ku_update(unit *u, int *over);
 
-/* A step of the importer has come to its end; `over` becomes 1 if it has passed a dead point, else 0. */
+/* End of a step of the importer; `over` becomes 1 if it has passed a dead point, else 0. */
 int ku_completed(unit *u, int *over);
 void ku_mark(unit *u);
 
-/* Evaluate the margins at the design position: the size of the numbers in them. */
+/* Evaluate the margins at the design position, which are their usual sizes. */
 void ku_usual_margins(unit *u, double *usual);
 
 /* -- saved instances -------------------------------------------------------------------------- */

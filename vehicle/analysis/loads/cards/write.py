@@ -18,7 +18,7 @@ from .part import LoadedPart
 from .sheet import LENGTHS, CardSheet
 
 _MOST_CASES = 1000
-_NEEDED = "what kintrafo.loads.static or along returns is needed"
+_NEEDED = "a result of kintrafo.loads.static or along is needed"
 _FIELDS = ("force", "moment", "at", "force_in_part", "moment_in_part", "at_in_part")
 
 
