@@ -1,4 +1,4 @@
-/* Andrews' squeezer mechanism, driven by a torque on its crank, as the core knows it. Written by kintrafo. */
+/* Andrews' squeezer mechanism, driven by a torque on its crank: description for the core. Written by kintrafo. */
 #include "model.h"
 
 #include "equations/andrews.h"

@@ -1,4 +1,4 @@
-/* Double wishbone suspension, rack prescribed, as the core knows it. Written by kintrafo. */
+/* Double wishbone suspension, rack prescribed: description for the core. Written by kintrafo. */
 #include "model.h"
 
 #include "equations/double_wishbone.h"

@@ -1,4 +1,4 @@
-/* Planar excavator, strokes prescribed, with a load that swings on its bucket, as the core knows it. Written by kintrafo. */
+/* Planar excavator, strokes prescribed, with a load that swings on its bucket: description for the core. Written by kintrafo. */
 #include "model.h"
 
 #include "equations/excavator_lifting.h"

@@ -1,4 +1,4 @@
-/* Planar excavator, three degrees of freedom, moved by the forces of its cylinders, as the core knows it. Written by kintrafo. */
+/* Planar excavator, three degrees of freedom, moved by the forces of its cylinders: description for the core. Written by kintrafo. */
 #include "model.h"
 
 #include "equations/excavator.h"

@@ -1,4 +1,4 @@
-/* Planar four-bar linkage, one degree of freedom, as the core knows it. Written by kintrafo. */
+/* Planar four-bar linkage, one degree of freedom: description for the core. Written by kintrafo. */
 #include "model.h"
 
 #include "equations/four_bar.h"

@@ -1,4 +1,4 @@
-/* Front axle: two MacPherson suspensions, anti-roll bar; rack prescribed, as the core knows it. Written by kintrafo. */
+/* Front axle: two MacPherson suspensions, anti-roll bar; rack prescribed: description for the core. Written by kintrafo. */
 #include "model.h"
 
 #include "equations/front_axle.h"

@@ -1,4 +1,4 @@
-/* MacPherson suspension, rack free: every moving body carries mass, as the core knows it. Written by kintrafo. */
+/* MacPherson suspension, rack free: every moving body carries mass: description for the core. Written by kintrafo. */
 #include "model.h"
 
 #include "equations/macpherson_free_rack.h"

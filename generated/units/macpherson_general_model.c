@@ -1,4 +1,4 @@
-/* MacPherson suspension with an offset strut, spring seats, stops; rack prescribed, as the core knows it. Written by kintrafo. */
+/* MacPherson suspension with an offset strut, spring seats, stops; rack prescribed: description for the core. Written by kintrafo. */
 #include "model.h"
 
 #include "equations/macpherson_general.h"

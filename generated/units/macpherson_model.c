@@ -1,4 +1,4 @@
-/* MacPherson suspension, rack prescribed: arm, knuckle and wheel carry mass, as the core knows it. Written by kintrafo. */
+/* MacPherson suspension, rack prescribed: arm, knuckle and wheel carry mass: description for the core. Written by kintrafo. */
 #include "model.h"
 
 #include "equations/macpherson.h"

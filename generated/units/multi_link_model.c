@@ -1,4 +1,4 @@
-/* Multi-link suspension with five links, rack prescribed, as the core knows it. Written by kintrafo. */
+/* Multi-link suspension with five links, rack prescribed: description for the core. Written by kintrafo. */
 #include "model.h"
 
 #include "equations/multi_link.h"

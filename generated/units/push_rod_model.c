@@ -1,4 +1,4 @@
-/* Double wishbone suspension with push rod and rocker, rack prescribed, as the core knows it. Written by kintrafo. */
+/* Double wishbone suspension with push rod and rocker, rack prescribed: description for the core. Written by kintrafo. */
 #include "model.h"
 
 #include "equations/push_rod.h"

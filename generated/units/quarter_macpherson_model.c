@@ -1,4 +1,4 @@
-/* Quarter car: macPherson suspension (Góis & Sarzeto, 2000), as the core knows it. Written by kintrafo. */
+/* Quarter car: macPherson suspension (Góis & Sarzeto, 2000): description for the core. Written by kintrafo. */
 #include "model.h"
 
 #include "equations/quarter_macpherson.h"

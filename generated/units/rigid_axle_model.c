@@ -1,4 +1,4 @@
-/* Rigid axle on four rods, as the core knows it. Written by kintrafo. */
+/* Rigid axle on four rods: description for the core. Written by kintrafo. */
 #include "model.h"
 
 #include "equations/rigid_axle.h"

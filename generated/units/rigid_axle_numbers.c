@@ -2,15 +2,15 @@
 #include "model.h"
 
 /*
- * Behind the mark, kintrafo writes the numbers of another parameter set into a library that is there already.
- * Nothing else of it depends on them.
+ * After the mark, kintrafo writes the numbers of another parameter set into a compiled library. Nothing else in it
+ * depends on them.
  */
 typedef struct {
     char mark[32], token[64];
     double values[417];
 } km_numbers;
 
-/* Not static: no compiler may take them for constants of what reads them in other files. */
+/* Not static, so that no compiler folds them as constants in other files. */
 extern const km_numbers km_rigid_axle_numbers;
 
 const km_numbers km_rigid_axle_numbers = {

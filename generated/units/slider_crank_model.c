@@ -1,4 +1,4 @@
-/* Slider-crank, one degree of freedom, as the core knows it. Written by kintrafo. */
+/* Slider-crank, one degree of freedom: description for the core. Written by kintrafo. */
 #include "model.h"
 
 #include "equations/slider_crank.h"

@@ -1,4 +1,4 @@
-/* Trailing arm with an oblique axis, as the core knows it. Written by kintrafo. */
+/* Trailing arm with an oblique axis: description for the core. Written by kintrafo. */
 #include "model.h"
 
 #include "equations/trailing_arm.h"

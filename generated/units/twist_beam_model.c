@@ -1,4 +1,4 @@
-/* Twist-beam axle, as the core knows it. Written by kintrafo. */
+/* Twist-beam axle: description for the core. Written by kintrafo. */
 #include "model.h"
 
 #include "equations/twist_beam.h"
