@@ -28,8 +28,8 @@ def test_what_is_done_is_told_with_how_much_there_is(tmp_path, capfd):
         for part in (
             "finding the loops",
             "equations of motion of 3 bodies",
-            "differentiating rhs by the state: 1 of 2",
-            "differentiating rhs by the state: 2 of 2",
+            "differentiating rhs with respect to the state: 1 of 2",
+            "differentiating rhs with respect to the state: 2 of 2",
             "common subexpressions",
             "operations in 2 files",
             "1 of 2 files are done",
