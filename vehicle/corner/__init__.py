@@ -1,10 +1,10 @@
-"""What every kind of suspension has, and what is computed from.
+"""The base of all kinds of suspension.
 
-`base`, `coil_sprung`    the class of all kinds, and that of those with a coil spring
-`bushes`     stiffness of what joins the parts
-`structure`  what holds the parts together: joints, and forces along lines
-`geometry`   what the geometry of any suspension must fulfil
-`facts`, `drawing`    what a kind says of its equations, and how it is drawn
-`corner`, `strokes`   what characteristics are computed from
-`wheel_loads`         what road, drive shaft and brake do to a wheel, as inputs
+`base`, `coil_sprung`    the class of all kinds, and of those with a coil spring
+`bushes`     stiffnesses of bushes at joints
+`structure`  joints, and forces along lines
+`geometry`   checks of the geometry of any suspension
+`facts`, `drawing`    names in the equations of a kind, and its drawing
+`corner`, `strokes`   the data of characteristics
+`wheel_loads`         loads of road, drive shaft and brake on a wheel, as inputs
 """

@@ -1,12 +1,11 @@
-"""A suspension as an engineer describes it: hardpoints, alignment, rates and masses.
+"""The base of suspensions: hardpoints, alignment, rates and masses.
 
-`Suspension` is what all have in common. Each kind has a file of its own in `kinds`, where all that
-differs between them is, too; there `Suspension` is imported from, so that all kinds are known. It
-holds the values as they are in the input file, in the units that the names of its keys carry.
-`Suspension.parameters` returns what the equations of motion take, in SI units.
+Each kind has a file of its own in `kinds`; `Suspension` is imported from there, so that all kinds
+are registered. It has the values of the input file, in the units of its keys.
+`Suspension.parameters` returns the parameters of the equations of motion, in SI units.
 
-Axes are those of ISO 8855, fixed to the chassis: x forward, y left, z up. A right suspension lies
-at negative y, a left one at positive y.
+Axes are those of ISO 8855, fixed to the chassis: x forward, y left, z up. A right suspension is at
+negative y, a left one at positive y.
 """
 
 from abc import abstractmethod
@@ -41,7 +40,7 @@ from .strokes import Strokes
 from .structure import Structure
 from .wheeled import WheeledSection
 
-# The top-level key that says which suspension a file describes.
+# The top-level key of the kind of suspension in a file.
 KIND = "suspension"
 
 _OTHERS = {
@@ -56,8 +55,8 @@ class Suspension(WheeledSection):
     """A suspension at its design position. Immutable.
 
     Make one with `load`, `from_dict` or `with_changes`: they return the kind that the data name
-    with ``suspension``, a MacPherson suspension where they do not say. The attributes are the
-    sections of the input file, with the file's keys and units.
+    with ``suspension``, by default a MacPherson suspension. The attributes are the sections of the
+    input file, with the file's keys and units.
 
     Parameters
     ----------
@@ -67,18 +66,18 @@ class Suspension(WheeledSection):
     Raises
     ------
     InputError
-        With all problems, if a suspension cannot be like this.
+        With all problems, if the data are not valid.
 
     Attributes
     ----------
     TITLE : str
-        What the suspension is called.
+        The name of the kind.
     NAMES : Names
-        What its equations call that which every suspension has.
+        The names in its equations of coordinates that every suspension has.
     STARTER : str
-        The packaged data set that a new file is copied from.
+        The packaged data set from which a new file is copied.
     PAGE : str
-        What the page of the input file says of the kind: the end of a sentence, and more of them.
+        The text of the page of input files on the kind: the end of a sentence, and further ones.
     STOPPED : str
         The element of its equations whose length the stops limit.
 
@@ -130,13 +129,13 @@ class Suspension(WheeledSection):
 
     @classmethod
     def __pydantic_init_subclass__(cls, **_: Any) -> None:
-        """Make a kind known by the name that a file calls it."""
+        """Register a kind by its name in a file."""
         for name in get_args(cls.model_fields[KIND].annotation):
             _known[name] = cls
 
     @classmethod
     def packaged(cls) -> Mapping[str, Traversable]:
-        """Return the files of those that come with kintrafo, by their names."""
+        """Return the packaged files, by name."""
         return data_sets()
 
     @classmethod
@@ -152,7 +151,7 @@ class Suspension(WheeledSection):
         data : mapping
             The sections, with their keys and units as in the file.
         source : str, optional
-            Where the data come from, for error messages.
+            Origin of the data, for error messages.
 
         Returns
         -------
@@ -162,7 +161,7 @@ class Suspension(WheeledSection):
         Raises
         ------
         InputError
-            If no suspension can be like this; it lists everything that is wrong.
+            If the data are not valid; it lists all problems.
         """
         check_keys(source, "data", data, "keys and values of the input file")
         try:
@@ -172,7 +171,7 @@ class Suspension(WheeledSection):
 
     @classmethod
     def given(cls, given: Any, folder: Path, key: str) -> "Suspension":
-        """Return the suspension that the file of an axle or of a car names, or that a caller gives.
+        """Return the suspension that is the value of a key in the file of an axle or of a car.
 
         Parameters
         ----------
@@ -181,7 +180,7 @@ class Suspension(WheeledSection):
         folder : Path
             The folder to which paths are relative.
         key : str
-            The key that gives it, for messages.
+            The key, for messages.
 
         Raises
         ------
@@ -200,21 +199,21 @@ class Suspension(WheeledSection):
 
     @classmethod
     def heading(cls) -> str:
-        """Return what the suspension is called, as the beginning of a heading."""
+        """Return the name of the kind, as the beginning of a heading."""
         return cls.TITLE[:1].upper() + cls.TITLE[1:]
 
     @classmethod
     def steered(cls) -> bool:
-        """Return whether the wheel can be steered: whether there is a rack."""
+        """Return whether there is a rack."""
         return bool(cls.NAMES.rack)
 
     def refuse_without_rack(self, what: str) -> None:
-        """Refuse what has no meaning for a wheel that cannot be steered.
+        """Refuse an option that needs a rack if there is none.
 
         Parameters
         ----------
         what : str
-            The argument that needs a rack.
+            The option.
 
         Raises
         ------
@@ -231,9 +230,9 @@ class Suspension(WheeledSection):
         return self.hardpoints.CARRIERS["wheel_center"]
 
     def mirrored(self) -> Self:
-        """Return the same suspension on the other side of the vehicle.
+        """Return the suspension on the other side of the vehicle.
 
-        The rack keeps its sense: what moved it to the left still does.
+        The rack keeps its sense: its positive displacements have the same direction.
 
         Returns
         -------
@@ -258,33 +257,34 @@ class Suspension(WheeledSection):
         return self.from_dict(data, "mirrored suspension")
 
     def bushes(self, given: Validator, described: Mapping[str, Any]) -> list[Bush]:
-        """Return bushes by their hardpoints; see `docs/suspension/compliance.md`.
+        """Return the described bushes; see `docs/suspension/compliance.md`.
 
         Parameters
         ----------
         given : Validator
-            Gets what is wrong.
+            Collects problems.
         described : mapping
+            By hardpoint.
         """
         sign = self.vehicle.sign
         spin = sign * self.wheel.spin_axis(sign)
         return bushes_of(given, described, self.structure(), self.hardpoints.at_design(), spin)
 
     def allowed_lengths(self) -> tuple[LengthLimit, ...]:
-        """Return the lengths that positions must keep, besides closing the loops.
+        """Return the limits of the strut's or the damper's length.
 
         Returns
         -------
         tuple of LengthLimit
-            Of what can be drawn in or out; empty where the file gives no limit.
+            Empty if the file has none.
         """
         return ()
 
-    # -- what each kind says of itself ----------------------------------------------------------
+    # -- members of each kind -------------------------------------------------------------------
 
     @abstractmethod
     def equations(self, *, free_rack: bool) -> ModuleType:
-        """Return the shortest equations that have everything that this suspension has.
+        """Return the shortest equations with all elements of this suspension.
 
         Parameters
         ----------
@@ -294,7 +294,7 @@ class Suspension(WheeledSection):
         Raises
         ------
         InputError
-            If there are none.
+            If there are none with a free rack.
         """
 
     @abstractmethod
@@ -303,34 +303,34 @@ class Suspension(WheeledSection):
 
     @abstractmethod
     def drawing(self) -> Drawing:
-        """Return how the suspension is drawn."""
+        """Return the elements of a drawing."""
 
     @abstractmethod
     def structure(self) -> Structure:
-        """Return the joints and the lines of force, for the loads on its parts."""
+        """Return the joints and force elements, for the loads on its parts."""
 
     @abstractmethod
     def links_at(self, points: Mapping[str, Array], travel: CarrierMotion) -> tuple[Plane, Plane]:
-        """Return the planes of the links that hold the wheel carrier; see `Corner`.
+        """Return the planes of the links of the wheel carrier; see `Corner`.
 
         Parameters
         ----------
         points : mapping
             The hardpoints by name, each of shape (..., 3) [m].
         travel : CarrierMotion
-            How the wheel carrier moves first, per unit of wheel travel.
+            The motion of the wheel carrier per unit of wheel travel.
         """
 
     @abstractmethod
     def spring_at(self, strokes: Strokes) -> SpringForce:
-        """Return the spring at many positions."""
+        """Return stroke and force of the spring."""
 
     @abstractmethod
     def damper_at(self, strokes: Strokes) -> Stroke:
-        """Return the stroke of the damper at many positions."""
+        """Return the stroke of the damper."""
 
     def stops_at(self, strokes: Strokes) -> tuple[SpringForce, ...]:
-        """Return the forces of the stops at many positions."""
+        """Return strokes and forces of the stops."""
         return tuple(strokes.spring(f"{side}_stop_force", self.STOPPED) for side in _sides(strokes))
 
     def gaps_at(self, strokes: Strokes) -> tuple[Array, ...]:
@@ -344,26 +344,26 @@ class Suspension(WheeledSection):
         )
 
     def extended(self) -> Extended | None:
-        """Return the strut or damper at full extension; None where the equations have no end."""
+        """Return the strut or damper at full extension; None if its length is not limited."""
         return None
 
     def without_friction(self) -> Self:
-        """Return the same suspension without friction; this one if it has none."""
+        """Return the suspension without friction, which may be this one."""
         return self
 
     def neglected_masses(self) -> dict[str, float]:
-        """Return the bodies whose mass counts only with a free rack.
+        """Return the masses that only equations with a free rack have.
 
         Returns
         -------
         dict of str to float
-            Name to mass [kg], more than zero; empty where the rack may be prescribed.
+            Masses by body [kg], more than zero.
         """
         return {}
 
     @abstractmethod
     def parameters(self) -> dict[str, float]:
-        """Return everything that the equations of motion need, in SI units.
+        """Return the parameters of the equations of motion, in SI units.
 
         Returns
         -------
@@ -373,24 +373,24 @@ class Suspension(WheeledSection):
         """
 
     def shared_parameters(self, *, optional_points: bool = False) -> dict[str, float]:
-        """Return the parameters that any suspension has, in SI units.
+        """Return the parameters of any suspension, in SI units.
 
         Parameters
         ----------
         optional_points : bool, optional
-            Whether the equations take the hardpoints that a file may leave out.
+            Whether the equations have the optional hardpoints.
 
         Returns
         -------
         dict of str to float
             - ``wheel_center_x`` and so on for every hardpoint and component, in m;
-            - ``rack_axis_*``, where there is a rack, and ``spin_axis_*``, unit vectors; the spin
-              axis points left at zero camber and toe on both sides, so that rolling forward is a
+            - ``rack_axis_*``, if there is a rack, and ``spin_axis_*``, unit vectors; the spin axis
+              points left at zero camber and toe on both sides, so that rolling forward is a
               positive rate;
             - ``tyre_rate`` in N/m and ``tyre_free_height`` in m, ``gravity`` in m/s^2;
             - ``knuckle_mass`` in kg, ``knuckle_com_*`` in m and ``knuckle_inertia_*`` in kg m^2,
               the latter the *elements* xx, yy, zz, xy, xz, yz of the tensor about the centre of
-              mass (xy is minus the product of inertia); so for every other body but the wheel;
+              mass (xy is minus the product of inertia); the same for all bodies but the wheel;
             - ``wheel_mass`` in kg, ``wheel_inertia_spin`` and ``wheel_inertia_diametral`` in
               kg m^2 (its centre of mass is the hardpoint wheel_center).
         """
@@ -404,7 +404,7 @@ class Suspension(WheeledSection):
         }
 
     def extras(self) -> list[str]:
-        """Return sections and keys that the plain equations leave out."""
+        """Return the sections and keys of all kinds that plain equations do not have."""
         present = {
             "[bump_stop]": self.bump_stop is not None,
             "[rebound_stop]": self.rebound_stop is not None,
@@ -415,23 +415,23 @@ class Suspension(WheeledSection):
 
     @classmethod
     def further_problems(cls, sections: Mapping[str, Any]) -> list[str]:
-        """Say what is wrong among sections of this kind of suspension.
+        """Return the problems of several sections together.
 
         Parameters
         ----------
         sections : mapping
-            The sections that are right in themselves, the hardpoints among them.
+            The sections that are valid alone, including the hardpoints.
 
         Returns
         -------
         list of str
         """
-        del sections  # nothing that every kind has
+        del sections
         return []
 
 
 def _sides(strokes: Strokes) -> tuple[str, ...]:
-    """Return the sides on which the equations can have a stop."""
+    """Return the sides on which the equations have a stop."""
     return tuple(side for side in ("bump", "rebound") if f"{side}_stop_force" in strokes)
 
 
@@ -441,29 +441,18 @@ _known: dict[str, type[Suspension]] = {}
 
 
 def known_kinds() -> dict[str, type[Suspension]]:
-    """Return the kinds that are loaded, by the names that a file calls them, the default first."""
+    """Return the registered kinds by their names in files, the default first."""
     return dict(sorted(_known.items(), key=lambda item: item[0] != DEFAULT))
 
 
 def _kind_of(data: Mapping[str, Any], wanted: type[SuspensionT]) -> type[SuspensionT]:
-    """Return the class that describes the suspension of a file.
-
-    Parameters
-    ----------
-    data : mapping
-        The file's content; not checked yet.
-    wanted : type of Suspension
-        `Suspension`, or the kind that it has to be.
-
-    Returns
-    -------
-    type of Suspension
+    """Return the class of the suspension in the unchecked content of a file.
 
     Raises
     ------
     InputError
-        If there is no such kind, it is not the one that is wanted, or it is not said although the
-        hardpoints are not those of a MacPherson suspension.
+        If the kind is unknown, or is not `wanted`, or is missing although the hardpoints are not
+        those of a MacPherson suspension.
     """
     for key, problem in _OTHERS.items():
         if key in data and "hardpoints" not in data:
@@ -486,7 +475,7 @@ def _kind_of(data: Mapping[str, Any], wanted: type[SuspensionT]) -> type[Suspens
 
 
 def _refuse_hardpoints_of_another(data: Mapping[str, Any]) -> None:
-    """Refuse data that do not say their kind, where the hardpoints are those of another one."""
+    """Refuse data without a kind whose hardpoints are not those of the default kind."""
     points = data.get("hardpoints")
     if not isinstance(points, Mapping):
         return

@@ -1,4 +1,4 @@
-"""Bushes: how far joints deflect, as a file or a caller describes them."""
+"""Bushes: the flexibilities of joints, from a file or a caller."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -22,13 +22,13 @@ Array = NDArray[np.float64]
 
 _STIFFNESSES = {
     "axial_N_per_mm": "stiffness along its axis",
-    "radial_N_per_mm": "stiffness across its axis; or two, along `radial_axis` and across that",
+    "radial_N_per_mm": "stiffness normal to its axis; or two, along `radial_axis` and normal to it",
     "tilt_Nm_per_deg": "stiffness against tilting about axes across its own; or two, about "
     "`radial_axis` and about the axis perpendicular to that",
     "torsion_Nm_per_deg": "stiffness against turning about its axis",
-    "axial_curve": "in place of a stiffness, lists `mm` and `N`, both rising; see [spring] for "
+    "axial_curve": "instead of a stiffness, lists `mm` and `N`, both rising; see [spring] for "
     "`interpolation`",
-    "radial_curve": "in place of a stiffness, lists `mm` and `N`, both rising from 0; see [spring] "
+    "radial_curve": "instead of a stiffness, lists `mm` and `N`, both rising from 0; see [spring] "
     "for `interpolation`",
 }
 _DIRECTIONS = {
@@ -38,45 +38,45 @@ _DIRECTIONS = {
     "two against tilting; by default upward",
 }
 _PAIRS = ("radial_N_per_mm", "tilt_Nm_per_deg")
-"""What can differ between the two directions across the axis."""
+"""The stiffnesses that may differ between the two directions normal to the axis."""
 _KEYS = (*_STIFFNESSES, *_DIRECTIONS)
 RACK = "rack"
-"""In the place of a hardpoint: how stiff the steering holds the rack along its axis."""
+"""The name, instead of a hardpoint, of the stiffness of the steering along the rack's axis."""
 _PER_MM, _PER_DEG = 1e3, 180.0 / np.pi
-# What is greater is left to the checks [any unit].
+# Greater numbers are left to the checks [any unit].
 _LARGEST = 1e300
-# No bush is softer or stiffer than this, in its display units.
+# The least and the greatest stiffness of a bush, in its display units.
 _SOFTEST, _STIFFEST = 1e-3, 1e12
 _NO_DAMPING = (
     "The damping of a bush has no effect: loads and compliance are static, and motions have rigid "
     "joints. Leave it out; for results at a frequency enter the dynamic stiffnesses."
 )
-# Two directions nearer to each other than this angle [rad] define no plane.
+# Least angle of two directions that define a plane [rad].
 _LEAST_ANGLE = 1e-3
 
 
 @dataclass(frozen=True)
 class Bush:
-    """What deflects at a hardpoint.
+    """The flexibility of a joint at a hardpoint.
 
     Attributes
     ----------
     point : str
     axes : ndarray, shape (3, 3)
-        Its own axis and two across it, as rows in the chassis axes at design.
+        Its own axis and two normal to it, as rows in the chassis axes at design.
     soft : ndarray, shape (3,)
-        Displacement of the joint's second part along each by a unit force on it [m/N].
+        Displacement of the joint's second part along each axis for a unit force on it [m/N].
     tilt : ndarray, shape (2,)
-        Of a bearing, its rotation about each of two axes across that of the wheel by a unit moment
+        Rotation of a bearing about each of two axes normal to that of the wheel for a unit moment
         [rad/(N m)].
     tilts_about : ndarray, shape (2, 3)
         These axes, as rows in the chassis axes at design.
     turning : tuple of float
-        Of what turns freely without a bush: the moment by which it resists a unit of torsion about
-        its axis, and of tilting about each of the two across it [N m/rad].
+        Stiffnesses of a joint that turns freely without a bush: against torsion about its axis, and
+        against tilting about each of the other two [N m/rad].
     curves : tuple of Curve or None
-        Along each axis the force over the displacement, where that is no straight line; its slope
-        at zero is then what is soft there.
+        The force over the displacement along each axis, if it is not linear; `soft` is then its
+        derivative at zero.
     """
 
     point: str
@@ -89,7 +89,7 @@ class Bush:
 
     @property
     def gives_way(self) -> bool:
-        """Whether anything moves in it that a rigid joint holds."""
+        """Whether it deflects in a direction in which a rigid joint does not."""
         return bool(self.soft.any() or self.tilt.any())
 
     def mirrored(self, point: str) -> "Bush":
@@ -100,14 +100,14 @@ class Bush:
 
     @property
     def compliance(self) -> Array:
-        """Displacement and rotation by force and moment, (6, 6), chassis axes at design."""
+        """Displacement and rotation per force and moment, (6, 6), chassis axes at design."""
         whole = np.zeros((6, 6))
         whole[:3, :3] = self.axes.T @ np.diag(self.soft) @ self.axes
         whole[3:, 3:] = self.tilts_about.T @ np.diag(self.tilt) @ self.tilts_about
         return whole
 
     def give(self, wrench: Array) -> tuple[Array, Array]:
-        """Return how far it deflects, however far that is; chassis axes at design.
+        """Return its large deflection in chassis axes at design.
 
         Parameters
         ----------
@@ -119,7 +119,7 @@ class Bush:
         moved : ndarray, shape (6,)
             Displacement and rotation.
         slopes : ndarray, shape (6, 6)
-            Their derivatives by force and moment.
+            Their derivatives with respect to force and moment.
         """
         slopes = self.compliance
         moved: Array = slopes @ wrench
@@ -143,7 +143,7 @@ class Bush:
 
 
 def read_bushes(path: str | Path) -> dict[str, Any]:
-    """Read a TOML file of bushes.
+    """Return the bushes in a TOML file.
 
     Parameters
     ----------
@@ -157,18 +157,16 @@ def read_bushes(path: str | Path) -> dict[str, Any]:
     Raises
     ------
     InputError
-        If it cannot be read, or has something else.
+        If it cannot be read, or has other sections.
     """
-    bushings: dict[str, Any] = read_sections(path, ["bushings"], needed="bushings.POINT")[
-        "bushings"
-    ]
-    return bushings
+    sections = read_sections(path, ["bushings"], needed="bushings.POINT")
+    return dict(sections["bushings"])
 
 
 def described_bushings(
     given: Validator, bushings: Any, of_the_file: Mapping[str, Any] | None
 ) -> dict[str, Any]:
-    """Return the bushes that are given, or those of the hardpoint file where none are."""
+    """Return given bushes; those of the hardpoint file for None."""
     if bushings is None and of_the_file is None:
         given.fail(
             "bushings: none are given, and the hardpoint file has none. Give them, or add its "
@@ -179,21 +177,17 @@ def described_bushings(
 
 
 def mirrored_bushings(described: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the images of bushes in the plane y = 0; what is no table as it is."""
+    """Return the images of bushes in the plane y = 0; other objects than tables are unchanged."""
     return {
-        point: {key: _image(key, value) for key, value in table.items()}
+        point: {k: [v[0], 0.0 - v[1], v[2]] if k in _DIRECTIONS else v for k, v in table.items()}
         if isinstance(table, Mapping)
         else table
         for point, table in described.items()
     }
 
 
-def _image(key: str, value: Any) -> Any:
-    return [value[0], 0.0 - value[1], value[2]] if key in _DIRECTIONS else value
-
-
 def _plain(value: Any) -> Any:
-    """Return tables, lists and numbers as a file has them; what is None is left out."""
+    """Return tables, lists and numbers as in a file, without None."""
     if isinstance(value, Mapping):
         return {key: _plain(inner) for key, inner in value.items() if inner is not None}
     if isinstance(value, np.ndarray | np.generic):
@@ -205,7 +199,7 @@ def _plain(value: Any) -> Any:
 
 
 def _schema_of(key: str, words: str) -> dict[str, Any]:
-    """Return what an editor knows of a key."""
+    """Return the JSON Schema of a key."""
     number = {"type": "number", "exclusiveMinimum": 0.0}
     numbers = {"type": "array", "items": {"type": "number"}}
     unit = unit_of(key)
@@ -233,7 +227,7 @@ Bushings = Annotated[
     BeforeValidator(_plain),
     WithJsonSchema({"type": "object", "additionalProperties": {"$ref": "#/$defs/Bushing"}}),
 ]
-"""The section of a hardpoint file."""
+"""The section of bushes in a hardpoint file."""
 
 
 def bushes_of(
@@ -243,16 +237,16 @@ def bushes_of(
     design: Points,
     spin: Array,
 ) -> list[Bush]:
-    """Read bushes by their hardpoints; see `docs/suspension/compliance.md`.
+    """Return the described bushes; see `docs/suspension/compliance.md`.
 
     Parameters
     ----------
     given : Validator
-        Gets what is wrong.
+        Collects problems.
     described : mapping
         By hardpoint.
     structure : Structure
-        Whose joints deflect.
+        The joints of the bushes.
     design : mapping
         The hardpoints at design [m].
     spin : ndarray, shape (3,)
@@ -288,7 +282,7 @@ def bushes_of(
             axes=axes,
             soft=np.array([_at_rest(c) if c else s for s, c in zip(soft, curves, strict=True)]),
             tilt=np.array([1.0 / rate if is_bearing and rate else 0.0 for rate in tilt]),
-            # a bearing tilts across the axis of the wheel, not its own
+            # a bearing tilts about axes normal to that of the wheel, not of the bush
             tilts_about=_across(given, title, table, spin)
             if is_bearing and "axis" in table
             else axes[1:],
@@ -302,7 +296,7 @@ def bushes_of(
 def _turning(
     given: Validator, title: str, table: Mapping[str, Any], key: str
 ) -> tuple[float, float]:
-    """Return stiffnesses against rotation about two axes [N m/rad]; zero where there are none."""
+    """Return stiffnesses against rotation about two axes [N m/rad]; zero without the key."""
     if key not in table:
         return 0.0, 0.0
     first, second = _pair(given, title, table, key)
@@ -310,7 +304,7 @@ def _turning(
 
 
 def _curve(given: Validator, title: str, table: Mapping[str, Any], which: str) -> Curve | None:
-    """Return a curve where there is one."""
+    """Return the axial or the radial curve, if any."""
     key, rate = f"{which}_curve", f"{which}_N_per_mm"
     if key not in table:
         return None
@@ -320,12 +314,12 @@ def _curve(given: Validator, title: str, table: Mapping[str, Any], which: str) -
 
 
 def _at_rest(curve: Curve) -> float:
-    """Return how soft a bush is that is relaxed [m/N]."""
+    """Return the flexibility of a relaxed bush [m/N]."""
     return 1.0 / float(curve.rate(np.zeros(1))[0])
 
 
 def refuse_rigid(given: Validator, bushes: Sequence[Bush], rack: float) -> None:
-    """Refuse bushes of which none deflects."""
+    """Refuse bushes if none of them deflects."""
     if not (rack or given.failed or any(bush.gives_way for bush in bushes)):
         given.fail(
             "bushings: one or more are needed that deflect, by axial_N_per_mm, radial_N_per_mm, a "
@@ -334,12 +328,12 @@ def refuse_rigid(given: Validator, bushes: Sequence[Bush], rack: float) -> None:
 
 
 def left_out(bushes: Sequence[Bush]) -> str:
-    """Return what first order leaves out of some bushes, in words; empty where that is nothing."""
+    """Return the effects of bushes that a linear analysis neglects, for a sentence, or ""."""
     return "what resists torsion and tilting" if any(any(b.turning) for b in bushes) else ""
 
 
 def softness_of_rack(given: Validator, described: Mapping[str, Any]) -> float:
-    """Return how far the rack deflects along its axis [m/N]; zero where nothing is said."""
+    """Return the flexibility of the rack along its axis [m/N]; zero if not described."""
     if RACK not in described:
         return 0.0
     table, title = described[RACK], f"[bushings.{RACK}]"
@@ -350,14 +344,14 @@ def softness_of_rack(given: Validator, described: Mapping[str, Any]) -> float:
 
 
 def _translations(given: Validator, title: str, table: Mapping[str, Any]) -> list[float]:
-    """Return the compliances along the axis and in both directions across it [m/N]."""
+    """Return the flexibilities along the axis and in both directions normal to it [m/N]."""
     axial = _stiffness(given, title, table, "axial_N_per_mm")
     both = _pair(given, title, table, "radial_N_per_mm")
     return [1.0 / (value * _PER_MM) for value in (axial, *both)]
 
 
 def _pair(given: Validator, title: str, table: Mapping[str, Any], key: str) -> tuple[float, float]:
-    """Return both of what may be one stiffness or two."""
+    """Return the two stiffnesses of a key, which may have one number for both."""
     value = table.get(key)
     if not (isinstance(value, list | tuple) or (isinstance(value, np.ndarray) and value.ndim)):
         both = _stiffness(given, title, table, key)
@@ -371,7 +365,7 @@ def _pair(given: Validator, title: str, table: Mapping[str, Any], key: str) -> t
 
 
 def _stiffness(given: Validator, title: str, table: Mapping[str, Any], key: str) -> float:
-    """Return a stiffness in its display unit; infinite where there is none."""
+    """Return a stiffness in its display unit; infinite without the key."""
     if key not in table:
         return np.inf
     unit = "N m/deg" if key.endswith("Nm_per_deg") else "N/mm"
@@ -387,7 +381,7 @@ def _axes(
     design: Points,
     spin: Array,
 ) -> Array:
-    """Return the axes of a bush as rows: its own, and the two across it."""
+    """Return the axes of a bush as rows: its own, and two normal to it."""
     usual_axis = spin if isinstance(joint, FixedJoint) else joint.axis(design)
     if usual_axis is None and "axis" not in table:
         given.fail(f"{title} axis is needed: a bush at this point has no default axis.")
@@ -402,7 +396,7 @@ def _axes(
 
 
 def _across(given: Validator, title: str, table: Mapping[str, Any], along: Array) -> Array:
-    """Return the radial directions, (2, 3): the first as upright as it can be, unless given."""
+    """Return the radial directions, (2, 3): by default the first one is as upright as possible."""
     usual = np.eye(3)[0 if abs(along[2]) > np.cos(_LEAST_ANGLE) else 2]
     aside = _direction(given, title, table, "radial_axis", usual)
     across = cross(along, aside)

@@ -1,13 +1,12 @@
-"""What kinds of suspension share that have a coil spring, and a damper with a rate or a curve.
-
-The two sections, what the equations take of them, and their strokes.
-"""
+"""The base of suspensions with a coil spring, and a damper with a rate or a curve."""
 
 from collections.abc import Mapping
+from types import ModuleType
 from typing import Any, ClassVar, Self
 
 from pydantic import Field
 
+from ...core.errors import InputError
 from ...systems.allowed import LengthLimit
 from ..input.curve import WAYS, Interpolation, Numbers
 from ..input.damper import Damper, curve_problems
@@ -23,7 +22,7 @@ from .strokes import Strokes
 class CoilDamper(Section):
     """The damper, between the same two points as the spring.
 
-    It has a rate, or a curve through measured points: velocities are positive in bump, forces where
+    It has a rate, or a curve through measured points: velocities are positive in bump, forces if
     they resist bump (see `input.damper.Damper`). Its friction is ``friction v / sqrt(v^2 +
     friction_velocity^2)``.
 
@@ -44,7 +43,7 @@ class CoilDamper(Section):
     )
     force_N: Numbers | None = Field(  # noqa: N815
         default=None,
-        description="forces at these velocities; positive where they resist bump",
+        description="forces at these velocities; positive if they resist bump",
     )
     interpolation: Interpolation | None = Field(
         default=None, description=f"{WAYS}; by default cubic"
@@ -66,7 +65,7 @@ class CoilDamper(Section):
 
     @property
     def curve(self) -> Damper | None:
-        """The curve; None where the damper has a rate."""
+        """The curve; None if the damper has a rate."""
         if self.velocity_m_per_s is None or self.force_N is None:
             return None
         return Damper(
@@ -76,7 +75,7 @@ class CoilDamper(Section):
         )
 
     def problems(self) -> list[str]:
-        """See that the damper is given once, and as a curve by both of its keys."""
+        """Return the problem of a damper that is described twice, or not completely."""
         keys = ("velocity_m_per_s", "force_N", "interpolation")
         by_curve = [key for key in keys if getattr(self, key) is not None]
         if self.rate_N_s_per_m is not None and by_curve:
@@ -96,7 +95,7 @@ class CoilDamper(Section):
         return []
 
     def length_problems(self, at_design: float) -> list[str]:
-        """Say why the damper cannot be as long as it is at the design position [m]."""
+        """Return the problems of the length of the damper at the design position [m]."""
         length = 1e3 * at_design
         ends = (
             ("length_min_mm", self.length_min_mm, 1.0, "or more", "Lower"),
@@ -111,7 +110,7 @@ class CoilDamper(Section):
         ]
 
     def allowed_lengths(self, signal: str) -> tuple[LengthLimit, ...]:
-        """Return the least and the greatest length, where they are given, of a signal."""
+        """Return the limits of a signal by the least and the greatest length in the file."""
         ends = (("min", 1.0, "least"), ("max", -1.0, "greatest"))
         given = ((getattr(self, f"length_{end}_mm"), end, sign, name) for end, sign, name in ends)
         return tuple(
@@ -129,7 +128,7 @@ class CoilDamper(Section):
 class ApartDamper(CoilDamper):
     """The damper, with ends of its own.
 
-    It has a rate, or a curve through measured points: velocities are positive in bump, forces where
+    It has a rate, or a curve through measured points: velocities are positive in bump, forces if
     they resist bump (see `input.damper.Damper`). Its friction is ``friction v / sqrt(v^2 +
     friction_velocity^2)``.
     """
@@ -144,24 +143,39 @@ class ApartDamper(CoilDamper):
 
 
 class CoilSprung(Suspension):
-    """A suspension with a coil spring and a damper, each between two hardpoints."""
+    """A suspension with a coil spring and a damper, each between two hardpoints.
+
+    Attributes
+    ----------
+    PLAIN, GENERAL : module
+        Equations with spring and damper alone, and with everything of `beyond_the_plain`.
+    ADDITION : str
+        The element that is beyond plain equations in every file of the kind, which has no others.
+    """
+
+    PLAIN: ClassVar[ModuleType]
+    GENERAL: ClassVar[ModuleType]
+    ADDITION: ClassVar[str] = ""
 
     spring: SpringSection = Field(description="the spring")
     damper: CoilDamper = Field(description="the damper")
 
     # -- its equations --------------------------------------------------------------------------
 
+    def equations(self, *, free_rack: bool) -> ModuleType:
+        """Return the equations, in which the rack is prescribed."""
+        if free_rack:
+            rack = f"the rack of a {self.TITLE} is prescribed"
+            problem = rack if self.steered() else f"a {self.TITLE} has no rack"
+            raise InputError([f"free_rack=True: {problem}. Leave that out."], "Model")
+        return self.GENERAL if self.beyond_the_plain() else self.PLAIN
+
     def without_friction(self) -> Self:
-        """Return the same suspension without the friction of its damper."""
+        """Return the suspension without the friction of its damper."""
         return self.with_changes({"damper.friction_N": 0.0}) if self.damper.friction_N else self
 
     def beyond_the_plain(self) -> list[str]:
-        """Return what this suspension has that the plain equations leave out.
-
-        Returns
-        -------
-        list of str
-            Sections and keys; empty for spring and damper alone.
+        """Return the sections and keys that plain equations do not have.
 
         Examples
         --------
@@ -171,6 +185,7 @@ class CoilSprung(Suspension):
         ([], ['[tyre] lifts_off'])
         """
         own = {
+            self.ADDITION: bool(self.ADDITION),
             "[damper] friction_N": self.damper.friction_N > 0.0,
             "[damper] velocity_m_per_s": self.damper.curve is not None,
             "[spring] force_N": self.spring.by_curve,
@@ -178,14 +193,14 @@ class CoilSprung(Suspension):
         return [name for name, is_present in own.items() if is_present] + self.extras()
 
     def parameters(self) -> dict[str, float]:
-        """Return everything that the equations of motion need, in SI units.
+        """Return the parameters of the equations of motion, in SI units.
 
         Returns
         -------
         dict of str to float
-            Besides `shared_parameters`: ``spring_rate`` in N/m, ``spring_free_length`` in m and
-            ``damper_rate`` in N s/m; with anything of `beyond_the_plain` what
-            ``generated.double_wishbone_general`` lists besides.
+            `shared_parameters`, ``spring_rate`` in N/m, ``spring_free_length`` in m and
+            ``damper_rate`` in N s/m; with anything of `beyond_the_plain` the further ones of
+            ``generated.double_wishbone_general``.
         """
         damper, points = self.damper, self.hardpoints
         general = bool(self.beyond_the_plain())
@@ -206,10 +221,10 @@ class CoilSprung(Suspension):
     # -- its geometry ---------------------------------------------------------------------------
 
     def allowed_lengths(self) -> tuple[LengthLimit, ...]:
-        """Return the least and the greatest length of the damper, where they are given."""
+        """Return the least and the greatest length of the damper, if the file has them."""
         return self.damper.allowed_lengths(f"{self.STOPPED}_length")
 
-    # -- what its characteristics are computed from ---------------------------------------------
+    # -- its characteristics --------------------------------------------------------------------
 
     def spring_at(self, strokes: Strokes) -> SpringForce:
         """Return the spring."""
@@ -223,6 +238,6 @@ class CoilSprung(Suspension):
 
     @classmethod
     def further_problems(cls, sections: Mapping[str, Any]) -> list[str]:
-        """Say what is wrong with the damper together with the hardpoints."""
+        """Return the problems of the damper together with the hardpoints."""
         damper, points = sections.get("damper"), sections["hardpoints"]
         return [] if damper is None else damper.length_problems(points.distance(*damper.ENDS))

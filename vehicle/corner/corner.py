@@ -1,8 +1,8 @@
-"""One corner of a vehicle as its characteristics see it: points, directions and first motions.
+"""The data of a corner for its characteristics: points, directions and velocities.
 
-Nothing here knows which mechanism guides the wheel. Every array has the same leading dimensions,
-one element for each position; vectors have three components behind them, in chassis axes
-(ISO 8855: x forward, y left, z up). SI units.
+They do not depend on the mechanism. Every array has the same leading dimensions, one element for
+each position; vectors have three components in the last dimension, in chassis axes (ISO 8855:
+x forward, y left, z up). SI units.
 """
 
 from dataclasses import dataclass
@@ -20,12 +20,12 @@ UP = np.array([0.0, 0.0, 1.0])
 
 @dataclass(frozen=True)
 class CarrierMotion:
-    """How the wheel carrier moves first, per unit of what moves it.
+    """The velocity of the wheel carrier, per unit of the quantity that moves it.
 
     Attributes
     ----------
     velocity : ndarray, shape (..., 3)
-        Of the wheel centre [m per unit].
+        Velocity of the wheel centre [m per unit].
     turning : ndarray, shape (..., 3)
         Angular velocity [rad per unit].
     """
@@ -35,19 +35,16 @@ class CarrierMotion:
 
     def minus(self, other: "CarrierMotion", times: Array) -> "CarrierMotion":
         """Return this motion less a multiple of another."""
-        return CarrierMotion(
-            **{
-                name: part - times[..., None] * vars(other)[name]
-                for name, part in vars(self).items()
-            }
-        )
+        factor = times[..., None]
+        velocity = self.velocity - factor * other.velocity
+        return CarrierMotion(velocity, self.turning - factor * other.turning)
 
     def per(self, unit: Array) -> "CarrierMotion":
-        """Return the motion for one of another unit, given how many of them one of these makes."""
-        return CarrierMotion(**{name: part / unit[..., None] for name, part in vars(self).items()})
+        """Return the motion per unit of another quantity, from this quantity's rate."""
+        return CarrierMotion(self.velocity / unit[..., None], self.turning / unit[..., None])
 
     def axis_nearest(self, center: Array) -> Array:
-        """Return the point on the axis of this motion, that of a screw, nearest to the wheel's.
+        """Return the point on the screw axis of this motion nearest to the wheel centre.
 
         Parameters
         ----------
@@ -57,7 +54,7 @@ class CarrierMotion:
         Returns
         -------
         ndarray, shape (..., 3)
-            [m]; infinitely far, or no number, where nothing turns.
+            [m]; infinite or NaN without rotation.
         """
         square = np.einsum("...i,...i->...", self.turning, self.turning)[..., None]
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -66,7 +63,7 @@ class CarrierMotion:
 
 
 class SteeringAxis(Protocol):
-    """The axis about which a wheel is steered, by two points on it."""
+    """The steering axis of a wheel, by two points on it."""
 
     @property
     def lower(self) -> Array:
@@ -78,7 +75,7 @@ class SteeringAxis(Protocol):
 
     @property
     def rate(self) -> Array:
-        """Derivative of the vector from the lower to the upper one by wheel travel, (..., 3)."""
+        """Derivative of the vector between the points with respect to wheel travel, (..., 3)."""
 
 
 @dataclass(frozen=True)
@@ -88,7 +85,7 @@ class Plane:
     Attributes
     ----------
     point, normal : ndarray, shape (..., 3)
-        [m], and any length but zero.
+        A point [m], and a vector of any length.
     """
 
     point: Array
@@ -97,14 +94,14 @@ class Plane:
 
 @dataclass(frozen=True)
 class Stroke:
-    """A length that changes over wheel travel: of a spring, a damper, a stop.
+    """The length of a spring, a damper or a stop over wheel travel.
 
     Attributes
     ----------
     length : ndarray
         [m].
     slope, curvature : ndarray
-        First and second derivative by wheel travel [1], [1/m].
+        First and second derivative with respect to wheel travel [1], [1/m].
     """
 
     length: Array
@@ -114,7 +111,7 @@ class Stroke:
 
 @dataclass(frozen=True)
 class SpringForce:
-    """A force that the position alone decides.
+    """A force that depends on the position alone.
 
     Attributes
     ----------
@@ -123,7 +120,7 @@ class SpringForce:
     force : ndarray
         Positive when it pushes its ends apart [N].
     force_slope : ndarray
-        Derivative of the force by wheel travel [N/m].
+        Derivative of the force with respect to wheel travel [N/m].
     """
 
     stroke: Stroke
@@ -133,28 +130,28 @@ class SpringForce:
 
 @dataclass(frozen=True)
 class Vehicle:
-    """What the vehicle adds; None where it is not known.
+    """Data of the vehicle for a wheel; None if not known.
 
     Attributes
     ----------
     side : float
         +1 left, -1 right.
     tyre_radius : float or None
-        Of the wheel as a thin disc [m].
+        Radius of the wheel as a thin disc [m].
     tyre_rate : float or None
         Vertical stiffness of the tyre [N/m].
     tyre_lateral_rate, tyre_longitudinal_rate : float or None
-        Of the stationary tyre [N/m].
+        Stiffnesses of the stationary tyre [N/m].
     wheelbase, center_of_gravity_height : float or None
         [m].
     front_brake_share : float or None
         Part of the braking force at the front wheels.
     front, rear : bool or None
-        Which end it is at: True for the one, None for the other.
+        True for the end of the wheel, None for the other one.
     travel_per_turn : float or None
         Rack travel for one turn of the steering wheel [m].
     steered : bool or None
-        Whether the wheel can be steered; None where it cannot.
+        True for a steered wheel, None for others.
     """
 
     side: float
@@ -173,7 +170,7 @@ class Vehicle:
 
 @dataclass(frozen=True)
 class RoadWheel:
-    """A wheel at many positions.
+    """A wheel in n positions.
 
     Attributes
     ----------
@@ -197,30 +194,28 @@ class RoadWheel:
 
 @dataclass(frozen=True)
 class Corner(RoadWheel):
-    """A wheel, its steering axis and its first motions, at many positions.
+    """A wheel, its steering axis and its velocities, in n positions.
 
     Attributes
     ----------
     vehicle, center, design_center, axis, design_axis
         As of `RoadWheel`.
     steering_axis : SteeringAxis or None
-        About which it is steered; None where nothing steers it.
+        None if the wheel is not steered.
     travel : CarrierMotion
         Per unit of wheel travel (height of the wheel centre) with the steering held [per m].
     steering : CarrierMotion or None
-        Per unit of rack travel with the wheel centre held at its height [per m]; None where
-        nothing steers it.
+        Per unit of rack travel with the wheel centre at constant height [per m]; None if the wheel
+        is not steered.
     links : tuple of Plane
-        The two planes whose common line is the axis about which the carrier turns first when it
-        is held by the links in them: for a wishbone the plane of its three joints, for a strut the
-        plane across it through its upper mount; for links in no plane any two planes through the
-        axis about which it turns.
+        Two planes of the links; their intersection is the instantaneous axis of the carrier. For a
+        wishbone it is the plane of its three joints, for a strut the plane normal to it at its
+        upper mount; for links without a plane any two planes through the instantaneous axis.
     spring : SpringForce
     stops : tuple of SpringForce
-        What else pushes by its position.
     damper : Stroke
     arm_rotation : ndarray
-        Of the lower link, zero at design, positive with the wheel up [rad].
+        Rotation of the lower link, zero at design, positive with the wheel up [rad].
     """
 
     steering_axis: SteeringAxis | None

@@ -1,7 +1,7 @@
-"""How a suspension is drawn, as data: what draws it knows no kind.
+"""The drawing of a suspension as data, independent of the kind.
 
-Everything is said by the names of hardpoints. A *place* is one of them; or three, for the point
-nearest to the first on the line through the two others.
+Points are names of hardpoints. A *place* is one name; or three, for the point on the line through
+the last two that is nearest to the first one.
 """
 
 from collections.abc import Mapping
@@ -22,8 +22,8 @@ class Axis(NamedTuple):
     top : str
         The point at its upper end.
     part : float
-        So far from its foot, as a part of its length at design, ends the tube of a damper, and
-        begins a spring.
+        End of a damper's tube, and begin of a spring, as a part of the length at design from its
+        foot.
     """
 
     foot: Place
@@ -33,22 +33,22 @@ class Axis(NamedTuple):
 
 @dataclass(frozen=True)
 class Drawing:
-    """What is drawn of a suspension.
+    """The elements of a drawing.
 
     Attributes
     ----------
     links : mapping
-        For each link that is seen from the front its two ends, and what it is.
+        The two ends and the role of each link in front view.
     knuckle : tuple of str
-        Points of the line that represents the knuckle there.
+        Points of the line that represents the knuckle in front view.
     legend : mapping
-        What the arms and the strut are called on the page of the report, and the ``knuckle`` where
-        that is not its name.
+        The names of arms and strut on the page of the report, and of the ``knuckle`` if it has
+        another one.
     damper, spring : Axis
     upright : tuple of places
-        The ends of the knuckle in three dimensions, which holds the wheel between them.
+        The ends of the knuckle in three dimensions, with the wheel between them.
     brackets : mapping
-        For each bar by which an arm holds the spring, its two ends.
+        The two ends of each bar between an arm and the spring.
     """
 
     links: Mapping[str, tuple[str, str, Role]]

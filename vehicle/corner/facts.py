@@ -1,18 +1,18 @@
-"""What a kind of suspension says of its equations: names, and what a wheel hangs on."""
+"""Facts of a kind of suspension: names in its equations, and the limit in rebound."""
 
 from typing import NamedTuple
 
 
 class Names(NamedTuple):
-    """What the equations call that which every suspension has.
+    """The names in the equations of coordinates and inputs that every suspension has.
 
     Attributes
     ----------
     arm, spin : str
         States: angle of the lower arm, which falls as the wheel rises, and of the wheel [rad].
     rack : str
-        Relative coordinate, and with a free rack a state: displacement of the rack [m]. Empty
-        where nothing steers the wheel.
+        Relative coordinate, and with a free rack a state: displacement of the rack [m]. Empty if
+        the wheel is not steered.
     actuator : str
         Input: force of an actuator in the strut, or beside the spring [N].
     """
@@ -24,16 +24,16 @@ class Names(NamedTuple):
 
 
 class Extended(NamedTuple):
-    """What the wheel hangs on when it is drawn out as far as it goes.
+    """The strut or damper that limits rebound at its greatest length.
 
     Attributes
     ----------
     signal : str
-        The signal of the equations that is its length.
+        The signal of its length.
     length : float
-        The greatest one [m].
+        The greatest length [m].
     name, key : str
-        What it is called, and where the file says its greatest length.
+        Its name, and the key of its greatest length in the file.
     """
 
     signal: str

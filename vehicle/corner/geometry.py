@@ -1,4 +1,4 @@
-"""What the geometry of any suspension must fulfil."""
+"""Checks of the geometry of any suspension."""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -11,15 +11,14 @@ from ..input.messages import subsection
 from ..input.section import Section
 from ..input.vehicle import VehicleSection, WheelSection
 
-# A wheel nearer to the vehicle's centre plane than this is on neither side, in m.
+# Least distance of a wheel from the vehicle's centre plane [m].
 _SMALLEST_HALF_TRACK = 0.001
-# Nearer to the axis of steering than this, the spin axis would make the wheel turn instead of
-# steer, in degrees.
+# Least angle of spin axis and steering axis, below which steering would spin the wheel [deg].
 _SMALLEST_SPIN_AXIS_ANGLE = 1.0
 
 
 def _valid(kind: type[Section], data: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the sections that are right, whether or not the others are; None for one left out."""
+    """Return the sections that are valid alone; None for an optional one that is left out."""
     sections: dict[str, Any] = {}
     for name, field in kind.model_fields.items():
         model = subsection(kind, name)
@@ -40,7 +39,7 @@ def geometry_problems(
     data: Mapping[str, Any],
     further: Callable[[Mapping[str, Any]], list[str]],
 ) -> list[str]:
-    """Say what is wrong with the geometry, as far as the sections that define it are right.
+    """Return the problems of the geometry, from the sections that are valid alone.
 
     Parameters
     ----------
@@ -49,11 +48,7 @@ def geometry_problems(
     data : mapping
         The file's content.
     further : callable
-        What the kind checks besides, of the sections that are right.
-
-    Returns
-    -------
-    list of str
+        Returns further problems of the kind from these sections.
     """
     return problems_of_sections(_valid(kind, data), further)
 
@@ -61,19 +56,7 @@ def geometry_problems(
 def problems_of_sections(
     sections: Mapping[str, Any], further: Callable[[Mapping[str, Any]], list[str]]
 ) -> list[str]:
-    """Say what is wrong with the geometry that some sections define.
-
-    Parameters
-    ----------
-    sections : mapping
-        Those that are right, by name; None for one that is left out.
-    further : callable
-        What the kind checks besides, of these.
-
-    Returns
-    -------
-    list of str
-    """
+    """Return the problems of the geometry, from valid sections by name, see `geometry_problems`."""
     hardpoints = sections.get("hardpoints")
     if hardpoints is None:
         return []
@@ -90,7 +73,7 @@ def problems_of_sections(
 
 
 def _wrong_side(vehicle: VehicleSection, hardpoints: Hardpoints) -> list[str]:
-    """Compare the declared side with that of the wheel."""
+    """Return a problem if the wheel is not on the declared side."""
     if vehicle.sign * hardpoints.metres("wheel_center")[1] >= _SMALLEST_HALF_TRACK:
         return []
     half = "above" if vehicle.side == "left" else "below"
@@ -106,7 +89,7 @@ def _wrong_side(vehicle: VehicleSection, hardpoints: Hardpoints) -> list[str]:
 def _spin_axis_along_steering_axis(
     vehicle: VehicleSection, wheel: WheelSection, hardpoints: Hardpoints
 ) -> list[str]:
-    """Refuse a wheel that would spin when it should steer."""
+    """Return a problem if the spin axis is along the steering axis."""
     axis = hardpoints.steering_axis()
     if axis is None:
         return []

@@ -1,4 +1,4 @@
-"""Lengths and forces over wheel travel, by the chain rule from derivatives by the arm's angle."""
+"""Lengths and forces over wheel travel, from derivatives by the arm's angle and the chain rule."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from .corner import Array, SpringForce, Stroke
 
 
 class Strokes:
-    """The paths of a model's force elements at many positions.
+    """Lengths and forces of a model's force elements in n positions.
 
     Parameters
     ----------
@@ -15,12 +15,12 @@ class Strokes:
     states, inputs : ndarray
         Positions at rest, as in the compiled module.
     arm : str
-        The state that is the angle of the arm.
+        The state of the arm's angle.
 
     Attributes
     ----------
     parameters : mapping
-        Those of the model, by name [SI units].
+        The parameters of the model, SI units.
     """
 
     def __init__(self, model: System, states: Array, inputs: Array, arm: str) -> None:
@@ -48,6 +48,6 @@ class Strokes:
         )
 
     def spring(self, force: str, path: str) -> SpringForce:
-        """Return the force of a signal's name that acts along a path."""
+        """Return a force along a path, from the name of its signal."""
         slope = self._by_arm[force] / self._signals["wheel_velocity"]
         return SpringForce(self.stroke(path), self._signals[force], slope)

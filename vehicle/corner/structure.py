@@ -1,7 +1,7 @@
-"""What holds the parts of a suspension together: its joints, and the forces along lines.
+"""The joints of a suspension, and its forces along lines.
 
-A joint says which forces and moments it can carry, as unit loads on its second part; on the first
-one they are the opposite. Arrays have any leading dimensions, one element for each position.
+A joint has the forces and moments that it can carry as unit loads on its second part; those on the
+first part are opposite. Arrays have any leading dimensions, one element for each position.
 """
 
 from abc import ABC, abstractmethod
@@ -21,19 +21,19 @@ GROUND = ("chassis", "rack")
 """Parts that do not move under loads."""
 
 FORCES_OF_A_DAMPER = ("damper_force", "friction_force", "bump_stop_force", "rebound_stop_force")
-"""Signals that act along a damper, of the equations that have them."""
+"""Signals of the forces along a damper, which not all equations have."""
 
 
 @dataclass(frozen=True)
 class PartJoint(ABC):
-    """Two parts that touch at hardpoints.
+    """A joint of two parts at hardpoints.
 
     Attributes
     ----------
     first, second : str
         The parts.
     at : tuple of str
-        The hardpoints at which they touch.
+        The hardpoints.
     """
 
     first: str
@@ -41,11 +41,11 @@ class PartJoint(ABC):
     at: tuple[str, ...]
 
     RULE: ClassVar[str] = ""
-    """What decides where statics alone does not."""
+    """The assumption that resolves its statical indeterminacy, if any."""
 
     @abstractmethod
     def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
-        """Return what the joint can carry.
+        """Return the loads that the joint can carry.
 
         Parameters
         ----------
@@ -63,27 +63,22 @@ class PartJoint(ABC):
         """
 
     def axis(self, points: Points) -> Array | None:
-        """Return the direction that sets its bushes apart from others; None where none does."""
+        """Return the default axis of its bushes, if any."""
         del points
         return None
 
     def tensions(self, points: Points) -> Array:
-        """Return loads that are in equilibrium by themselves, which statics does not decide.
-
-        Returns
-        -------
-        ndarray, shape (..., touching points, 6, tensions)
-        """
+        """Return the self-equilibrated loads of the joint, (..., touching points, 6, tensions)."""
         return np.zeros((*points[self.at[0]].shape[:-1], len(self.at), 6, 0))
 
     def directions(self, points: Points) -> Array:
-        """Return the directions, (..., k, 3), along which it keeps its points together."""
+        """Return the constrained directions of its points, (..., k, 3)."""
         return np.broadcast_to(np.eye(3), (*points[self.at[0]].shape[:-1], 3, 3))
 
     def right_angles(
         self, points: Points, turned: Mapping[str, Array], design: Points, spin: Array
     ) -> list[tuple[Array, Array]]:
-        """Return directions of the first and of the second part that it keeps at right angles.
+        """Return directions of the first and of the second part that remain normal to each other.
 
         Parameters
         ----------
@@ -102,18 +97,18 @@ class PartJoint(ABC):
 
 @dataclass(frozen=True)
 class SphericalJoint(PartJoint):
-    """A ball joint: a force.
+    """A ball joint, with a force.
 
     Attributes
     ----------
     end : str
-        The other end of a rod that ends there; empty where none does.
+        The other end of a rod that ends at the joint, if any.
     """
 
     end: str = ""
 
     def axis(self, points: Points) -> Array | None:
-        """Return that of the rod."""
+        """Return the axis of the rod."""
         return _unit(points[self.end] - points[self.at[0]]) if self.end else None
 
     def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
@@ -123,7 +118,7 @@ class SphericalJoint(PartJoint):
 
 
 class FixedJoint(PartJoint):
-    """What holds in every direction, as a wheel bearing with its brake: force and moment."""
+    """A rigid connection, such as a wheel bearing with closed brake, with force and moment."""
 
     def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
         """Return three forces and three moments."""
@@ -133,7 +128,7 @@ class FixedJoint(PartJoint):
     def right_angles(
         self, points: Points, turned: Mapping[str, Array], design: Points, spin: Array
     ) -> list[tuple[Array, Array]]:
-        """Return the spin axis and both directions across it, then these two."""
+        """Return the spin axis with both directions normal to it, and these two."""
         del design
         shape = points[self.at[0]].shape
         along, across, other = (
@@ -145,21 +140,21 @@ class FixedJoint(PartJoint):
 
 @dataclass(frozen=True)
 class UniversalJoint(PartJoint):
-    """A universal joint: a force, and a moment across both of its axes.
+    """A universal joint, with a force, and a moment normal to both of its axes.
 
     Attributes
     ----------
     shaft : str
         The other end of the second part.
     first_axis : tuple of float
-        Of the first part, which does not turn.
+        The axis in the first part, which does not rotate.
     """
 
     shaft: str
     first_axis: tuple[float, float, float]
 
     def axis(self, points: Points) -> Array | None:
-        """Return that of the shaft."""
+        """Return the axis of the shaft."""
         return _unit(points[self.shaft] - points[self.at[0]])
 
     def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
@@ -184,16 +179,16 @@ class UniversalJoint(PartJoint):
 
 
 class HingeJoint(PartJoint):
-    """Two bearings on an axis: forces across it at each, and along it at both alike."""
+    """Two bearings on an axis, with forces normal to it at each, and equal forces along it."""
 
     RULE = "two bearings on an axis share the force along it equally"
 
     def axis(self, points: Points) -> Array | None:
-        """Return that through both bearings."""
+        """Return the axis through both bearings."""
         return _unit(points[self.at[1]] - points[self.at[0]])
 
     def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
-        """Return two forces across the axis at each bearing, and one along it at both."""
+        """Return two forces normal to the axis at each bearing, and one along it at both."""
         del turned, design
         along, across, other = frame(points[self.at[1]] - points[self.at[0]])
         loads = np.zeros((*along.shape[:-1], 2, 6, 5))
@@ -213,7 +208,7 @@ class HingeJoint(PartJoint):
 
 @dataclass(frozen=True)
 class TelescopeJoint(PartJoint):
-    """A tube and a rod: forces and moments across their axis, about a point on it.
+    """A tube and a rod, with forces and moments normal to their axis, about a point on it.
 
     Attributes
     ----------
@@ -226,7 +221,7 @@ class TelescopeJoint(PartJoint):
     RULE = "the moment of a telescope is about its lower end"
 
     def axis(self, points: Points) -> Array | None:
-        """Return that along which it slides."""
+        """Return the axis of sliding."""
         return _unit(points[self.end] - points[self.at[0]])
 
     def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
@@ -242,13 +237,13 @@ class TelescopeJoint(PartJoint):
         return loads
 
     def directions(self, points: Points) -> Array:
-        """Return two directions across its axis."""
+        """Return two directions normal to its axis."""
         return np.stack(frame(points[self.end] - points[self.at[0]])[1:], axis=-2)
 
     def right_angles(
         self, points: Points, turned: Mapping[str, Array], design: Points, spin: Array
     ) -> list[tuple[Array, Array]]:
-        """Return both directions across its axis with the axis."""
+        """Return both directions normal to its axis with the axis."""
         del turned, design, spin
         along, across, other = frame(points[self.end] - points[self.at[0]])
         return [(across, along), (other, along)]
@@ -256,15 +251,15 @@ class TelescopeJoint(PartJoint):
 
 @dataclass(frozen=True)
 class LineForce:
-    """What pushes two parts apart along the line of two hardpoints: a spring, a damper, a stop.
+    """A force on two parts along the line of two hardpoints: of a spring, a damper, a stop.
 
     Attributes
     ----------
     name : str
-        What it is called: 'spring', 'damper', or with a side behind that.
+        'spring' or 'damper', followed by a side if there are two.
     signals : tuple of str
-        The signals of the equations, or inputs, that are its force, positive when it pushes; those
-        that the equations have not are zero.
+        The signals or inputs of the equations whose sum is the force, positive when it pushes;
+        missing ones are zero.
     first, second : str
         The parts.
     at : tuple of str
@@ -279,7 +274,7 @@ class LineForce:
 
     @property
     def is_spring(self) -> bool:
-        """Whether a spring acts along it; otherwise it is a damper, with its stops."""
+        """Whether it is a spring; otherwise it is a damper with its stops."""
         return self.name.startswith("spring")
 
     def direction(self, points: Points) -> Array:
@@ -289,13 +284,13 @@ class LineForce:
 
 @dataclass(frozen=True)
 class Structure:
-    """What holds the parts of a suspension together.
+    """The joints and force elements between the parts of a suspension.
 
     Attributes
     ----------
     joints : sequence of PartJoint
     lines : sequence of LineForce
-        Those of springs and dampers.
+        Springs and dampers.
     mounted : mapping of str to str
         Points on the chassis that belong to a mount at another point.
     """
@@ -306,28 +301,28 @@ class Structure:
 
     @property
     def parts(self) -> tuple[str, ...]:
-        """The parts that move."""
+        """The moving parts."""
         found = dict.fromkeys(part for j in self.joints for part in (j.first, j.second))
         return tuple(part for part in found if part not in GROUND)
 
     @property
     def springs(self) -> tuple[str, ...]:
-        """The lines of its springs."""
+        """The names of the springs."""
         return tuple(line.name for line in self.lines if line.is_spring)
 
     @property
     def dampers(self) -> tuple[str, ...]:
-        """The lines of its dampers, with their stops."""
+        """The names of the dampers, with their stops."""
         return tuple(line.name for line in self.lines if not line.is_spring)
 
     @property
     def rules(self) -> tuple[str, ...]:
-        """What decides where statics alone does not."""
+        """The assumptions that resolve statical indeterminacy."""
         return tuple(dict.fromkeys(joint.RULE for joint in self.joints if joint.RULE))
 
 
 def steered(*joints: PartJoint) -> tuple[PartJoint, ...]:
-    """Return joints with those that every steered wheel has: tie rod and wheel bearing."""
+    """Return joints with those of every steered wheel: tie rod and wheel bearing."""
     return (
         *joints,
         SphericalJoint("knuckle", "tie_rod", ("tie_rod_outer",), "tie_rod_inner"),
@@ -337,7 +332,7 @@ def steered(*joints: PartJoint) -> tuple[PartJoint, ...]:
 
 
 def _spread(loads: Array, point: Array) -> Array:
-    """Return the same loads for every position, at one point."""
+    """Return loads at one point for every position."""
     return np.broadcast_to(loads, (*point.shape[:-1], 1, *loads.shape))
 
 
@@ -347,9 +342,9 @@ def _unit(vectors: Array) -> Array:
 
 
 def frame(axis: Array) -> tuple[Array, Array, Array]:
-    """Return a unit vector along an axis, (..., 3), and two across it."""
+    """Return a unit vector along an axis, (..., 3), and two normal to it."""
     along = _unit(axis)
-    # the chassis axis that is most nearly across
+    # the chassis axis with the largest angle to it
     aside = np.eye(3)[np.abs(along).argmin(axis=-1)]
     across = _unit(cross(along, aside))
     return along, across, cross(along, across)

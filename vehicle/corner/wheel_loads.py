@@ -1,4 +1,4 @@
-"""What a road, a drive shaft and a brake do to a wheel, as inputs of the equations in time."""
+"""Loads of road, drive shaft and brake on a wheel, as inputs of the equations of motion."""
 
 from types import ModuleType
 
@@ -16,13 +16,7 @@ UNITS = {
 
 
 def needed_radius(radius: float | None) -> float:
-    """Return the radius of a wheel, which loads at its lowest point need [m].
-
-    Raises
-    ------
-    InputError
-        If it is not known.
-    """
+    """Return the radius of a wheel [m], or raise an `InputError` if it is not known."""
     if radius is None:
         problem = (
             "[tyre] radius_mm is missing, and the height of the wheel centre does not say it: "
@@ -33,7 +27,7 @@ def needed_radius(radius: float | None) -> float:
 
 
 def with_wheel_loads(equations: ModuleType) -> ModuleType:
-    """Return the same equations with these inputs, derived and compiled if that was not done."""
+    """Return the equations with these inputs, derived and compiled at first use."""
     require_generator()
     from ...generator.mechanisms import model_named  # noqa: PLC0415 (an extra)
     from ...generator.mechanisms.suspension import with_wheel_loads as loaded  # noqa: PLC0415

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from ..input.vehicle import GravitySection, TyreSection, WheelSection
     from .bushes import Bushings
 
-# If the wheel centre is lower than this above z = 0, then z = 0 is not the ground [m].
+# The least height of a wheel centre above z = 0 if this is the ground [m].
 _SMALLEST_WHEEL_RADIUS = 0.1
 
 
@@ -24,7 +24,7 @@ class WheeledSection(DescribedSection):
     """The data of a file with wheels, with a section for each attribute."""
 
     if TYPE_CHECKING:
-        # sections that every class declares, each in its own order
+        # sections of every class, each in the order of its file
         vehicle: Any
         rack: Any
         hardpoints: Hardpoints
@@ -37,7 +37,7 @@ class WheeledSection(DescribedSection):
 
     @classmethod
     def steered(cls) -> bool:
-        """Return whether its wheels can be steered: whether there is a rack."""
+        """Return whether there is a rack."""
         return False
 
     def tyre_radius(self) -> float | None:
@@ -46,9 +46,9 @@ class WheeledSection(DescribedSection):
         Returns
         -------
         float or None
-            ``tyre.radius_mm`` in m where it is given. Otherwise the height of the wheel centre at
-            design above z = 0, which is the ground in files that follow the conventions; None where
-            that is less than 100 mm, as no car has such wheels.
+            ``tyre.radius_mm`` in m, by default the height of the wheel centre at design above
+            z = 0, which is the ground in files that follow the conventions; None if this is less
+            than 100 mm, as no car has such wheels.
         """
         if self.tyre.radius_mm is not None:
             return in_metres(self.tyre.radius_mm, "mm")
@@ -58,10 +58,7 @@ class WheeledSection(DescribedSection):
     def wheel_load_parameters(self) -> dict[str, float]:
         """Return the additional parameters of equations with wheel loads as inputs [m].
 
-        Raises
-        ------
-        InputError
-            If the radius of the wheels is not known.
+        An unknown radius of the wheels raises an `InputError`.
         """
         return {"tyre_radius": needed_radius(self.tyre_radius())}
 
@@ -70,14 +67,14 @@ class WheeledSection(DescribedSection):
         return rate_key(part, getattr(self, "spring", None))
 
     def parameters_of_extras(self, length: float, curve: Damper | None) -> dict[str, float]:
-        """Return parameters of the complete equations only, without friction, in SI units.
+        """Return the further parameters of general equations, except friction, in SI units.
 
         Parameters
         ----------
         length : float
             The length that the stops limit, at the design position [m].
         curve : Damper or None
-            That of the damper, where it has one.
+            The curve of the damper, if any.
         """
         values = dict(NO_CURVE) if curve is None else curve.parameters()
         for side, stop in (("bump", self.bump_stop), ("rebound", self.rebound_stop)):

@@ -1,8 +1,8 @@
 """Files of suspensions and axles, and of other programs.
 
-`loading`    any file that describes an assembly
+`loading`    files of any assembly
 `schema`     the input file's JSON Schema and its reference page
 `point_table`        hardpoints as a table
 `chrono`, `adams_car`    suspensions of Project Chrono and of Adams/Car
-`fitting`    another car's hardpoints in a file
+`fitting`    hardpoints of another car in a file
 """

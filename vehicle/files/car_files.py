@@ -1,4 +1,4 @@
-"""The files that a car consists of: its own, those of its axles, and those of their sides."""
+"""The files of a car: its own, those of its axles, and those of their sides."""
 
 import os
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from ..models.car.file import ENDS
 
 @dataclass(frozen=True)
 class _Sections:
-    """Sections of an input file, as `kintrafo.vehicle.input.toml_writer` takes them."""
+    """Sections of an input file for `kintrafo.vehicle.input.toml_writer`."""
 
     data: dict[str, Any]
 
@@ -22,21 +22,16 @@ class _Sections:
 
 
 def _shorten(tyres: dict[str, Any], own: Path) -> None:
-    """Let paths of tyres count from the car's file."""
+    """Make the paths of tyres relative to the car's file."""
     for end in ENDS:
         if isinstance(tyres.get(end), str) and Path(tyres[end]).is_file():
             tyres[end] = Path(os.path.relpath(tyres[end], own.parent)).as_posix()
 
 
 def car_files(car: Car, path: str | Path) -> dict[Path, _Sections]:
-    """Return what the files of a car have, by their paths; each names the others.
+    """Return the contents of the files of a car, by their paths, from that of its own file.
 
-    Parameters
-    ----------
-    car : Car
-    path : str or pathlib.Path
-        Of the car's own file; the others lie beside it, with ``_front``, ``_rear_side`` and so on
-        behind its name.
+    The others are beside it, with the endings ``_front``, ``_rear_side`` and so on of its name.
     """
     own = Path(path)
 

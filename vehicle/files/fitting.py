@@ -1,4 +1,4 @@
-"""A file into which imported hardpoints are put: its side, and what goes along with them."""
+"""Changes of a file into which imported hardpoints are put: its side, and other positions."""
 
 import math
 import re
@@ -17,12 +17,12 @@ Place = tuple[str, ...]
 Point = tuple[float, float, float]
 Side = Literal["left", "right"]
 
-# A key with its comment, which goes on in lines of its own.
+# A key with its comment, which may have further lines.
 _FREE_SLIDE = re.compile(r"^spring_free_slide_mm = .*\n(?:[ \t]+#.*\n)*", re.MULTILINE)
 
 
-# A line of a file: what begins a section, and a key with its value and the comment beside it, which
-# may go on in lines of its own.
+# A line of a file: the begin of a section, and a key with its value and the comment beside it,
+# which may have further lines.
 _SECTION = re.compile(r"\s*\[([^\[\]#]+)\]\s*(#.*)?")
 _LINE = re.compile(r"(\s*([A-Za-z0-9_.-]+)\s*=\s*[^#\n]*?)(\s*)(#.*)")
 _COMMENT = re.compile(r"[ \t]*#.*")
@@ -30,9 +30,9 @@ _HEAD = re.compile(r"\A(?:#.*\n|\n)+")
 
 
 def packaged(kind: str) -> tuple[str, str, Suspension]:
-    """Return the packaged file of a kind: its name, its text, and what it describes.
+    """Return the packaged file of a kind: its name, its text, and its suspension.
 
-    The text is without the comment that it begins with, which is about that car.
+    The text is without its first comment, which is about that car.
     """
     starter = KINDS[kind].STARTER
     text = _HEAD.sub("", find(starter).read_text(encoding="utf-8"))
@@ -41,7 +41,7 @@ def packaged(kind: str) -> tuple[str, str, Suspension]:
 
 
 def put(document: Any, place: Place, value: Any) -> None:
-    """Put a value at a place of an input file's text; comments stay."""
+    """Put a value at a place of an input file's text, which keeps its comments."""
     *sections, key = place
     for section in sections:
         document = document[section]
@@ -49,16 +49,7 @@ def put(document: Any, place: Place, value: Any) -> None:
 
 
 def to_side(document: Any, old: Suspension, side: Side) -> Suspension:
-    """Bring a file to a side of the vehicle, and return the suspension that it then has.
-
-    Parameters
-    ----------
-    document : tomlkit.TOMLDocument
-        Is changed.
-    old : Suspension
-        What it describes.
-    side : {'left', 'right'}
-    """
+    """Change a file with a suspension to a side of the vehicle, and return the new suspension."""
     if old.vehicle.side == side:
         return old
     new = old.mirrored()
@@ -68,7 +59,7 @@ def to_side(document: Any, old: Suspension, side: Side) -> Suspension:
 
 
 def _differences(old: Any, new: Any, place: Place = ()) -> Iterator[tuple[Place, Any]]:
-    """Yield the places where two suspensions differ, and what is there in the new one."""
+    """Yield the places at which two suspensions differ, and the values of the new one."""
     if isinstance(new, Mapping):
         for key, value in new.items():
             yield from _differences(old.get(key) if old else None, value, (*place, key))
@@ -77,39 +68,37 @@ def _differences(old: Any, new: Any, place: Place = ()) -> Iterator[tuple[Place,
 
 
 def _by_force(text: str, suspension: Suspension) -> str:
-    """Return the text of a packaged file that says by a force where its spring is free.
+    """Return the text of a packaged file with the spring's force at design instead of a free slide.
 
-    The slide of the strut says so, too, but only of a spring that is concentric with it, and in a
-    comment of the very car that the file is of.
+    The slide of the strut is for a concentric spring only, and its comment is about that car.
     """
     if not isinstance(suspension, MacPherson):
         return text
     points, strut = suspension.hardpoints, suspension.strut
-    assert strut.spring_rate_N_per_m is not None  # no packaged file has a curve
+    assert strut.spring_rate_N_per_m is not None  # packaged files have no curve
     seats = points.distance("spring_seat", "spring_top")
     force = _rounded(strut.spring_rate_N_per_m * (strut.free_length(seats) - seats))
     return _FREE_SLIDE.sub(f"spring_force_at_design_N = {force}\n", text)
 
 
 def move_along(document: Any, old: Suspension, points: Mapping[str, Point]) -> list[str]:
-    """Bring what lies at a place of its own to where the new hardpoints are.
+    """Move bodies, tyre and strut of a packaged file along with new hardpoints.
 
-    That is for a packaged file, whose places are those of another car: bodies and tyre keep their
-    distance from the wheel centre, the strut its stroke.
+    Bodies and tyre keep their distance from the wheel centre, the strut its stroke.
 
     Parameters
     ----------
     document : tomlkit.TOMLDocument
-        Is changed.
+        The text of the file, which is changed.
     old : Suspension
-        What it describes.
+        Its suspension.
     points : mapping
         The new hardpoints, on the same side [mm].
 
     Returns
     -------
     list of str
-        What was brought along, in words.
+        Descriptions of the changes.
     """
     before = 1000.0 * old.hardpoints.metres("wheel_center")
     shift = [new - was for new, was in zip(points["wheel_center"], before, strict=True)]
@@ -129,7 +118,7 @@ def move_along(document: Any, old: Suspension, points: Mapping[str, Point]) -> l
 
 
 def _fit_strut(document: Any, old: Suspension, points: Mapping[str, Point]) -> str:
-    """Keep the stroke of a strut."""
+    """Change the extended length of a strut, so that it keeps its stroke; return a description."""
     lower = "strut_lower" if "strut_lower" in points else "ball_joint"
     was = 1000.0 * old.hardpoints.distance("strut_lower", "strut_top")
     new = math.dist(points[lower], points["strut_top"])
@@ -140,21 +129,16 @@ def _fit_strut(document: Any, old: Suspension, points: Mapping[str, Point]) -> s
 
 
 def fewer(curve: Sequence[tuple[float, float]]) -> tuple[tuple[float, float], ...]:
-    """Return a curve of a spring with as many points as a curve may have, if it is possible.
+    """Return a curve of rising compressions and forces, with at most the allowed number of points.
 
-    Points of extension are left out, of which no suspension has much; those of compression never.
-
-    Parameters
-    ----------
-    curve : sequence of (float, float)
-        Compressions, rising, and forces.
+    Points of extension, which suspensions hardly use, are left out; those of compression are not.
     """
     first = next((i for i, (place, _) in enumerate(curve) if place > 0.0), len(curve)) - 1
     return tuple(curve[max(0, min(first, len(curve) - SEGMENTS - 1)) :])
 
 
 def ground(suspension: Suspension) -> list[str]:
-    """Return where the ground is taken to be, if no file gives the radius of the tyre."""
+    """Return the assumption on the ground, if no file has the radius of the tyre."""
     if suspension.tyre.radius_mm is not None:
         return []
     radius = suspension.tyre_radius()
@@ -168,22 +152,20 @@ def ground(suspension: Suspension) -> list[str]:
 
 
 def differences(old: Suspension, new: Suspension) -> set[Place]:
-    """Return the places where two suspensions of a kind differ."""
+    """Return the places at which two suspensions of a kind differ."""
     return {place for place, _ in _differences(old.to_dict(), new.to_dict())}
 
 
 def fresh(text: str, suspension: Suspension, changed: Collection[Place] | None = None) -> str:
-    """Return the text of a file without what comments beside its values say of other values.
-
-    The meaning of the key replaces them.
+    """Return the text of a file in which the meaning of keys replaces comments on old values.
 
     Parameters
     ----------
     text : str
     suspension : Suspension
-        What it describes.
+        The suspension of the file.
     changed : collection of tuple of str, optional
-        The places of values that are others than before; all by default.
+        The places of changed values, by default of all.
     """
     lines, section, stale = [], "", False
     for line in text.splitlines():
@@ -202,7 +184,7 @@ def fresh(text: str, suspension: Suspension, changed: Collection[Place] | None =
 
 
 def _meaning(model: Any, place: Place) -> str:
-    """Return what a key means, by the description of its field."""
+    """Return the meaning of a key, from the description of its field."""
     *sections, key = place
     for section in sections:
         model = getattr(model, section, None)
@@ -211,5 +193,5 @@ def _meaning(model: Any, place: Place) -> str:
 
 
 def _rounded(value: float) -> float:
-    """Return a value without the digits that only the computation has brought."""
+    """Return a value without digits from rounding."""
     return round(value, 6) + 0.0

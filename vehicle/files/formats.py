@@ -1,4 +1,4 @@
-"""Which program a file with a suspension comes from, by its ending and its content."""
+"""The format of a file of another program, from its ending and its content."""
 
 import re
 from collections.abc import Mapping
@@ -15,10 +15,10 @@ NAMES: Mapping[Format, str] = {
     "chrono": "a file of Project Chrono",
     "table": "a table of hardpoints",
 }
-"""The formats that are imported, in words."""
+"""Descriptions of the imported formats."""
 
-# The reader of a format says what it needs of its files: XML is not read, nor are data sets of
-# Adams/Solver, and of spreadsheets only those that `point_table` knows.
+# The reader of a format refuses files that it cannot read: XML, data sets of Adams/Solver, and
+# other spreadsheets than those of `point_table`.
 _BY_ENDING: Mapping[str, Format] = {
     ".json": "chrono",
     **dict.fromkeys((".sub", ".adm", ".xml"), "adams"),
@@ -31,21 +31,9 @@ _JSON = re.compile(rb"(?s)(\xef\xbb\xbf)?(\s|//[^\n]*+\n|/\*.*?\*/)*+\{")
 
 
 def format_of(path: str | Path) -> Format:
-    """Return the format of a file that is imported.
+    """Return the format of an imported file: 'adams', 'chrono' or 'table'.
 
-    Parameters
-    ----------
-    path : str or pathlib.Path
-        The ending decides. Where it is ``.txt``, or none of the known ones, the content does.
-
-    Returns
-    -------
-    {'adams', 'chrono', 'table'}
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, or is of none of these formats.
+    It follows from the ending, and from the content if the ending is ``.txt`` or unknown.
     """
     file = Path(path)
     ending = file.suffix.lower()

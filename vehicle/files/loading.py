@@ -1,4 +1,4 @@
-"""Reading a file of any assembly."""
+"""Reading files of any assembly."""
 
 from pathlib import Path
 
@@ -13,13 +13,13 @@ from ..models.whole_axle import WholeAxle, whole_axle_class
 
 
 def load(path_or_name: str | Path) -> Suspension | Axle | WholeAxle | Car:
-    """Read a TOML file, and return the suspension, axle or car that it describes.
+    """Return the suspension, axle or car that a TOML file describes.
 
     Parameters
     ----------
     path_or_name : str or pathlib.Path
-        The file; or, as a string, the name of one that comes with kintrafo, such as
-        ``"reference_car"``, ``"reference_axle"``, ``"rigid_axle"`` or ``"reference_vehicle"``.
+        The file; or, as a string, the name of a packaged one, such as ``"reference_car"``,
+        ``"reference_axle"``, ``"rigid_axle"`` or ``"reference_vehicle"``.
 
     Returns
     -------

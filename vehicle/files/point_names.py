@@ -1,7 +1,7 @@
-"""What other programs call the hardpoints of each kind of suspension.
+"""Names of hardpoints in other programs, by kind of suspension.
 
-Adams/Car's templates, OptimumK and Lotus Suspension Analysis; capitals, blanks, hyphens and
-underscores do not matter.
+They are those of Adams/Car's templates, OptimumK and Lotus Suspension Analysis; capitals, blanks,
+hyphens and underscores do not matter.
 """
 
 from collections.abc import Collection, Iterable, Mapping
@@ -15,8 +15,8 @@ from ...core.validator import Validator
 from ..input.hardpoints import Hardpoints
 from ..kinds import KINDS
 
-# By our names, those of others: of Adams/Car, where templates differ several; of OptimumK, which
-# begin with CHAS, UPRI, NSMA or ROCK; of Lotus, in words.
+# By our names: names of Adams/Car, several if templates differ; of OptimumK, which begin with CHAS,
+# UPRI, NSMA or ROCK; of Lotus, in words.
 _EVERY = {
     "wheel_center": ("wheel_center", "wheel centre", "wheel centre point"),
     "tie_rod_outer": ("tierod_outer", "UPRI_TiePnt", "outer track rod ball joint"),
@@ -39,7 +39,7 @@ _ARMS = {
     "upper_ball_joint": ("uca_outer", "UPRI_UppPnt", "upper wishbone outer ball joint"),
 }
 _COIL = {"spring_top": ("top_mount",), "spring_seat": ("lwr_strut_mount",)}
-# The second point of the bellcrank is one on its axis, which is all that a bearing says, too.
+# The second point of the bellcrank is any point on its axis, as a bearing is.
 _ROCKER = {
     "rocker_front": ("bellcrank_pivot_orient", "CHAS_RocAxi"),
     "rocker_rear": ("bellcrank_pivot", "CHAS_RocPiv"),
@@ -77,7 +77,7 @@ _AXES = {
 
 
 def assumed_of(kind: str) -> tuple[str, ...]:
-    """Return what a kind takes for granted that a template may have otherwise."""
+    """Return the assumptions on the template of a kind."""
     return _AXES.get(kind, ())
 
 
@@ -111,7 +111,7 @@ def read_names(texts: Iterable[str]) -> dict[str, str]:
     Raises
     ------
     InputError
-        If a text has another form, or a hardpoint is named twice.
+        If a text has another form, or a hardpoint occurs twice.
     """
     with Validator("read_names") as given:
         several = isinstance(texts, Iterable) and not isinstance(texts, str | bytes)
@@ -136,27 +136,22 @@ def read_names(texts: Iterable[str]) -> dict[str, str]:
 def matched(
     there: Collection[str], kind: str, given: Mapping[str, str], source: str
 ) -> dict[str, str]:
-    """Return which hardpoints of a kind a file has, and what they are called there.
+    """Return the names of hardpoints in a file, by our names; missing ones are left out.
 
     Parameters
     ----------
     there : collection of str
-        The names in the file, of which no two are spellings of one.
+        The names in the file.
     kind : str
     given : mapping of str to str
-        What the user says, see `read_names`; it goes before what templates call them.
+        Names from the user, see `read_names`, which precede those of templates.
     source : str
-        Where the names come from, for messages.
-
-    Returns
-    -------
-    dict
-        Names in the file by our names; those that it does not have are not there.
+        The file, for messages.
 
     Raises
     ------
     InputError
-        If the user names what there is not, or the file has two names for one hardpoint.
+        If a name from the user does not exist, or the file has two names for one hardpoint.
     """
     by_key = {key(name): name for name in there}
     problems = [
@@ -192,13 +187,8 @@ def matched(
 def kind_of(there: Collection[str], given: Mapping[str, str], source: str) -> str:
     """Return the kind of suspension of which a subsystem has the most hardpoints.
 
-    A kind that needs less of them is not taken instead: a double wishbone of which one point has
-    another name is no strut.
-
-    Raises
-    ------
-    InputError
-        If some of its hardpoints are missing, or two kinds are as good.
+    A missing hardpoint, or two equal kinds, raise an `InputError`; a kind with fewer hardpoints is
+    not a substitute: a double wishbone with another name of a point is not a strut.
     """
     near = nearest_kinds(there, given)
     missing = _missing(there, near[0], given)
@@ -218,7 +208,7 @@ def kind_of(there: Collection[str], given: Mapping[str, str], source: str) -> st
 def nearest_kinds(there: Collection[str], given: Mapping[str, str]) -> list[str]:
     """Return the kinds of suspension of which a subsystem has the most hardpoints.
 
-    If it has all that some of them need, these; otherwise the one that lacks the fewest.
+    Of several kinds it returns those with the fewest missing hardpoints.
     """
     counts = {kind: len(_present(there, kind, given, known(kind))) for kind in KINDS}
     near = [kind for kind in KINDS if counts[kind] == max(counts.values())]
@@ -228,19 +218,19 @@ def nearest_kinds(there: Collection[str], given: Mapping[str, str]) -> list[str]
 
 
 def _missing(there: Collection[str], kind: str, given: Mapping[str, str]) -> list[str]:
-    """Return the hardpoints that a kind needs and the subsystem does not have."""
+    """Return the required hardpoints of a kind that the subsystem does not have."""
     names = points_of(kind).names()
     present = _present(there, kind, given, names)
     return [name for name in names if name not in present]
 
 
 def listed(there: Iterable[str]) -> str:
-    """Return the names of a subsystem as they can be printed."""
+    """Return the names of a subsystem in printable form."""
     return short(legible(", ".join(there)), most=1000)
 
 
 def _hint(word: str, there: Collection[str]) -> str:
-    """Return which name of a subsystem may be meant, or all of them."""
+    """Return a sentence with the most similar name of a subsystem, or with all of them."""
     near = nearest(word, there)
     return f"Did you mean {listed([near])}?" if near else f"It has: {listed(there)}."
 
@@ -248,7 +238,7 @@ def _hint(word: str, there: Collection[str]) -> str:
 def _present(
     there: Collection[str], kind: str, given: Mapping[str, str], names: Iterable[str]
 ) -> list[str]:
-    """Return those of our names that the subsystem has."""
+    """Return the hardpoints, by our names, that the subsystem has."""
     keys = {key(name) for name in there}
     return [
         name
@@ -258,6 +248,6 @@ def _present(
 
 
 def _usual(ours: str, kind: str) -> tuple[str, ...]:
-    """Return what templates call a hardpoint; its own name is good in each of them."""
+    """Return the names of a hardpoint in templates, and its own."""
     theirs = {**_EVERY, **NAMES.get(kind, {})}.get(ours, ())
     return tuple({key(name): name for name in (*theirs, ours)}.values())

@@ -1,8 +1,8 @@
-"""Rows of hardpoints in tables of any program: where the names of the columns are, and the sides.
+"""Tables of hardpoints of any program: their columns and sides.
 
-Above the names of the columns there may be a title and a unit. The columns x, y and z may be there
-twice, below ``Left`` and ``Right``, as OptimumK writes them. A text of Lotus Suspension Analysis
-has its points behind their coordinates.
+Above the names of the columns there may be a title and a unit. There may be two sets of columns x,
+y and z, below ``Left`` and ``Right``, as OptimumK writes them. A text of Lotus Suspension Analysis
+has its points after their coordinates.
 """
 
 import re
@@ -27,7 +27,7 @@ _NAMES = (
     "label", "joint",
 )  # fmt: skip
 _KEYS = {key(name): "point" for name in _NAMES} | {axis: axis for axis in AXES}
-_LOOKED_AT = 50  # rows in which the names of the columns may be
+_LOOKED_AT = 50  # first rows in which the names of the columns are searched
 _UNITS_ABOVE = {key(name) for name in ("unit", "units", "length", "length unit", "length units")}
 _NUMBER = r"([-+]?\d+(?:\.\d*)?|[-+]?\.\d+)"
 _LOTUS = re.compile(
@@ -37,7 +37,7 @@ _UNITS_OF_LOTUS = re.compile(r"\s*\((\w+)\)\s+\(\1\)\s+\(\1\)\s*")
 
 
 class NamedColumns(NamedTuple):
-    """A table in which the names of the columns were found.
+    """A table with the places of its columns.
 
     Attributes
     ----------
@@ -45,13 +45,13 @@ class NamedColumns(NamedTuple):
     name : int
         The column with the names.
     coordinates : dict
-        By side, '' where there is one only, the columns of x, y and z.
+        The columns of x, y and z by side; '' if there is only one.
     above : tuple of str
-        Units that are above the table.
+        Units above the table.
     axes : str
-        Where x, y and z point in files of its program.
+        Directions of x, y and z in files of its program.
     left_out : tuple of str
-        Sheets and columns that are not read.
+        Unread sheets and columns.
     """
 
     table: Table
@@ -63,13 +63,7 @@ class NamedColumns(NamedTuple):
 
 
 def found_in(file: Path, sheet: str | None) -> NamedColumns:
-    """Return the table of hardpoints of a file.
-
-    Raises
-    ------
-    InputError
-        If there is none, or more than one.
-    """
+    """Return the table of hardpoints of a file; refuse a file with none, or more than one."""
     if file.suffix.lower() == ".xlsx":
         return _of_workbook(file, pages_of(file), sheet)
     if sheet is not None:
@@ -85,7 +79,7 @@ def found_in(file: Path, sheet: str | None) -> NamedColumns:
 
 
 def _of_workbook(file: Path, pages: Sequence[Page], wanted: str | None) -> NamedColumns:
-    """Return the table of the sheet that is wanted, or of the only one that has such."""
+    """Return the table of a requested sheet, or of the only one with a table of hardpoints."""
     names = [page.name for page in pages]
     if wanted is not None and wanted not in names:
         raise InputError([f"there is no sheet {wanted!r}. {suggestion(wanted, names)}"], str(file))
@@ -109,13 +103,13 @@ def _of_workbook(file: Path, pages: Sequence[Page], wanted: str | None) -> Named
 
 
 def _first(row: Row) -> Any:
-    """Return the only cell of a row that is not empty; nothing if there are more."""
+    """Return the only cell of a row that is not empty, or an empty text if there are several."""
     filled = [cell for cell in row[1] if cell is not None]
     return filled[0] if len(filled) == 1 else ""
 
 
 def _heading(rows: Sequence[Row]) -> int | None:
-    """Return which row names x, y and z; None if none does."""
+    """Return the index of the row with the names x, y and z, or None."""
     for index, (_, cells) in enumerate(rows[:_LOOKED_AT]):
         there = {name for name, _ in map(_among, cells)}
         if there.issuperset(AXES):
@@ -124,7 +118,7 @@ def _heading(rows: Sequence[Row]) -> int | None:
 
 
 def _among(cell: Any) -> tuple[str, str | None]:
-    """Return which column a cell of the first row names, and its unit."""
+    """Return the name of a column in its heading, and its unit."""
     found = ColumnHeading.of(cell).among(_KEYS) if isinstance(cell, str) else None
     return found or ("", None)
 
@@ -136,7 +130,7 @@ def _of_rows(
     number, heading = rows[at][0], [*rows[at][1]]
     over = [*rows[at - 1][1]] if at else []
     heading += [None] * (len(over) - len(heading))
-    # what has no name in its own row may have one above
+    # a column without a name in the row of headings may have one above
     named = [
         over[i] if cell in (None, "") and i < len(over) and _among(over[i])[0] else cell
         for i, cell in enumerate(heading)
@@ -159,7 +153,7 @@ def _of_rows(
 
 
 def _sides(over: Sequence[Any], count: int) -> list[str]:
-    """Return below which of Left and Right each column is; empty where there is none."""
+    """Return the side above each column, 'left' or 'right'; empty if there is none."""
     sides, side = [], ""
     for i in range(count):
         word = str(over[i]).strip().lower() if i < len(over) else ""
@@ -174,7 +168,7 @@ def _check(
     names: Sequence[int],
     columns: Mapping[str, Sequence[Sequence[int]]],
 ) -> None:
-    """Refuse columns of which there are none, or too many."""
+    """Refuse missing or repeated columns."""
     problems = []
     if len(names) != 1:
         problems.append(f"one column with the names is needed, called {' or '.join(_NAMES[:3])}.")
@@ -190,7 +184,7 @@ def _check(
 
 
 def _units_above(rows: Sequence[Row]) -> Iterable[str]:
-    """Yield the units of length that are above the names of the columns."""
+    """Yield the units of length above the names of the columns."""
     for _, cells in rows:
         texts = [str(cell) for cell in cells if cell is not None]
         for at, text in enumerate(texts[:-1]):
@@ -201,7 +195,7 @@ def _units_above(rows: Sequence[Row]) -> Iterable[str]:
 
 
 def _of_lotus(file: Path) -> NamedColumns | None:
-    """Return the points of a text that Lotus Suspension Analysis prints; None if it is none."""
+    """Return the points of a text of Lotus Suspension Analysis; None for another text."""
     lines = text_of(file).splitlines()
     rows: list[Row] = []
     for number, line in enumerate(lines, 1):

@@ -28,7 +28,7 @@ from .point_rows import AXES, NamedColumns, found_in
 from .vehicle_axes import axes_of
 
 ENDINGS = (".csv", ".tsv", ".txt", ".xlsx")
-"""What the name of a table ends in."""
+"""The endings of the names of tables."""
 
 _OTHER_PROGRAMS = (
     "Save it as one of them. Of OptimumK its Excel export is read, and of Lotus Suspension "
@@ -47,18 +47,18 @@ class PointTable:
     Attributes
     ----------
     source : str
-        Where it comes from.
+        The file.
     unit : str
         A unit of length: mm, m, in and so on.
     points : dict
-        By names as they are in the table, three coordinates in that unit and in axes of ISO 8855:
-        x forward, y left, z up. Those of the left side, where the table has both.
+        Coordinates in this unit and in axes of ISO 8855 (x forward, y left, z up), by the names in
+        the table; of the left side, if the table has both.
     right : dict, optional
-        Those of the right side, where the table has both.
+        Those of the right side, if the table has both.
     axes : str
-        Where x, y and z of the table point.
+        Directions of x, y and z in the table.
     left_out : tuple of str
-        Columns and sheets that were not read.
+        Unread columns and sheets.
     """
 
     source: str
@@ -78,13 +78,13 @@ class Merged:
     text : str
         The new file, with the comments of the old one.
     read : dict of str to str
-        Hardpoints that come from the table, with what they are called there.
+        Names in the table of hardpoints that come from it, by our names.
     kept : tuple of str
-        Hardpoints that are as in the old file.
+        Hardpoints of the old file.
     left_out : tuple of str
-        Rows of the table that are no hardpoints.
+        Rows of the table that are not hardpoints.
     missing : tuple of str
-        Of `kept`, those that every such suspension has.
+        The required ones of `kept`.
     """
 
     text: str
@@ -102,10 +102,10 @@ def read_points(
     left_handed: bool = False,
     sheet: str | None = None,
 ) -> PointTable:
-    """Read a table of hardpoints.
+    """Return the contents of a table of hardpoints.
 
     The unit of x, y and z is in the first row, in a row of units or a comment line
-    (`kintrafo.core.tables`), or above the table. Coordinates may be there for both sides, below
+    (`kintrafo.core.tables`), or above the table. A table may have coordinates of both sides, below
     ``Left`` and ``Right``. The points of a text of Lotus Suspension Analysis are read, too.
 
     Parameters
@@ -113,10 +113,10 @@ def read_points(
     path : str or pathlib.Path
         A file ``.csv``, ``.tsv`` or ``.txt`` (commas, semicolons or tabs), or ``.xlsx``.
     unit : str, optional
-        Of a table that does not say it: mm, cm, m, in or ft.
+        The unit of a table without one: mm, cm, m, in or ft.
     axes : str, optional
-        Where x, y and z point: ``"rearward right up"``. By default as in ISO 8855, forward left up;
-        in a text of Lotus Suspension Analysis rearward right up.
+        Directions of x, y and z: ``"rearward right up"``. By default those of ISO 8855, forward
+        left up; in a text of Lotus Suspension Analysis rearward right up.
     left_handed : bool, optional
         Whether these axes are left-handed.
     sheet : str, optional
@@ -129,7 +129,7 @@ def read_points(
     Raises
     ------
     InputError
-        If it cannot be read; with the rows that are wrong.
+        If it cannot be read; with all wrong rows.
     MissingPackageError
         If the package for Excel is not installed.
     """
@@ -158,7 +158,7 @@ def read_points(
 
 
 def _unit(found: NamedColumns, given: str | None) -> str:
-    """Return the unit of x, y and z, which all of them have; refuse several, or none."""
+    """Return the common unit of x, y and z; refuse several, or none."""
     table = found.table
     read = {index for columns in found.coordinates.values() for index in columns}
     columns = [column for column in table.columns(AXES) if column.at in read]
@@ -189,7 +189,7 @@ def _unit(found: NamedColumns, given: str | None) -> str:
 
 
 def _points(found: NamedColumns, columns: Iterable[int]) -> dict[str, Point]:
-    """Return the points of one side by their names, in the axes of the table."""
+    """Return the points of one side by name, in the axes of the table."""
     table, columns = found.table, [*columns]
     points: dict[str, Point] = {}
     spelt: dict[str, str] = {}
@@ -242,8 +242,8 @@ def merged(
     mirrored : bool, optional
         Whether the table is of the other side of the car.
     names : mapping of str to str, optional
-        What the table calls hardpoints, by our names, where it is neither these nor those of
-        Adams/Car, OptimumK or Lotus Suspension Analysis.
+        Names in the table, by our names, unless they are these or those of Adams/Car, OptimumK or
+        Lotus Suspension Analysis.
 
     Returns
     -------
@@ -252,7 +252,7 @@ def merged(
     Raises
     ------
     InputError
-        If no suspension can be like this, no row is a hardpoint, or one may be two.
+        If the data are not valid, no row is a hardpoint, or a row is ambiguous.
     """
     with Validator("merged") as given:
         given.instance("table", table, PointTable, "a result of read_points is needed")
@@ -307,20 +307,10 @@ def _of_side(table: PointTable, side: str, *, mirrored: bool) -> dict[str, Point
 
 
 def put_points(document: Any, points: Mapping[str, Iterable[float]], unit: str) -> None:
-    """Put hardpoints into the text of an input file, in the unit that it has.
-
-    Parameters
-    ----------
-    document : tomlkit.TOMLDocument
-        Is changed; its comments stay.
-    points : mapping
-        By name three coordinates.
-    unit : str
-        Of these: mm, m, in and so on.
-    """
+    """Put hardpoints with a unit into the text of an input file, in the unit of the file."""
     section = document["hardpoints"]
     for name, point in points.items():
-        # the sum makes no zero negative
+        # the sum avoids negative zeros
         section[name] = [length_in(value, unit, section["unit"]) + 0.0 for value in point]
 
 
@@ -400,9 +390,9 @@ def write_points(
 
 
 def doubts(found: Merged) -> str:
-    """Return which rows may be missing hardpoints; empty if there is no doubt.
+    """Return a note on rows that may be missing hardpoints, or an empty text.
 
-    A table that leaves nothing out, or has every hardpoint that is needed, is as it is meant.
+    There is no doubt if every row is a hardpoint, or every required hardpoint is in the table.
     """
     with Validator("doubts") as given:
         given.instance("found", found, Merged, "a result of merged is needed")
@@ -424,7 +414,7 @@ def as_words(found: Merged, table: PointTable | None = None) -> Mapping[str, str
     found : Merged
         From `merged`.
     table : PointTable, optional
-        From `read_points`; with it, also its unit, its axes, and what of it was not read.
+        From `read_points`; adds its unit, its axes, and its unread columns.
     """
     with Validator("as_words") as given:
         given.instance("found", found, Merged, "a result of merged is needed")

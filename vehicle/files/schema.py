@@ -156,10 +156,9 @@ def schema(manoeuvres: Manoeuvres) -> dict[str, Any]:
     Returns
     -------
     dict
-        Every key with its description, its unit as ``x-unit`` and its range. A file with ``axle``
-        is that of an axle, one with ``rigid_axle`` that of a rigid one, and so on, one with ``car``
-        that of a car, one with ``manoeuvre`` that of a manoeuvre; of others the kind that they name
-        decides which sections there are.
+        Every key with its description, its unit as ``x-unit`` and its range. The keys ``axle``,
+        ``rigid_axle`` and so on, ``car`` and ``manoeuvre`` distinguish files; other files are
+        suspensions, whose kind defines their sections.
     """
     with Validator("schema") as given:
         given.mapping("manoeuvres", manoeuvres, "sections by the words for them")
@@ -191,12 +190,12 @@ def schema(manoeuvres: Manoeuvres) -> dict[str, Any]:
 
 
 def _whole_axles() -> dict[str, type[WholeAxle]]:
-    """Return the axles without sides by the keys that say so in their files."""
+    """Return the axles without sides by the keys in their files."""
     return {key: whole_axle_class(key) for key in whole_axles()}
 
 
 def _chosen(by_key: Mapping[str, type[Section]], kinds: dict[str, Any]) -> dict[str, Any]:
-    """Return the schema of files that are not of axles with sides: the keys choose in turn."""
+    """Return the schema of files of other assemblies, distinguished by their keys."""
     found: dict[str, Any] = {
         "properties": {KIND: kinds},
         "allOf": [{"if": _names(name), "then": _reference(KINDS[name])} for name in KINDS],
@@ -207,7 +206,7 @@ def _chosen(by_key: Mapping[str, type[Section]], kinds: dict[str, Any]) -> dict[
 
 
 def _named_manoeuvre(manoeuvres: Manoeuvres) -> dict[str, Any]:
-    """Return the schema of files of manoeuvres: each names the one that it is."""
+    """Return the schema of files of manoeuvres, each of which names its manoeuvre."""
     words = {"description": "which manoeuvre this is", "enum": list(manoeuvres)}
     chosen = [
         {"if": {"properties": {MANOEUVRE: {"const": name}}}, "then": _reference(model)}
@@ -227,7 +226,7 @@ def _reference(model: type[Section]) -> dict[str, str]:
 
 
 def _with_units(made: dict[str, Any]) -> dict[str, Any]:
-    """Return the schema of a section as we publish it, from that of pydantic."""
+    """Return the published schema of a section from that of pydantic."""
     section: dict[str, Any] = _in_json_schema(made)
     for key, entry in section["properties"].items():
         entry.pop("title", None)
@@ -238,9 +237,9 @@ def _with_units(made: dict[str, Any]) -> dict[str, Any]:
 
 
 def _in_json_schema(part: Any) -> Any:
-    """Return a schema with pydantic's names of limits in those of JSON Schema.
+    """Return a schema with pydantic's names of limits replaced by those of JSON Schema.
 
-    What may be left out is None there, which no file has.
+    Optional values may be None in pydantic's schema, but not in a file.
     """
     if isinstance(part, dict):
         options = part.get("anyOf", ())
@@ -252,7 +251,7 @@ def _in_json_schema(part: Any) -> Any:
 
 
 def schema_text(manoeuvres: Manoeuvres) -> str:
-    """Return the schema as it is published."""
+    """Return the text of the published schema."""
     return json.dumps(schema(manoeuvres), indent=2, ensure_ascii=False) + "\n"
 
 
@@ -289,10 +288,7 @@ def page_text(manoeuvres: Manoeuvres) -> str:
 
 
 def _shared() -> set[str]:
-    """Return the names of the sections that are the same for every kind that has them.
-
-    These are several kinds: what is of one alone belongs to that.
-    """
+    """Return the names of sections that two or more kinds have and that equal in all of them."""
     first, *others = (
         {name: _model_of(kind, name) for name in kind.model_fields} for kind in KINDS.values()
     )
@@ -363,7 +359,7 @@ def _default(entry: dict[str, Any]) -> str:
 
 
 def _allowed(entry: dict[str, Any]) -> str:
-    """Return the range of a value in words."""
+    """Return the range of a value as text."""
     options = [entry, *entry.get("anyOf", ())]
     for option in options:
         choices = [option["const"]] if "const" in option else option.get("enum", ())
@@ -374,15 +370,12 @@ def _allowed(entry: dict[str, Any]) -> str:
         if option.get("type") == "array":
             return "three numbers" if option.get("maxItems") else "numbers"
         if "exclusiveMinimum" in option:
-            return f"more than {option['exclusiveMinimum']:g}" + _at_most(option)
+            most = f", at most {option['maximum']:g}" if "maximum" in option else ""
+            return f"more than {option['exclusiveMinimum']:g}{most}"
         if "minimum" in option:
             low = f"{option['minimum']:g}"
             return f"{low} to {option['maximum']:g}" if "maximum" in option else f"{low} or more"
     return "a number" if any(o.get("type") in ("number", "integer") for o in options) else "text"
-
-
-def _at_most(option: dict[str, Any]) -> str:
-    return f", at most {option['maximum']:g}" if "maximum" in option else ""
 
 
 def _capital(text: str | None) -> str:

@@ -23,14 +23,14 @@ Point = tuple[float, float, float]
 
 
 class Axes(NamedTuple):
-    """Axes in which a table gives its points.
+    """The axes of a table of points.
 
     Attributes
     ----------
     words : str
-        Where x, y and z point: ``rearward right up``.
+        The directions of x, y and z: ``rearward right up``.
     directions : ndarray, shape (3, 3)
-        The columns are these directions in axes of ISO 8855.
+        These directions in axes of ISO 8855, in columns.
     """
 
     words: str
@@ -38,26 +38,26 @@ class Axes(NamedTuple):
 
     def point(self, place: Point) -> Point:
         """Return a point in axes of ISO 8855: x forward, y left, z up."""
-        # one product of each sum is not zero, and the zero that is added makes none negative
+        # each sum has one product that is not zero, and the added zero avoids negative zeros
         x, y, z = (self.directions @ np.array(place) + 0.0).tolist()
         return x, y, z
 
 
 def axes_of(words: str, *, left_handed: bool = False) -> Axes:
-    """Return the axes whose x, y and z point so.
+    """Return axes from the directions of x, y and z.
 
     Parameters
     ----------
     words : str
         Three of forward, rearward, left, right, up and down.
     left_handed : bool, optional
-        Whether they are left-handed, as those of some games are. Otherwise such axes are a slip of
-        the pen, of which a mirror image of the car would come.
+        Whether they are left-handed, as in some games. By default such axes are refused as a
+        mistake, because they would make a mirror image of the car.
 
     Raises
     ------
     InputError
-        If they are not three axes, or of the other hand.
+        If they are not three axes, or have the other handedness.
 
     Examples
     --------

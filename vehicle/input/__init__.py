@@ -1,1 +1,1 @@
-"""Input data: what a person writes about a suspension, and the checks that it passes."""
+"""Sections of input files, and their checks."""

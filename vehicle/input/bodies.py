@@ -1,9 +1,9 @@
 """The bodies of a suspension: masses, centres of mass and inertia tensors."""
 
-from abc import abstractmethod
 from collections.abc import Mapping
 from typing import ClassVar
 
+import numpy as np
 from pydantic import Field
 
 from ...core.columns import greatest, sorted_moments
@@ -14,7 +14,7 @@ from .units import point_in_metres
 
 _ELEMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 
-# What rounding may do to a principal moment of inertia, relative to the largest element.
+# Rounding of a principal moment of inertia, relative to the largest element.
 _ROUNDING = 1e-9
 
 _REMEDY = (
@@ -43,33 +43,26 @@ class RigidBody(Section):
     inertia_xz_kg_m2: Number = Field(default=0.0, description="element xz of the inertia tensor")
     inertia_yz_kg_m2: Number = Field(default=0.0, description="element yz of the inertia tensor")
 
+    POINTS: ClassVar[tuple[str, ...]]
+    """The hardpoints whose centroid is the default centre of mass."""
+
     def elements(self) -> dict[str, float]:
-        """Return the elements of the inertia tensor by their names, in kg m^2."""
+        """Return the elements of the inertia tensor by name [kg m^2]."""
         return {name: getattr(self, f"inertia_{name}_kg_m2") for name in _ELEMENTS}
 
     def centre_of_mass(self, points: Hardpoints) -> Vector:
-        """Return the centre of mass at design.
-
-        Parameters
-        ----------
-        points : Hardpoints
-            The hardpoints, from which the body's rule takes it unless it is given.
-
-        Returns
-        -------
-        numpy.ndarray
-            Its coordinates in chassis axes, in m.
-        """
+        """Return the centre of mass at design, chassis axes [m]."""
         if self.com_mm is None:
             return self.default_centre_of_mass(points)
         return point_in_metres(self.com_mm, "mm")
 
-    @abstractmethod
     def default_centre_of_mass(self, points: Hardpoints) -> Vector:
-        """Return the centre of mass of a body whose file leaves it out, in m."""
+        """Return the centre of mass of a body whose file leaves it out [m]."""
+        total: Vector = np.sum([points.metres(name) for name in self.POINTS], axis=0)
+        return total / len(self.POINTS)
 
     def problems(self) -> list[str]:
-        """Say why no body can have this inertia."""
+        """Return the problems of an inertia that no body can have."""
         elements = self.elements()
         scale = greatest(abs(value) for value in elements.values())
         if scale == 0.0:
@@ -97,23 +90,19 @@ class RigidBody(Section):
 class TieRod(RigidBody):
     """The tie rod."""
 
-    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
-        """Return the midpoint of the rod, in m."""
-        return (points.metres("tie_rod_outer") + points.metres("tie_rod_inner")) / 2.0
+    POINTS: ClassVar[tuple[str, ...]] = ("tie_rod_outer", "tie_rod_inner")
 
 
 class Rack(RigidBody):
     """The rack of the steering."""
 
-    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
-        """Return the joint with the tie rod, in m."""
-        return points.metres("tie_rod_inner")
+    POINTS: ClassVar[tuple[str, ...]] = ("tie_rod_inner",)
 
 
 class WheelBody(Section):
     """The wheel with tyre, hub and disc: symmetric about its spin axis, balanced at its centre.
 
-    What turns with it about this axis alone, as a drive shaft, has a part of its moment about it.
+    A drive shaft, which rotates with the wheel about this axis only, adds to the moment about it.
     """
 
     mass_kg: Positive = Field(description="mass of the wheel")
@@ -128,7 +117,7 @@ class WheelBody(Section):
     )
 
     def problems(self) -> list[str]:
-        """Say why no wheel, and no shaft, can have this inertia."""
+        """Return the problems of an inertia that no wheel, or no shaft, can have."""
         spin, shaft = self.inertia_spin_kg_m2, self.inertia_shaft_kg_m2
         if not shaft < spin:
             problem = (
@@ -137,7 +126,7 @@ class WheelBody(Section):
             )
             return [problem]
         most = 2.0 * self.inertia_diametral_kg_m2
-        # rounding of the sum that the first is, relative to it
+        # the moment about the axis is a sum, with a relative rounding
         if spin - shaft > most + _ROUNDING * spin:
             of_shaft = f" without inertia_shaft_kg_m2 = {shaft} kg m^2" if shaft > 0.0 else ""
             problem = (
@@ -164,7 +153,7 @@ class Bodies(Section):
     wheel: WheelBody = Field(description="the wheel")
 
     def problems(self) -> list[str]:
-        """Refuse mass that the equations would leave out."""
+        """Return the problems of masses that the equations would neglect."""
         heavy = {name: getattr(self, name).mass_kg for name in self.MASSLESS}
         return [
             f"{name}.mass_kg = {mass} kg: the equations of this suspension leave this body without "
@@ -174,23 +163,12 @@ class Bodies(Section):
         ]
 
     def rigid(self) -> dict[str, RigidBody]:
-        """Return all bodies but the wheel, by their names."""
+        """Return all bodies except the wheel, by name."""
         found = {name: getattr(self, name) for name in type(self).model_fields}
         return {name: body for name, body in found.items() if isinstance(body, RigidBody)}
 
     def parameters(self, points: Hardpoints) -> dict[str, float]:
-        """Return masses in kg, centres of mass in m and inertia tensors in kg m^2.
-
-        Parameters
-        ----------
-        points : Hardpoints
-            The hardpoints, for the centres of mass that are not given.
-
-        Returns
-        -------
-        dict of str to float
-            Flat names, such as ``knuckle_com_x`` and ``wheel_mass``.
-        """
+        """Return masses [kg], centres of mass [m] and inertia [kg m^2], such as ``wheel_mass``."""
         values: dict[str, float] = {}
         for name, body in self.rigid().items():
             values[f"{name}_mass"] = body.mass_kg
@@ -204,13 +182,7 @@ class Bodies(Section):
 
 
 def impossible_inertia(elements: Mapping[str, float]) -> str:
-    """Return why a tensor is no body's inertia; empty if it may be one.
-
-    Parameters
-    ----------
-    elements : mapping
-        By name, ``xx`` to ``yz``, in kg m^2.
-    """
+    """Return why a tensor with elements ``xx`` to ``yz`` [kg m^2] is not an inertia, or ""."""
     scale = greatest(abs(value) for value in elements.values())
     if scale == 0.0:
         return ""

@@ -1,4 +1,4 @@
-"""The force of a bush over its displacement, where that is no straight line."""
+"""The force of a bush as a nonlinear curve over its displacement."""
 
 from collections.abc import Mapping
 from typing import Any, get_args
@@ -12,24 +12,23 @@ from .curve import LEAST_GAP, Curve, Interpolation
 Array = NDArray[np.float64]
 
 _KEYS, _WAY = ("mm", "N"), "interpolation"
-# No bush moves or carries more.
+# Greatest displacement and force of a bush.
 _MOST_MM, _MOST_N = 1e3, 1e9
 
 
 def curve_of(given: Validator, title: str, described: Any, *, odd: bool) -> Curve | None:
-    """Read a curve, ``{mm = [...], N = [...]}``; None where it cannot be one.
+    """Return the curve of ``{mm = [...], N = [...]}``; None if it is not valid.
 
-    It rises, and goes on as its last two points do, so that it carries any force.
+    It rises, and continues with the slope of its last two points, so that it carries any force.
 
     Parameters
     ----------
     given : Validator
-        Gets what is wrong.
+        Collects problems.
     title : str
     described : mapping
     odd : bool
-        Whether it begins at zero and is the same to both sides: across an axis, no side is
-        distinguished.
+        Whether it begins at zero and is the same to both sides, as normal to an axis.
     """
     if not isinstance(described, Mapping) or {*described} - {_WAY} != {*_KEYS}:
         given.fail(
@@ -51,7 +50,7 @@ def curve_of(given: Validator, title: str, described: Any, *, odd: bool) -> Curv
 
 
 def _problem(places: Array, forces: Array, *, odd: bool) -> str:
-    """Say why some points are no curve of a bush."""
+    """Return the problem of points that are not the curve of a bush."""
     if places.size != forces.size or places.size < 2:
         return f"mm has {places.size} values and N {forces.size}; give two or more of each."
     if not (np.abs(places) <= _MOST_MM).all() or not (np.abs(forces) <= _MOST_N).all():
@@ -70,7 +69,7 @@ def _problem(places: Array, forces: Array, *, odd: bool) -> str:
 
 
 def _problem_of_sides(places: Array, *, odd: bool) -> str:
-    """Say why a curve does not distinguish both sides."""
+    """Return the problem of a curve on the wrong sides of zero."""
     if odd and places[0] < 0.0:
         return (
             f"mm begins with {places[0]:g}; a bush is the same to all sides of its axis: "

@@ -1,4 +1,4 @@
-"""Files of Project Chrono: JSON that may have comments."""
+"""Files of Project Chrono: JSON with comments."""
 
 import json
 import re
@@ -12,12 +12,12 @@ from ...core.reading import text_of
 from ...core.validator import Validator
 
 # A text, a comment to the end of the line, a comment between marks. Each of them matches up to the
-# end of the file where it is not closed, and never goes back: the time is linear in the length.
+# end of the file if it is not closed, without backtracking: the time is linear in the length.
 _COMMENT = re.compile(r'("(?:[^"\\]|\\.)*+"?)|//[^\n]*+|/\*.*?(\*/|\Z)', re.DOTALL)
 
 
 def content(path: str | Path) -> dict[str, Any]:
-    """Read JSON that may have comments, as Chrono allows."""
+    """Return the content of a JSON file that may have comments, as Chrono allows."""
     with Validator("chrono") as given:
         given.path("path", path)
     text = text_of(Path(path))
@@ -42,11 +42,11 @@ def content(path: str | Path) -> dict[str, Any]:
 
 
 class _TwiceError(ValueError):
-    """A key is there twice."""
+    """An object with the same key twice."""
 
 
 def _keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """Return the contents of braces; two keys of one name are refused."""
+    """Return an object as a dictionary; refuse two equal keys."""
     ((most, times),) = Counter(key for key, _ in pairs).most_common(1) or [("", 0)]
     if times > 1:
         raise _TwiceError(f'"{legible(short(most))}" is given {times} times. Keep one of them.')
@@ -54,6 +54,6 @@ def _keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _without_comment(found: re.Match[str]) -> str:
-    """Return what represents a text or a comment; the lines keep their numbers."""
+    """Return a text unchanged, and line ends or a blank for a comment."""
     is_text, is_open = found[1] is not None, found[2] == ""
     return found[0] if is_text or is_open else "\n" * found[0].count("\n") or " "

@@ -1,4 +1,4 @@
-"""A force by a table: smooth between its points, or straight."""
+"""A force from a table, with cubic or linear interpolation."""
 
 from functools import cached_property
 from itertools import pairwise
@@ -13,13 +13,13 @@ from .section import Number
 
 Array = NDArray[np.float64]
 
-# As many segments as the generated equations have.
+# The number of segments in the generated equations.
 SEGMENTS = 10
 
 LEAST_GAP = 1e-6
-"""Between neighbouring points, in mm or m/s: as a length in metres it keeps seven digits."""
+"""Least distance of points, in mm or m/s, which keeps seven digits of a length in metres."""
 
-# What no part of a car carries; slopes of what is less are finite.
+# Greatest force of a table, below which slopes are finite.
 _MOST_N = 1e12
 
 Interpolation = Literal["cubic", "linear"]
@@ -28,7 +28,7 @@ WAYS = (
     'between the points of a curve: "cubic", monotone and smooth (Fritsch and Carlson), or '
     '"linear", straight lines'
 )
-"""What a file says of the ways."""
+"""The description of `Interpolation` in the reference of files."""
 
 
 def _numbers(value: Any) -> Any:
@@ -41,14 +41,14 @@ Numbers = Annotated[tuple[Number, ...], BeforeValidator(_numbers)]
 def point_problems(
     key: str, unit: str, places: tuple[float, ...], forces: tuple[float, ...]
 ) -> list[str]:
-    """Say why points are no curve: their number, their order or their size.
+    """Return the problem of number, order or size of the points of a curve.
 
     Parameters
     ----------
     key : str
-        What a file calls the places; the forces are ``force_N``.
+        The key of the places in the file; the forces are ``force_N``.
     unit : str
-        Of the places.
+        The unit of the places.
     places, forces : tuple of float
     """
     if len(places) != len(forces):
@@ -79,10 +79,10 @@ def point_problems(
 
 
 class Curve:
-    """A force over what causes it, through points.
+    """A force over a displacement or a velocity, through points.
 
-    Between its points it is a monotone cubic (Fritsch and Carlson), or straight lines; outside them
-    it goes on straight.
+    Between its points it is a monotone cubic (Fritsch and Carlson), or linear; outside it is
+    linear.
 
     Parameters
     ----------
@@ -90,8 +90,8 @@ class Curve:
         Two or more; the places rise.
     interpolation : {'cubic', 'linear'}
     as_secants : bool
-        Whether a cubic goes on outside as its last two points rise, so that it carries any force;
-        else as it ends.
+        Whether a cubic continues outside with the slope between its last two points, so that it
+        carries any force; otherwise with the slope at its end.
     """
 
     def __init__(
@@ -131,7 +131,7 @@ class Curve:
         return found
 
     def rate(self, place: Array) -> Array:
-        """Return its derivative; where lines meet, that of the line before."""
+        """Return the derivative of the force; at a corner that of the preceding line."""
         inside = np.clip(place, *self._places[[0, -1]])
         if self._is_straight:
             inside = np.nextafter(inside, -np.inf)
@@ -139,7 +139,7 @@ class Curve:
         return found
 
     def place(self, force: float) -> float:
-        """Return where it has a force, if it rises without an end."""
+        """Return the place of a force, for a curve that rises everywhere."""
         from scipy.optimize import brentq  # noqa: PLC0415 (slow to import)
 
         def left(far: float) -> float:
@@ -156,15 +156,15 @@ class Curve:
         Parameters
         ----------
         name : str
-            Of the table there.
+            The name of the table in the equations.
         knots : sequence, optional
-            What is there for the places.
+            Values of the knots, by default the places.
 
         Returns
         -------
         dict of str to float
-            For each segment knot, inverse width and the three coefficients of its cubic in the part
-            of the segment that is passed; segments without need have no force.
+            For each segment knot, inverse width and the three coefficients of a cubic polynomial of
+            the passed part of the segment; unused segments have no force.
         """
         knots = self._places if knots is None else knots
         rise, none = self._rise, np.zeros_like(self._rise)
@@ -183,14 +183,14 @@ class Curve:
             "last_slope": self._slopes[-1],
         }
         values |= {f"{key}_{i}": x for key, row in table.items() for i, x in enumerate(row)}
-        for i in range(rise.size, SEGMENTS):  # segments that nothing is left for
+        for i in range(rise.size, SEGMENTS):  # unused segments
             values |= dict.fromkeys((f"{key}_{i}" for key in table if key != "knot"), 0.0)
             values[f"knot_{i + 1}"] = knots[-1]
         return {f"{name}_{key}": number(x) for key, x in values.items()}
 
 
 def no_curve(name: str) -> dict[str, float]:
-    """Return the coefficients of none: no force, and knots between which nothing lies."""
+    """Return the coefficients of a table without force, whose knots coincide."""
     points = np.array([0.0, 1.0])
     of_one = Curve(points, points, "linear", as_secants=True).parameters(name)
     return dict.fromkeys(of_one, 0.0)

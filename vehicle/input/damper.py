@@ -7,11 +7,11 @@ from .curve import WAYS, Curve, Interpolation, Numbers, no_curve, point_problems
 from .section import Section
 
 TABLE = "damper_table"
-"""What the equations call the curve."""
+"""The name of the curve in the equations."""
 
 
 def curve_problems(v: tuple[float, ...], force: tuple[float, ...]) -> list[str]:
-    """Say why velocities [m/s] and forces [N] are no curve of a damper that takes energy."""
+    """Return the problems of velocities [m/s] and forces [N] of a dissipative damper."""
     problems = point_problems("velocity_m_per_s", "m/s", v, force)
     if problems:
         return problems
@@ -26,19 +26,19 @@ def curve_problems(v: tuple[float, ...], force: tuple[float, ...]) -> list[str]:
 class Damper(Section):
     """A curve through measured points.
 
-    Between the points the curve is a monotone cubic (Fritsch and Carlson), or straight lines where
-    `interpolation` says so; outside them it goes on straight. Velocity is positive in bump, force
-    positive where it resists bump.
+    Between the points the curve is a monotone cubic (Fritsch and Carlson), or linear with
+    `interpolation`; outside them it is linear. Velocity is positive in bump, force positive if it
+    resists bump.
     """
 
     velocity_m_per_s: Numbers = Field(description="velocities, rising; positive in bump")
     force_N: Numbers = Field(  # noqa: N815 (N is the newton)
-        description="forces at these velocities; positive where they resist bump"
+        description="forces at these velocities; positive if they resist bump"
     )
     interpolation: Interpolation = Field(default="cubic", description=WAYS)
 
     def problems(self) -> list[str]:
-        """See that the points are a curve, and that the damper takes energy."""
+        """Return the problems of points that are not the curve of a dissipative damper."""
         return curve_problems(self.velocity_m_per_s, self.force_N)
 
     def parameters(self) -> dict[str, float]:

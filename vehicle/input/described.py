@@ -1,4 +1,4 @@
-"""What a file describes, and what suspensions, axles and cars have in common."""
+"""The base of objects that a file describes: suspensions, axles and cars."""
 
 from abc import abstractmethod
 from collections.abc import Callable, Mapping
@@ -19,10 +19,10 @@ from .toml_writer import write_toml
 
 
 def described_by(path_or_name: str | Path) -> str:
-    """Return the top-level key of what a file, or a packaged name, describes.
+    """Return the top-level key of a file, or of a packaged data set, that names its object.
 
-    'car', 'axle', or that of an axle without sides; empty for a suspension, and where there is no
-    file or it cannot be read: its reader then says why.
+    It is 'car', 'axle', or the key of an axle without sides; empty for a suspension, and for a file
+    that is missing or cannot be read, which its reader reports.
     """
     for package, key in ((CARS, CAR), (AXLES, AXLE)):
         if path_or_name in data_sets(package):
@@ -39,17 +39,17 @@ def described_by(path_or_name: str | Path) -> str:
 
 
 def check_keys(source: str, name: str, given: Any, words: str) -> None:
-    """Refuse what is no mapping with texts as keys.
+    """Refuse any object but a mapping with texts as keys.
 
     Parameters
     ----------
     source : str
-        What is read or changed.
+        The source of the error.
     name : str
-        Of the argument.
+        Name of the argument.
     given : Any
     words : str
-        What it has to be: 'places and values'.
+        The expected content: 'places and values'.
     """
     with Validator(source) as checked:
         for key in checked.mapping(name, given, words):
@@ -59,7 +59,7 @@ def check_keys(source: str, name: str, given: Any, words: str) -> None:
 def parts_of(
     described: Any, makers: Mapping[str, Callable[[Any, Path, str], Any]], folder: Path, source: str
 ) -> dict[str, Any]:
-    """Return the parts that some keys of a file name, by key; missing ones are left out.
+    """Return the parts that are named in a file, by key.
 
     Parameters
     ----------
@@ -92,17 +92,17 @@ def parts_of(
 
 
 class Described:
-    """What a file describes."""
+    """An object that a file describes."""
 
     @classmethod
     @abstractmethod
     def packaged(cls) -> Mapping[str, Traversable]:
-        """Return the files of those that come with kintrafo, by their names."""
+        """Return the packaged files, by name."""
 
     @classmethod
     @abstractmethod
     def from_dict(cls, data: Mapping[str, Any], source: str = "input data") -> Self:
-        """Return what nested dictionaries with the keys of the file describe."""
+        """Return an object from nested dictionaries with the keys of the file."""
 
     @abstractmethod
     def to_dict(self, *, exclude_defaults: bool = False) -> dict[str, Any]:
@@ -110,13 +110,13 @@ class Described:
 
     @classmethod
     def load(cls, path_or_name: str | Path) -> Self:
-        """Read it from a TOML file, and from those that the file names.
+        """Return the object that a TOML file describes, with the files that it names.
 
         Parameters
         ----------
         path_or_name : str or pathlib.Path
-            The file; or, as a string, the name of one that comes with kintrafo, such as
-            ``"reference_car"``, ``"reference_axle"``, ``"rigid_axle"`` or ``"quarter_car"``.
+            The file; or, as a string, the name of a packaged one, such as ``"reference_car"``,
+            ``"reference_axle"``, ``"rigid_axle"`` or ``"quarter_car"``.
 
         Returns
         -------
@@ -126,8 +126,7 @@ class Described:
         Raises
         ------
         InputError
-            If a file cannot be read, or nothing can be like this; it lists everything that is
-            wrong.
+            If a file cannot be read, or its data are not valid; it lists all problems.
         """
         with Validator(cls.__name__) as given:
             given.path("path_or_name", path_or_name)
@@ -135,17 +134,17 @@ class Described:
         others = all_packaged()
         file = find(path_or_name, others if path_or_name in others else cls.packaged())
         folder = file.parent if isinstance(file, Path) else Path()
-        # a path inside the package would not help where a name was given
+        # the path of a packaged file would not help a caller who gave a name
         return cls._of_file(read_toml(file), str(path_or_name), folder)
 
     @classmethod
     def _of_file(cls, data: Mapping[str, Any], source: str, folder: Path) -> Self:
-        """Return what the content of a file in a folder describes."""
+        """Return an object from the content of a file in a folder."""
         del folder
         return cls.from_dict(data, source)
 
     def save(self, path: str | Path, *, force: bool = False) -> Path:
-        """Write the input file that gives exactly this, with all that it names in it.
+        """Write an input file with exactly these data, those of named files included.
 
         Parameters
         ----------
@@ -161,7 +160,7 @@ class Described:
         Raises
         ------
         InputError
-            If there is a file already, or the name cannot be used.
+            If the file exists already, or the name cannot be used.
         """
         with Validator(type(self).__name__) as given:
             given.path("path", path)
@@ -170,7 +169,7 @@ class Described:
 
 
 class DescribedSection(Described, Section):
-    """What a file describes whose sections are its attributes."""
+    """An object whose attributes are the sections of a file."""
 
     def to_dict(self, *, exclude_defaults: bool = False) -> dict[str, Any]:
         """Return the sections as nested dictionaries, which `from_dict` takes back unchanged.
@@ -178,7 +177,7 @@ class DescribedSection(Described, Section):
         Parameters
         ----------
         exclude_defaults : bool, optional
-            Whether values that are as by default are left out.
+            Whether default values are left out.
 
         Returns
         -------
@@ -188,14 +187,14 @@ class DescribedSection(Described, Section):
         return self.model_dump(mode="json", exclude_none=True, exclude_defaults=exclude_defaults)
 
     def with_changes(self, changes: Mapping[str, Any]) -> Self:
-        """Return one that differs in some values; all checks are made again.
+        """Return an object that differs in some values; all checks are made again.
 
         Parameters
         ----------
         changes : mapping of str to Any
-            For each place in the file, section and key with dots between them, the new value in
-            the file's unit. A component of a point is a place too. None removes an optional key,
-            or a section with a name of any choice.
+            New values in the file's units by place, section and key with dots between them. A
+            component of a point is a place, too. None removes an optional key, or a section with a
+            free name.
 
         Returns
         -------
@@ -205,7 +204,7 @@ class DescribedSection(Described, Section):
         Raises
         ------
         InputError
-            If there is no such place, or nothing can be like this.
+            If there is no such place, or the data are not valid.
 
         Examples
         --------
@@ -232,4 +231,4 @@ class DescribedSection(Described, Section):
     @classmethod
     @abstractmethod
     def _called(cls) -> str:
-        """Return what it is called in messages."""
+        """Return the name of the object in messages."""

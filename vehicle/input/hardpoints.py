@@ -1,4 +1,4 @@
-"""The hardpoints of a suspension: reading them, and what the geometry of any must fulfil."""
+"""The hardpoints of a suspension, and checks of their geometry."""
 
 from abc import abstractmethod
 from collections.abc import Iterable, Mapping
@@ -20,14 +20,14 @@ from ...core.vectors import (
 from .section import Section
 from .units import LengthUnit, point_in_metres
 
-# Closer than this, two points that define a direction or a rod are taken for one, in m.
+# Least distance of two points that define a direction or a rod [m].
 SMALLEST_DISTANCE = 0.001
-# Points are farther apart than this and nearer to the origin than that, if the unit is right, in m.
+# Least size of a suspension and largest coordinate; beyond them the unit is wrong [m].
 _SMALLEST_SUSPENSION = 0.01
 _LARGEST_COORDINATE = 20.0
-# Nearer to the vertical than this, the hinge axis has no upper side, in degrees.
+# Least angle of a hinge axis to the vertical [deg].
 _SMALLEST_HINGE_ANGLE = 1.0
-# Nearer to the first axis of its universal joint than this, a link is not held, in degrees.
+# Least angle of a link to the first axis of its universal joint [deg].
 _SMALLEST_CROSS_ANGLE = 1.0
 
 Pair = tuple[str, str]
@@ -42,18 +42,18 @@ class Hardpoints(Section):
     Attributes
     ----------
     STAND_INS : dict
-        Points that a file may leave out, and which other point replaces each.
+        The substitutes of points that a file may leave out.
     CARRIERS : dict
-        Which moving body carries a point; the others are fixed to the chassis.
+        The moving body of each point; the others are fixed to the chassis.
     ARMS : dict
-        The bearings of each arm on the chassis, by the ball joint that it carries.
+        The bearings of each arm on the chassis, by its ball joint.
     JOINTS : tuple of str
-        Moving points that belong into a table of positions, besides the wheel centre.
+        Moving points of a table of positions, besides the wheel centre.
     STEERING_AXIS : tuple of str or None
-        The lower and the upper point on the axis about which the wheel is steered; None where no
-        two points are on it, and the motion shows it.
+        The lower and the upper point on the steering axis; None if the axis has no two points and
+        follows from the motion.
     AXIS_NAME : str
-        What this axis is called in messages.
+        The name of this axis in messages.
     """
 
     STAND_INS: ClassVar[Mapping[str, str]] = {}
@@ -69,30 +69,19 @@ class Hardpoints(Section):
 
     @classmethod
     def unit_of_key(cls, key: str, table: Mapping[str, Any]) -> str:
-        """Return the unit of the points: the section's own `unit`."""
+        """Return the unit of the points, which is the section's `unit`."""
         unit = str(table.get("unit"))
         return unit if key != "unit" and unit in get_args(LengthUnit) else ""
 
     def metres(self, name: str) -> Vector:
-        """Return the position of a hardpoint; that of its substitute, if it is left out.
-
-        Parameters
-        ----------
-        name : str
-            The hardpoint's key.
-
-        Returns
-        -------
-        numpy.ndarray
-            Its coordinates in chassis axes, in m.
-        """
+        """Return the position of a hardpoint, or of its substitute, chassis axes [m]."""
         point = getattr(self, name)
         if point is None:
             return self.metres(self.STAND_INS[name])
         return point_in_metres(point, self.unit)
 
     def at_design(self) -> dict[str, Vector]:
-        """Return all hardpoints, those that are left out where their substitutes are [m]."""
+        """Return all hardpoints [m]; those left out have the position of their substitute."""
         return {name: self.metres(name) for name in (*self.names(), *self.STAND_INS)}
 
     @classmethod
@@ -105,44 +94,38 @@ class Hardpoints(Section):
         return [*self.names(), *self.given_optional()]
 
     def given_optional(self) -> list[str]:
-        """Return the keys of the hardpoints that this file has, but could leave out."""
+        """Return the keys of the optional hardpoints that this file has."""
         return [name for name in self.STAND_INS if getattr(self, name) is not None]
 
     def parameters(self, *, optional: bool = False) -> dict[str, float]:
-        """Return the coordinates in m, such as ``wheel_center_x``; if asked, all of them."""
+        """Return the coordinates [m], such as ``wheel_center_x``, optionally of all hardpoints."""
         values: dict[str, float] = {}
         for name in [*self.names(), *(self.STAND_INS if optional else ())]:
             values |= components(name, self.metres(name))
         return values
 
     def distance(self, first: str, second: str) -> float:
-        """Return the distance of two hardpoints, given by their keys, in m."""
+        """Return the distance of two hardpoints [m]."""
         distance: float = length(self.metres(second) - self.metres(first))
         return distance
 
     def text(self, *names: str) -> str:
-        """Return hardpoints as they are in the file, with their unit, for error messages."""
+        """Return hardpoints as in the file, with their unit, for error messages."""
         names = tuple(n if getattr(self, n) is not None else self.STAND_INS[n] for n in names)
         points = [f"{name} = {list(getattr(self, name))} {self.unit}" for name in names]
         return f"[hardpoints] {' and '.join(points)}"
 
     def steering_axis(self) -> Vector | None:
-        """Return the unit vector upward along the axis of steering; None if no points show it."""
+        """Return the unit vector upward along the steering axis; None without points on it."""
         if self.STEERING_AXIS is None or self.distance(*self.STEERING_AXIS) < SMALLEST_DISTANCE:
             return None
         low, high = map(self.metres, self.STEERING_AXIS)
         return unit_vector(high - low)
 
-    # -- what they must fulfil ------------------------------------------------------------------
+    # -- their checks ---------------------------------------------------------------------------
 
     def unit_problems(self) -> list[str]:
-        """Find coordinates that suggest that the unit is wrong, which no other check survives.
-
-        Returns
-        -------
-        list of str
-            One text for each problem.
-        """
+        """Return the problem of coordinates with a wrong unit, which precedes all other checks."""
         points = {name: self.metres(name) for name in self.given()}
         far = [n for n, point in points.items() if greatest(map(abs, point)) > _LARGEST_COORDINATE]
         remedy = f'Correct the coordinates or `unit = "{self.unit}"`.'
@@ -160,13 +143,7 @@ class Hardpoints(Section):
 
     @abstractmethod
     def geometry_problems(self) -> list[str]:
-        """Say why the mechanism cannot move, or cannot be distinguished from its mirror image.
-
-        Returns
-        -------
-        list of str
-            One text for each problem.
-        """
+        """Return the problems of points with which the mechanism cannot move or is ambiguous."""
 
     def coinciding(self, bodies: Mapping[str, Iterable[str]]) -> dict[Pair, str]:
         """Return the pairs of points of one body that are too close, with the body's name."""
@@ -178,7 +155,7 @@ class Hardpoints(Section):
         }
 
     def coincidence_problems(self, coinciding: Mapping[Pair, str]) -> list[str]:
-        """Say which points of one body must be farther apart."""
+        """Return the problems of points of one body that are too close."""
         return [
             f"{self.text(*pair)} are {1000 * self.distance(*pair):.3f} mm apart; two points of the "
             f"{body} must be at least {1000 * SMALLEST_DISTANCE:g} mm apart. Move one of them."
@@ -186,7 +163,7 @@ class Hardpoints(Section):
         ]
 
     def hinge_problems(self, front: str, rear: str, tip: str) -> list[str]:
-        """Check the axis through two bearings, about which an arm swings its tip."""
+        """Return the problems of the axis through two bearings of an arm with a tip."""
         at_front, at_rear = self.metres(front), self.metres(rear)
         bearings = self.text(front, rear)
         problems = []
@@ -212,18 +189,18 @@ class Hardpoints(Section):
         return problems
 
     def cross_problems(self, ends: Pair, link: str, axis: Vector, name: str) -> list[str]:
-        """Check that a link does not lie along the axis of its universal joint on the car's side.
+        """Return the problem of a link along the fixed axis of its universal joint.
 
         Parameters
         ----------
         ends : tuple of str
             The joint and the other end of the link.
         link : str
-            What the link is called.
+            The name of the link.
         axis : numpy.ndarray
             Direction of the joint's axis.
         name : str
-            What this direction is called.
+            The name of this direction.
         """
         first, second = (self.metres(end) for end in ends)
         angle = angle_between_lines(second - first, axis)
@@ -237,7 +214,7 @@ class Hardpoints(Section):
         return [problem]
 
     def steering_problems(self, low: str, high: str) -> list[str]:
-        """Check that the tie rod can turn the knuckle about the line of two points of it."""
+        """Return the problem of a tie rod that cannot turn the knuckle about two points of it."""
         direction = unit_vector(self.metres(high) - self.metres(low))
         outer, foot = self.metres("tie_rod_outer"), self.metres(low)
         arm = distance_from_line(outer, foot, self.metres(high))

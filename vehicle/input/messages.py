@@ -1,4 +1,4 @@
-"""Turning pydantic's validation errors into sentences about sections and keys of an input file."""
+"""Messages about sections and keys of an input file, from pydantic's validation errors."""
 
 import reprlib
 from collections.abc import Mapping
@@ -24,28 +24,24 @@ _EXPECTATIONS = {
 
 
 def messages_of(error: ValidationError, model: type[Section], data: Mapping[str, Any]) -> list[str]:
-    """Describe every error of a validation in terms of the input file.
+    """Return a message for each problem of a validation, beginning with section and key.
 
     Parameters
     ----------
     error : pydantic.ValidationError
-        What the validation of `data` raised.
+        The error of the validation of `data`.
     model : type of Section
         The model of the whole file.
     data : mapping
         The file's content.
-
-    Returns
-    -------
-    list of str
-        One text for each problem, beginning with the section and the key.
     """
     details = error.errors(include_url=False)[:_MOST_LOOKED_AT]
-    # A misspelt key is reported once, not a second time as missing.
+    # a misspelt key is reported once, not a second time as missing
     misspelt = {
-        _Place(detail["loc"], model, data).probably_meant()
+        (*place.sections, nearest(place.key, place.model.model_fields))
         for detail in details
         if detail["type"] == "extra_forbidden"
+        for place in [_Place(detail["loc"], model, data)]
     }
     return [
         text
@@ -56,17 +52,7 @@ def messages_of(error: ValidationError, model: type[Section], data: Mapping[str,
 
 
 class _Place:
-    """A place in the file: the section, the key and, for points, the component.
-
-    Parameters
-    ----------
-    location : tuple of (str or int)
-        Where pydantic found the error.
-    model : type of Section
-        The model of the whole file.
-    data : mapping
-        The file's content.
-    """
+    """A place in the file, from pydantic's location: section, key and, for points, component."""
 
     def __init__(
         self, location: tuple[int | str, ...], model: type[Section], data: Mapping[str, Any]
@@ -74,7 +60,7 @@ class _Place:
         sections: list[str] = []
         rest = list(location)
         while rest and (below := subsection(model, rest[0])):
-            # of sections by names of any choice the name follows, or else what stands for it
+            # the free name of a section follows its key; NAME represents a missing one
             parts = 2 if is_named(model, rest[0]) else 1
             model, rest = below, rest if len(rest) >= parts else [*rest, "NAME"]
             for _ in range(parts):
@@ -89,10 +75,6 @@ class _Place:
         self.name = f"{self.title} {short(self.key)}{''.join(elements)}".strip()
         self.unit = model.unit_of_key(self.key, data)
 
-    def probably_meant(self) -> tuple[str, ...]:
-        """Return the location of the known key that resembles this one most."""
-        return (*self.sections, nearest(self.key, self.model.model_fields))
-
     def allowed(self) -> AllowedRange:
         """Return the range of the key's value."""
         field = self.model.model_fields[self.key]
@@ -102,7 +84,7 @@ class _Place:
 
 
 def subsection(model: type[Section], name: int | str) -> type[Section] | None:
-    """Return the model of a section's subsection, or None if `name` is a key."""
+    """Return the model of a subsection, or None if `name` is a key."""
     field = model.model_fields.get(str(name))
     kinds = (field.annotation, *get_args(field.annotation)) if field else ()
     sections = (kind for kind in kinds if isinstance(kind, type) and issubclass(kind, Section))
@@ -110,13 +92,13 @@ def subsection(model: type[Section], name: int | str) -> type[Section] | None:
 
 
 def is_named(model: type[Section], name: int | str) -> bool:
-    """Return whether a key holds sections by names of any choice."""
+    """Return whether a key contains sections with free names."""
     field = model.model_fields.get(str(name))
     return field is not None and get_origin(field.annotation) is dict
 
 
 def _element(model: type[Section], key: str, index: int | str) -> str:
-    """Return the name of an element of a value: a point has x, y, z; a list has numbers."""
+    """Return the name of an element of a value: x, y, z of a point, the number in a list."""
     if not isinstance(index, int):
         return index
     open_ended = "..." in str(model.model_fields[key].annotation)
@@ -124,7 +106,7 @@ def _element(model: type[Section], key: str, index: int | str) -> str:
 
 
 def _texts(place: _Place, detail: ErrorDetails) -> list[str]:
-    """Say what is wrong at a place; only a whole section can have several problems."""
+    """Return the messages of an error; only a whole section has several."""
     if detail["type"] == "problems":
         return [f"{place.title} {problem}".lstrip() for problem in detail["ctx"]["problems"]]
     if detail["type"] == "extra_forbidden":
@@ -135,7 +117,7 @@ def _texts(place: _Place, detail: ErrorDetails) -> list[str]:
 
 
 def _wrong(place: _Place, detail: ErrorDetails) -> str:
-    """Say why a value cannot be used."""
+    """Return the message about a value that cannot be used."""
     value = f"{place.name} = {reprlib.repr(detail['input'])} {place.unit}".rstrip()
     if not place.key:
         return f"{value} must be a section. Write {place.title}, below it {_keys(place.model)}."
@@ -151,7 +133,7 @@ def _wrong(place: _Place, detail: ErrorDetails) -> str:
 
 
 def _unknown(place: _Place, value: Any) -> str:
-    """Say that a key or a section is unknown, and what was probably meant."""
+    """Return the message about an unknown key or section, with a suggestion."""
     if isinstance(value, Mapping):
         subject = f"[{'.'.join([*place.sections, short(place.key)])}] is not a known section."
     else:
@@ -160,19 +142,15 @@ def _unknown(place: _Place, value: Any) -> str:
 
 
 def _missing(place: _Place) -> str:
-    """Say what a missing key or section is for and how to add it."""
+    """Return the message about a missing key or section, with its meaning."""
     if not place.key:
         return f"{place.title} is missing. Add this section, with {_keys(place.model)}."
     meaning = place.model.model_fields[place.key].description
-    return f"{place.name} is missing: {meaning}. Add a line `{place.key} = ...`{_in(place.unit)}."
-
-
-def _in(unit: str) -> str:
-    """Return the unit as the end of a sentence; empty for no unit."""
-    return f", in {unit}" if unit else ""
+    unit = f", in {place.unit}" if place.unit else ""
+    return f"{place.name} is missing: {meaning}. Add a line `{place.key} = ...`{unit}."
 
 
 def _keys(model: type[Section]) -> str:
-    """List what a section needs."""
+    """Return the required keys of a section."""
     needed = [name for name, field in model.model_fields.items() if field.is_required()]
     return f"at least {', '.join(needed)}"

@@ -1,4 +1,4 @@
-"""Changing values of nested dictionaries, as an input file makes them."""
+"""Changes of values in the nested dictionaries of an input file."""
 
 from typing import Any
 
@@ -10,7 +10,7 @@ _COMPONENTS = {"x": 0, "y": 1, "z": 2}
 def put(data: dict[str, Any], place: str, value: Any) -> str:
     """Change one value of nested dictionaries, in which points are lists.
 
-    Returns what is wrong with the place; empty if nothing is. A key that is not known is left to
+    Returns the problem of a place that does not exist, or an empty text. An unknown key is left to
     the checks of the section.
     """
     *sections, key = place.split(".")

@@ -1,4 +1,4 @@
-"""What every section of an input file shares: its base class and its kinds of values."""
+"""The base of sections of input files, and the types of their values."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -14,14 +14,14 @@ from .units import unit_of
 
 @dataclass(frozen=True)
 class AllowedRange:
-    """The range of a value in words, for the error message.
+    """The range of a value as text, for the error message.
 
     Attributes
     ----------
     allowed : str
-        The range, with ``{unit}`` where the unit belongs.
+        The range, with ``{unit}`` for the unit.
     remedy : str
-        What to change when the value is outside: a sentence.
+        A sentence with the remedy for other values.
     """
 
     allowed: str
@@ -29,12 +29,12 @@ class AllowedRange:
 
 
 def _plain(value: Any) -> Any:
-    """Turn NumPy's numbers and arrays into Python's, which the checks below expect."""
+    """Return NumPy's numbers and arrays as Python's, which the checks below expect."""
     return value.tolist() if isinstance(value, (np.generic, np.ndarray)) else value
 
 
 def _three_numbers(value: Any) -> Any:
-    """Refuse anything but three components; each of them is checked afterwards."""
+    """Return three components, each of which is checked afterwards; refuse other values."""
     value = _plain(value)
     if not isinstance(value, (list, tuple)) or len(value) != 3:
         raise PydanticCustomError("three_numbers", "not three numbers")
@@ -67,40 +67,24 @@ _THEIRS = frozenset(dir(BaseModel))
 
 
 class Section(BaseModel):
-    """A section of an input file: immutable, and without keys that it does not know."""
+    """A section of an input file: immutable, and without unknown keys."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     def __dir__(self) -> list[str]:
-        """Return what completion proposes: what is ours, and nothing of pydantic."""
+        """Return the names for completion, without those of pydantic."""
         return [name for name in super().__dir__() if name.startswith("_") or name not in _THEIRS]
 
     @classmethod
     def unit_of_key(cls, key: str, table: Mapping[str, Any]) -> str:
-        """Return the unit in which a section of a file gives the value of a key.
-
-        Parameters
-        ----------
-        key : str
-            The key.
-        table : mapping
-            The section's content; not checked yet.
-
-        Returns
-        -------
-        str
-            The unit, as it is printed; empty for a key without one.
-        """
-        del table  # needed only by sections that have one unit for all of their keys
+        """Return the printed unit of a key, or "", from the unchecked content of its section."""
+        del table  # only sections with one unit for all keys need it
         return unit_of(key)
 
     def problems(self) -> list[str]:
-        """Return the problems of the values together; each value alone is in its range.
+        """Return the problems of the values together, each a text that begins with the key.
 
-        Returns
-        -------
-        list of str
-            One text for each problem, beginning with the key; empty if there is none.
+        Each value alone is in its range.
         """
         return []
 

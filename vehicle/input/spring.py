@@ -12,10 +12,10 @@ from .section import NonNegative, Number, Positive, Section
 from .units import in_metres
 
 TABLE = "spring_table"
-"""What the equations call the curve."""
+"""The name of the curve in the equations."""
 
 SEATS = ("spring_seat", "spring_top")
-"""The hardpoints that it acts between."""
+"""The hardpoints at the ends of the spring."""
 
 _FREE = ("free_length_mm", "force_at_design_N")
 _BY_CURVE = ("length_mm", "compression_mm", "force_N", "interpolation")
@@ -64,7 +64,7 @@ class SpringSection(Section):
         return self.force_N is not None
 
     def problems(self) -> list[str]:
-        """See that the spring is described once, and that where it is free can be found."""
+        """Return the problems of a spring that is described twice, or not completely."""
         by_curve = [key for key in _BY_CURVE if getattr(self, key) is not None]
         if self.rate_N_per_m is None and by_curve:
             return self._problems_of_curve()
@@ -90,7 +90,7 @@ class SpringSection(Section):
         return problems
 
     def _problems_of_free(self, ways: str) -> list[str]:
-        """See that where the spring is free is said once."""
+        """Return the problem of a free state that is described twice, or not."""
         given = [key for key in _FREE if getattr(self, key) is not None]
         if len(given) == 1:
             return []
@@ -98,7 +98,7 @@ class SpringSection(Section):
         return [f"exactly one of {ways}; {found}"]
 
     def _problems_of_curve(self) -> list[str]:
-        """See that the points are a curve, and that its lengths are known."""
+        """Return the problems of the points of a curve, and of its zero."""
         over = [key for key in _BY_CURVE[:2] if getattr(self, key) is not None]
         if len(over) != 1 or self.force_N is None:
             found = ", ".join(key for key in _BY_CURVE if getattr(self, key) is not None)
@@ -127,7 +127,7 @@ class SpringSection(Section):
         return problems or self._problems_of_force(places, force)
 
     def _problems_of_force(self, places: tuple[float, ...], force: tuple[float, ...]) -> list[str]:
-        """See that the curve has the force at design at one compression alone, and free length."""
+        """Return the problem of an ambiguous or impossible zero of the compression."""
         wanted = self.force_at_design_N
         if wanted is None:
             if self.free_length_mm is not None and self.free_length_mm <= places[-1]:
@@ -157,7 +157,7 @@ class SpringSection(Section):
         Parameters
         ----------
         at_design : float
-            Its length at the design position [m].
+            Length at the design position [m].
         general : bool
             Whether the equations have a curve.
         """
@@ -176,7 +176,7 @@ class SpringSection(Section):
         return curve.parameters(TABLE, [longest - compression for compression in compressions])
 
     def _curve(self) -> tuple[Curve, list[float]] | None:
-        """Return force over compression [m], and the compressions; None where it has a rate."""
+        """Return force over compression [m], and the compressions; None with a rate."""
         if self.force_N is None:
             return None
         force = np.array(self.force_N)
@@ -190,14 +190,9 @@ class SpringSection(Section):
         return curve, places.tolist()
 
     def free_length(self, at_design: float) -> float:
-        """Return the length at which the spring is free of force [m].
+        """Return the length without force, from the length at the design position [m].
 
-        Of a curve, that from which compressions count: the longest of a curve over lengths.
-
-        Parameters
-        ----------
-        at_design : float
-            Its length at the design position [m].
+        For a curve it is the length of zero compression: the longest of a curve over lengths.
         """
         if self.length_mm is not None:
             return in_metres(self.length_mm[-1], "mm")
@@ -207,7 +202,7 @@ class SpringSection(Section):
             return at_design
         found = self._curve()
         if found is None:
-            assert self.rate_N_per_m is not None  # as there is no curve
+            assert self.rate_N_per_m is not None  # a spring without a curve
             return at_design + self.force_at_design_N / self.rate_N_per_m
         curve, _ = found
         compression: float = each(curve.place, self.force_at_design_N)
@@ -215,14 +210,14 @@ class SpringSection(Section):
 
 
 def rate_key(part: str, spring: SpringSection | None) -> str:
-    """Return where the rate of a part, "spring" or "damper", is in a file, or its curve."""
+    """Return the key of the rate of a part, "spring" or "damper", or of its curve."""
     if part == "spring" and spring is not None and spring.by_curve:
         return "[spring] force_N: the rate at design"
     return {"spring": "[spring] rate_N_per_m", "damper": "[damper] rate_N_s_per_m"}[part]
 
 
 def _problems_of_spring(key: str, places: tuple[float, ...], force: tuple[float, ...]) -> list[str]:
-    """Say why lengths or compressions [mm] and forces [N] are those of no spring."""
+    """Return the problem of lengths or compressions [mm] and forces [N] of a spring."""
     if key == "length_mm" and not places[0] > 0.0:
         return [f"length_mm begins with {places[0]} mm; more than 0 mm is needed. Correct it."]
     sense, words = (-1.0, "longer") if key == "length_mm" else (1.0, "more compressed")

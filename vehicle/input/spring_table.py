@@ -1,4 +1,4 @@
-"""The curve of a spring at any length, as the equations have it."""
+"""The curve of a spring, from the parameters of the equations."""
 
 from collections.abc import Mapping
 
@@ -12,7 +12,7 @@ Array = NDArray[np.float64]
 
 
 def force_and_rate(parameters: Mapping[str, float], length: Array) -> tuple[Array, Array]:
-    """Return what the curve of a spring adds to its force and to its rate; zero where none is.
+    """Return the force [N] of a spring's curve and its rate [N/m]; zero without a curve.
 
     Parameters
     ----------
@@ -20,11 +20,6 @@ def force_and_rate(parameters: Mapping[str, float], length: Array) -> tuple[Arra
         Of the equations.
     length : ndarray, shape (...)
         Distance of the spring's ends [m].
-
-    Returns
-    -------
-    force, rate : ndarray, shape (...)
-        [N], and how much it grows as the spring is compressed [N/m].
     """
     if ends_of_table(parameters) is None:
         return np.zeros_like(length), np.zeros_like(length)
@@ -58,7 +53,7 @@ def rate_at(parameters: Mapping[str, float], length: Array) -> Array:
 
 
 def ends_of_table(parameters: Mapping[str, float]) -> tuple[float, float] | None:
-    """Return the shortest and the longest length of a curve [m]; None where there is none."""
+    """Return the shortest and the longest length of a curve [m], if there is one."""
     if f"{TABLE}_first_force" not in parameters:
         return None
     shortest, longest = (parameters[f"{TABLE}_knot_{i}"] for i in (SEGMENTS, 0))

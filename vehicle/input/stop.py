@@ -1,4 +1,4 @@
-"""Stops at the ends of a strut or a damper, as a file describes them."""
+"""The section of a stop at the end of a strut or a damper."""
 
 from pydantic import Field
 
@@ -7,24 +7,23 @@ from .units import in_metres
 
 
 class StopSection(Section):
-    """A progressive stop: ``rate x + progression x^3``, x being how far it is pressed in.
+    """A progressive stop with the force ``rate x + progression x^3`` for the compression x.
 
-    The clearance is travel of the strut, or of the damper, from the design position until the stop
-    is touched.
+    The clearance is the travel of strut or damper from the design position to first contact.
     """
 
     clearance_mm: Number = Field(
-        description="travel of strut or damper from design until first touch"
+        description="travel of strut or damper from design to first contact"
     )
     rate_N_per_m: NonNegative = Field(  # noqa: N815
-        description="rate at first touch"
+        description="rate at first contact"
     )
     progression_N_per_mm3: NonNegative = Field(  # noqa: N815
-        default=0.0, description="cubic term: force / (distance pressed in)^3"
+        default=0.0, description="cubic term: force / compression^3"
     )
 
     def parameters(self, side: str, design_length: float) -> dict[str, float]:
-        """Return the parameters of the stop of one side, "bump" or "rebound", in SI units."""
+        """Return the parameters of the stop of a side, "bump" or "rebound", in SI units."""
         sense = -1.0 if side == "bump" else 1.0
         return {
             f"{side}_stop_length": design_length + sense * in_metres(self.clearance_mm, "mm"),

@@ -1,4 +1,4 @@
-"""Spring and damper of the strut, as its section of a file describes them."""
+"""The section of a strut: its spring and damper."""
 
 from pydantic import Field
 
@@ -18,10 +18,10 @@ _FREE = (
 class StrutSection(Section):
     """Spring and damper in the strut.
 
-    The slide of the strut is ``length_max - length``: it grows when the wheel rises. The force that
-    pushes knuckle and chassis apart is ``spring_rate (slide - spring_free_slide) + damper_rate *
-    slide velocity``, less the friction. The free length of the spring is given in one of four ways;
-    slide and preload are for a spring that is concentric with the strut.
+    The slide of the strut is ``length_max - length``, which grows as the wheel rises. The force
+    that pushes knuckle and chassis apart is ``spring_rate (slide - spring_free_slide) +
+    damper_rate * slide velocity``, less the friction. The free length of the spring is given in one
+    of four ways; slide and preload are for a spring that is concentric with the strut.
     """
 
     length_max_mm: Number = Field(
@@ -58,10 +58,10 @@ class StrutSection(Section):
     )
 
     def problems(self) -> list[str]:
-        """See that the spring's free state is given once, and can be found."""
+        """Return the problem of a free state of the spring that is described twice, or not."""
         given = [key for key in _FREE if getattr(self, key) is not None]
         if self.spring_rate_N_per_m is None:
-            return []  # whether there is a [spring] instead is seen with it
+            return []  # `spring_problems` checks that there is a [spring] instead
         if len(given) != 1:
             found = f"{' and '.join(given)} are given. Keep" if given else "none is given. Add"
             problem = f"exactly one of {', '.join(_FREE)} is needed; {found} one."
@@ -86,25 +86,13 @@ class StrutSection(Section):
         return in_metres(self.length_max_mm, "mm")
 
     def free_slide(self, seats: float) -> float:
-        """Return the slide at which a concentric spring is free of force [m].
-
-        Parameters
-        ----------
-        seats : float
-            Distance of the spring's seats at the design position [m].
-        """
+        """Return the slide without force of a concentric spring, from its length at design [m]."""
         if self.spring_free_slide_mm is not None:
             return in_metres(self.spring_free_slide_mm, "mm")
         return self.length_max - self.free_length(seats)
 
     def free_length(self, seats: float) -> float:
-        """Return the distance of the seats at which the spring is free of force [m].
-
-        Parameters
-        ----------
-        seats : float
-            Distance of the spring's seats at the design position [m].
-        """
+        """Return the length of the spring without force, from its length at design [m]."""
         if self.spring_free_length_mm is not None:
             return in_metres(self.spring_free_length_mm, "mm")
         if self.spring_force_at_design_N is not None:
@@ -114,14 +102,14 @@ class StrutSection(Section):
         return self.length_max - self.free_slide(seats)
 
     def spring_problems(self, *, own_seats: bool, described: bool) -> list[str]:
-        """Refuse a spring that is described twice, or not, or not with seats of its own.
+        """Return the problem of a spring that is described twice, or not, or not by its own seats.
 
         Parameters
         ----------
         own_seats : bool
             Whether it has seats of its own.
         described : bool
-            Whether a section describes it besides.
+            Whether another section describes it.
         """
         keys = [key for key in (_RATE, *_FREE) if getattr(self, key) is not None]
         if described and keys:
@@ -147,7 +135,7 @@ class StrutSection(Section):
         return [problem]
 
     def parameters(self, damper: Damper | None) -> dict[str, float]:
-        """Return what all equations need of the strut but the spring, in SI units."""
+        """Return the parameters of the strut without its spring, in SI units."""
         linear = self.damper_rate_N_s_per_m
         return {
             "strut_length_max": self.length_max,

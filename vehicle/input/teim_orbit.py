@@ -1,6 +1,6 @@
 """Text files in the TeimOrbit format, which Adams/Car writes.
 
-Blocks begin with a name in brackets, parts of them with one in parentheses. In them are keys with
+Blocks begin with a name in brackets, parts of them with a name in parentheses. They have keys with
 values, and tables, whose columns are named in braces. Comments begin with ``$`` or ``!``, or are
 texts in quotes below ``(COMMENTS)`` or ``{comment_string}``.
 """
@@ -14,7 +14,7 @@ from ...core.errors import InputError
 from ...core.reading import bytes_of
 from ...core.validator import Validator
 
-_LINE_END = re.compile(r"\r\n|\r|\n")  # not those that Latin-1 has besides
+_LINE_END = re.compile(r"\r\n|\r|\n")  # not the further ones of Latin-1
 _BLOCK = re.compile(r"\s*+\[([^\[\]]*+)\]\s*+([$!].*+)?")
 _PART = re.compile(r"\s*+\(([^()]*+)\)\s*+([$!].*+)?")
 _COLUMNS = re.compile(r"\s*+\{([^{}]*+)\}?\s*+([$!].*+)?")
@@ -28,16 +28,16 @@ _OF_COMMENTS = ("comments", "comment_string")
 
 @dataclass(frozen=True)
 class FileBlock:
-    """A block of a file, with what is in its parts.
+    """A block of a file with its parts.
 
     Attributes
     ----------
     name : str
         In lower case.
     number : int
-        Of the line that it begins with.
+        The number of its first line.
     lines : tuple of (int, str)
-        What follows up to the next block, with the numbers of the lines.
+        The following lines up to the next block, with their numbers.
     """
 
     name: str
@@ -68,7 +68,7 @@ class FileBlock:
                     yield number, line.strip(), cells
 
     def _uncommented(self) -> Iterator[tuple[int, str]]:
-        """Yield its lines without the texts that are comments, one in a line."""
+        """Yield its lines without texts in quotes that are comments."""
         of_comments = False
         for number, line in self.lines:
             begin = _PART.fullmatch(line) or _COLUMNS.fullmatch(line)
@@ -80,7 +80,7 @@ class FileBlock:
 
 
 def cells_of(line: str) -> list[str] | None:
-    """Return what is in a line, without quotes and comment; None if a quote is left open.
+    """Return the cells of a line, without quotes and comment; None if a quote is not closed.
 
     Examples
     --------
@@ -98,22 +98,17 @@ def cells_of(line: str) -> list[str] | None:
 
 
 def read_blocks(path: str | Path) -> list[FileBlock]:
-    """Read the blocks of a file.
+    """Return the blocks of a file in its order; several may have the same name.
 
     Parameters
     ----------
     path : str or pathlib.Path
         In UTF-8 or Latin-1, with line ends of any system.
 
-    Returns
-    -------
-    list of FileBlock
-        In the order of the file; a name may be there more than once.
-
     Raises
     ------
     InputError
-        If it cannot be read, is no text or has no blocks.
+        If it cannot be read, is not a text or has no blocks.
     """
     with Validator("teim_orbit") as given:
         given.path("path", path)

@@ -28,19 +28,19 @@ _NUMBER = re.compile(r"[-+]?(\d++\.?\d*+|\.\d++)([eEdD][-+]?\d++)?")
 
 
 def shown(text: str) -> str:
-    """Return a text of a file as it can be printed, and not more of it than one reads."""
+    """Return a text of a file in printable form, shortened."""
     return short(legible(text))
 
 
 def number(cell: str) -> float:
-    """Return the number in a cell; NaN where there is none."""
+    """Return the number in a cell; NaN for other text."""
     if not _NUMBER.fullmatch(cell):
         return math.nan
     return float(re.sub("[dD]", "e", cell))
 
 
 class Values:
-    """The values of keys, each of which may be said once."""
+    """The values of keys, each of which may occur once."""
 
     def __init__(self, blocks: Iterable[FileBlock], source: str) -> None:
         self.source = source
@@ -50,7 +50,7 @@ class Values:
                 self._found.setdefault((block.name, key), []).append(value)
 
     def one(self, block: str, key: str) -> str:
-        """Return a value; empty if there is none. Refuse it if there are two."""
+        """Return a value, or an empty text; refuse two different ones."""
         found = list(dict.fromkeys(self._found.get((block, key), ())))
         if len(found) > 1:
             text = " and ".join(repr(shown(value)) for value in found)
@@ -60,7 +60,7 @@ class Values:
 
 
 def unit_of(values: Values, key: str, usual: str, known: Mapping[str, float]) -> float:
-    """Return how many of our units one of the file's is."""
+    """Return the conversion factor of a unit of the file."""
     given = values.one("units", key)
     if given.lower() in known:
         return known[given.lower()]

@@ -1,4 +1,4 @@
-"""Reading a TOML file, with errors that say what to change and where."""
+"""Reading TOML files, with errors that name the line and the remedy."""
 
 import re
 import tomllib
@@ -19,22 +19,12 @@ _PYTHON = (
     "kintrafo.compile, System, rest, linearise, simulate, ensemble."
 )
 _DEEP = "Tables or lists are nested too deeply. No key of a suspension does."
-# A key of a hundred parts, in time linear in the length; tomllib's grows with the square of them.
+# A key of a hundred parts, found in linear time; tomllib's time grows with their square.
 _TOO_DEEP = re.compile(r"""(?<![\w"'.-])(?:[\w"'-]++\s*+\.\s*+){100}""")
 
 
 def read_toml(file: Path | Traversable) -> dict[str, Any]:
-    """Read a TOML file.
-
-    Parameters
-    ----------
-    file : pathlib.Path or importlib.resources.abc.Traversable
-        The file: one on disk, or one that is part of a package.
-
-    Returns
-    -------
-    dict
-        The file's content.
+    """Return the content of a TOML file on disk or in a package.
 
     Raises
     ------
@@ -61,25 +51,20 @@ def read_toml(file: Path | Traversable) -> dict[str, Any]:
 
 
 def read_sections(path: str | Path, known: Sequence[str], needed: str = "") -> dict[str, Any]:
-    """Read a TOML file that has some sections and nothing else.
+    """Return the content of a TOML file that has only known sections.
 
     Parameters
     ----------
     path : str or pathlib.Path
     known : sequence of str
-        The sections and keys that it may have.
+        The allowed sections and keys.
     needed : str, optional
-        A section that it must have: ``cases.NAME`` is one of several in ``cases``.
-
-    Returns
-    -------
-    dict
-        The file's content.
+        A required section: ``cases.NAME`` is one of several in ``cases``.
 
     Raises
     ------
     InputError
-        If it cannot be read, has something else, or not what is needed.
+        If it cannot be read, has other sections, or lacks the required one.
     """
     with Validator("file") as given:
         given.path("path", path)
@@ -93,7 +78,7 @@ def read_sections(path: str | Path, known: Sequence[str], needed: str = "") -> d
 
 
 def _syntax_problem(message: str, text: str) -> str:
-    """Say in which line the TOML parser gave up, and show that line."""
+    """Return the message of a syntax error, with the number and the text of the line."""
     last = len(text.rstrip().split("\n"))
     found = re.fullmatch(
         r"(.*) \(at (?:line (\d+), column \d+|end of document)\)", message, re.DOTALL

@@ -1,4 +1,4 @@
-"""Write a suspension or an axle as the input file that it could have come from."""
+"""Writing suspensions, axles and cars as input files."""
 
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
@@ -14,25 +14,20 @@ _ENDING = ".toml"
 
 
 class Written(Protocol):
-    """What has the sections of an input file."""
+    """An object with the sections of an input file."""
 
     def to_dict(self, *, exclude_defaults: bool = False) -> dict[str, Any]:
         """Return the sections as nested dictionaries."""
 
 
 def toml_text(suspension: Written, head: Sequence[str] = ()) -> str:
-    """Return the text of an input file that gives exactly this suspension.
+    """Return the TOML text of an input file with exactly these data, without default values.
 
     Parameters
     ----------
     suspension : Suspension, Axle or RigidAxle
     head : sequence of str, optional
-        Lines of the comment that the file begins with.
-
-    Returns
-    -------
-    str
-        TOML, with the keys and units of the input file; what is as by default is left out.
+        Lines of the comment at its begin.
 
     Examples
     --------
@@ -45,7 +40,7 @@ def toml_text(suspension: Written, head: Sequence[str] = ()) -> str:
     for line in head:
         document.add(tomlkit.comment(legible(line)) if line else tomlkit.nl())
     sections = suspension.to_dict(exclude_defaults=True)
-    # long, and least looked at: at the end
+    # long, and rarely read: at the end
     last = {"bodies": sections.pop("bodies")} if "bodies" in sections else {}
     for name, value in (sections | last).items():
         document.add(tomlkit.nl())
@@ -69,20 +64,16 @@ def write_toml(
     path : str or Path
         A name that ends in ``.toml``.
     head : sequence of str, optional
-        Lines of the comment that the file begins with.
+        Lines of the comment at its begin.
     force : bool, optional
         Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
     inputs : iterable of str or Path, optional
         Files that are never replaced.
 
-    Returns
-    -------
-    Path
-
     Raises
     ------
     InputError
-        If there is a file already, or the name cannot be used.
+        If the file exists already, or the name cannot be used.
     """
     write_several({path: (suspension, head)}, force=force, inputs=inputs)
     return Path(path)
@@ -94,19 +85,14 @@ def write_several(
     force: bool = False,
     inputs: Paths = (),
 ) -> list[Path]:
-    """Write input files that belong together: all of them, or none.
+    """Write several input files: all of them, or none.
 
     Parameters
     ----------
     files : mapping
-        What each describes, and the lines of the comment that it begins with, by its path, which
-        ends in ``.toml``.
+        The object and the lines of the comment of each file, by its path, which ends in ``.toml``.
     force, inputs
         As of `write_toml`.
-
-    Returns
-    -------
-    list of Path
 
     Raises
     ------
@@ -124,7 +110,7 @@ def write_several(
 
 
 def _table(section: Mapping[str, Any]) -> Any:
-    """Return a section; sections within it come after its own keys."""
+    """Return a section, with its subsections after its keys."""
     table = tomlkit.table(is_super_table=all(isinstance(v, dict) for v in section.values()))
     for key, value in sorted(section.items(), key=lambda item: isinstance(item[1], dict)):
         if isinstance(value, dict):

@@ -1,4 +1,4 @@
-"""What any suspension is part of: vehicle, wheel, tyre, steering rack, gravity."""
+"""The sections of vehicle, wheel, tyre, steering rack and gravity."""
 
 import math
 from typing import Annotated, Literal
@@ -28,7 +28,7 @@ Share = Annotated[
 
 
 class VehicleSection(Section):
-    """The side that the suspension is on, and data of the whole vehicle to its characteristics.
+    """The side of the suspension, and data of the whole vehicle for its characteristics.
 
     Only the side enters the equations of motion.
     """
@@ -63,17 +63,9 @@ class WheelSection(Section):
     toe_deg: Angle = Field(description="toe at design, positive toe-in")
 
     def spin_axis(self, side_sign: float) -> Vector:
-        """Return the direction of the spin axis that points left at zero camber and toe.
+        """Return the unit vector of the spin axis that points left at zero camber and toe.
 
-        Parameters
-        ----------
-        side_sign : float
-            +1 for a left, -1 for a right suspension.
-
-        Returns
-        -------
-        numpy.ndarray
-            Unit vector in chassis axes.
+        `side_sign` is +1 for a left, -1 for a right suspension.
         """
         # The unit vector n that points outboard has camber = atan2(-n_z, s n_y) and
         # toe = atan2(n_x, s n_y), hence n ~ (tan toe, s, -tan camber); the spin axis is s n.
@@ -82,7 +74,7 @@ class WheelSection(Section):
 
 
 class TyreSection(Section):
-    """The tyre as a vertical spring in the plane of the wheel; it may damp, and leave the road."""
+    """The tyre as a radial spring and damper in the wheel plane, which may leave the road."""
 
     rate_N_per_m: NonNegative = Field(  # noqa: N815 (N is the newton)
         description="rate of the tyre"
@@ -109,7 +101,7 @@ class TyreSection(Section):
     )
 
     def parameters(self) -> dict[str, float]:
-        """Return the rate in N/m and the height in m by the names in the equations."""
+        """Return the rate [N/m] and the free height [m] by the names in the equations."""
         return {
             "tyre_rate": self.rate_N_per_m,
             "tyre_free_height": in_metres(self.free_height_mm, "mm"),
@@ -125,7 +117,7 @@ class Steering(Section):
     )
 
     def problems(self) -> list[str]:
-        """Refuse an axis that points nowhere."""
+        """Return the problem of an axis without a direction."""
         length = hypot(*self.axis)
         if 1e-6 < length < math.inf:
             return []

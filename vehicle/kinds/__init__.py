@@ -1,6 +1,6 @@
-"""The kinds of suspension: a file each, which is all that there is to do for another one.
+"""The kinds of suspension, each in one file.
 
-`Suspension` is taken from here, so that every reader of files knows all of its kinds.
+Importing `Suspension` from here registers all kinds.
 """
 
 from importlib import import_module
@@ -14,4 +14,4 @@ for _found in iter_modules(__path__):
     import_module(f"{__name__}.{_found.name}")
 
 KINDS: dict[str, type[Suspension]] = known_kinds()
-"""By the names that a file calls them."""
+"""The kinds by their names in files."""

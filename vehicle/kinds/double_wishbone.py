@@ -1,8 +1,4 @@
-"""The double wishbone suspension: two arms, of which the lower one carries spring and damper.
-
-Its hardpoints, sections, bodies and checks, its equations and their parameters, what its
-characteristics are computed from, and how it is drawn.
-"""
+"""The double wishbone suspension: two arms, of which the lower one carries spring and damper."""
 
 from collections.abc import Mapping
 from types import ModuleType
@@ -12,7 +8,6 @@ import numpy as np
 from pydantic import Field
 
 from ...core.columns import number
-from ...core.errors import InputError
 from ...core.vectors import Vector, cross, distance_from_line, unit_vector
 from ...generated import double_wishbone, double_wishbone_general
 from ..corner.coil_sprung import CoilDamper, CoilSprung
@@ -34,7 +29,7 @@ from ..input.spring import SpringSection
 
 _UP = np.array([0.0, 0.0, 1.0])
 
-# The points that belong to one body, or to the spring.
+# The points of each body, and of the spring.
 _LOWER_ARM = ("lower_arm_front", "lower_arm_rear", "lower_ball_joint")
 _UPPER_ARM = ("upper_arm_front", "upper_arm_rear", "upper_ball_joint")
 _KNUCKLE = ("lower_ball_joint", "upper_ball_joint", "tie_rod_outer", "wheel_center")
@@ -88,13 +83,7 @@ class DoubleWishboneHardpoints(Hardpoints):
     wheel_center: Triple = Field(description="centre of the wheel")
 
     def geometry_problems(self) -> list[str]:
-        """Say why the mechanism cannot move, or cannot be distinguished from its mirror image.
-
-        Returns
-        -------
-        list of str
-            One text for each problem.
-        """
+        """Return the problems of coinciding points, hinges, joints and dead centres."""
         coinciding = self.coinciding(_POINTS_OF_BODIES)
         problems = self.coincidence_problems(coinciding)
         # The other checks need the directions that these pairs of points define.
@@ -114,7 +103,7 @@ class DoubleWishboneHardpoints(Hardpoints):
         return problems
 
     def _upside_down(self) -> list[str]:
-        """Check that the upper ball joint is above the lower one."""
+        """Return a problem if the upper ball joint is not above the lower one."""
         low, high = map(self.metres, self.STEERING_AXIS)
         rise = number(high[2] - low[2])
         if rise >= SMALLEST_DISTANCE:
@@ -127,7 +116,7 @@ class DoubleWishboneHardpoints(Hardpoints):
         return [problem]
 
     def _dead_centre(self, axis: Vector) -> list[str]:
-        """Check that the knuckle can turn the upper arm, as it has to when the wheel moves."""
+        """Return a problem if the knuckle cannot turn the upper arm."""
         hinge = self.metres("upper_arm_front") - self.metres("upper_arm_rear")
         arm = self.metres("upper_ball_joint") - self.metres("upper_arm_rear")
         lever = abs(number(cross(arm, axis) @ unit_vector(hinge)))
@@ -145,30 +134,19 @@ class DoubleWishboneHardpoints(Hardpoints):
 class LowerArm(RigidBody):
     """The lower arm."""
 
-    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
-        """Return the centroid of the arm's three hardpoints, in m."""
-        return _centroid(points, _LOWER_ARM)
+    POINTS: ClassVar[tuple[str, ...]] = _LOWER_ARM
 
 
 class UpperArm(RigidBody):
     """The upper arm."""
 
-    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
-        """Return the centroid of the arm's three hardpoints, in m."""
-        return _centroid(points, _UPPER_ARM)
+    POINTS: ClassVar[tuple[str, ...]] = _UPPER_ARM
 
 
 class UprightBody(RigidBody):
     """The knuckle between the ball joints."""
 
-    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
-        """Return the midpoint of the two ball joints, in m."""
-        return _centroid(points, DoubleWishboneHardpoints.STEERING_AXIS)
-
-
-def _centroid(points: Hardpoints, names: tuple[str, ...]) -> Vector:
-    total: Vector = np.sum([points.metres(name) for name in names], axis=0)
-    return total / len(names)
+    POINTS: ClassVar[tuple[str, ...]] = DoubleWishboneHardpoints.STEERING_AXIS
 
 
 class DoubleWishboneBodies(Bodies):
@@ -195,6 +173,8 @@ class DoubleWishbone(CoilSprung):
     )
     STARTER: ClassVar[str] = "double_wishbone_car"
     STOPPED: ClassVar[str] = "spring"
+    PLAIN: ClassVar[ModuleType] = double_wishbone
+    GENERAL: ClassVar[ModuleType] = double_wishbone_general
     PAGE: ClassVar[str] = """.
 
 The free length of the spring is given directly (`free_length_mm`) or by the force at the design
@@ -206,15 +186,6 @@ curve; the stops depend on its length."""
     spring: SpringSection = Field(description="the spring, between chassis and lower arm")
     damper: CoilDamper = Field(description="the damper, on the spring's axis")
     bodies: DoubleWishboneBodies = Field(description="masses and inertia")
-
-    # -- its equations --------------------------------------------------------------------------
-
-    def equations(self, *, free_rack: bool) -> ModuleType:
-        """Return the equations, in which the rack is prescribed."""
-        if free_rack:
-            problem = f"free_rack=True: the rack of a {self.TITLE} is prescribed. Leave that out."
-            raise InputError([problem], "Model")
-        return double_wishbone_general if self.beyond_the_plain() else double_wishbone
 
     # -- its geometry ---------------------------------------------------------------------------
 
@@ -230,7 +201,7 @@ curve; the stops depend on its length."""
         return arms | {"spring_length": points.distance(*_SPRING)}
 
     def drawing(self) -> Drawing:
-        """Return how arms, spring and tie rod are drawn; the lower arm holds the spring."""
+        """Return the drawing of arms, spring and tie rod; the lower arm carries the spring."""
         held = {
             f"{end}_bracket": ("spring_seat", "lower_ball_joint", f"lower_arm_{end}")
             for end in ("front", "rear")
@@ -256,7 +227,7 @@ curve; the stops depend on its length."""
             brackets={name: (place, "spring_seat") for name, place in held.items()},
         )
 
-    # -- what holds it together -----------------------------------------------------------------
+    # -- its structure --------------------------------------------------------------------------
 
     def structure(self) -> Structure:
         """Return the joints; spring, damper and stops act between chassis and lower arm."""
@@ -269,15 +240,15 @@ curve; the stops depend on its length."""
                 SphericalJoint(arm, "knuckle", (ball,)),
             )
         ]
-        ends = ("chassis", "lower_arm", ("spring_top", "spring_seat"))
-        damper = (*FORCES_OF_A_DAMPER, self.NAMES.actuator)
-        lines = (
-            LineForce("spring", ("spring_force",), *ends),
-            LineForce("damper", damper, *ends),
-        )
-        return Structure(steered(*arms), lines)
+        return Structure(steered(*arms), self._lines("lower_arm"))
 
-    # -- what its characteristics are computed from ---------------------------------------------
+    def _lines(self, carrier: str) -> tuple[LineForce, LineForce]:
+        """Return spring and damper on one line, between the chassis and a body."""
+        ends = ("chassis", carrier, ("spring_top", "spring_seat"))
+        damper = (*FORCES_OF_A_DAMPER, self.NAMES.actuator)
+        return LineForce("spring", ("spring_force",), *ends), LineForce("damper", damper, *ends)
+
+    # -- its characteristics --------------------------------------------------------------------
 
     def links_at(self, points: Mapping[str, Array], travel: CarrierMotion) -> tuple[Plane, Plane]:
         """Return the planes of the lower and of the upper arm."""

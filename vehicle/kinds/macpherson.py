@@ -1,8 +1,4 @@
-"""The MacPherson suspension: a control arm, and a strut in which the knuckle turns.
-
-Its hardpoints, bodies and checks, its equations and their parameters, what its characteristics are
-computed from, and how it is drawn.
-"""
+"""The MacPherson suspension: a control arm, and a strut in which the knuckle turns."""
 
 import math
 from collections.abc import Mapping
@@ -41,10 +37,10 @@ from ..input.spring import NO_CURVE, SpringSection
 from ..input.strut import StrutSection
 from ..input.units import in_metres
 
-# Where the knuckle's centre of mass lies on the strut axis, above the ball joint, if not given.
+# Default height of the knuckle's centre of mass on the strut axis above the ball joint.
 _DEFAULT_COM_ALONG_STRUT_MM = 120.0
 
-# The points that belong to one body; strut_top moves along the strut, so that it stands apart.
+# The points of each body; strut_top moves along the strut and is on a body of its own.
 _POINTS_OF_BODIES = {
     "control arm": ("arm_front", "arm_rear", "ball_joint"),
     "knuckle": ("ball_joint", "tie_rod_outer", "wheel_center"),
@@ -63,8 +59,7 @@ _DIRECTIONS_OF_STEERING = {
 # Bodies that the paper's equations leave without mass.
 _MASSLESS_IN_THE_PAPER = ("tie_rod", "rack", "upper_strut")
 
-# Of the drawing: a spring seat nearer to the ball joint than this is taken to be in line with the
-# strut [m].
+# A spring seat nearer to the ball joint than this is drawn in line with the strut [m].
 _OWN_SEAT = 0.05
 
 _FORWARD, _UP = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
@@ -128,13 +123,7 @@ class MacPhersonHardpoints(Hardpoints):
         return self.strut_axis()
 
     def geometry_problems(self) -> list[str]:
-        """Say why the mechanism cannot move, or cannot be distinguished from its mirror image.
-
-        Returns
-        -------
-        list of str
-            One text for each problem.
-        """
+        """Return the problems of coinciding points, hinge, joints and strut."""
         coinciding = self.coinciding(_POINTS_OF_BODIES)
         ends = {"strut": ("strut_lower", "strut_top"), "spring": ("spring_seat", "spring_top")}
         optional = set(self.given_optional())
@@ -154,7 +143,7 @@ class MacPhersonHardpoints(Hardpoints):
         return problems
 
     def _offset(self) -> list[str]:
-        """Check that the ball joint is below the strut top, seen along the strut."""
+        """Return a problem if the ball joint is not below the strut top along the strut."""
         span = self.metres("strut_top") - self.metres("ball_joint")
         reach = number(span @ self.strut_axis())
         if reach >= SMALLEST_DISTANCE:
@@ -170,10 +159,7 @@ class MacPhersonHardpoints(Hardpoints):
 class ControlArmBody(RigidBody):
     """The control arm."""
 
-    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
-        """Return the centroid of the arm's three hardpoints, in m."""
-        bearings = points.metres("arm_front") + points.metres("arm_rear")
-        return (bearings + points.metres("ball_joint")) / 3.0
+    POINTS: ClassVar[tuple[str, ...]] = ("arm_front", "arm_rear", "ball_joint")
 
 
 class Knuckle(RigidBody):
@@ -184,14 +170,14 @@ class Knuckle(RigidBody):
     )
 
     def default_centre_of_mass(self, points: Hardpoints) -> Vector:
-        """Return the point on the strut axis at the given distance above the ball joint, in m."""
+        """Return the point on the strut axis at a distance above the ball joint [m]."""
         given = self.com_along_strut_mm
         distance = in_metres(_DEFAULT_COM_ALONG_STRUT_MM if given is None else given, "mm")
         upward = unit_vector(points.metres("strut_top") - points.metres("strut_lower"))
         return points.metres("ball_joint") + distance * upward
 
     def problems(self) -> list[str]:
-        """Refuse two places of the centre of mass, besides what holds for every body."""
+        """Return the problems of any body, and of two positions of the centre of mass."""
         problems = super().problems()
         if self.com_mm is not None and self.com_along_strut_mm is not None:
             problems.append(
@@ -203,11 +189,9 @@ class Knuckle(RigidBody):
 
 
 class UpperStrut(RigidBody):
-    """The upper strut: the piston rod with what turns with it."""
+    """The upper strut: the piston rod with the parts that turn with it."""
 
-    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
-        """Return the upper mount, in m."""
-        return points.metres("strut_top")
+    POINTS: ClassVar[tuple[str, ...]] = ("strut_top",)
 
 
 class MacPhersonBodies(Bodies):
@@ -224,7 +208,7 @@ class MacPherson(Suspension):
     """A MacPherson suspension at its design position; see `Suspension`."""
 
     TITLE: ClassVar[str] = "MacPherson suspension"
-    # the equations of the paper's suspension keep the paper's names, also with additions
+    # all equations of this kind have the names of the paper's
     NAMES: ClassVar[Names] = Names("beta1", "beta5", "beta9", "strut_force")
     STARTER: ClassVar[str] = "reference_car"
     STOPPED: ClassVar[str] = "strut"
@@ -251,31 +235,31 @@ spring a rate in `[strut]` or a curve in `[spring]`."""
     # -- its equations --------------------------------------------------------------------------
 
     def equations(self, *, free_rack: bool) -> ModuleType:
-        """Return the paper's equations, or those with everything that was added to them."""
+        """Return the paper's equations, or those with all additions."""
         if not self.beyond_the_paper():
             return macpherson_free_rack if free_rack else macpherson
         return _general_free_rack() if free_rack else macpherson_general
 
     def neglected_masses(self) -> dict[str, float]:
-        """Return the bodies that the paper's equations leave without mass, where they have some."""
+        """Return the masses, if any, of bodies without mass in the paper's equations [kg]."""
         rigid = self.bodies.rigid()
         masses = {name: rigid[name].mass_kg for name in _MASSLESS_IN_THE_PAPER}
         return {name: mass for name, mass in masses.items() if mass > 0.0}
 
     def without_friction(self) -> Self:
-        """Return the same suspension without the friction of its strut."""
+        """Return the suspension without the friction of its strut."""
         return self.with_changes({"strut.friction_N": 0.0}) if self.strut.friction_N else self
 
     def parameters(self) -> dict[str, float]:
-        """Return everything that the equations of motion need, in SI units.
+        """Return the parameters of the equations of motion, in SI units.
 
         Returns
         -------
         dict of str to float
-            Besides `shared_parameters`: ``strut_length_max`` and ``spring_free_slide`` in m,
+            `shared_parameters`, ``strut_length_max`` and ``spring_free_slide`` in m,
             ``spring_rate`` in N/m, ``damper_rate`` in N s/m; with anything of `beyond_the_paper`
-            instead of the slide ``spring_free_length``, and what
-            ``generated.macpherson_general`` lists besides.
+            ``spring_free_length`` instead of the slide, and the further ones of
+            ``generated.macpherson_general``.
         """
         general = bool(self.beyond_the_paper())
         values = self.shared_parameters(optional_points=general)
@@ -301,7 +285,7 @@ spring a rate in `[strut]` or a curve in `[spring]`."""
         return own | NO_CURVE
 
     def _general_parameters(self) -> dict[str, float]:
-        """Return what only the equations of the general suspension take, in SI units."""
+        """Return the further parameters of the general equations, in SI units."""
         length = self.hardpoints.distance("strut_lower", "strut_top")
         return self.parameters_of_extras(length, self.damper) | {
             "strut_friction": self.strut.friction_N,
@@ -318,11 +302,11 @@ spring a rate in `[strut]` or a curve in `[spring]`."""
         }
 
     def extended(self) -> Extended:
-        """Return the strut drawn out."""
+        """Return the fully extended strut."""
         return Extended("strut_length", self.strut.length_max, "strut", "[strut] length_max_mm")
 
     def allowed_lengths(self) -> tuple[LengthLimit, ...]:
-        """Return the least length of the strut, where it is given."""
+        """Return the least length of the strut, if the file has it."""
         least = self.strut.length_min_mm
         if least is None:
             return ()
@@ -330,15 +314,15 @@ spring a rate in `[strut]` or a curve in `[spring]`."""
         return (LengthLimit("strut_length", in_metres(least, "mm"), "strut", end),)
 
     def rate_key(self, part: str) -> str:
-        """Return where the rate of the spring or the damper is: with the strut, usually."""
+        """Return the key of the rate of spring or damper, which is usually in [strut]."""
         if part == "spring" and self.spring is not None:
             return super().rate_key(part)
         return super().rate_key(part).replace(f"[{part}] ", f"[strut] {part}_")
 
     def drawing(self) -> Drawing:
-        """Return how arm, strut and tie rod are drawn.
+        """Return the drawing of arm, strut and tie rod.
 
-        The knuckle is drawn to hold the strut on its axis beside the wheel centre.
+        The drawn knuckle clamps the strut on its axis beside the wheel centre.
         """
         clamp = ("wheel_center", "strut_lower", "strut_top")
         in_line = self.hardpoints.distance("spring_seat", "ball_joint") <= _OWN_SEAT
@@ -358,7 +342,7 @@ spring a rate in `[strut]` or a curve in `[spring]`."""
             brackets={},
         )
 
-    # -- what holds it together -----------------------------------------------------------------
+    # -- its structure --------------------------------------------------------------------------
 
     def structure(self) -> Structure:
         """Return the joints; the spring acts on the chassis, beside the mount of the strut."""
@@ -377,13 +361,13 @@ spring a rate in `[strut]` or a curve in `[spring]`."""
             ),
             LineForce("damper", damper, "upper_strut", "knuckle", ("strut_top", "strut_lower")),
         )
-        # one mount is bolted to the body for both
+        # strut and spring have one mount on the body
         return Structure(steered(*joints), lines, {"spring_top": "strut_top"})
 
-    # -- what its characteristics are computed from ---------------------------------------------
+    # -- its characteristics --------------------------------------------------------------------
 
     def links_at(self, points: Mapping[str, Array], travel: CarrierMotion) -> tuple[Plane, Plane]:
-        """Return the plane of the control arm and that across the strut through its mount."""
+        """Return the plane of the control arm, and the plane normal to the strut at its mount."""
         del travel
         ball, front, rear = points["ball_joint"], points["arm_front"], points["arm_rear"]
         top, bottom = points["strut_top"], points["strut_lower"]
@@ -394,18 +378,13 @@ spring a rate in `[strut]` or a curve in `[spring]`."""
         return strokes.spring("spring_force", "spring" if "spring_length" in strokes else "strut")
 
     def damper_at(self, strokes: Strokes) -> Stroke:
-        """Return the stroke of the damper: that of the strut."""
+        """Return the stroke of the damper, which is that of the strut."""
         return strokes.stroke("strut")
 
     # -- its checks -----------------------------------------------------------------------------
 
     def beyond_the_paper(self) -> list[str]:
-        """Return what this suspension has that the paper's equations leave out.
-
-        Returns
-        -------
-        list of str
-            Sections and keys; empty for the paper's suspension.
+        """Return the sections and keys that the paper's equations do not have.
 
         Examples
         --------
@@ -424,7 +403,7 @@ spring a rate in `[strut]` or a curve in `[spring]`."""
 
     @classmethod
     def further_problems(cls, sections: Mapping[str, Any]) -> list[str]:
-        """Say what is wrong with strut, spring and damper together with the hardpoints."""
+        """Return the problems of strut, spring and damper together with the hardpoints."""
         strut, points = sections.get("strut"), sections["hardpoints"]
         if strut is None:
             return []
@@ -440,7 +419,7 @@ spring a rate in `[strut]` or a curve in `[spring]`."""
 
 @cache
 def _general_free_rack() -> ModuleType:
-    """Return the equations with everything, which do not come compiled: they are seldom wanted."""
+    """Return the equations with all additions, which are not packaged, as they are rarely used."""
     require_generator()
     from ...generator.mechanisms.macpherson import GENERAL_FREE_RACK  # noqa: PLC0415 (an extra)
 
@@ -448,7 +427,7 @@ def _general_free_rack() -> ModuleType:
 
 
 def _strut_too_short(strut: StrutSection, hardpoints: MacPhersonHardpoints) -> list[str]:
-    """Refuse a strut that is shorter at design than when it is pressed in as far as it goes."""
+    """Return the problem of a strut that is shorter at design than fully compressed."""
     length = 1000.0 * hardpoints.distance("strut_lower", "strut_top")
     if strut.length_min_mm is None or strut.length_min_mm <= length:
         return []
@@ -462,7 +441,7 @@ def _strut_too_short(strut: StrutSection, hardpoints: MacPhersonHardpoints) -> l
 
 
 def _damper_problems(strut: StrutSection, *, with_curve: bool) -> list[str]:
-    """See that the damper is given once."""
+    """Return the problem of a damper that is described twice, or not."""
     if (strut.damper_rate_N_s_per_m is None) == with_curve:
         return []
     if with_curve:
@@ -479,7 +458,7 @@ def _damper_problems(strut: StrutSection, *, with_curve: bool) -> list[str]:
 
 
 def _strut_too_long(strut: StrutSection, hardpoints: MacPhersonHardpoints) -> list[str]:
-    """Refuse a strut that is longer at design than when it is fully extended."""
+    """Return the problem of a strut that is longer at design than fully extended."""
     length = 1000.0 * hardpoints.distance("strut_lower", "strut_top")
     lower = "ball_joint" if hardpoints.strut_lower is None else "strut_lower"
     if strut.length_max_mm >= length:

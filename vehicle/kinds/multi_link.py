@@ -1,8 +1,4 @@
-"""The multi-link suspension: five links hold the knuckle, one of them carries the spring.
-
-Its hardpoints, sections, bodies and checks, its equations and their parameters, what its
-characteristics are computed from, and how it is drawn.
-"""
+"""The multi-link suspension: five links guide the knuckle, one of them carries the spring."""
 
 from collections.abc import Mapping
 from types import ModuleType
@@ -12,7 +8,6 @@ import numpy as np
 from pydantic import Field
 
 from ...core.columns import least_singular_value, stacked
-from ...core.errors import InputError
 from ...core.vectors import Vector, components, cross, unit_vector
 from ...generated import multi_link
 from ..corner.coil_sprung import ApartDamper, CoilSprung
@@ -34,17 +29,17 @@ from ..input.section import Triple
 from ..input.spring import SpringSection
 
 LINKS = ("front_upper_link", "rear_upper_link", "front_lower_link", "rear_lower_link")
-"""The links on the chassis; the fifth is the toe link, which files of all kinds call tie rod."""
+"""The links on the chassis; the fifth is the toe link, called tie rod in the files of all kinds."""
 _WORDS = {name: name.replace("_", " ") for name in LINKS} | {"tie_rod": "toe link"}
 _UP = np.array([0.0, 0.0, 1.0])
 
-# The height sensor whose angle is the coordinate: its lever, and how far it is above the wheel [m].
+# The height sensor whose angle is the coordinate: its lever, and its height above the wheel [m].
 _LEVER = 0.5
 _ABOVE = 1.0
 _BEARING = 0.1
 
-# The links have to hold the knuckle: no motion of it at a given height may be more than so many
-# times what it does to the links' lengths, angles by this radius [m].
+# Greatest motion of the knuckle at constant height, per elongation of the links; rotations are
+# measured by the displacement at this radius [m].
 _LOOSEST = 100.0
 _RADIUS = 0.1
 
@@ -94,13 +89,7 @@ class MultiLinkHardpoints(Hardpoints):
     wheel_center: Triple = Field(description="centre of the wheel")
 
     def geometry_problems(self) -> list[str]:
-        """Say why the mechanism cannot move.
-
-        Returns
-        -------
-        list of str
-            One text for each problem.
-        """
+        """Return the problems of coinciding points, joints and loose links."""
         bodies = {words: _ends(link) for link, words in _WORDS.items()}
         coinciding = self.coinciding(
             bodies | {name: (f"{name}_seat", f"{name}_top") for name in ("spring", "damper")}
@@ -113,7 +102,7 @@ class MultiLinkHardpoints(Hardpoints):
         return problems or self._loose()
 
     def directions(self) -> dict[str, Vector]:
-        """Return the unit vectors outward along the links, by the links' names."""
+        """Return the unit vectors outward along the links, by link."""
         return {
             link: unit_vector(self.metres(outer) - self.metres(inner))
             for link in _WORDS
@@ -121,7 +110,7 @@ class MultiLinkHardpoints(Hardpoints):
         }
 
     def _loose(self) -> list[str]:
-        """Check that the links hold the knuckle at its height, firmly."""
+        """Return a problem if the links hardly constrain the knuckle at constant height."""
         center = self.metres("wheel_center")
         held = [
             [*along, *(cross(self.metres(f"{link}_outer") - center, along) / _RADIUS)]
@@ -147,49 +136,34 @@ class MultiLinkHardpoints(Hardpoints):
         return [problem]
 
 
-class Link(RigidBody):
-    """A link; only the rear lower one has mass."""
-
-    NAME: ClassVar[str]
-
-    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
-        """Return its midpoint, in m."""
-        outer, inner = _ends(self.NAME)
-        middle: Vector = 0.5 * (points.metres(outer) + points.metres(inner))
-        return middle
-
-
-class FrontUpperLink(Link):
+class FrontUpperLink(RigidBody):
     """The front upper link."""
 
-    NAME: ClassVar[str] = "front_upper_link"
+    POINTS: ClassVar[tuple[str, ...]] = _ends("front_upper_link")
 
 
-class RearUpperLink(Link):
+class RearUpperLink(RigidBody):
     """The rear upper link."""
 
-    NAME: ClassVar[str] = "rear_upper_link"
+    POINTS: ClassVar[tuple[str, ...]] = _ends("rear_upper_link")
 
 
-class FrontLowerLink(Link):
+class FrontLowerLink(RigidBody):
     """The front lower link."""
 
-    NAME: ClassVar[str] = "front_lower_link"
+    POINTS: ClassVar[tuple[str, ...]] = _ends("front_lower_link")
 
 
-class RearLowerLink(Link):
+class RearLowerLink(RigidBody):
     """The rear lower link, which carries the spring."""
 
-    NAME: ClassVar[str] = "rear_lower_link"
+    POINTS: ClassVar[tuple[str, ...]] = _ends("rear_lower_link")
 
 
 class Carrier(RigidBody):
     """The knuckle between the links."""
 
-    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
-        """Return the mean of the links' outer ends, in m."""
-        middle: Vector = np.mean([points.metres(f"{link}_outer") for link in LINKS], axis=0)
-        return middle
+    POINTS: ClassVar[tuple[str, ...]] = tuple(f"{link}_outer" for link in LINKS)
 
 
 class MultiLinkBodies(Bodies):
@@ -215,7 +189,7 @@ class MultiLinkBodies(Bodies):
 
 
 class MultiLink(CoilSprung):
-    """A multi-link suspension at its design position: five links hold the knuckle.
+    """A multi-link suspension at its design position: five links guide the knuckle.
 
     The spring acts between the chassis and the rear lower link, the damper between the chassis and
     the knuckle. See `Suspension`.
@@ -225,6 +199,8 @@ class MultiLink(CoilSprung):
     NAMES: ClassVar[Names] = Names(
         "sensor_angle", "spin_angle", "rack_displacement", "spring_actuator"
     )
+    GENERAL: ClassVar[ModuleType] = multi_link
+    ADDITION: ClassVar[str] = "multi link"
     STARTER: ClassVar[str] = "multi_link_car"
     STOPPED: ClassVar[str] = "damper"
     PAGE: ClassVar[str] = """: five links between chassis and knuckle.
@@ -242,25 +218,11 @@ position (`force_at_design_N`). The stops depend on the length of the damper."""
 
     # -- its equations --------------------------------------------------------------------------
 
-    def equations(self, *, free_rack: bool) -> ModuleType:
-        """Return the equations, in which the rack is prescribed: they have everything."""
-        if free_rack:
-            problem = f"free_rack=True: the rack of a {self.TITLE} is prescribed. Leave that out."
-            raise InputError([problem], "Model")
-        return multi_link
-
-    def beyond_the_plain(self) -> list[str]:
-        """Return what these equations have beyond plain ones: they have everything."""
-        return ["multi link", *super().beyond_the_plain()]
-
     def parameters(self) -> dict[str, float]:
-        """Return everything that the equations of motion need, in SI units.
+        """Return the parameters of `CoilSprung` and the points of the height sensor [m].
 
-        Returns
-        -------
-        dict of str to float
-            Besides those of `CoilSprung` the places of the height sensor in m: a lever of 0.5 m
-            above the wheel, whose tip holds the wheel centre by a rod of 1 m.
+        The sensor is a lever of 0.5 m above the wheel, whose tip a rod of 1 m connects with the
+        wheel centre.
         """
         tip = self.hardpoints.metres("wheel_center") + _ABOVE * _UP
         hinge = tip - np.array([0.0, self.vehicle.sign * _LEVER, 0.0])
@@ -284,7 +246,7 @@ position (`force_at_design_N`). The stops depend on the length of the damper."""
         }
 
     def drawing(self) -> Drawing:
-        """Return how links, spring and damper are drawn."""
+        """Return the drawing of links, spring and damper."""
         return Drawing(
             links={
                 **{
@@ -315,7 +277,7 @@ position (`force_at_design_N`). The stops depend on the length of the damper."""
             },
         )
 
-    # -- what holds it together -----------------------------------------------------------------
+    # -- its structure --------------------------------------------------------------------------
 
     def structure(self) -> Structure:
         """Return the joints; the spring acts on the rear lower link, the damper on the knuckle."""
@@ -340,13 +302,13 @@ position (`force_at_design_N`). The stops depend on the length of the damper."""
         )
         return Structure(steered(*links), (spring, damper))
 
-    # -- what its characteristics are computed from ---------------------------------------------
+    # -- its characteristics --------------------------------------------------------------------
 
     def links_at(self, points: Mapping[str, Array], travel: CarrierMotion) -> tuple[Plane, Plane]:
         """Return two planes through the axis about which the knuckle turns over wheel travel.
 
-        No two planes hold the links, so that it is the axis of the motion itself, with the toe link
-        held: that of the screw.
+        The links are not in two planes: the axis is the screw axis of the motion, with the toe link
+        held.
         """
         nearest = travel.axis_nearest(points["wheel_center"])
         _, across, other = frame(travel.turning)

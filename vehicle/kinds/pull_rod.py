@@ -1,6 +1,6 @@
-"""The double wishbone suspension with pull rod and rocker: the rod hangs on the upper arm.
+"""The double wishbone suspension with pull rod and rocker.
 
-It is the push-rod suspension, but for the arm that the rod is joined to.
+It is a push-rod suspension whose rod is joined to the upper arm.
 """
 
 from collections.abc import Mapping
@@ -9,10 +9,9 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from ...core.vectors import Vector
 from ...generated import pull_rod
 from ..input.bodies import RigidBody
-from ..input.hardpoints import Hardpoints, Pair
+from ..input.hardpoints import Pair
 from ..input.section import Triple
 from .double_wishbone import DoubleWishboneHardpoints
 from .push_rod import PushRod, RockerBodies, RockerHardpoints
@@ -47,10 +46,7 @@ class PullRodHardpoints(RockerHardpoints):
 class PullRodBody(RigidBody):
     """The pull rod."""
 
-    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
-        """Return its midpoint, in m."""
-        middle: Vector = 0.5 * (points.metres("pull_rod_outer") + points.metres("pull_rod_inner"))
-        return middle
+    POINTS: ClassVar[tuple[str, ...]] = _PULL_ROD
 
 
 class PullRodBodies(RockerBodies):
@@ -70,7 +66,8 @@ class PullRod(PushRod):
     and the chassis. See `Suspension`.
     """
 
-    EQUATIONS: ClassVar[ModuleType] = pull_rod
+    GENERAL: ClassVar[ModuleType] = pull_rod
+    ADDITION: ClassVar[str] = "pull rod"
     TITLE: ClassVar[str] = "pull-rod suspension"
     STARTER: ClassVar[str] = "pull_rod_car"
     PAGE: ClassVar[str] = """: a double wishbone whose spring lies on the chassis.
@@ -80,7 +77,7 @@ bearings and compresses spring and damper. The free length of the spring is give
 (`free_length_mm`) or by the force at the design position (`force_at_design_N`). The damper has a
 rate or a curve; the stops depend on its length."""
 
-    # another kind than that which it has nearly everything of
+    # a kind of its own, which inherits nearly everything
     suspension: Literal["pull_rod"] = Field(  # type: ignore[assignment]
         description="the kind of suspension"
     )

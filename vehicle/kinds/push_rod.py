@@ -1,7 +1,6 @@
 """The double wishbone suspension with push rod and rocker: spring and damper lie on the chassis.
 
-What it has besides the double wishbone: its hardpoints, bodies and checks, its equations, its
-structure and how it is drawn. The rod that moves the rocker is known by its name alone.
+The classes for any rod that moves the rocker know it by its name alone.
 """
 
 from collections.abc import Mapping
@@ -11,21 +10,13 @@ from typing import ClassVar, Literal
 from pydantic import Field
 
 from ...core.columns import number
-from ...core.errors import InputError
-from ...core.vectors import Vector, cross, distance_from_line, unit_vector
+from ...core.vectors import cross, distance_from_line, unit_vector
 from ...generated import push_rod
 from ..corner.coil_sprung import CoilDamper
 from ..corner.drawing import Axis, Drawing
-from ..corner.structure import (
-    FORCES_OF_A_DAMPER,
-    HingeJoint,
-    LineForce,
-    SphericalJoint,
-    Structure,
-    UniversalJoint,
-)
+from ..corner.structure import HingeJoint, SphericalJoint, Structure, UniversalJoint
 from ..input.bodies import Rack, RigidBody, TieRod
-from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
+from ..input.hardpoints import SMALLEST_DISTANCE, Pair
 from ..input.section import Triple
 from ..input.spring import SpringSection
 from .double_wishbone import DoubleWishbone, DoubleWishboneBodies, DoubleWishboneHardpoints
@@ -42,7 +33,7 @@ class RockerHardpoints(DoubleWishboneHardpoints):
     ROD : tuple of str
         The ends of the rod that moves the rocker, the outer one first.
     ROD_WORDS : str
-        What it is called.
+        Its name in messages.
     """
 
     ROD: ClassVar[Pair]
@@ -54,19 +45,13 @@ class RockerHardpoints(DoubleWishboneHardpoints):
     spring_seat: Triple = Field(description="end of spring and damper on the rocker")
 
     def geometry_problems(self) -> list[str]:
-        """Say why the mechanism cannot move, or cannot be distinguished from its mirror image.
-
-        Returns
-        -------
-        list of str
-            One text for each problem.
-        """
+        """Return the problems of the double wishbone, and of rod and rocker."""
         coinciding = self.coinciding({"rocker": _ROCKER, self.ROD_WORDS: self.ROD})
         problems = super().geometry_problems() + self.coincidence_problems(coinciding)
         return problems if coinciding else problems + self._problems_of_rocker()
 
     def _problems_of_rocker(self) -> list[str]:
-        """Check that rod and spring have a lever about the rocker's axis."""
+        """Return problems of rod and spring without a lever about the rocker's axis."""
         found = []
         for words, (place, end) in (
             (self.ROD_WORDS, self.ROD[::-1]),
@@ -120,19 +105,13 @@ class PushRodHardpoints(RockerHardpoints):
 class RockerBody(RigidBody):
     """The rocker."""
 
-    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
-        """Return the midpoint of its bearings, in m."""
-        middle: Vector = 0.5 * (points.metres("rocker_front") + points.metres("rocker_rear"))
-        return middle
+    POINTS: ClassVar[tuple[str, ...]] = _ROCKER
 
 
 class PushRodBody(RigidBody):
     """The push rod."""
 
-    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
-        """Return its midpoint, in m."""
-        middle: Vector = 0.5 * (points.metres("push_rod_outer") + points.metres("push_rod_inner"))
-        return middle
+    POINTS: ClassVar[tuple[str, ...]] = _PUSH_ROD
 
 
 class RockerBodies(DoubleWishboneBodies):
@@ -160,7 +139,8 @@ class PushRod(DoubleWishbone):
     and the chassis. See `Suspension`.
     """
 
-    EQUATIONS: ClassVar[ModuleType] = push_rod
+    GENERAL: ClassVar[ModuleType] = push_rod
+    ADDITION: ClassVar[str] = "push rod"
     TITLE: ClassVar[str] = "push-rod suspension"
     STARTER: ClassVar[str] = "push_rod_car"
     PAGE: ClassVar[str] = """: a double wishbone whose spring lies on the chassis.
@@ -170,7 +150,7 @@ bearings and compresses spring and damper. The free length of the spring is give
 (`free_length_mm`) or by the force at the design position (`force_at_design_N`). The damper has a
 rate or a curve; the stops depend on its length."""
 
-    # another kind than that which it has nearly everything of
+    # a kind of its own, which inherits nearly everything
     suspension: Literal["push_rod"] = Field(  # type: ignore[assignment]
         description="the kind of suspension"
     )
@@ -179,22 +159,11 @@ rate or a curve; the stops depend on its length."""
     damper: CoilDamper = Field(description="the damper, on the spring's axis")
     bodies: PushRodBodies = Field(description="masses and inertia")
 
-    def equations(self, *, free_rack: bool) -> ModuleType:
-        """Return the equations, in which the rack is prescribed: they have everything."""
-        if free_rack:
-            problem = f"free_rack=True: the rack of a {self.TITLE} is prescribed. Leave that out."
-            raise InputError([problem], "Model")
-        return self.EQUATIONS
-
     @property
     def _rod(self) -> tuple[str, str, str, str]:
-        """What the rod is called and joined to: itself, its ends, and the arm."""
+        """The names of the rod, of its outer and inner end, and of its arm."""
         outer, inner = self.hardpoints.ROD
         return outer.removesuffix("_outer"), outer, inner, self.hardpoints.CARRIERS[outer]
-
-    def beyond_the_plain(self) -> list[str]:
-        """Return what these equations have beyond plain ones: they have everything."""
-        return [self.hardpoints.ROD_WORDS, *super().beyond_the_plain()]
 
     def lengths(self) -> dict[str, float]:
         """Return the lengths of arms, spring and rod, and the rocker's lever [m]."""
@@ -206,7 +175,7 @@ rate or a curve; the stops depend on its length."""
         }
 
     def drawing(self) -> Drawing:
-        """Return how arms, rod, rocker, spring and tie rod are drawn."""
+        """Return the drawing of arms, rod, rocker, spring and tie rod."""
         (rod, outer, inner, arm), words = self._rod, self.hardpoints.ROD_WORDS
         rocker = {
             "rocker_front_rod": ("rocker_front", inner),
@@ -241,19 +210,13 @@ rate or a curve; the stops depend on its length."""
         axis = unit_vector(
             self.hardpoints.metres("rocker_front") - self.hardpoints.metres("rocker_rear")
         )
-        # the axis of a hinge on the chassis does not turn, as that of a cross has to be
+        # the first axis of a universal joint is fixed, and so is the axis of a hinge on the chassis
         first_axis = (float(axis[0]), float(axis[1]), float(axis[2]))
         rod, outer, inner, arm = self._rod
-        ends = ("chassis", "rocker", ("spring_top", "spring_seat"))
-        damper = (*FORCES_OF_A_DAMPER, self.NAMES.actuator)
         joints = (
             *super().structure().joints,
             HingeJoint("chassis", "rocker", _ROCKER),
             SphericalJoint(arm, rod, (outer,), inner),
             UniversalJoint("rocker", rod, (inner,), outer, first_axis),
         )
-        lines = (
-            LineForce("spring", ("spring_force",), *ends),
-            LineForce("damper", damper, *ends),
-        )
-        return Structure(joints, lines)
+        return Structure(joints, self._lines("rocker"))

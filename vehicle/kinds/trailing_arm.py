@@ -1,8 +1,4 @@
-"""The trailing arm: one hinge on the chassis, and the arm is the wheel carrier.
-
-Its hardpoints, sections, bodies and checks, its equations, what its characteristics are computed
-from, and how it is drawn. There is no rack: nothing steers the wheel.
-"""
+"""The trailing arm: the wheel carrier has one hinge on the chassis, and is not steered."""
 
 from collections.abc import Mapping
 from types import ModuleType
@@ -12,8 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from ...core.columns import length, number
-from ...core.errors import InputError
-from ...core.vectors import Vector, angle_between_lines, cross, distance_from_line
+from ...core.vectors import angle_between_lines, cross, distance_from_line
 from ...generated import trailing_arm
 from ..corner.coil_sprung import ApartDamper, CoilSprung
 from ..corner.corner import Array, CarrierMotion, Plane
@@ -35,16 +30,16 @@ from ..input.spring import SpringSection
 _BEARINGS = ("arm_inner", "arm_outer")
 _ARM = (*_BEARINGS, "wheel_center")
 
-# An arm whose hinge is nearer to the vertical than this does not swing up and down, in degrees.
+# Least angle of the hinge to the vertical [deg].
 _SMALLEST_HINGE_ANGLE = 1.0
 
 
 class TrailingArmHardpoints(Hardpoints):
     """The points that define a trailing arm, at the design position.
 
-    The wheel swings about the line through the two bearings: across the car it makes a trailing
-    arm, askew a semi-trailing one. All points are in chassis axes (ISO 8855: x forward, y left, z
-    up), in the unit that `unit` names.
+    The wheel swings about the line through the two bearings: a lateral line makes a trailing arm,
+    an oblique one a semi-trailing arm. All points are in chassis axes (ISO 8855: x forward, y left,
+    z up), in the unit that `unit` names.
     """
 
     CARRIERS: ClassVar[Mapping[str, str]] = {
@@ -65,13 +60,7 @@ class TrailingArmHardpoints(Hardpoints):
     wheel_center: Triple = Field(description="centre of the wheel")
 
     def geometry_problems(self) -> list[str]:
-        """Say why the mechanism cannot move.
-
-        Returns
-        -------
-        list of str
-            One text for each problem.
-        """
+        """Return the problems of coinciding points and of the hinge."""
         bodies: dict[str, tuple[str, ...]] = {
             "arm": _ARM,
             "spring": ("spring_seat", "spring_top"),
@@ -81,7 +70,7 @@ class TrailingArmHardpoints(Hardpoints):
         return problems or self._of_hinge()
 
     def _of_hinge(self) -> list[str]:
-        """Check that the arm can move the wheel up and down."""
+        """Return a problem if the arm cannot move the wheel up and down."""
         inner, outer, center = map(self.metres, _ARM)
         lever = distance_from_line(center, inner, outer)
         if lever < SMALLEST_DISTANCE:
@@ -99,7 +88,7 @@ class TrailingArmHardpoints(Hardpoints):
                 "Move one of the bearings."
             )
             return [problem]
-        # the velocity of the wheel centre about the axis; by the lever, its part upward
+        # the vertical velocity of the wheel centre per rotation about the axis
         rise = number(cross(outer - inner, center - inner)[2]) / length(outer - inner)
         if abs(rise) >= SMALLEST_DISTANCE:
             return []
@@ -114,10 +103,7 @@ class TrailingArmHardpoints(Hardpoints):
 class TrailingArmBody(RigidBody):
     """The arm, which carries the wheel."""
 
-    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
-        """Return the centroid of its bearings and the wheel centre, in m."""
-        middle: Vector = np.mean([points.metres(name) for name in _ARM], axis=0)
-        return middle
+    POINTS: ClassVar[tuple[str, ...]] = _ARM
 
 
 class TrailingArmBodies(Bodies):
@@ -135,6 +121,8 @@ class TrailingArm(CoilSprung):
 
     TITLE: ClassVar[str] = "trailing-arm suspension"
     NAMES: ClassVar[Names] = Names("arm_angle", "spin_angle", "", "spring_actuator")
+    GENERAL: ClassVar[ModuleType] = trailing_arm
+    ADDITION: ClassVar[str] = "trailing arm"
     STARTER: ClassVar[str] = "trailing_arm_car"
     STOPPED: ClassVar[str] = "damper"
     PAGE: ClassVar[str] = """: an arm on one hinge, which carries the wheel.
@@ -147,24 +135,11 @@ force at the design position (`force_at_design_N`). The stops depend on the leng
 
     suspension: Literal["trailing_arm"] = Field(description="the kind of suspension")
     hardpoints: TrailingArmHardpoints = Field(description="the points that define the geometry")
-    # no section of a file, as nothing steers: `steered` is asked before it is
+    # not a section of the file; code that needs a rack asks `steered` first
     rack: ClassVar[None] = None  # type: ignore[assignment, misc]
     spring: SpringSection = Field(description="the spring, between chassis and arm")
     damper: ApartDamper = Field(description="the damper, between chassis and arm")
     bodies: TrailingArmBodies = Field(description="masses and inertia")
-
-    # -- its equations --------------------------------------------------------------------------
-
-    def equations(self, *, free_rack: bool) -> ModuleType:
-        """Return the equations: they have everything."""
-        if free_rack:
-            problem = f"free_rack=True: a {self.TITLE} has no rack. Leave that out."
-            raise InputError([problem], "Model")
-        return trailing_arm
-
-    def beyond_the_plain(self) -> list[str]:
-        """Return what these equations have beyond plain ones: they have everything."""
-        return ["trailing arm", *super().beyond_the_plain()]
 
     # -- its geometry ---------------------------------------------------------------------------
 
@@ -179,7 +154,7 @@ force at the design position (`force_at_design_N`). The stops depend on the leng
         }
 
     def drawing(self) -> Drawing:
-        """Return how arm, spring and damper are drawn."""
+        """Return the drawing of arm, spring and damper."""
         return Drawing(
             links={
                 "arm": ("arm_inner", "wheel_center", "arm"),
@@ -197,10 +172,10 @@ force at the design position (`force_at_design_N`). The stops depend on the leng
             },
         )
 
-    # -- what holds it together -----------------------------------------------------------------
+    # -- its structure --------------------------------------------------------------------------
 
     def structure(self) -> Structure:
-        """Return the two bearings of the arm on one axis, and that of the wheel."""
+        """Return the two bearings of the arm on one axis, and the wheel bearing."""
         ends = ("chassis", "trailing_arm")
         signals = ("spring_force", self.NAMES.actuator)
         joints = (
@@ -213,7 +188,7 @@ force at the design position (`force_at_design_N`). The stops depend on the leng
         )
         return Structure(joints, lines)
 
-    # -- what its characteristics are computed from ---------------------------------------------
+    # -- its characteristics --------------------------------------------------------------------
 
     def links_at(self, points: Mapping[str, Array], travel: CarrierMotion) -> tuple[Plane, Plane]:
         """Return two planes through the hinge, about which the arm turns."""

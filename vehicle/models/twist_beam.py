@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from ...core.validator import Validator
-from ...core.vectors import Vector, components
+from ...core.vectors import components
 from ...generated import twist_beam as equations
 from ..corner.bushes import Bush, Bushings, bushes_of
 from ..corner.coil_sprung import ApartDamper
@@ -21,7 +21,6 @@ from ..corner.structure import (
     Structure,
 )
 from ..input.bodies import Bodies, RigidBody
-from ..input.hardpoints import Hardpoints
 from ..input.section import AllowedRange, Number, Section, Triple
 from ..input.spring import SpringSection
 from ..input.stop import StopSection
@@ -87,10 +86,7 @@ class BeamSection(Section):
 class TwistBeamArmBody(RigidBody):
     """The right arm with hub, brake and half of the beam; the left one is its mirror image."""
 
-    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
-        """Return the middle of pivot and wheel centre, in m."""
-        middle: Vector = 0.5 * (points.metres(PIVOT) + points.metres(CENTER))
-        return middle
+    POINTS: ClassVar[tuple[str, ...]] = (PIVOT, CENTER)
 
 
 class TwistBeamBodies(Bodies):

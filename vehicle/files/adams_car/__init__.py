@@ -2,8 +2,8 @@
 
 `subsystem`     the contents of the file
 `springs`       the spring, from a file beside it
-`rest`          the file that the rest comes from
-`importing`     both of them as an input file
+`rest`          the file with all other values
+`importing`     the input file
 """
 
 from ..point_names import read_names

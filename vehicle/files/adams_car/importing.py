@@ -1,4 +1,4 @@
-"""A subsystem of Adams/Car as an input file: its hardpoints and angles, the rest of another one."""
+"""An input file with the hardpoints, angles and spring of a subsystem of Adams/Car."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ from .springs import AdamsSpring, force_at_design, put_spring, spring_of
 from .subsystem import ANGLES, Subsystem
 
 SMOOTH = "spring: a monotone cubic through the points of its curve, and straight beyond them"
-_SCHEMA = "#:schema"  # editors look for it in the first line
+_SCHEMA = "#:schema"  # a first line for editors
 
 
 @dataclass(frozen=True)
@@ -34,11 +34,11 @@ class ImportedSubsystem(Merged):
         The kind of suspension.
     side : {'left', 'right'}
     angles : dict of str to float
-        Camber and toe that come from the subsystem [deg], by the keys of ``[wheel]``.
+        Camber and toe of the subsystem [deg], by the keys of ``[wheel]``.
     spring : AdamsSpring or None
-        The spring that comes from it.
+        The spring of the subsystem.
     assumed : tuple of str
-        What the subsystem leaves open, one sentence each.
+        Assumptions, one sentence each.
     """
 
     kind: str
@@ -70,21 +70,21 @@ def imported(
     base: str | Path | None = None,
     names: Mapping[str, str] | None = None,
 ) -> ImportedSubsystem:
-    """Make an input file from a subsystem.
+    """Return an input file from a subsystem.
 
     Parameters
     ----------
     subsystem : Subsystem
     side : {'left', 'right'}, optional
-        That of `base` by default, left without it.
+        By default the side of `base`, or left.
     kind : str, optional
-        What guides the wheel, such as ``"double_wishbone"``; by default that of `base`, without it
-        the one whose hardpoints there are.
+        The kind of suspension, such as ``"double_wishbone"``; by default that of `base`, or the one
+        with the hardpoints of the subsystem.
     base : str or pathlib.Path, optional
-        A file that everything else is taken from; hardpoints, too, that the subsystem does not
-        have. By default the packaged file of the kind, brought to where the wheel is.
+        A file with all other values, including missing hardpoints. By default the packaged file of
+        the kind, moved to the position of the wheel.
     names : mapping of str to str, optional
-        What the subsystem calls a hardpoint, where the template is not a usual one.
+        Names of hardpoints in the subsystem of an unusual template, by our names.
 
     Returns
     -------
@@ -93,7 +93,7 @@ def imported(
     Raises
     ------
     InputError
-        If a hardpoint is missing, or no suspension can be like this; with all problems.
+        If a hardpoint is missing, or the data are not valid; with all problems.
     """
     with Validator("imported") as arguments:
         arguments.instance("subsystem", subsystem, Subsystem, "a result of read is needed")
@@ -139,7 +139,10 @@ def imported(
 def _spring(
     subsystem: Subsystem, rest: TemplateFile, side: Side
 ) -> tuple[AdamsSpring | None, list[str]]:
-    """Return the spring, and what of springs is left out: a file of the user has its own."""
+    """Return the spring, and descriptions of springs that are left out.
+
+    A file of the user has a spring of its own.
+    """
     found, unread = spring_of(subsystem, side)
     if found is None:
         return None, unread
@@ -153,7 +156,7 @@ def _spring(
 
 
 def _angles(subsystem: Subsystem, side: Side) -> dict[str, float]:
-    """Return camber and toe of a side [deg]; refuse those that are of another one."""
+    """Return camber and toe of a side [deg]; refuse angles of another side alone."""
     found = {key: subsystem.angle(name, side) for name, key in ANGLES.items()}
     problems = [
         _other_side(name, subsystem.angles[name], side)
@@ -175,7 +178,7 @@ def _other_side(name: str, rows: Iterable[str], side: Side) -> str:
 def _points(
     subsystem: Subsystem, read: Mapping[str, str], side: Side, kind: str, *, whole: bool
 ) -> dict[str, Point]:
-    """Return the hardpoints of a side [mm]; refuse what is missing or on the other side."""
+    """Return the hardpoints of a side [mm]; refuse missing ones, and a wheel on the other side."""
     found = {ours: subsystem.side(theirs, side) for ours, theirs in read.items()}
     problems = [
         _other_side(read[ours], subsystem.points[read[ours]], side)
@@ -211,7 +214,7 @@ def _assumed(
     spring: AdamsSpring | None,
     rest: str,
 ) -> list[str]:
-    """Return what the subsystem leaves open."""
+    """Return the assumptions about data that the subsystem does not have."""
     lines = [
         "axes: x rearward, y to the right, z up, as is usual in Adams/Car",
         f"{'' if spring else 'spring, '}damper, masses, tyre, rack and vehicle: as in the {rest}",
@@ -237,7 +240,7 @@ def _left_out(subsystem: Subsystem, read: Mapping[str, str]) -> list[str]:
 
 
 def _head(subsystem: Subsystem, rest: str, assumed: Iterable[str]) -> list[str]:
-    """Return the comment that the new file begins with."""
+    """Return the first comment of the new file."""
     template = f" (template {subsystem.template})" if subsystem.template else ""
     return [
         f"Hardpoints from {Path(subsystem.source).name}, a subsystem of Adams/Car{template}.",
@@ -247,7 +250,7 @@ def _head(subsystem: Subsystem, rest: str, assumed: Iterable[str]) -> list[str]:
 
 
 def _with_head(text: str, head: list[str]) -> str:
-    """Return a file with a comment above it, but below a line that is for editors."""
+    """Return a file with a comment at its begin, after a line for editors."""
     first, end, rest = text.partition("\n")
     comment = "".join(f"# {legible(line)}\n" for line in head)
     comment += "#\n" if text.startswith("#") else "\n"

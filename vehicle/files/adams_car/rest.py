@@ -1,4 +1,4 @@
-"""The file that an imported suspension has everything from that its subsystem does not say."""
+"""The file with the data of an imported suspension that its subsystem does not have."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -15,17 +15,17 @@ from .subsystem import Subsystem
 
 
 class TemplateFile(NamedTuple):
-    """The file that everything but the hardpoints is from.
+    """The file with all data besides those of the subsystem.
 
     Attributes
     ----------
     kind : str
     title : str
-        What messages call it.
+        Its name in messages.
     text : str
     suspension : Suspension
     packaged : bool
-        Whether it comes with this project, and not from the user.
+        Whether it is a packaged file, and not one of the user.
     """
 
     kind: str
@@ -38,7 +38,7 @@ class TemplateFile(NamedTuple):
 def rest_of(
     subsystem: Subsystem, kind: str | None, base: str | Path | None, given: Mapping[str, str]
 ) -> TemplateFile:
-    """Return the file that the rest is from: what the user names, or the packaged one of a kind."""
+    """Return the file that the user names, or the packaged one of a kind."""
     if kind is not None and kind not in KINDS:
         problem = f"{kind!r} is not a kind of suspension. {suggestion(kind, KINDS)}"
         raise InputError([problem], "kind")
@@ -52,7 +52,7 @@ def rest_of(
 def _users(
     subsystem: Subsystem, kind: str | None, base: str | Path, given: Mapping[str, str]
 ) -> TemplateFile:
-    """Return the file of a user, if the subsystem is of its kind."""
+    """Return the file of a user; refuse it if the subsystem is of another kind."""
     suspension = Suspension.load(base)
     title = legible(f"file {Path(base).name}")
     own = next(name for name, known in KINDS.items() if type(suspension) is known)

@@ -1,7 +1,7 @@
 """The spring of a subsystem of Adams/Car: its rate or curve, and its force at the design position.
 
-It is read where its property file is beside the subsystem. There the deflection is positive in
-compression, and so is the force. A straight curve is a rate.
+It is read from a property file beside the subsystem, in which deflection and force are positive in
+compression. A straight curve is a rate.
 """
 
 import math
@@ -21,9 +21,9 @@ from ...input.teim_values import MILLIMETRES, NEWTONS, Values, number, shown, un
 from ..fitting import Side, fewer
 from .subsystem import Subsystem
 
-_STRAIGHT = 1e-3  # of the greatest force: so far a curve may be from a line
+_STRAIGHT = 1e-3  # greatest distance of a straight curve from a line, over the greatest force
 _FOLDER = "springs.tbl"
-_NAME = "usage"  # key with what the template calls it
+_NAME = "usage"  # key of the name in the template
 _FORCE = ("value_type", "user_value")
 
 
@@ -33,15 +33,15 @@ class AdamsSpring(NamedTuple):
     Attributes
     ----------
     rate : float or None
-        In N/m; None of a spring by a curve.
+        [N/m]; None for a curve.
     force : float or None
-        At the design position [N]; None if the subsystem does not say.
+        At the design position [N]; None if not known.
     file : str
         The name of the property file.
     curve : tuple of (float, float)
         Compressions [mm], rising, and forces [N].
     lost : tuple of (float, float)
-        Points of the curve that there are too many of.
+        Surplus points of the curve, which are left out.
     """
 
     rate: float | None
@@ -51,30 +51,18 @@ class AdamsSpring(NamedTuple):
     lost: tuple[tuple[float, float], ...] = ()
 
     def words(self) -> str:
-        """Return it in words."""
+        """Return a description."""
         force = "" if self.force is None else f", {self.force:g} N at design"
         law = f"by {len(self.curve)} points" if self.rate is None else f"{self.rate / 1e3:g} N/mm"
         return f"spring {law}{force} ({self.file})"
 
     def reaches(self, force: float) -> bool:
-        """Return whether it has a force [N] at one compression."""
+        """Return whether a compression has a force [N]."""
         return not self.curve or self.curve[0][1] < force < self.curve[-1][1]
 
 
 def spring_of(subsystem: Subsystem, side: Side) -> tuple[AdamsSpring | None, list[str]]:
-    """Return the spring of a side; and what of the springs is not read.
-
-    Parameters
-    ----------
-    subsystem : Subsystem
-    side : {'left', 'right'}
-
-    Returns
-    -------
-    spring : AdamsSpring or None
-    unread : list of str
-        Springs that are left out, with the reason, and keys of the spring, with their values.
-    """
+    """Return the spring of a side, and descriptions of springs and keys that are not read."""
     of_side, unread = [], []
     for values in subsystem.springs:
         if values.get("symmetry", "left/right").lower() in ("left/right", "single", side):
@@ -102,12 +90,12 @@ def _named(values: Mapping[str, str]) -> str:
 
 
 def _words(values: Mapping[str, str]) -> str:
-    """Return keys and values as they can be printed."""
+    """Return keys and values in printable form."""
     return ", ".join(f"{shown(k.upper())} = {shown(v)}" for k, v in values.items() if k != _NAME)
 
 
 def _spring(values: Mapping[str, str], subsystem: Subsystem) -> AdamsSpring:
-    """Return the spring of a block; say why if it cannot be read."""
+    """Return the spring of a block, or raise an `InputError` with the reason why not."""
     name = re.split(r"[\\/:>]", values.get("property_file", ""))[-1]
     file = _beside(Path(subsystem.source).parent, name)
     if file is None:
@@ -119,14 +107,14 @@ def _spring(values: Mapping[str, str], subsystem: Subsystem) -> AdamsSpring:
 
 
 def force_at_design(document: Any) -> float:
-    """Return the force at design that an input file gives [N]."""
+    """Return the force at design in an input file [N]."""
     in_strut = "strut" in document
     section = document["strut" if in_strut else "spring"]
     return float(section["spring_force_at_design_N" if in_strut else "force_at_design_N"])
 
 
 def put_spring(document: Any, spring: AdamsSpring) -> None:
-    """Put a spring into the text of an input file that gives a force at design."""
+    """Put a spring into the text of an input file with a force at design."""
     prefix = "spring_" if "strut" in document else ""
     section = document["strut" if prefix else "spring"]
     force = force_at_design(document) if spring.force is None else spring.force
@@ -146,7 +134,7 @@ def put_spring(document: Any, spring: AdamsSpring) -> None:
 def _beside(folder: Path, name: str) -> Path | None:
     """Return the property file: beside the subsystem, or in the folder of a database."""
     places = (folder, folder / _FOLDER, folder.parent / _FOLDER)
-    # os.path finds no file for names that no file can have
+    # unlike Path.is_file, os.path.isfile returns False for impossible names
     return next((p / name for p in places if name and os.path.isfile(p / name)), None)  # noqa: PTH113
 
 
@@ -174,7 +162,7 @@ def _law(file: Path) -> AdamsSpring:
 
 
 def _rounded(value: float) -> float:
-    """Return a value without the digits that come from converting its unit."""
+    """Return a value without digits from the rounding of its unit's conversion."""
     return float(f"{value:.12g}")
 
 
@@ -188,7 +176,7 @@ def _points(blocks: list[FileBlock]) -> list[tuple[float, float]]:
 
 
 def _force(values: Mapping[str, str], subsystem: Subsystem) -> float | None:
-    """Return the force at design [N], if the subsystem gives a preload."""
+    """Return the force at design [N], if the subsystem has a preload."""
     given = number(values.get("user_value", ""))
     scale = NEWTONS.get(subsystem.force_unit.lower())
     if values.get("value_type", "").lower() != "preload" or scale is None or not given > 0.0:

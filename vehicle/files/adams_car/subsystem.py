@@ -1,4 +1,4 @@
-"""A suspension's subsystem of Adams/Car, as it is in its file.
+"""The file of a suspension's subsystem of Adams/Car.
 
 In Adams/Car x points rearward, y to the right and z up. Rows for both sides have the coordinates of
 the left one.
@@ -19,11 +19,11 @@ from ..fitting import Point, Side
 _Value = TypeVar("_Value", float, Point)
 
 ANGLES = {"camber_angle": "camber_deg", "toe_angle": "toe_deg"}
-"""What is read of the parameters, with the keys of ``[wheel]``: the signs are the same."""
+"""The parameters that are read, with the keys of ``[wheel]``, whose signs are the same."""
 
 _SYMMETRIES = ("left/right", "left", "right", "single")
 _SPRINGS = ("nspring_assembly", "spring_assembly")
-# What is read elsewhere, or says nothing of the car: keys by block. Rows of the last two are read.
+# Keys by block that are read elsewhere, or are irrelevant. Rows of the last two are read.
 _FORMAL: Mapping[str, tuple[str, ...]] = {
     "mdi_header": ("file_type", "file_version", "file_format"),
     "subsystem_header": ("template_name", "major_role", "minor_role", "timestamp", "header_size"),
@@ -43,17 +43,17 @@ class Subsystem:
     source : str
         The file.
     template : str
-        What it was made from; empty if the file does not say.
+        Its template; empty if not known.
     points : dict
-        By name in lower case and symmetry ('left/right', 'left', 'right' or 'single') the
-        coordinates, in mm and in the axes of Adams/Car.
+        Coordinates in the axes of Adams/Car [mm], by name in lower case and symmetry
+        ('left/right', 'left', 'right' or 'single').
     angles : dict
-        By name and side camber_angle and toe_angle, in degrees; those that the file has.
+        camber_angle and toe_angle [deg], by name and side, if the file has them.
     springs : tuple of dict
-        The keys and values of its springs, in lower case and as they are there.
+        The keys of its springs, in lower case, and their values.
     force_unit : str
     others : tuple of str
-        What else there is, and is not read.
+        Descriptions of data that are not read.
     """
 
     source: str
@@ -76,7 +76,7 @@ class Subsystem:
         Returns
         -------
         tuple of float or None
-            None if the file does not have it for this side.
+            None if the file does not have the hardpoint for this side.
         """
         rows = self.points[name]
         own = rows.get(side)
@@ -85,7 +85,7 @@ class Subsystem:
         if found is None:
             return None
         x, y, z = found
-        # the sum makes no zero negative
+        # the sum avoids negative zeros
         return -x + 0.0, (y if mirrored else -y) + 0.0, z
 
     def angle(self, name: str, side: Side) -> float | None:
@@ -115,7 +115,8 @@ def read(path: str | Path) -> Subsystem:
     Raises
     ------
     InputError
-        If it cannot be read, is no subsystem of a suspension, or is not clear; with all problems.
+        If it cannot be read, is not a subsystem of a suspension, or is ambiguous; with all
+        problems.
     """
     source = str(path)
     blocks = read_blocks(path)
@@ -145,7 +146,7 @@ def read(path: str | Path) -> Subsystem:
 
 
 def _refuse_others(values: Values) -> None:
-    """Refuse what is no subsystem of a suspension."""
+    """Refuse other files than a subsystem of a suspension."""
     for block, key, wanted in (
         ("mdi_header", "file_type", "sub"),
         ("subsystem_header", "major_role", "suspension"),
@@ -160,7 +161,7 @@ def _refuse_others(values: Values) -> None:
 
 
 class _Row(NamedTuple):
-    """A row of a table: what it names, for which side, the other cells, and the line."""
+    """A row of a table: its name, side, other cells, and line number."""
 
     name: str
     symmetry: str
@@ -169,9 +170,9 @@ class _Row(NamedTuple):
 
 
 class _Table(NamedTuple):
-    """A table of a kind of block: its columns, and the last ones of them that are numbers.
+    """A table of a kind of block: its columns, and the number of its last columns with numbers.
 
-    Rows without any of the words are not read, if there are words.
+    If it has words, rows without any of them are not read.
     """
 
     block: str
@@ -185,7 +186,7 @@ _PARAMETERS = _Table("parameter", ("parameter_name", "symmetry", "type", "value"
 
 
 def _rows(blocks: Iterable[FileBlock], table: _Table, problems: list[str]) -> Iterator[_Row]:
-    """Yield the rows of a table that are right, and say what is wrong with others."""
+    """Yield the valid rows of a table, and add the problems of others to a list."""
     for block in blocks:
         if block.name != table.block:
             continue
@@ -211,7 +212,7 @@ def _rows(blocks: Iterable[FileBlock], table: _Table, problems: list[str]) -> It
 
 
 def _problem_of(cells: list[str] | None, count: int, order: list[int], numbers: int) -> str:
-    """Say what is wrong with a row; nothing if it is right."""
+    """Return the problem of a row, or an empty text."""
     if cells is None:
         return "a quote is not closed"
     if len(cells) != count:
@@ -233,7 +234,7 @@ def _other_parameters(blocks: Iterable[FileBlock]) -> list[str]:
 
 
 def _twice(block: FileBlock) -> list[str]:
-    """Say which keys a block has more than once."""
+    """Return the problems of keys that a block has more than once."""
     counts = Counter(key for key, _ in block.values())
     return [
         f"line {block.number}: {shown(key.upper())} is given {count} times in "
@@ -244,7 +245,7 @@ def _twice(block: FileBlock) -> list[str]:
 
 
 def _put(rows: dict[str, dict[str, _Value]], row: _Row, value: _Value, problems: list[str]) -> None:
-    """Take the value of a row, unless there is one for the same side."""
+    """Add the value of a row, or a problem if there is one for the same side already."""
     there: dict[str, _Value] = rows.setdefault(row.name, {})
     both = {"left/right", "single"} & {*there, row.symmetry}
     if row.symmetry in there or (there and both):
@@ -257,7 +258,7 @@ def _put(rows: dict[str, dict[str, _Value]], row: _Row, value: _Value, problems:
 
 
 def _others(blocks: Iterable[FileBlock]) -> list[str]:
-    """Return what of blocks is not read, each with its keys, its rows and their values."""
+    """Return descriptions of unread data of blocks, with keys, rows and values."""
     found = []
     for block in blocks:
         if block.name in (*_SILENT, *_SPRINGS):

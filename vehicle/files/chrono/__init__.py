@@ -1,18 +1,18 @@
 """Suspensions and whole vehicles of Project Chrono, as JSON.
 
 The format is that of Chrono::Vehicle (https://projectchrono.org): points and vectors in metres, in
-the axes of the vehicle (ISO 8855), for the *left* side; the right one is its mirror image. What its
-files leave open is assumed, and each assumption is reported; what is not read of them is listed.
+the axes of the vehicle (ISO 8855), for the *left* side; the right one is its mirror image. Each
+assumption about missing data is reported, and unread data are listed.
 
-`keys`                            keys that are read, those that are not, slips of the hand
+`keys`                            keys that are read, unread and misspelt ones
 `parts`, `forces`, `stops`        bodies, springs, dampers and stops of the templates
-`suspension_file`                 what all templates have
+`suspension_file`                 the base of all templates
 `macpherson`, `double_wishbone`, `semi_trailing_arm`   the templates
 `tires`                           tires
-`points_only`                     the hardpoints of a file, and the rest of a packaged one
-`reading`                         all of it as a suspension
+`points_only`                     hardpoints of a file with the other data of a packaged one
+`reading`                         a file as a suspension
 `vehicle_file`, `vehicle_parts`   a whole vehicle and its parts
-`vehicle`                         all of it as a car
+`vehicle`                         a whole vehicle as a car
 """
 
 from .reading import Imported, read

@@ -13,7 +13,7 @@ from .keys import Part
 from .parts import ON_THE_LINE, POINTS_ONLY, ArmPoints, ControlArm, Point
 from .suspension_file import KnuckleFile, SteeredPoints, arm_sources
 
-# How much of the spring's speed the damper has at least, of which it can do the work.
+# Least speed of the damper between its own points, over that of the spring.
 _LEAST_RATIO = 0.1
 
 _SOURCES = {
@@ -88,7 +88,7 @@ class DoubleWishboneFile(KnuckleFile, WishbonePoints):
         }
 
     def problems(self) -> list[str]:
-        """Say, besides, where the damper has no place."""
+        """Return the problems of the file, and of a damper that hardly moves."""
         lines = super().problems()
         if self._is_apart() and not self._ratio() >= _LEAST_RATIO:
             lines.append(
@@ -106,7 +106,7 @@ class DoubleWishboneFile(KnuckleFile, WishbonePoints):
         return own | (stops.sections(at_design) if stops else {})
 
     def left_open(self) -> list[str]:
-        """Describe the position of the damper, and the curves."""
+        """Return assumptions on the position of the damper and on curves."""
         laws = spring_law(self.spring), self._damper()
         of_curves = words_of_curves(self.spring.stops(), *laws)
         if not self._is_apart():
@@ -126,13 +126,13 @@ class DoubleWishboneFile(KnuckleFile, WishbonePoints):
         return damper.scaled(self._ratio()) if self._is_apart() else damper
 
     def _is_apart(self) -> bool:
-        """Return whether the damper has points of its own on that arm."""
+        """Return whether the damper has points of its own."""
         ends = ((self.shock.chassis, self.spring.chassis), (self.shock.arm, self.spring.arm))
         away = max(np.linalg.norm(np.subtract(own, other)) for own, other in ends)
         return bool(away > ON_THE_LINE) and bool(self.shock.dampers())
 
     def _ratio(self) -> float:
-        """Return the speed of the damper between its own points, by that of the spring."""
+        """Return the speed of the damper between its own points over that of the spring."""
         front, back = np.array(self.lower.front), np.array(self.lower.back)
 
         def speed(element: _Spring | _Shock) -> float:
@@ -140,5 +140,5 @@ class DoubleWishboneFile(KnuckleFile, WishbonePoints):
             line = end - element.chassis
             return float(cross(front - back, end - front) @ line / np.linalg.norm(line))
 
-        with np.errstate(all="ignore"):  # of points on each other, which are refused by name
+        with np.errstate(all="ignore"):  # coinciding points are refused by name later
             return speed(self.shock) / speed(self.spring) if speed(self.spring) else np.nan

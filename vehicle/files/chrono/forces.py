@@ -1,4 +1,4 @@
-"""Springs and dampers of Project Chrono's templates, and what becomes of them.
+"""Springs and dampers of Project Chrono's templates as sections of a hardpoint file.
 
 Chrono's force pushes the ends apart. With x, the length above the free length, and v, its rate, it
 is ``preload - spring(x) - damper(v)``; each of both is a coefficient or a curve. A spring may have
@@ -21,7 +21,7 @@ _LAWS = {
     ("Map Data", "Deformation"): "a force over length and speed together",
     ("Degressivity Compression", "Degressivity Expansion"): "a degressive damper",
 }
-_DIGITS = 12  # of a difference of lengths, after the decimal point, in m
+_DIGITS = 12  # decimals of a difference of lengths [m]
 _STOPS = ("Minimum Length", "Maximum Length")
 
 
@@ -29,7 +29,7 @@ class Element(Part):
     """A spring, a damper or both, from the chassis to `end`."""
 
     NAME: ClassVar[str]
-    """What the file calls it."""
+    """The name in the file."""
 
     chassis: Point = Field(alias="Location Chassis")
     rate: Finite | None = Field(default=None, alias="Spring Coefficient")
@@ -47,8 +47,10 @@ class Element(Part):
 
     def given(self, *keys: str) -> list[str]:
         """Return those of some keys that the file has."""
-        names = {field.alias: name for name, field in type(self).model_fields.items()}
-        return [key for key in keys if names[key] in self.model_fields_set]
+        return [key for key in keys if self._fields()[key] in self.model_fields_set]
+
+    def _fields(self) -> dict[str | None, str]:
+        return {field.alias: name for name, field in type(self).model_fields.items()}
 
     def springs(self) -> list[str]:
         """Return the keys of its spring."""
@@ -59,7 +61,7 @@ class Element(Part):
         return self.given("Damping Coefficient", "Damping Curve Data")
 
     def stops(self) -> Stops | None:
-        """Return its stops; Chrono has them where a spring has both lengths."""
+        """Return its stops; in Chrono a spring with both lengths has them."""
         if self.shortest is None or self.longest is None or not self.springs():
             return None
         return Stops(self.shortest, self.longest, beside_a_curve=self.rate is None)
@@ -68,11 +70,10 @@ class Element(Part):
         """Return the keys that Chrono does not use here, with their values."""
         keys = [] if self.stops() else self.given(*_STOPS)
         keys += [] if self.springs() else self.given("Preload")
-        fields = {field.alias: name for name, field in type(self).model_fields.items()}
-        return [((self.NAME, key), getattr(self, fields[key])) for key in keys]
+        return [((self.NAME, key), getattr(self, self._fields()[key])) for key in keys]
 
     def problems(self) -> list[str]:
-        """Say which of its laws there is no place for, and which exclude each other."""
+        """Return the problems of laws that cannot be read, or exclude each other."""
         lines = [
             f'"{self.NAME} > {given[0]}" is {law}, which cannot be read. Remove it and enter the '
             f'force over the speed as "Damping Curve Data", or {POINTS_ONLY}.'
@@ -115,14 +116,14 @@ class ChronoSpringLaw(NamedTuple):
     Attributes
     ----------
     rate : float
-        In N/m; where a spring by a rate has a curve, that between its stops.
+        [N/m]; of a rate with a curve, the rate between its stops.
     free_length : float
-        Of no force, or of no compression of a curve [m].
+        Length without force, or without compression of a curve [m].
     curve : tuple of (float, float)
         Compressions [m], rising, and forces that push the ends apart [N]; empty with a rate
         alone.
     lost : tuple of (float, float)
-        Points of the curve that there are too many of.
+        Surplus points of the curve, which are left out.
     """
 
     rate: float
@@ -131,7 +132,7 @@ class ChronoSpringLaw(NamedTuple):
     lost: Curve = ()
 
     def section(self) -> dict[str, Any]:
-        """Return it as the section of a hardpoint file."""
+        """Return the section of a hardpoint file."""
         free = {"free_length_mm": millimetres(self.free_length)}
         if not self.curve:
             return {"rate_N_per_m": self.rate} | free
@@ -146,7 +147,7 @@ class DamperLaw(NamedTuple):
     Attributes
     ----------
     rate : float
-        In N s/m.
+        [N s/m].
     curve : tuple of (float, float)
         Velocities [m/s], positive in bump, and forces that resist bump [N]; empty with a rate.
     """
@@ -155,12 +156,12 @@ class DamperLaw(NamedTuple):
     curve: Curve = ()
 
     def scaled(self, ratio: float) -> "DamperLaw":
-        """Return the damper that does the same along a line with 1/ratio of the speed."""
+        """Return the equivalent damper on a line with 1/ratio of the speed."""
         curve = tuple((velocity / ratio, force * ratio) for velocity, force in self.curve)
         return DamperLaw(self.rate * ratio**2, curve)
 
     def section(self) -> dict[str, Any]:
-        """Return it as the section of a hardpoint file."""
+        """Return the section of a hardpoint file."""
         if not self.curve:
             return {"rate_N_s_per_m": self.rate}
         velocities, forces = zip(*self.curve, strict=True)
@@ -172,7 +173,7 @@ class DamperLaw(NamedTuple):
 
 
 def problems_of(spring: Spring, shock: Shock) -> list[str]:
-    """Say why a spring and a damper have no place in this project's suspensions."""
+    """Return the problems of a spring and a damper that cannot be read."""
     lines = [*spring.problems(), *shock.problems()]
     if not spring.springs():
         lines.append('"Spring > Spring Coefficient" or "Spring Curve Data" is missing. Add one.')
@@ -185,7 +186,7 @@ def problems_of(spring: Spring, shock: Shock) -> list[str]:
         )
     lines += _problems_of_stops(spring)
     second = shock.springs() if shock.rate or shock.curve else []
-    if shock.springs() and not second:  # without a rate, Chrono still has what else it has
+    if shock.springs() and not second:  # without a rate, Chrono still has preload and stops
         second = [*(["Preload"] if shock.preload else []), *(_STOPS if shock.stops() else ())]
     if second:
         lines.append(
@@ -204,7 +205,7 @@ def problems_of(spring: Spring, shock: Shock) -> list[str]:
 
 
 def _problems_of_stops(spring: Spring) -> list[str]:
-    """Say why the stops of a spring have no place in this project's suspensions."""
+    """Return the problem of stops that cannot be read."""
     stops = spring.stops()
     if stops is None:
         return []
@@ -221,7 +222,7 @@ def _problems_of_stops(spring: Spring) -> list[str]:
 def spring_law(spring: Spring) -> ChronoSpringLaw:
     """Return the spring of a file without `problems_of`, with its preload.
 
-    Chrono's curve is over the length above the free one, and positive where the spring pulls.
+    Chrono's curve is over the length above the free one, and positive if the spring pulls.
     """
     free, points = spring.free_length or 0.0, spring.curve or spring.old_curve
     if points is None:
@@ -248,7 +249,7 @@ def damper_law(spring: Spring, shock: Shock) -> DamperLaw:
 
 
 def words_of_curves(stops: Stops | None, spring: ChronoSpringLaw, damper: DamperLaw) -> list[str]:
-    """Return how curves go on at their ends, and which points of a spring are left out."""
+    """Return assumptions on stops, on the ends of curves and on points that are left out."""
     lines = [stops.words()] if stops else []
     beside = stops is None or stops.beside_a_curve
     curves = {"spring": spring.curve if beside else (), "damper": damper.curve}

@@ -1,4 +1,4 @@
-"""Keys of Project Chrono's files: those that are read, those that are not, and slips of the hand.
+"""Keys of Project Chrono's files: read, unread and misspelt ones.
 
 Every key of a file is a field of a `Part`, is listed with its value as left out, or is refused.
 """
@@ -16,7 +16,7 @@ from pydantic_core import PydanticCustomError
 from ....core.errors import InputError
 from ....core.legible import legible, short
 
-_SIMILAR = 0.8  # of two keys that may be one, as `difflib` has it
+_SIMILAR = 0.8  # similarity of a misspelt key, by `difflib`
 _NEEDED = {
     "tuple_type": "a list is needed, such as [0.0, 1.0]",
     "model_type": "keys with values are needed, in braces",
@@ -36,10 +36,10 @@ class Part(BaseModel):
     Attributes
     ----------
     UNREAD : frozenset of str
-        Keys that Chrono's templates have besides.
+        Further keys of Chrono's templates.
     """
 
-    # what is no field is listed, or refused: see `others`
+    # other keys are listed, or refused: see `others`
     model_config = ConfigDict(extra="ignore")
 
     UNREAD: ClassVar[frozenset[str]] = frozenset()
@@ -47,7 +47,7 @@ class Part(BaseModel):
     @field_validator("*", mode="before")
     @classmethod
     def _is_there(cls, value: Any) -> Any:
-        """Refuse null, which is neither a value nor left out."""
+        """Refuse null, which is not a value."""
         if value is None:
             raise PydanticCustomError("null", "null is not a value")
         return value
@@ -59,10 +59,10 @@ class Other(NamedTuple):
     Attributes
     ----------
     place : tuple of str
-        The key, after those that it is in.
+        The key, after those that contain it.
     value : object
     part : type of Part
-        Of what it is a key.
+        The part with the key.
     """
 
     place: Place
@@ -74,7 +74,7 @@ Kind = TypeVar("Kind", bound=Part)
 
 
 def checked(model: type[Kind], data: dict[str, Any], path: str | Path) -> Kind:
-    """Return the content of a file as what it is of a kind; say what is wrong if it is not."""
+    """Return the content of a file as a part, or raise an `InputError` with its problems."""
     slips = _slips(others(model, data))
     try:
         found = model.model_validate(data)
@@ -101,7 +101,7 @@ def others(model: type[Part], data: dict[str, Any], place: Place = ()) -> Iterat
 
 
 def listed(found: Iterable[Unread]) -> list[str]:
-    """Return keys with their values, a line for those of one place."""
+    """Return keys with their values, one line for each place."""
     lines: dict[str, list[str]] = {}
     for (*above, key), value in leaves(found):
         lines.setdefault(_words(above), []).append(f"{legible(short(key))} = {shown(value)}")
@@ -109,7 +109,7 @@ def listed(found: Iterable[Unread]) -> list[str]:
 
 
 def leaves(found: Iterable[Unread]) -> Iterator[Unread]:
-    """Yield the keys within keys, with their values."""
+    """Yield the innermost keys with their values."""
     for place, value in found:
         if isinstance(value, dict) and value and len(place) < _DEEP:
             yield from leaves(((*place, key), inner) for key, inner in value.items())
@@ -118,7 +118,7 @@ def leaves(found: Iterable[Unread]) -> Iterator[Unread]:
 
 
 def meant(key: str, known: Collection[str]) -> str:
-    """Return the known key that another spelling of it may represent; empty if there is none."""
+    """Return the known key of which a key is probably another spelling, or an empty text."""
     same = {_plain(name): name for name in known}
     if _plain(key) in same:
         return same[_plain(key)]
@@ -128,7 +128,7 @@ def meant(key: str, known: Collection[str]) -> str:
 
 
 def slip(place: Place, right: str) -> str:
-    """Say that a key seems to be another one."""
+    """Return the problem of a key that is probably misspelt."""
     return (
         f'"{_words(place)}" is not a key of Chrono\'s templates. Is it "{right}"? Correct it, or '
         "remove it."
@@ -136,7 +136,7 @@ def slip(place: Place, right: str) -> str:
 
 
 def problem_of(detail: Any, place: Place | None = None) -> str:
-    """Say what pydantic has found, by the file's keys."""
+    """Return the message of an error of pydantic, with the file's keys."""
     words = _words(place or (str(part) for part in detail["loc"]))
     given = shown(detail["input"])
     if detail["type"] == "missing":
@@ -151,15 +151,15 @@ def problem_of(detail: Any, place: Place | None = None) -> str:
 
 
 def shown(value: Any) -> str:
-    """Return a value as it is in the file, and not more of it than one reads."""
+    """Return a value as in the file, shortened."""
     try:
         return legible(short(json.dumps(value, default=str)))
-    except RecursionError:  # lists in each other, as deep as Python reads them
+    except RecursionError:  # deeply nested lists
         return "..."
 
 
 def _causes(error: ValidationError) -> list[Any]:
-    """Return what pydantic has found, without lists that are too short as an element is wrong."""
+    """Return the errors of pydantic, without lists that are too short because of an element."""
     details = error.errors()
     return [
         one
@@ -172,7 +172,7 @@ def _causes(error: ValidationError) -> list[Any]:
 
 
 def _slips(found: Iterable[Other]) -> list[str]:
-    """Say which keys seem to be others: their values would be lost."""
+    """Return the problems of keys that are probably misspelt, whose values would be lost."""
     problems = []
     for place, _, part in found:
         right = meant(place[-1], [field.alias or "" for field in part.model_fields.values()])

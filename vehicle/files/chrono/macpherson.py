@@ -14,7 +14,7 @@ from .parts import DRAWING, ON_THE_LINE, POINTS_ONLY, ArmPoints, ControlArm, Poi
 from .suspension_file import KnuckleFile, SteeredPoints, arm_sources
 
 _STROKE = 0.1
-"""How much longer than at design the extended strut is assumed to be [m]."""
+"""The assumed travel of the strut from design to full extension [m]."""
 
 _SOURCES = {
     **arm_sources("arm", "Control Arm"),
@@ -89,7 +89,7 @@ class MacPhersonStrut(KnuckleFile, StrutPoints):
         return {"control_arm": ("Control Arm", self.control_arm)}
 
     def problems(self) -> list[str]:
-        """Say, besides, where the damper has no place."""
+        """Return the problems of the file, and of a damper off the strut's axis."""
         lines, off = super().problems(), self._off_the_axis()
         if self.shock.dampers() and off > ON_THE_LINE:
             lines.append(
@@ -117,7 +117,7 @@ class MacPhersonStrut(KnuckleFile, StrutPoints):
         return {"strut": strut | {"damper_rate_N_s_per_m": damper.rate}} | own
 
     def left_open(self) -> list[str]:
-        """Say what stroke the strut has, and along which line the damper acts."""
+        """Return assumptions on the stroke of the strut and the line of the damper."""
         lines = [f"strut: {1e3 * _STROKE:g} mm longer when fully extended than at design"]
         laws = spring_law(self.spring), damper_law(self.spring, self.shock)
         lines += words_of_curves(self.spring.stops(), *laws)
@@ -130,11 +130,11 @@ class MacPhersonStrut(KnuckleFile, StrutPoints):
         return lines
 
     def _off_the_axis(self) -> float:
-        """Return how far the ends of the damper are from the strut's axis [m]."""
+        """Return the distance of the ends of the damper from the strut's axis [m]."""
         start, end = np.array(self.spring.upright), np.array(self.spring.chassis)
         length = np.linalg.norm(end - start)
         if not length > 0.0:
-            return 0.0  # no axis: the hardpoints are refused later, by name
+            return 0.0  # coinciding points are refused by name later
         ends = (self.shock.chassis, self.shock.upright)
         offsets = [cross(np.array(point) - start, (end - start) / length) for point in ends]
         return float(max(np.linalg.norm(offset) for offset in offsets))

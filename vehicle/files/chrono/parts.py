@@ -1,4 +1,4 @@
-"""What the files of Project Chrono's templates have in common."""
+"""Bodies and points in the files of Project Chrono's templates."""
 
 from abc import abstractmethod
 from decimal import Decimal
@@ -18,7 +18,7 @@ Finite = Annotated[float, Field(allow_inf_nan=False, strict=True)]
 Point = tuple[Finite, Finite, Finite]
 
 ON_THE_LINE = 1e-4
-"""A point nearer than this to another one, or to a line, lies on it [m]."""
+"""The distance within which points coincide, or a point is on a line [m]."""
 
 DRAWING = frozenset({"Radius", "Width"})
 """Keys of bodies that are for drawing alone."""
@@ -27,7 +27,7 @@ POINTS_ONLY = "take the hardpoints alone: --points-only (points_only=True)"
 
 
 class Ends(Part):
-    """What reaches from the chassis to the upright."""
+    """A rod between chassis and upright."""
 
     UNREAD: ClassVar[frozenset[str]] = frozenset({"Mass", "Inertia", "Radius", "Bushing Data"})
 
@@ -36,7 +36,7 @@ class Ends(Part):
 
 
 class Centre(Part):
-    """Where a body is."""
+    """The position of a body."""
 
     UNREAD: ClassVar[frozenset[str]] = DRAWING | {"Mass", "Inertia"}
 
@@ -62,13 +62,7 @@ class ChronoBody(Centre):
     products: Point | None = Field(default=None, alias="Products of Inertia")
 
     def problems(self, name: str) -> list[str]:
-        """Say why no body can have this inertia, by the file's keys.
-
-        Parameters
-        ----------
-        name : str
-            What the file calls it.
-        """
+        """Return the problem of an inertia that no body can have, with the body's key."""
         if self.inertia is not None and (self.moments or self.products):
             other = "Moments of Inertia" if self.moments else "Products of Inertia"
             return [f'"{name} > Inertia" and "{other}" both give the inertia. Keep one of them.']
@@ -84,12 +78,12 @@ class ChronoBody(Centre):
         return [f"{given} kg m^2: {reason}. Correct it, or {POINTS_ONLY}."]
 
     def rigid(self, axes: Array) -> dict[str, Any]:
-        """Return its section of a hardpoint file.
+        """Return the section of a hardpoint file.
 
         Parameters
         ----------
         axes : ndarray, shape (3, 3)
-            Axes of the body in which the file gives its inertia, in columns.
+            Axes of the inertia in the file, in columns.
         """
         named = elements(axes @ self._tensor() @ axes.T)
         return {
@@ -105,7 +99,7 @@ class ChronoBody(Centre):
 
 
 class Spindle(Centre):
-    """What turns with the wheel."""
+    """The spindle, which turns with the wheel."""
 
     mass: Finite = Field(alias="Mass", ge=0.0)
     inertia: Point = Field(alias="Inertia")
@@ -116,15 +110,15 @@ class ChronoArm(ChronoBody):
 
     @abstractmethod
     def corners(self) -> tuple[Point, Point, Point]:
-        """Return the bearing that its x axis points to, the other one, and its end."""
+        """Return the bearing to which its x axis points, the other one, and its end."""
 
     def axes(self) -> Array:
-        """Return Chrono's axes of the arm: x between its bearings, z across it."""
+        """Return Chrono's axes of the arm: x between its bearings, z normal to it."""
         to, off, end = map(np.array, self.corners())
         z = cross(off - end, to - end)
         x = to - off
         if not (np.linalg.norm(z) > 0.0 and np.linalg.norm(x) > 0.0):
-            return np.eye(3)  # no triangle: the hardpoints are refused later, by name
+            return np.eye(3)  # coinciding points are refused by name later
         x, z = x / np.linalg.norm(x), z / np.linalg.norm(z)
         return np.column_stack((x, cross(z, x), z))
 
@@ -146,17 +140,15 @@ class ChronoAxle(Part):
 
 
 def millimetres(metres: float) -> float:
-    """Return a length in millimetres, with the digits that it has in metres."""
+    """Return a length in millimetres, with its decimal digits in metres."""
     return float(Decimal(repr(metres)).scaleb(3))
 
 
 def raised_moments(moments: Any) -> list[float]:
-    """Return moments of inertia whose largest is the other two together; empty if it is not more.
+    """Return moments of inertia with the smaller ones raised to the sum that the largest needs.
 
-    Parameters
-    ----------
-    moments : object
-        As a file has them. Anything but a list of three positive numbers is left to other checks.
+    Empty for possible moments, and for other values than a list of three positive numbers, which
+    are left to other checks.
     """
     if not (isinstance(moments, list) and len(moments) == len("xyz")):
         return []
@@ -170,6 +162,6 @@ def raised_moments(moments: Any) -> list[float]:
 
 
 def elements(tensor: Array) -> dict[str, float]:
-    """Return the elements of a tensor by their names."""
+    """Return the elements of a tensor by name."""
     at = {"xx": (0, 0), "yy": (1, 1), "zz": (2, 2), "xy": (0, 1), "xz": (0, 2), "yz": (1, 2)}
     return {name: float(tensor[place]) for name, place in at.items()}

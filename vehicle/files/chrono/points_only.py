@@ -1,4 +1,4 @@
-"""The hardpoints of a file of Project Chrono; the rest is that of a packaged file."""
+"""The hardpoints of a file of Project Chrono, with the other data of a packaged file."""
 
 from collections.abc import Mapping
 
@@ -24,18 +24,13 @@ def with_points(
     alignment : mapping
         Camber and toe [deg] by the keys of ``[wheel]``.
     source : str
-        Where they come from.
+        The file, for messages.
 
     Returns
     -------
     suspension : Suspension
     assumed : list of str
-        Where everything else is from, a sentence each.
-
-    Raises
-    ------
-    InputError
-        If no suspension can be like this; by the keys of a hardpoint file.
+        The origin of all other data, one sentence each.
     """
     starter, text, old = packaged(kind)
     document = tomlkit.parse(text)

@@ -43,11 +43,11 @@ class Imported(NamedTuple):
     Attributes
     ----------
     suspension : Suspension
-        Of the left side.
+        The left side.
     assumptions : tuple of str
-        What the files leave open, or have otherwise than this project, one sentence each.
+        Assumptions, and differences between both programs, one sentence each.
     left_out : tuple of str
-        The keys of the files that are not read, with their values; a line for those of one part.
+        The unread keys of the files, with their values, one line for each part.
     """
 
     suspension: Suspension
@@ -58,28 +58,28 @@ class Imported(NamedTuple):
 def read(
     path: str | Path, *, tire: str | Path | None = None, points_only: bool = False
 ) -> Imported:
-    """Read a suspension of Project Chrono.
+    """Return a suspension of Project Chrono.
 
     Parameters
     ----------
     path : str or Path
         JSON file of the template "MacPhersonStrut", "DoubleWishbone" or "SemiTrailingArm".
     tire : str or Path, optional
-        JSON file of a tire; radius, mass and inertia are read, of any template.
+        JSON file of a tire of any template; radius, mass and inertia are read.
     points_only : bool, optional
-        Whether hardpoints, camber and toe alone are taken. The rest is then as in the packaged
-        file of the kind, brought to where the wheel is.
+        Whether only hardpoints, camber and toe are read. All other data are then those of the
+        packaged file of the kind, moved to the position of the wheel.
 
     Returns
     -------
     Imported
-        The left suspension, what had to be assumed, and what was not read.
+        The left suspension, the assumptions, and the unread data.
 
     Raises
     ------
     InputError
-        If a file is not JSON or not of this kind, has a key twice or one that seems to be
-        misspelt, or no suspension can be like this; by the keys of the file.
+        If a file is not JSON or not of this kind, has a key twice or one that is probably misspelt,
+        or the data are not valid; with the keys of the file.
     """
     with Validator("read") as arguments:
         arguments.flag("points_only", points_only)
@@ -98,13 +98,7 @@ def read(
 
 
 def suspension_file(data: dict[str, Any], path: str | Path) -> SuspensionFile:
-    """Return the content of a suspension's file as a template.
-
-    Raises
-    ------
-    InputError
-        If it is of another kind, or something is missing.
-    """
+    """Return the content of a suspension's file as a template, or refuse it."""
     return checked(_template(data, path)[1], data, path)
 
 
@@ -129,21 +123,7 @@ def _points_of(given: PointsFile, data: dict[str, Any], path: str | Path) -> Imp
 def imported(
     given: SuspensionFile, data: dict[str, Any], path: str | Path, wheel: Tire
 ) -> Imported:
-    """Return the left suspension of a file, on a tire.
-
-    Parameters
-    ----------
-    given : SuspensionFile
-    data : dict
-        Its content, of which all that is not read is listed.
-    path : str or pathlib.Path
-    wheel : Tire
-
-    Raises
-    ------
-    InputError
-        If no suspension can be like this; by the keys of the file.
-    """
+    """Return the left suspension of a file on a tire; unread keys of its content are listed."""
     problems = given.problems()
     if problems:
         raise InputError(problems, str(path))
@@ -163,7 +143,7 @@ def _left_out(
 
 
 def _by_its_keys(error: InputError, sources: Mapping[str, str], path: str | Path) -> InputError:
-    """Return what is wrong with a suspension, with the keys that the file has for it."""
+    """Return the problems of a suspension, with the keys of its file."""
     problems = []
     for problem in error.problems:
         keys = dict.fromkeys(
@@ -177,7 +157,7 @@ def _by_its_keys(error: InputError, sources: Mapping[str, str], path: str | Path
 
 
 def _refuse(data: dict[str, object], path: str | Path) -> NoReturn:
-    """Refuse a file of another template, or of something else."""
+    """Refuse a file of another template, or without one."""
     if "Template" not in data:
         raise InputError(['"Template" is missing. Give a file of a suspension.'], str(path))
     template = data["Template"]

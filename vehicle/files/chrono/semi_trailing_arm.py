@@ -35,7 +35,7 @@ class _TrailingArm(_Bearings, ChronoArm):
     def corners(self) -> tuple[Point, Point, Point]:
         """Return the outer bearing, the inner one, and the end at the spindle.
 
-        Chrono's y and z point the other way; its inertia has no products, which would notice it.
+        Chrono's y and z point the other way, without effect on an inertia without products.
         """
         return self.outer, self.inner, self.end
 
@@ -98,7 +98,7 @@ class SemiTrailingArm(SuspensionFile, TrailingPoints):
         return {"trailing_arm": ("Trailing Arm", self.arm)}
 
     def problems(self) -> list[str]:
-        """Say, besides, that stops act by the length of the damper here."""
+        """Return the problems of the file, and of stops, which act on the damper here."""
         lines = super().problems()
         if self.spring.stops():
             lines.append(
@@ -113,5 +113,5 @@ class SemiTrailingArm(SuspensionFile, TrailingPoints):
         return {"spring": spring_law(self.spring).section(), "damper": damper.section()}
 
     def left_open(self) -> list[str]:
-        """Describe how the curves go on."""
+        """Return assumptions on the ends of curves."""
         return words_of_curves(None, spring_law(self.spring), damper_law(self.spring, self.shock))

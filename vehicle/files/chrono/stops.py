@@ -1,10 +1,10 @@
 """Stops of Project Chrono's springs, at a minimum and a maximum length.
 
-In bump and in rebound Chrono has the same curve of force over the distance pressed in, straight
-between its points. What of it is linear from the first touch on is a stop here, too; where it
-becomes stiffer, the spring does. Beside a spring that is a curve itself, which has no room for
-more points, a stop has the law of this project, ``rate x + progression x^3``, with Chrono's rate at
-the first touch and its force at 40 mm.
+In bump and in rebound Chrono has the same curve of force over compression, linear between its
+points. The linear part from first contact is a stop here, too; the stiffer part is added to the
+curve of the spring. A spring with a curve of its own, which has no room for more points, has stops
+with the law of this project, ``rate x + progression x^3``, with Chrono's rate at first contact and
+its force at 40 mm.
 """
 
 from typing import Any, NamedTuple
@@ -19,12 +19,12 @@ _CURVE = (
     (0.05, 12500.0),
     (0.06, 125000.0),
 )
-"""Distances pressed in [m], and forces [N]; of Chrono's ``SpringForce``, beside zero."""
+"""Compressions [m] and forces [N] of Chrono's ``SpringForce``, except zero."""
 
 _RATE = _CURVE[0][1] / _CURVE[0][0]
 _STIFFER = tuple((x, force - _RATE * x) for x, force in _CURVE)
 
-# A curve has no room for the last point in rebound, where the spring would pull with tons.
+# Without the last point in rebound, where the spring would pull with tons: a curve has no room.
 _IN_BUMP, _IN_REBOUND = _STIFFER, _STIFFER[:-1]
 
 _CUBED = _STIFFER[3][1] / _STIFFER[3][0] ** 3 * 1e-9
@@ -32,7 +32,7 @@ _WITHIN = _CURVE[-2][0]
 _APART = max(abs(_RATE * x + 1e9 * _CUBED * x**3 - force) / force for x, force in _CURVE[:-1])
 
 LONGEST = _CURVE[-1][0]
-"""How far Chrono's curve goes [m]."""
+"""The greatest compression of Chrono's curve [m]."""
 
 
 class Stops(NamedTuple):
@@ -41,7 +41,7 @@ class Stops(NamedTuple):
     Attributes
     ----------
     shortest, longest : float
-        Lengths of the spring at which it touches them [m].
+        Lengths of the spring at first contact [m].
     beside_a_curve : bool
         Whether the spring is a curve.
     """
@@ -51,13 +51,7 @@ class Stops(NamedTuple):
     beside_a_curve: bool = False
 
     def sections(self, at_design: float) -> dict[str, Any]:
-        """Return them as sections of a hardpoint file.
-
-        Parameters
-        ----------
-        at_design : float
-            Length of the spring at the design position [m].
-        """
+        """Return the sections of a hardpoint file, from the spring's length at design [m]."""
         away = {"bump": at_design - self.shortest, "rebound": self.longest - at_design}
         more = {"progression_N_per_mm3": round(_CUBED, 9)} if self.beside_a_curve else {}
         return {
@@ -70,12 +64,12 @@ class Stops(NamedTuple):
         }
 
     def stiffer(self) -> tuple[tuple[float, float], ...]:
-        """Return lengths [m], falling, and how much more they push there than linear ones [N]."""
+        """Return lengths [m], falling, and the forces there above those of linear stops [N]."""
         extended = [(self.longest + x, -force) for x, force in reversed(_IN_REBOUND)]
         return (*extended, *((self.shortest - x, force) for x, force in _IN_BUMP))
 
     def words(self) -> str:
-        """Return how they are represented."""
+        """Return the description of their representation."""
         bump, rebound = (1e3 * side[-1][0] for side in (_IN_BUMP, _IN_REBOUND))
         lengths = f"{millimetres(self.shortest):g} and {millimetres(self.longest):g} mm"
         if self.beside_a_curve:

@@ -1,4 +1,4 @@
-"""Files of suspensions: the points of a template, and everything that it has."""
+"""The base of the files of suspensions, with their points alone and with all data."""
 
 import math
 from abc import abstractmethod
@@ -23,18 +23,18 @@ from .parts import (
 )
 from .tires import TYRE_RATE, USUAL, Tire
 
-_ALIKE = 0.01  # moments across a wheel that differ by less are taken as one without a word
+_ALIKE = 0.01  # relative difference of diametral moments of a wheel that is not reported
 
 
 class PointsFile(Part):
-    """What of a file is where: its points, camber and toe.
+    """The geometry of a file: its points, camber and toe.
 
     Attributes
     ----------
     TEMPLATE : str
-        What the file calls its template.
+        The template.
     KIND : str
-        What this project calls it.
+        The kind of suspension.
     SOURCES : dict of str to str
         Keys of the file by those of a hardpoint file, for messages.
     """
@@ -57,16 +57,16 @@ class PointsFile(Part):
 
     @abstractmethod
     def own_points(self) -> dict[str, Point]:
-        """Return the hardpoints that are those of the kind [m]."""
+        """Return the hardpoints of the kind, without the wheel centre [m]."""
 
     def points(self) -> dict[str, Point]:
         """Return all hardpoints [m]."""
         return self.own_points() | {"wheel_center": self.spindle.com}
 
     def alignment(self) -> dict[str, float]:
-        """Return camber and toe as seen from the front and from above [deg].
+        """Return camber and toe in front and top view [deg].
 
-        Chrono turns the spindle by toe about the vertical and then by camber about its own axis.
+        Chrono rotates the spindle by toe about the vertical and then by camber about its own axis.
         """
         camber, toe = math.radians(self.camber), math.radians(self.toe)
         projected = math.degrees(math.atan2(math.tan(camber), math.cos(toe)))
@@ -74,7 +74,7 @@ class PointsFile(Part):
 
 
 class SteeredPoints(PointsFile):
-    """The points of a suspension whose wheel is held by a tie rod."""
+    """The points of a suspension with a tie rod."""
 
     SOURCES: ClassVar[Mapping[str, str]] = {
         **PointsFile.SOURCES,
@@ -91,12 +91,12 @@ class SteeredPoints(PointsFile):
 
 
 class SuspensionFile(PointsFile):
-    """Everything that a file has.
+    """All data of a file.
 
     Attributes
     ----------
     LINKED : str
-        The part that the drop link of an anti-roll bar is joined to, as this project calls it.
+        The part of the kind to which the drop link of an anti-roll bar is joined.
     """
 
     UNREAD: ClassVar[frozenset[str]] = frozenset({"Name", "Output"})
@@ -116,10 +116,10 @@ class SuspensionFile(PointsFile):
 
     @abstractmethod
     def arms(self) -> Mapping[str, tuple[str, ChronoArm]]:
-        """Return the arms, with what the file calls them, by their names as bodies."""
+        """Return the arms with their keys in the file, by body."""
 
     def carriers(self) -> dict[str, tuple[str, ChronoBody]]:
-        """Return the bodies whose inertia is in the axes of the vehicle, in the same way."""
+        """Return the bodies with an inertia in vehicle axes and their keys, by body."""
         return {}
 
     @abstractmethod
@@ -128,14 +128,14 @@ class SuspensionFile(PointsFile):
 
     @abstractmethod
     def left_open(self) -> list[str]:
-        """Return what the template leaves open, and what is otherwise here."""
+        """Return the assumptions of the template."""
 
     def without_effect(self) -> list[Unread]:
-        """Return the keys that Chrono does not use beside the others, with their values."""
+        """Return the keys that Chrono does not use, with their values."""
         return [*self.spring.without_effect(), *self.shock.without_effect()]
 
     def problems(self) -> list[str]:
-        """Say what in the file has no place in a suspension of this project."""
+        """Return the problems of data that cannot be read."""
         bodies = [*self.arms().values(), *self.carriers().values()]
         of_bodies = [text for name, body in bodies for text in body.problems(name)]
         return of_bodies + problems_of(self.spring, self.shock)
@@ -161,7 +161,7 @@ class SuspensionFile(PointsFile):
         }
 
     def assumed_alone(self, tire: Tire) -> list[str]:
-        """Return the assumptions for a suspension whose vehicle is not known, a sentence each."""
+        """Return the assumptions for a suspension without its vehicle, a sentence each."""
         given = "" if tire.rate is not None else f"{TYRE_RATE / 1e3:g} N/mm, "
         lines = [f"tyre: {given}just touching at design"]
         if tire.is_usual:
@@ -177,7 +177,7 @@ class SuspensionFile(PointsFile):
         return lines
 
     def assumptions(self, tire: Tire) -> list[str]:
-        """Return what the files leave open besides, a sentence each."""
+        """Return the other assumptions, a sentence each."""
         lines = []
         across, _, other = np.array(self.spindle.inertia) + tire.inertia
         if abs(across - other) > _ALIKE * max(across, other):
@@ -191,7 +191,7 @@ class SuspensionFile(PointsFile):
         return np.eye(3) if self.vehicle_axes else arm.axes()
 
     def _wheel(self, tire: Tire) -> dict[str, float]:
-        """Return the body that turns with the wheel: spindle and tire, and the axle's shaft."""
+        """Return the section of the wheel, which includes spindle, tire and the axle's shaft."""
         across, along, other = np.array(self.spindle.inertia) + tire.inertia
         return {
             "mass_kg": self.spindle.mass + tire.mass,
@@ -202,7 +202,7 @@ class SuspensionFile(PointsFile):
 
 
 class KnuckleFile(SuspensionFile, SteeredPoints):
-    """Everything that the file of a suspension with an upright and a tie rod has."""
+    """All data of a suspension with an upright and a tie rod."""
 
     SOURCES: ClassVar[Mapping[str, str]] = {
         **SuspensionFile.SOURCES,
@@ -223,24 +223,16 @@ class KnuckleFile(SuspensionFile, SteeredPoints):
         return found | {"rack": {"axis": [0.0, 1.0, 0.0]}, "bodies": bodies}
 
     def assumed_alone(self, tire: Tire) -> list[str]:
-        """Return the assumptions for a suspension whose vehicle is not known, a sentence each."""
+        """Return the assumptions for a suspension without its vehicle, a sentence each."""
         return [RACK, *super().assumed_alone(tire)]
 
 
 RACK = "rack: moves along y; the file of the steering is not read"
-"""What is assumed of the steering."""
+"""The assumption on the steering."""
 
 
 def arm_sources(hardpoint: str, arm: str) -> dict[str, str]:
-    """Return the keys of an arm by its hardpoints' names.
-
-    Parameters
-    ----------
-    hardpoint : str
-        What the names of its bearings begin with.
-    arm : str
-        What the file calls it.
-    """
+    """Return the keys of an arm's bearings in the file, by our names with a prefix."""
     return {
         f"{hardpoint}_front": f"{arm} > Location Chassis Front",
         f"{hardpoint}_rear": f"{arm} > Location Chassis Back",

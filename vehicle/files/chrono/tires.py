@@ -1,4 +1,4 @@
-"""Tires of Project Chrono's templates: radius, mass and inertia, and the rate where it is one."""
+"""Tires of Project Chrono's templates: radius, mass and inertia, and a constant rate."""
 
 import math
 import re
@@ -19,20 +19,20 @@ from .keys import Part, Place, Unread, leaves, listed, meant, problem_of, shown,
 from .parts import Finite, Point
 
 TYRE_RATE = 200e3
-"""Radial rate of a tyre that no file describes [N/m]."""
+"""Default radial rate of a tyre [N/m]."""
 
 
 class _Places(NamedTuple):
-    """Where a template has what is read; nothing where it has it not."""
+    """The places of data in a template; empty for missing ones."""
 
     radius: Place
     mass: Place = ("Mass",)
     inertia: Place = ("Inertia",)
     rate: Place = ()
     curve: Place = ()
-    """Takes the place of the rate, where it is there."""
+    """Replaces the rate, if it is given."""
     file: Place = ()
-    """Name of a file in the TeimOrbit format, which then has the radius."""
+    """Name of a file in the TeimOrbit format with the radius."""
 
 
 _DESIGN = _Places(
@@ -59,7 +59,7 @@ _TEMPLATES: Mapping[str, _Places] = {
     "Pac02Tire": _Places(("Dimension", "Unloaded Radius"), file=("TIR Specification File",)),
     "PacejkaTire": _Places((), file=("Pacejka Parameter File",)),
     "MFTire": _Places(("DIMENSION", "UNLOADED_RADIUS")),
-    # of finite elements, whose mass is that of their materials
+    # tires of finite elements, with the mass of their materials
     "ANCFTire": _ELEMENTS,
     "ReissnerTire": _ELEMENTS,
     "FEATire": _ELEMENTS,
@@ -82,17 +82,17 @@ class Tire:
     Attributes
     ----------
     radius : float or None
-        Without load [m]; None if no file says.
+        Without load [m]; None if not known.
     mass : float
-        In kg.
+        [kg].
     inertia : tuple of float
         Moments about its axes; the second one is the axis of its spin [kg m^2].
     rate : float or None
-        Vertical [N/m]; None if it has none, or no constant one.
+        Vertical rate [N/m]; None if it is not constant or not known.
     template : str
-        Empty for one that no file describes.
+        Empty for the default tire.
     assumed, left_out : tuple of str
-        What the file leaves open, and what of it is not read, a sentence each.
+        Assumptions and unread data, a sentence each.
     """
 
     radius: float | None
@@ -105,31 +105,16 @@ class Tire:
 
     @property
     def is_usual(self) -> bool:
-        """Whether no file describes it."""
+        """Whether it is the default tire."""
         return not self.template
 
 
 USUAL = Tire(None, _Values().mass, _Values().inertia)
-"""Of a passenger car, with its rim; where no file of a tire is given."""
+"""The default tire, of a passenger car, with its rim."""
 
 
 def read_tire(path: str | Path) -> Tire:
-    """Return the tire of a file.
-
-    Parameters
-    ----------
-    path : str or pathlib.Path
-        A file that it names may lie beside it.
-
-    Returns
-    -------
-    Tire
-
-    Raises
-    ------
-    InputError
-        If it is of another kind, or a value is wrong; with all problems.
-    """
+    """Return the tire of a file, which may name another one beside it."""
     return tire_of(content(path), path)
 
 
@@ -180,7 +165,7 @@ def tire_of(data: dict[str, Any], path: str | Path) -> Tire:
 
 
 def _template(data: dict[str, Any], path: str | Path) -> str:
-    """Return the template of a file; refuse those that are no tires."""
+    """Return the template of a tire's file; refuse other files."""
     kind, template = data.get("Type", "Tire"), data.get("Template", "RigidTire")
     if kind != "Tire":
         problem = f'"Type" is {shown(kind)}; the file of a tire is needed, in which it is "Tire".'
@@ -214,7 +199,7 @@ def _radius_in(folder: Path, name: str) -> tuple[float | None, str]:
 
 
 def _at(data: Any, place: Place) -> Any:
-    """Return what is at a place; None if there is nothing."""
+    """Return the value at a place, or None."""
     for key in place:
         data = data.get(key) if isinstance(data, dict) else None
     return data
@@ -232,7 +217,7 @@ def _unread(data: dict[str, Any], used: set[Place], above: Place = ()) -> Iterat
 
 
 def _slips(unread: Iterable[Unread], missing: Iterable[Place]) -> list[str]:
-    """Say which keys seem to be those that are missing."""
+    """Return the problems of keys that are probably misspelt ones of missing keys."""
     return [
         slip(place, right)
         for one in missing

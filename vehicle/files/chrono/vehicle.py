@@ -49,7 +49,7 @@ _STEERINGS: Mapping[str, type[RackPinion] | type[PitmanArm]] = {
     "RackPinion": RackPinion,
     "PitmanArm": PitmanArm,
 }
-_CLOSE = 1e-3  # wheelbases that differ by less are one [m]
+_CLOSE = 1e-3  # difference of wheelbases that is not reported [m]
 
 
 class ImportedCar(NamedTuple):
@@ -59,9 +59,9 @@ class ImportedCar(NamedTuple):
     ----------
     car : Car
     assumptions : tuple of str
-        What the files leave open, or have otherwise than this project, one sentence each.
+        Assumptions, and differences between both programs, one sentence each.
     left_out : tuple of str
-        The keys of the files that are not read, with their values, by file.
+        The unread keys of the files, with their values, by file.
     files : tuple of pathlib.Path
         The files that were read.
     """
@@ -73,7 +73,7 @@ class ImportedCar(NamedTuple):
 
 
 def is_vehicle(path: str | Path) -> bool:
-    """Return whether a file of Project Chrono is that of a whole vehicle."""
+    """Return whether a file of Project Chrono describes a whole vehicle."""
     return content(path).get("Type") == "Vehicle"
 
 
@@ -84,9 +84,9 @@ def read_vehicle(path: str | Path, *, tire: str | Path | None = None) -> Importe
     ----------
     path : str or pathlib.Path
         JSON file of the template "WheeledVehicle": that of a vehicle, or one that names this and a
-        tire. The files that it names lie in their folders, as in Chrono's folder of data.
+        tire. The files that it names are in the folders of Chrono's folder of data.
     tire : str or pathlib.Path, optional
-        JSON file of a tire, of all wheels, instead of those that are named.
+        JSON file of a tire for all wheels, instead of those that are named.
 
     Returns
     -------
@@ -96,7 +96,7 @@ def read_vehicle(path: str | Path, *, tire: str | Path | None = None) -> Importe
     Raises
     ------
     InputError
-        If a file is missing or no file of Chrono, or a part is of a kind that cannot be had; by
+        If a file is missing or not one of Chrono, or a part is of a kind that cannot be read; with
         the keys of the files.
     """
     with Validator("read_vehicle") as given:
@@ -141,7 +141,7 @@ class _Axle(NamedTuple):
 
 
 class _Reader:
-    """Reads a vehicle's file and those that it names."""
+    """The reader of a vehicle's file and those that it names."""
 
     def __init__(self, path: Path, tire: Path | None) -> None:
         self.files: list[Path] = []
@@ -197,7 +197,7 @@ class _Reader:
         return ImportedCar(car, tuple(assumed), tuple(left_out), tuple(dict.fromkeys(self.files)))
 
     def _vehicle(self) -> VehicleFile:
-        """Return the vehicle's file, of which another one may have given the name and the tire."""
+        """Return the vehicle's file, which another file with a tire may name."""
         data = content(self.path)
         self.files.append(self.path)
         if isinstance(data.get("Vehicle"), dict):
@@ -224,9 +224,9 @@ class _Reader:
         self.left_out += [f"{file.name} > {line}" for line in listed(unread)]
 
     def _possible(self, data: dict[str, Any], file: Path) -> dict[str, Any]:
-        """Return the content of a file with the inertia raised that no body can have.
+        """Return the content of a file with impossible moments of inertia raised.
 
-        Many of Chrono's files have one that is more than the other two together, which no body has.
+        Many of Chrono's files have a moment that is more than the sum of the other two.
         """
         found = {}
         for key, value in data.items():
@@ -331,7 +331,7 @@ class _Reader:
             section["anti_roll_bar"] = bar.section(at, axle.suspension.LINKED)
         return section
 
-    # -- what belongs to the vehicle --------------------------------------------------------------
+    # -- its other parts --------------------------------------------------------------------------
 
     def _compare_wheelbase(self, vehicle: VehicleFile, base: float) -> None:
         given = vehicle.wheelbase
@@ -342,7 +342,7 @@ class _Reader:
             )
 
     def _rack(self, vehicle: VehicleFile) -> dict[str, Any]:
-        """Return the rack of the front axle; empty where nothing steers it."""
+        """Return the rack of the front axle; empty without steering."""
         index = vehicle.axles[0].steering
         for i, unused in enumerate(vehicle.steerings):
             if i != index:
@@ -367,7 +367,7 @@ class _Reader:
         return section
 
     def _brake_share(self, vehicle: VehicleFile) -> dict[str, float]:
-        """Return the part of the brake torque that is at the front; empty without brakes."""
+        """Return the front share of the brake torque; empty without brakes."""
         torques = [
             0.0
             if axle.left_brake is None
@@ -384,9 +384,9 @@ class _Reader:
         return {"front_brake_share": round(torques[0] / total, 9)}
 
     def _driving(self) -> dict[str, Any]:
-        """Return the sections of a car that drives: tyres, if their files can be read, and brakes.
+        """Return the sections of a driving car: tyres, if their files can be read, and brakes.
 
-        The car itself does not drive before its file says so.
+        The car itself drives only after a change of its file.
         """
         if None in self.rolling.values():
             return {}
@@ -397,7 +397,7 @@ class _Reader:
         return {"tyres": {**self.rolling, "relaxation": False}} | brakes
 
     def _rolling(self, file: Path) -> str | None:
-        """Return the file of a tyre that rolls, or None with a reason among the assumptions."""
+        """Return the file of a rolling tyre, or None with a reason among the assumptions."""
         given = content(file).get(_TIR)
         try:
             tyre = file if not isinstance(given, str) else self.folder.find(given, _TIR)
@@ -411,7 +411,7 @@ class _Reader:
         return str(tyre)
 
     def _shares(self, vehicle: VehicleFile) -> dict[str, float]:
-        """Return the share of the driving force by end; empty where nothing drives."""
+        """Return the share of the driving force by end; empty without a driveline."""
         place = vehicle.driveline
         if place is None:
             return {}
@@ -443,14 +443,14 @@ def _ground(chassis: Chassis, front: _Axle, rear: _Axle) -> float:
     part = (com[0] - rear.center[0]) / (front.center[0] - rear.center[0])
     load = 0.5 * _GRAVITY * (mass * part + front.mass)
     rate = TYRE_RATE if front.tire.rate is None else front.tire.rate
-    assert front.tire.radius is not None  # asked for where the tire was read
+    assert front.tire.radius is not None  # checked when the tire was read
     return float(front.center[2] - front.tire.radius + (load / rate if rate else 0.0))
 
 
 def _moved(data: dict[str, Any], by: Array) -> dict[str, Any]:
-    """Return the file of a suspension whose points are in metres, moved."""
+    """Return the file of a suspension with points in metres, shifted [m]."""
     points, unit = data["hardpoints"], data["hardpoints"]["unit"]
-    assert unit == "m"  # as it is written here
+    assert unit == "m"
     moved = {
         name: [rounded(value) for value in np.add(point, by)]
         for name, point in points.items()
@@ -467,7 +467,7 @@ def _body_moved(body: dict[str, Any], by: Array) -> dict[str, Any]:
 
 
 def _with_height(car: Car) -> Car:
-    """Return a car whose axles know the height of the centre of gravity."""
+    """Return a car with the height of the centre of gravity in the files of its axles."""
     height = round(1e3 * float(center_of_gravity(car)[2]), 3)
     if height <= 0.0:
         return car

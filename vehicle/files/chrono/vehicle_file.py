@@ -1,4 +1,4 @@
-"""The template WheeledVehicle: which parts a whole vehicle has, and where they are."""
+"""The template WheeledVehicle: the parts of a whole vehicle, and their positions."""
 
 from collections.abc import Iterator
 from pathlib import Path, PureWindowsPath
@@ -13,7 +13,7 @@ from .keys import Part
 from .parts import Finite, Point
 
 _AXLES = 2
-_ABOVE = 6  # folders above a file in which others are looked for
+_ABOVE = 6  # folders above a file in which others are searched
 _SHOWN = 6
 
 
@@ -22,7 +22,7 @@ class _Named(Part):
 
 
 class SteeringPlace(_Named):
-    """A steering subsystem, and where it is."""
+    """A steering subsystem, and its position."""
 
     UNREAD: ClassVar[frozenset[str]] = frozenset({"Output"})
 
@@ -32,7 +32,7 @@ class SteeringPlace(_Named):
 
 
 class AxlePlace(Part):
-    """The parts of an axle, and where they are."""
+    """The parts of an axle, and their positions."""
 
     UNREAD: ClassVar[frozenset[str]] = frozenset({"Output"})
 
@@ -60,7 +60,7 @@ class DrivelinePlace(_Named):
 
 
 class VehicleFile(Part):
-    """A vehicle with wheels, as its file says it."""
+    """The file of a wheeled vehicle."""
 
     UNREAD: ClassVar[frozenset[str]] = frozenset({"Name"})
 
@@ -75,7 +75,7 @@ class VehicleFile(Part):
     driveline: DrivelinePlace | None = Field(default=None, alias="Driveline")
 
     def problems(self) -> list[str]:
-        """Say why a vehicle is none of those that can be had: one body on two axles."""
+        """Return the problems of vehicles other than one body on two axles."""
         lines = [
             f'"{key}": a vehicle of more than one body on its axles cannot be read.'
             for key, given in (("Rear Chassis", self.rear_chassis), ("Subchassis", self.subchassis))
@@ -111,14 +111,9 @@ def _problems_of_axle(end: str, axle: AxlePlace) -> Iterator[str]:
 
 
 class Folder:
-    """The files that a vehicle's file names: paths count from a folder at or above its own.
+    """The files that a vehicle's file names, with paths relative to a folder at or above its own.
 
-    Chrono counts from its folder of data, which a file does not name.
-
-    Parameters
-    ----------
-    path : str or pathlib.Path
-        The vehicle's file.
+    In Chrono they are relative to its folder of data, which a file does not name.
     """
 
     def __init__(self, path: str | Path) -> None:
@@ -127,19 +122,7 @@ class Folder:
         self._roots = list(here.parents)[:_ABOVE]
 
     def find(self, name: str, key: str) -> Path:
-        """Return where a file is.
-
-        Parameters
-        ----------
-        name : str
-        key : str
-            What names it, for the message.
-
-        Raises
-        ------
-        InputError
-            If there is none.
-        """
+        """Return the path of a named file, or raise an `InputError` with the key of the name."""
         parts = PureWindowsPath(name).parts
         if not parts or ".." in parts or PureWindowsPath(name).is_absolute():
             problem = f'"{key}" = "{legible(short(name))}" is not a path within a folder of data.'
@@ -156,7 +139,7 @@ class Folder:
         raise InputError([problem], str(self._path))
 
     def tires(self) -> list[str]:
-        """Return files of tires beside the vehicle's file or one folder above, as one may give."""
+        """Return files of tires beside the vehicle's file or in the folder above."""
         found = []
         for root in self._roots[:2]:
             for file in sorted({*root.glob("*[tT]ire*.json"), *root.glob("[tT]ire*/*.json")}):

@@ -1,6 +1,6 @@
 """Parts of a whole vehicle of Project Chrono: chassis, wheel, steering, bar, brake, driveline.
 
-Points are in the axes of each part, which lie in those of the chassis as the vehicle's file says.
+Points are in the axes of each part, whose position and orientation are in the vehicle's file.
 """
 
 from typing import Annotated, Any, ClassVar, Literal
@@ -19,7 +19,7 @@ _Quaternion = tuple[Finite, Finite, Finite, Finite]
 _Positive = Annotated[Finite, Field(gt=0.0)]
 
 _FORMAL = frozenset({"Name", "Output", "Visualization", "Contact"})
-# Unit vectors agree to this, and a quaternion is one [1].
+# Tolerance of unit vectors and unit quaternions [1].
 _ALIKE = 1e-3
 
 
@@ -43,7 +43,7 @@ class _Component(Part):
 
 
 class DriverPlace(Part):
-    """Where the driver is."""
+    """The position of the driver."""
 
     UNREAD: ClassVar[frozenset[str]] = frozenset({"Orientation"})
 
@@ -59,7 +59,7 @@ class Chassis(_File):
     driver: DriverPlace | None = Field(default=None, alias="Driver Position")
 
     def body(self) -> tuple[float, Array, Array]:
-        """Return its mass [kg], centre of mass [m] and inertia about that [kg m^2]; axes of it."""
+        """Return mass [kg], centre of mass [m] and inertia about it [kg m^2], in its axes."""
         mass, moment = 0.0, np.zeros(3)
         for one in self.components:
             part = -one.mass if one.void else one.mass
@@ -77,7 +77,7 @@ class Chassis(_File):
         return mass, com, inertia
 
     def problems(self) -> list[str]:
-        """Say why no body can be like this."""
+        """Return the problems of orientations, mass and inertia."""
         lines = [
             f'"Components > Centroidal Frame > Orientation" = {list(one.frame.orientation)} is not '
             "a unit quaternion. Correct it."
@@ -93,7 +93,7 @@ class Chassis(_File):
         return [f'"Components" have together an inertia of which {reason}.'] if reason else []
 
     def section(self, origin: Array) -> dict[str, Any]:
-        """Return it as the body of a car, whose axes have their origin somewhere else [m]."""
+        """Return the section of a car's body, for axes with another origin [m]."""
         mass, com, inertia = self.body()
         return {
             "mass_kg": mass,
@@ -138,15 +138,7 @@ class BarFile(_File):
     spring: _BarSpring = Field(alias="RSD")
 
     def section(self, at: Array, linked: str) -> dict[str, Any]:
-        """Return it as a section of an axle's file.
-
-        Parameters
-        ----------
-        at : ndarray, shape (3,)
-            Where its middle is [m].
-        linked : str
-            The part that its drop link is joined to.
-        """
+        """Return the section of an axle's file, from its middle [m] and the part of drop links."""
         top = np.add(at, [self.arm.width, self.arm.length, 0.0])
         points = {
             "bush": np.add(at, [0.0, 0.5 * self.arm.length, 0.0]),
@@ -177,7 +169,7 @@ class RackPinion(_File):
     pinion: _Pinion = Field(alias="Pinion")
 
     def rack(self, turned: Array) -> tuple[dict[str, Any], str]:
-        """Return the section of a rack in a frame that is turned, and its assumptions."""
+        """Return the section of a rack in a rotated frame, and its assumptions."""
         most = np.deg2rad(self.pinion.greatest) * self.pinion.radius
         section = {
             "axis": direction(turned @ [0.0, 1.0, 0.0]),
@@ -190,7 +182,7 @@ class RackPinion(_File):
         return section, words
 
     def problems(self) -> list[str]:
-        """Return none: any rack can be had."""
+        """Return none: any rack can be read."""
         return []
 
 
@@ -234,11 +226,11 @@ class PitmanArm(_File):
     tie_rods: _TieRods = Field(alias="Tierod Locations")
 
     def rack(self, turned: Array) -> tuple[dict[str, Any], str]:
-        """Return the section of the rack that moves as the link does first, and what that leaves.
+        """Return the section of a rack with the initial velocity of the link, and the differences.
 
-        Both arms have parallel axes and are alike, so that the link moves along a circle without
-        turning (see `problems`): in the direction across the arm at first, and by its sagitta
-        behind that at the greatest angle.
+        Both arms have parallel axes and are equal, so that the link moves along a circle without
+        rotation (see `problems`): initially normal to the arm, and behind this line by its sagitta
+        at the greatest angle.
         """
         axis, arm, _ = self._arms()
         across = cross(axis, arm)
@@ -255,7 +247,7 @@ class PitmanArm(_File):
         return {"axis": direction(turned @ outward)}, words
 
     def problems(self) -> list[str]:
-        """Say why a link does not move as a rack near its middle."""
+        """Return the problem of a link that does not move as a rack near its middle."""
         axis, arm, idler = self._arms()
         other = np.array(self.idler.direction)
         unit = other / np.linalg.norm(other) if np.linalg.norm(other) > 0.0 else other
@@ -289,7 +281,7 @@ class Brake(_File):
 
 
 class Driveline(_File):
-    """What leads the torque to the wheels."""
+    """The driveline, which leads the torque to the wheels."""
 
     UNREAD: ClassVar[frozenset[str]] = _FORMAL | {"Shaft Direction", "Shaft Inertia", "Gear Ratio"}
 
@@ -301,7 +293,7 @@ class Driveline(_File):
 
 
 def rotation(quaternion: _Quaternion) -> Array:
-    """Return the matrix of a turn; the scalar of its quaternion comes first."""
+    """Return the matrix of a rotation from its quaternion, scalar first."""
     w, *v = np.array(quaternion) / np.linalg.norm(quaternion)
     skew = np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
     turned: Array = np.eye(3) + 2.0 * w * skew + 2.0 * skew @ skew
@@ -309,15 +301,15 @@ def rotation(quaternion: _Quaternion) -> Array:
 
 
 def is_rotation(quaternion: _Quaternion) -> bool:
-    """Return whether it has the length 1."""
+    """Return whether a quaternion has the length 1."""
     return bool(abs(np.linalg.norm(quaternion) - 1.0) < _ALIKE)
 
 
 def rounded(metres: Any) -> float:
-    """Return a length in millimetres, without digits that only arithmetic has brought."""
+    """Return a length in millimetres, without digits from rounding."""
     return millimetres(round(float(metres), 9)) + 0.0
 
 
 def direction(vector: Array) -> list[float]:
-    """Return a unit vector without digits that only arithmetic has brought."""
+    """Return a unit vector without digits from rounding."""
     return [round(float(x), 9) + 0.0 for x in vector]
