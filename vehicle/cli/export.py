@@ -68,6 +68,7 @@ def command(
     these libraries differentiate. points: the hardpoints of a suspension as a table. In Python any
     state can be the start: kintrafo.export_model(model, "car.fmu", "fmu", state=rest).
     """
+    from ...core.errors import InputError
     from ...core.validator import Validator
     from ...targets.export import ENDINGS, check_export, export_model
     from ..files.point_table import write_points
@@ -83,6 +84,8 @@ def command(
     stem = Path(file).stem if Path(file).suffix else file
     path = Path(f"{stem}{endings[to]}") if out is None else out
     if to == "points":
+        if file.endswith(".py") or _is_equations(file):
+            raise InputError([f"this is a mechanism, {_NOT_A_TABLE}"], file)
         kind: type[Any] = Suspension  # an abstract class, of which one is loaded
         suspension = subject_of(file, kind, _NOT_A_TABLE)
         facts = {"path": str(write_points(suspension, path, force=force, inputs=[file])), "to": to}
@@ -111,13 +114,19 @@ def _described_by(file: str, model: str | None) -> "System":
 
     if file.endswith(".py"):
         return system_of(file, model)
-    packaged, shipped = [*all_packaged()], _shipped()
-    if file in shipped and file not in packaged:
+    if _is_equations(file):
         return System(import_module(f"kintrafo.generated.{file}"))
     if not (Path(file).suffix or Path(file).exists()):
         with Validator("export") as given:
-            given.among("FILE", file, [*packaged, *shipped])
+            given.among("FILE", file, [*all_packaged(), *_shipped()])
     return model_of(file)
+
+
+def _is_equations(file: str) -> bool:
+    """Return whether a name is that of equations, and of no packaged file."""
+    from ..data.starter import all_packaged
+
+    return file in _shipped() and file not in all_packaged()
 
 
 def _shipped() -> list[str]:

@@ -48,6 +48,7 @@ def test_a_file_with_a_value_out_of_its_range(kintrafo, tmp_path, to):
         (["--to", "c", "-o", "mine.fmu"], "not a folder"),
         (["--to", "c", "--fmi", "2"], "--fmi is only for --to fmu"),
         (["--to", "points", "--platform", "linux"], "--platform is only for --to fmu"),
+        (["--to", "points"], "this is the file of a car"),
     ],
 )
 def test_bad_arguments_are_found_before_a_car_is_derived(kintrafo, tmp_path, arguments, words):
@@ -56,6 +57,14 @@ def test_bad_arguments_are_found_before_a_car_is_derived(kintrafo, tmp_path, arg
     assert (code, out) == (2, "")
     assert words in " ".join(err.split())
     assert [path.name for path in tmp_path.iterdir()] == ["mine.fmu"]
+
+
+@pytest.mark.parametrize("name", ["andrews", "crane.py"])
+def test_a_mechanism_has_no_table_of_hardpoints(kintrafo, tmp_path, name):
+    code, out, err = kintrafo("export", name, "--to", "points")
+    assert (code, out) == (2, "")
+    assert "this is a mechanism, and a table of hardpoints" in " ".join(err.split())
+    assert not [*tmp_path.iterdir()]
 
 
 def test_names_that_are_almost_right(kintrafo):
