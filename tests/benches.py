@@ -11,6 +11,7 @@ from kintrafo import Suspension
 from oracle.constraints import KNUCKLE
 from oracle.links import Carrier
 from oracle.newton import Mechanism, observe, solve_pose_at_height
+from oracle.relay_rod import OnRelayRod, linkage_of
 
 UP = np.array([0.0, 0.0, 1.0])
 Place = tuple[float, float]
@@ -141,7 +142,12 @@ class Wishbones(Bench):
 
     def __init__(self, suspension: Suspension) -> None:
         super().__init__(suspension)
-        self.carrier = Carrier(self.points, np.array(self.suspension.rack.axis))
+        arm = self.suspension.pitman_arm
+        self.carrier = (
+            Carrier(self.points, np.array(self.suspension.rack.axis))
+            if arm is None
+            else OnRelayRod(self.points, linkage_of(arm))
+        )
         wheel = self.suspension.wheel
         camber, toe = (np.radians(getattr(wheel, f"{a}_deg")) for a in ("camber", "toe"))
         # outboard, with the angles of docs/reference/conventions.md

@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 
 from .. import declare as d
 from ..declare.parameters import Owner
+from .pitman_arm import LINKAGE
 from .suspension import RACK_FORCE
 
 SIDES = ("right_", "left_")
@@ -140,6 +141,7 @@ def _copies(corner: d.Formulation, side: d.Mechanism, *, own: bool) -> tuple[d.C
     """Return a suspension of the right side and its mirror image, on one rack if any."""
     shared: tuple[d.Body | d.Input, ...] = (
         *(guide.second for guide in corner.prescribed),
+        *(body for body in LINKAGE if body in side.bodies),
         *((RACK_FORCE,) if corner.prescribed else ()),
     )
     theirs = tuple(side.every(Owner)) if own else ()

@@ -60,6 +60,10 @@ class Carrier:
             pose = self._solved(pose, travel * part / parts, rack * part / parts)
         return pose
 
+    def inner(self, rack: float) -> Array:
+        """Return the inner end of the tie rod [m]."""
+        return self.points["tie_rod_inner"] + rack * self.rack_axis
+
     def point(self, pose: Pose, name: str) -> Array:
         """Return a point of the carrier [m]."""
         return pose.center + pose.rotation @ (self.points[name] - self.points["wheel_center"])
@@ -75,9 +79,7 @@ class Carrier:
 
     def _solved(self, pose: Pose, travel: float, rack: float) -> Pose:
         height = self.points["wheel_center"][2] + travel
-        fixed = self.points | {
-            "tie_rod_inner": self.points["tie_rod_inner"] + rack * self.rack_axis
-        }
+        fixed = self.points | {"tie_rod_inner": self.inner(rack)}
         for _ in range(STEPS):
             rows, errors = [np.array([0.0, 0.0, 1.0, 0.0, 0.0, 0.0])], [pose.center[2] - height]
             for near, far in RODS:

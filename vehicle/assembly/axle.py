@@ -8,9 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.quantities import variable
 from ...core.validator import Validator
-from ...core.vectors import unit_vector
 from ..corner.bushes import described_bushings, mirrored_bushings, softness_of_rack
 from ..corner.corner import Array
 from ..kinds import Suspension
@@ -26,9 +24,8 @@ from .assembly import Bushings, HeldAssembly
 from .axle_coupling import on_the_bar, pull_of_bar, rules_of, turn_of_half
 from .axle_kinematics import AxleKinematics, refuse_loose_link
 from .corner import CornerAssembly, lines_of, poses_of
-from .coupling import STEERING, BodyPose, on_the_rack
+from .coupling import BodyPose
 from .held import RestConditions
-from .load import RACK as THE_RACK
 from .load import Load
 from .measures.axle import OVER_RACK, OVER_STEERING, OVER_TRAVEL
 from .measures.measure import Measure
@@ -37,6 +34,7 @@ from .quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
 from .rest import settled
 from .rig import RigMotion, RigPosition, SweepRange, WheelReach
 from .soft_lines import SoftLines
+from .steering_linkage import on_the_steering, steering_of
 from .steering_wheel import per_turn_at, rack_of
 from .wheel_names import WheelNames
 
@@ -99,9 +97,9 @@ class AxleAssembly(HeldAssembly):
     @property
     def words(self) -> str:
         """A description in sentences."""
-        on_rack = ", on one rack" if self.steered else ""
+        by = f", {self.axle.right.steering_gear.WORDS}" if self.steered else ""
         words = [
-            f"Both wheels of the {self.axle.heading()}{on_rack}.",
+            f"Both wheels of the {self.axle.heading()}{by}.",
             "One side is the mirror image of the other." if self.symmetric else "The sides differ.",
             *(f"Anti-roll bar: {bar}." for bar in self.described().values()),
         ]
@@ -199,9 +197,9 @@ class AxleAssembly(HeldAssembly):
             return
         if self.motions[motion].along is not STEERING_WHEEL:
             given.fail(
-                "along: nothing says how the steering wheel moves the rack. Give [rack] "
-                "travel_per_turn_mm in the hardpoint file, or [steering] in the axle's; or take "
-                "the motion 'rack', over displacements of it."
+                "along: nothing says how the steering wheel moves the rack. Give "
+                f"{self.axle.right.steering_gear.TURN_KEY} in the hardpoint file, or [steering] in "
+                "the axle's; or take the motion 'rack', over displacements of it."
             )
         elif self.axle.steering is not None:
             problem = self.axle.steering.beyond(along)
@@ -312,16 +310,10 @@ class AxleAssembly(HeldAssembly):
     def between(
         self, poses: Mapping[str, PartPoses], loads: Sequence[Load]
     ) -> tuple[list[Load], dict[str, BodyPose]]:
-        """Return the loads on the anti-roll bar with its drop links, and on the rack."""
+        """Return the loads on the anti-roll bar with its drop links, and on what steers it."""
         bar, places = on_the_bar(self.axle, poses, loads) if self.axle.halves else ([], {})
-        if not self.steered:
-            return bar, places
-        rack, of_rack = on_the_rack(self._rack_axis, loads, "rack_middle")
-        return [*bar, *rack], places | of_rack
-
-    @property
-    def _rack_axis(self) -> Array:
-        return unit_vector(self.axle.right.rack.axis)
+        steering, of_steering = on_the_steering(poses[f"_{LEFT}"], loads, "rack_middle")
+        return [*bar, *steering], places | of_steering
 
     def further(
         self, over: str, poses: Mapping[str, PartPoses], found: "xr.Dataset"
@@ -330,10 +322,7 @@ class AxleAssembly(HeldAssembly):
         of_bar = super().further(over, poses, found)
         if not self.steered:
             return of_bar
-        (row,) = np.flatnonzero((found["part"] == THE_RACK) & (found["by"] == STEERING))
-        force = found["force"].values[:, row] @ self._rack_axis
-        words = "force of the steering on the rack along its axis"
-        return {"rack_force": variable(over, force, words, "N")} | of_bar
+        return steering_of(self.axle.right.steering_gear, over, found) | of_bar
 
     def in_motion(
         self, states: Array, inputs: Array

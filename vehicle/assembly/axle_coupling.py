@@ -23,7 +23,7 @@ _OF_RACK = "the housing of the rack holds it in the middle between the tie rods"
 
 def rules_of(axle: Axle) -> tuple[str, ...]:
     """Return the assumptions that resolve the statical indeterminacy of bar and rack."""
-    of_bar, of_rack = (_OF_BAR,) * bool(axle.halves), (_OF_RACK,) * axle.steered()
+    of_bar, of_rack = (_OF_BAR,) * bool(axle.halves), (_OF_RACK,) * (axle.right.rack is not None)
     return (*of_bar, *of_rack)
 
 

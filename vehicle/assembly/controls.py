@@ -78,9 +78,9 @@ class Controls:
             raise InputError([problem], self.car.heading())
         if front.steering is None and motions.travel_per_turn(front) is None:
             problem = (
-                "[rack] travel_per_turn_mm is missing in the file of the front axle's side: how "
-                "far the rack moves for a turn of the steering wheel. Add it, or a curve as "
-                "[steering] of the axle."
+                f"{front.right.steering_gear.TURN_KEY} is missing in the file of the front axle's "
+                "side: how far the rack moves for a turn of the steering wheel. Add it, or a curve "
+                "as [steering] of the axle."
             )
             raise InputError([problem], self.car.heading())
         turned, rates, accelerations = np.broadcast_arrays(*values)

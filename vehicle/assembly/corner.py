@@ -17,7 +17,7 @@ from ..models.positions import PositionError, arm_angles, design_height
 from ..models.reach import at_rest, height_and_slope, travel_range
 from .assembly import Bushings, HeldAssembly
 from .corner_kinematics import corner
-from .coupling import BodyPose, on_the_rack, rules_of
+from .coupling import BodyPose, rules_of
 from .held import RestConditions
 from .load import Load
 from .measures.corner import OF_STEERING, OVER_RACK, OVER_TRAVEL
@@ -28,6 +28,7 @@ from .quantity import RACK, TRAVEL, Quantity
 from .rest import forces_of, nearest
 from .rig import RigMotion, RigPosition, SweepRange, WheelReach
 from .soft_lines import SoftLines, soft_lines
+from .steering_linkage import on_the_steering
 from .usual import usual_rack, usual_travel
 from .wheel_names import WheelNames
 
@@ -220,9 +221,8 @@ class CornerAssembly(HeldAssembly):
     def between(
         self, poses: Mapping[str, PartPoses], loads: Sequence[Load]
     ) -> tuple[list[Load], dict[str, BodyPose]]:
-        """Return the loads on the rack."""
-        axis = poses[""].rack_axis
-        return ([], {}) if axis is None else on_the_rack(axis, loads, "rack_guide")
+        """Return the loads on the rack, or on the linkage of a Pitman arm."""
+        return on_the_steering(poses[""], loads, "rack_guide")
 
     def in_motion(
         self, states: Array, inputs: Array

@@ -85,7 +85,7 @@ def vehicle(described: WheeledSection, side: float, end: str | None) -> Vehicle:
     """
     given, tyre, steered = described.vehicle, described.tyre, described.steered()
     rear = end == "rear"
-    per_turn = described.rack.travel_per_turn_mm if steered else None
+    per_turn = described.steering_gear.travel_per_turn() if steered else None
     return Vehicle(
         side=side,
         tyre_radius=_spread(described.tyre_radius()),
@@ -97,7 +97,7 @@ def vehicle(described: WheeledSection, side: float, end: str | None) -> Vehicle:
         front_brake_share=_spread(given.front_brake_share),
         front=None if rear else True,
         rear=True if rear else None,
-        travel_per_turn=_metres(per_turn),
+        travel_per_turn=_spread(per_turn),
         steered=True if steered else None,
     )
 

@@ -43,7 +43,7 @@ class BodyPose:
 
 def rules_of(suspension: Suspension) -> tuple[str, ...]:
     """Return the assumptions that resolve the statical indeterminacy of one suspension."""
-    of_guide = (_OF_GUIDE,) if suspension.steered() else ()
+    of_guide = () if suspension.rack is None else (_OF_GUIDE,)
     return (*suspension.structure().rules, *of_guide)
 
 

@@ -88,7 +88,7 @@ def steering_angles(axle: Axle, extent: SweepRange) -> Array | None:
             f"the steering wheel turns from {np.degrees(ends[0]):.4g} deg to "
             f"{np.degrees(ends[1]):.4g} deg for the {1e3 * most:.4g} mm to either side that the "
             "rack goes; that must have 0 deg within, and 20 turns at most. Correct [steering] "
-            "angle_deg and rack_mm (0 mm in the middle), or [rack] travel_per_turn_mm."
+            f"angle_deg and rack_mm (0 mm in the middle), or {axle.right.steering_gear.TURN_KEY}."
             if axle.steering is None or inside.size
             else f"[steering] rack_mm has nothing within the {1e3 * most:.4g} mm to either side "
             "that the rack goes. Count it from the middle position."
@@ -104,8 +104,7 @@ def turns_the_rack(axle: Axle) -> bool:
 
 def travel_per_turn(axle: Axle) -> float | None:
     """Return the rack travel for one turn of the steering wheel, if a file has it [m]."""
-    given = axle.right.rack.travel_per_turn_mm
-    return None if given is None else given / 1e3
+    return axle.right.steering_gear.travel_per_turn()
 
 
 def opposite(axle: Axle, angles: Array, rack: float = 0.0) -> tuple[Array, Array]:

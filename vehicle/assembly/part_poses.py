@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.vectors import cross, unit_vector
+from ...core.vectors import cross
 from ...systems.allowed import LengthLimit
 from ...systems.inputs import rates_of
 from ...systems.system import System
@@ -197,8 +197,8 @@ class CornerParts(PartPoses):
     @property
     def rack_axis(self) -> Array | None:
         """The axis along which the rack slides; None without a rack."""
-        suspension = self.model.suspension
-        return unit_vector(suspension.rack.axis) if suspension.steered() else None
+        rack = self.model.suspension.rack
+        return None if rack is None else rack.direction()
 
     def parameters_of(self, line: LineForce) -> Mapping[str, float]:
         """Return the parameters of the spring or the stops on a line."""

@@ -54,8 +54,9 @@ TRAVEL = Quantity("wheel_travel", "m", "wheel travel",
     "height of the wheel centre above its design height",
     "positive in bump")  # fmt: skip
 RACK = Quantity("rack_position", "m", "rack displacement",
-    "displacement of the rack along its axis from its middle position",
-    "positive along the rack's axis")  # fmt: skip
+    "displacement of the rack along its axis from its middle position; of a Pitman arm, the way of "
+    "its ball along its circle",
+    "positive along the rack's axis, or as the arm turns right-handed about its axis")  # fmt: skip
 ROLL = Quantity("roll_angle", "rad", "roll angle",
     "inclination of the line through the wheel centres, which move oppositely, to the plane of the "
     "body's x and y axes, from that at design",

@@ -15,12 +15,12 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, ClassVar, Self, TypeVar, get_args
 
-from pydantic import Field, ValidationError
+from pydantic import ConfigDict, Field, ValidationError
 
 from ...core.errors import InputError
 from ...core.suggestions import suggestion
 from ...core.validator import Validator, shown
-from ...core.vectors import components, unit_vector
+from ...core.vectors import components
 from ...systems.allowed import LengthLimit
 from ..data import data_sets
 from ..data.starter import AXLE, CAR, DEFAULT, not_of_a_suspension, whole_axle_in
@@ -28,6 +28,7 @@ from ..input.bodies import Bodies
 from ..input.described import check_keys
 from ..input.hardpoints import Hardpoints
 from ..input.messages import messages_of
+from ..input.pitman_arm import PitmanLinkage
 from ..input.places import reverse
 from ..input.stop import StopSection
 from ..input.vehicle import GravitySection, Steering, TyreSection, VehicleSection, WheelSection
@@ -42,6 +43,8 @@ from .wheeled import WheeledSection
 
 # The top-level key of the kind of suspension in a file.
 KIND = "suspension"
+# The section that may replace that of the rack.
+PITMAN_ARM = "pitman_arm"
 
 _OTHERS = {
     AXLE: "this is the file of an axle, and one suspension is needed here. Give the hardpoint file "
@@ -49,6 +52,14 @@ _OTHERS = {
     CAR: "this is the file of a car, and one suspension is needed here. Give a hardpoint file: the "
     "one that it names as `corner`, or one that the files of its axles name.",
 }
+
+
+def _steered_by_either(schema: dict[str, Any]) -> None:
+    """Let a file have a rack or a Pitman arm, in the schema for editors."""
+    required = schema.get("required", [])
+    if "rack" in required:
+        required.remove("rack")
+        schema["oneOf"] = [{"required": ["rack"]}, {"required": [PITMAN_ARM]}]
 
 
 class Suspension(WheeledSection):
@@ -93,6 +104,8 @@ class Suspension(WheeledSection):
     'double wishbone suspension'
     """
 
+    model_config = ConfigDict(json_schema_extra=_steered_by_either)
+
     TITLE: ClassVar[str]
     NAMES: ClassVar[Names]
     STARTER: ClassVar[str]
@@ -104,7 +117,12 @@ class Suspension(WheeledSection):
     hardpoints: Hardpoints = Field(description="the points that define the geometry")
     wheel: WheelSection = Field(description="alignment of the wheel")
     tyre: TyreSection = Field(description="the tyre")
-    rack: Steering = Field(description="the steering rack, where the wheel is steered")
+    rack: Steering | None = Field(
+        description="the steering rack, where the wheel is steered; or [pitman_arm]"
+    )
+    pitman_arm: PitmanLinkage | None = Field(
+        default=None, description="a Pitman arm with relay rod and idler arm, instead of a rack"
+    )
     gravity: GravitySection = Field(description="gravity")
     bodies: Bodies = Field(description="masses and inertia")
     bump_stop: StopSection | None = Field(default=None, description="the stop in bump")
@@ -115,6 +133,8 @@ class Suspension(WheeledSection):
 
     def __init__(self, /, **data: Any) -> None:
         problems = []
+        if data.get(PITMAN_ARM) is not None:
+            data.setdefault("rack", None)
         try:
             super().__init__(**data)
         except ValidationError as error:
@@ -225,6 +245,29 @@ class Suspension(WheeledSection):
             raise InputError([problem], self.TITLE)
 
     @property
+    def steered_by(self) -> str:
+        """The key of the section that moves the tie rod."""
+        return "rack" if self.pitman_arm is None else PITMAN_ARM
+
+    @property
+    def steering_gear(self) -> Steering | PitmanLinkage:
+        """The section that moves the tie rod: a rack, or a Pitman arm with its linkage."""
+        gear = self.rack or self.pitman_arm
+        assert gear is not None  # only steered suspensions are asked
+        return gear
+
+    @property
+    def carriers(self) -> Mapping[str, str]:
+        """The moving body that carries each point; other points are fixed to the chassis."""
+        found = self.hardpoints.CARRIERS
+        if not self.steered():
+            return found
+        gear = self.steering_gear
+        on = gear.TIE_RODS_ON
+        moved = {point: on if body == "rack" else body for point, body in found.items()}
+        return moved | dict.fromkeys(gear.MOVED, on)
+
+    @property
     def carrier(self) -> str:
         """The body that carries the wheel."""
         return self.hardpoints.CARRIERS["wheel_center"]
@@ -248,10 +291,8 @@ class Suspension(WheeledSection):
         for body in bodies:
             reverse(body, "inertia_xy_kg_m2")
             reverse(body, "inertia_yz_kg_m2")
-        # The mirror image of (x, y, z) is (x, -y, z), which with the sense kept is (-x, y, -z).
         if self.steered():
-            reverse(data["rack"]["axis"], 0)
-            reverse(data["rack"]["axis"], 2)
+            self.steering_gear.mirror(data[self.steered_by])
         if self.bushings is not None:
             data["bushings"] = mirrored_bushings(self.bushings)
         return self.from_dict(data, "mirrored suspension")
@@ -279,6 +320,24 @@ class Suspension(WheeledSection):
             Empty if the file has none.
         """
         return ()
+
+    def problems(self) -> list[str]:
+        """Return the problems of a rack beside a Pitman arm, of neither, and of masses."""
+        if not self.steered() or (self.rack is None) == (self.pitman_arm is not None):
+            return self._problems_of_masses()
+        if self.rack is None:
+            return ["[rack] is missing: what steers the wheel. Add this section, or [pitman_arm]."]
+        return ["[rack] and [pitman_arm] both steer the wheel; one is allowed. Remove the other."]
+
+    def _problems_of_masses(self) -> list[str]:
+        """Return the problems of bodies whose mass needs a free rack."""
+        if self.pitman_arm is None:
+            return []
+        return [
+            f"[bodies.{body}] mass_kg = {mass:g} kg: with a Pitman arm this body has no mass in "
+            "the equations. Set it to zero."
+            for body, mass in self.neglected_masses().items()
+        ]
 
     # -- members of each kind -------------------------------------------------------------------
 
@@ -396,7 +455,7 @@ class Suspension(WheeledSection):
         """
         return {
             **self.hardpoints.parameters(optional=optional_points),
-            **(components("rack_axis", unit_vector(self.rack.axis)) if self.steered() else {}),
+            **(self.steering_gear.parameters() if self.steered() else {}),
             **components("spin_axis", self.wheel.spin_axis(self.vehicle.sign)),
             **self.tyre.parameters(),
             "gravity": self.gravity.acceleration_m_per_s2,

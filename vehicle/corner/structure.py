@@ -17,7 +17,7 @@ from ...core.vectors import cross
 Array = NDArray[np.float64]
 Points = Mapping[str, Array]
 
-GROUND = ("chassis", "rack")
+GROUND = ("chassis", "rack", "relay_rod")
 """Parts that do not move under loads."""
 
 FORCES_OF_A_DAMPER = ("damper_force", "friction_force", "bump_stop_force", "rebound_stop_force")
@@ -321,12 +321,20 @@ class Structure:
         return tuple(dict.fromkeys(joint.RULE for joint in self.joints if joint.RULE))
 
 
-def steered(*joints: PartJoint) -> tuple[PartJoint, ...]:
-    """Return joints with those of every steered wheel: tie rod and wheel bearing."""
+def steered(*joints: PartJoint, by: str) -> tuple[PartJoint, ...]:
+    """Return joints with those of every steered wheel: tie rod and wheel bearing.
+
+    Parameters
+    ----------
+    *joints : PartJoint
+        Of the suspension.
+    by : str
+        The part that the tie rod is joined to.
+    """
     return (
         *joints,
         SphericalJoint("knuckle", "tie_rod", ("tie_rod_outer",), "tie_rod_inner"),
-        UniversalJoint("rack", "tie_rod", ("tie_rod_inner",), "tie_rod_outer", (0.0, 0.0, 1.0)),
+        UniversalJoint(by, "tie_rod", ("tie_rod_inner",), "tie_rod_outer", (0.0, 0.0, 1.0)),
         FixedJoint("knuckle", "wheel", ("wheel_center",)),
     )
 

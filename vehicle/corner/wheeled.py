@@ -26,7 +26,6 @@ class WheeledSection(DescribedSection):
     if TYPE_CHECKING:
         # sections of every class, each in the order of its file
         vehicle: Any
-        rack: Any
         hardpoints: Hardpoints
         wheel: WheelSection
         bump_stop: StopSection | None
@@ -39,6 +38,11 @@ class WheeledSection(DescribedSection):
     def steered(cls) -> bool:
         """Return whether there is a rack."""
         return False
+
+    @property
+    def steering_gear(self) -> Any:
+        """The section of its steering; None without steering."""
+        return None
 
     def tyre_radius(self) -> float | None:
         """Return the radius of a wheel as a thin disc.

@@ -1,12 +1,13 @@
 """The sections of vehicle, wheel, tyre, steering rack and gravity."""
 
 import math
-from typing import Annotated, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
 from ...core.columns import hypot, radians, tan
-from ...core.vectors import Vector, unit_vector
+from ...core.vectors import Vector, components, unit_vector
+from .places import reverse
 from .section import AllowedRange, Flag, NonNegative, Number, Positive, Section, Triple
 from .units import in_metres
 
@@ -111,6 +112,15 @@ class TyreSection(Section):
 class Steering(Section):
     """The steering rack."""
 
+    WORDS: ClassVar[str] = "on one rack"
+    """How both wheels of an axle are steered."""
+    TURN_KEY: ClassVar[str] = "[rack] travel_per_turn_mm"
+    """The key of its travel for one turn of the steering wheel."""
+    TIE_RODS_ON: ClassVar[str] = "rack"
+    """The part that the tie rods are joined to."""
+    MOVED: ClassVar[tuple[str, ...]] = ()
+    """Points that this part carries besides."""
+
     axis: Triple = Field(description="direction in which the rack moves for positive displacement")
     travel_per_turn_mm: Positive | None = Field(
         default=None, description="rack travel for one turn of the steering wheel"
@@ -127,6 +137,38 @@ class Steering(Section):
             "to the left."
         )
         return [problem]
+
+    def direction(self) -> Vector:
+        """Return the direction of positive displacement, a unit vector."""
+        return unit_vector(self.axis)
+
+    def travel_per_turn(self) -> float | None:
+        """Return the travel for one turn of the steering wheel [m]; None if it is not given."""
+        given = self.travel_per_turn_mm
+        return None if given is None else in_metres(given, "mm")
+
+    @staticmethod
+    def points() -> dict[str, Vector]:
+        """Return no points besides the hardpoints."""
+        return {}
+
+    @staticmethod
+    def centers_of_mass() -> dict[str, Vector]:
+        """Return no bodies besides those of the file."""
+        return {}
+
+    def parameters(self) -> dict[str, float]:
+        """Return the direction by its names in the equations."""
+        return components("rack_axis", self.direction())
+
+    @staticmethod
+    def mirror(data: dict[str, Any]) -> None:
+        """Turn the section over for the other side of the vehicle, the sense kept.
+
+        The mirror image of (x, y, z) is (x, -y, z), which with the sense kept is (-x, y, -z).
+        """
+        reverse(data["axis"], 0)
+        reverse(data["axis"], 2)
 
 
 class GravitySection(Section):

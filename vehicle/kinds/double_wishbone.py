@@ -240,7 +240,8 @@ curve; the stops depend on its length."""
                 SphericalJoint(arm, "knuckle", (ball,)),
             )
         ]
-        return Structure(steered(*arms), self._lines("lower_arm"))
+        held = steered(*arms, by=self.steering_gear.TIE_RODS_ON)
+        return Structure(held, self._lines("lower_arm"))
 
     def _lines(self, carrier: str) -> tuple[LineForce, LineForce]:
         """Return spring and damper on one line, between the chassis and a body."""

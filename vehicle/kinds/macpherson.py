@@ -362,7 +362,8 @@ spring a rate in `[strut]` or a curve in `[spring]`."""
             LineForce("damper", damper, "upper_strut", "knuckle", ("strut_top", "strut_lower")),
         )
         # strut and spring have one mount on the body
-        return Structure(steered(*joints), lines, {"spring_top": "strut_top"})
+        held = steered(*joints, by=self.steering_gear.TIE_RODS_ON)
+        return Structure(held, lines, {"spring_top": "strut_top"})
 
     # -- its characteristics --------------------------------------------------------------------
 

@@ -300,7 +300,7 @@ position (`force_at_design_N`). The stops depend on the length of the damper."""
         damper = LineForce(
             "damper", FORCES_OF_A_DAMPER, "chassis", "knuckle", ("damper_top", "damper_seat")
         )
-        return Structure(steered(*links), (spring, damper))
+        return Structure(steered(*links, by=self.steering_gear.TIE_RODS_ON), (spring, damper))
 
     # -- its characteristics --------------------------------------------------------------------
 

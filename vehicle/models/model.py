@@ -13,6 +13,7 @@ from ...systems.allowed import LengthLimit
 from ...systems.system import System
 from ..corner.wheel_loads import with_wheel_loads
 from ..kinds import Suspension
+from .corner_equations import equations_of
 
 
 class Model(System):
@@ -70,7 +71,8 @@ class Model(System):
         suspension = _suspension_of(suspension)
         if not free_rack:
             _refuse_neglected_mass(suspension)
-        equations, parameters = suspension.equations(free_rack=free_rack), suspension.parameters()
+        equations = equations_of(suspension, free_rack=free_rack)
+        parameters = suspension.parameters()
         if wheel_loads:
             parameters |= suspension.wheel_load_parameters()
             equations = with_wheel_loads(equations)

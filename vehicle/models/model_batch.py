@@ -20,6 +20,7 @@ from ...systems.allowed import LengthLimit
 from ..corner.geometry import problems_of_sections
 from ..input.section import Section
 from ..kinds import Suspension
+from .corner_equations import equations_of
 from .model import Model
 
 Array = NDArray[np.float64]
@@ -70,10 +71,10 @@ class ModelBatch(Model):
         self.suspension = _with_columns(suspension, columns)
         self.free_rack, self.wheel_loads = free_rack, False
         self.names = suspension.NAMES
-        self.equations = suspension.equations(free_rack=free_rack)
+        self.equations = equations_of(suspension, free_rack=free_rack)
         _check(self.suspension)
         # these choose equations and limits; suspensions with other ones are removed
-        self.suspension.equations(free_rack=free_rack)
+        equations_of(self.suspension, free_rack=free_rack)
         self.suspension.neglected_masses()
         self.suspension.tyre_radius()
         self._allowed = tuple(map(_allowed, self.suspension.allowed_lengths()))

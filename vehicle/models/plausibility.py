@@ -199,7 +199,7 @@ def stray_points(points: Mapping[str, Array], unit: str) -> Iterator[str]:
 
 
 def _rack(suspension: Suspension) -> Iterator[str]:
-    if not suspension.steered():
+    if suspension.rack is None:
         return
     points, axis = suspension.hardpoints, suspension.rack.axis
     rod = points.metres("tie_rod_outer") - points.metres("tie_rod_inner")

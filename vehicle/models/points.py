@@ -46,16 +46,20 @@ def hardpoints(
     with Validator("hardpoints") as given:
         given.instance("model", model, Model, Model.NEEDED)
     points = model.suspension.hardpoints
+    carriers, suspension = model.suspension.carriers, model.suspension
+    at_design = {p: points.metres(p) for p in (*points.names(), *points.STAND_INS)}
+    if suspension.steered():
+        at_design |= suspension.steering_gear.points()
     moved = carried(
         model,
-        {p: (body, points.metres(p)) for p, body in points.CARRIERS.items()},
+        {p: (carriers[p], place) for p, place in at_design.items() if p in carriers},
         state,
         inputs,
         poses=poses,
     )
-    fixed = [p for p in (*points.names(), *points.STAND_INS) if p not in points.CARRIERS]
     shape = (*next(iter(moved.values())).shape[:-1], 3)
-    return moved | {p: np.broadcast_to(spread(points.metres(p)), shape) for p in fixed}
+    fixed = {p: place for p, place in at_design.items() if p not in carriers}
+    return moved | {p: np.broadcast_to(spread(place), shape) for p, place in fixed.items()}
 
 
 def carried(
@@ -115,6 +119,7 @@ def carried_velocity(
 
 def _centers_of_mass(model: Model) -> dict[str, Array]:
     """Return the centres of mass of the rigid bodies at design [m], by body."""
-    points = model.suspension.hardpoints
-    bodies = model.suspension.bodies.rigid()
-    return {name: body.centre_of_mass(points) for name, body in bodies.items()}
+    suspension = model.suspension
+    points, bodies = suspension.hardpoints, suspension.bodies.rigid()
+    own = {name: body.centre_of_mass(points) for name, body in bodies.items()}
+    return own | (suspension.steering_gear.centers_of_mass() if suspension.steered() else {})

@@ -32,6 +32,8 @@ _SIDE, _APART = "side.", re.compile(r"(front\.|rear\.|)(right|left)\.")
 # Sections of points in the unit of the hardpoints: of a file, and of each rod of a rigid axle.
 _POINTS, _RODS = ("hardpoints.", "left_hardpoints."), "rods."
 _OF_A_BAR = ("bush", "link_top", "link_foot")
+# Ends of other keys that have three numbers, and directions.
+_PLACES, _AXES = ("com_mm", "pivot_mm", "ball_mm"), ("axis", "idler_axis")
 # The list of a file that varies by a factor on all of it: the forces of a spring's curve.
 _SCALED = "spring.force_N"
 
@@ -284,7 +286,7 @@ def _places(
         of_points = of_points or (above == "anti_roll_bar." and key in _OF_A_BAR)
         factor = in_file.get(above.rstrip("."), in_file[""])
         unit, factor = ("mm", factor) if of_points else (unit_of(key), 1.0)
-        if isinstance(value, list) and (of_points or key.endswith("com_mm") or key == "axis"):
+        if isinstance(value, list) and (of_points or key.endswith(_PLACES) or key in _AXES):
             for axis, component in zip("xyz", value, strict=True):
                 yield DesignVariable(f"{name}.{axis}", unit, component / factor, factor)
         elif isinstance(value, list | tuple) and is_factor(name):

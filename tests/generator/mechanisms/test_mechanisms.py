@@ -174,7 +174,7 @@ def other_values(model: Formulation, rng: np.random.Generator) -> dict[str, floa
             new[p.name] = p.default * inertia[p.name.split("_inertia_")[0]]
         else:
             new[p.name] = p.default * rng.uniform(0.8, 1.2)
-    if model.name == "double_wishbone_general":
+    if model.name.startswith("double_wishbone_general"):
         ends = (np.array([new[f"spring_{end}_{a}"] for a in "xyz"]) for end in ("top", "seat"))
         new |= further_parameters(rng, "damper", float(np.linalg.norm(np.subtract(*ends))))
     for name in [name for name in new if name.endswith("spring_table_first_force")]:
@@ -434,6 +434,7 @@ START = {
 AFLOAT = {
     "double_wishbone": {"tyre_rate": 0.0, "spring_free_length": 0.44},
     "double_wishbone_general": {"tyre_rate": 0.0, "spring_free_length": 0.44},
+    "double_wishbone_general_pitman_arm": {"tyre_rate": 0.0, "spring_free_length": 0.44},
     "push_rod": {"tyre_rate": 0.0, "spring_free_length": 0.291},
     "pull_rod": {"tyre_rate": 0.0, "spring_free_length": 0.318},
     "multi_link": {"tyre_rate": 0.0, "spring_free_length": 0.291},

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 FILES = json.loads((DATA / "chrono/vehicle.json").read_text(encoding="utf-8"))
 VEHICLE = "generic/vehicle/Vehicle_DoubleWishbones_ARB.json"
 ARM, RACK = "generic/suspension/SemiTrailingArm.json", "generic/steering/RackPinion.json"
+IDLER = "Revolute-Spherical Joint"
 PITMAN, TIRE = "generic/steering/PitmanArm.json", "generic/tire/RigidTire.json"
 FRONT, REAR = (f"generic/suspension/DoubleWishbone{x}.json" for x in ("Curve", ""))
 
@@ -170,23 +171,32 @@ def test_its_bar_is_that_of_chrono(found: Any) -> None:
     assert found.car.axles["rear"].bar is None
 
 
-def test_a_pitman_arm_becomes_the_rack_that_moves_as_its_link_does_first(found: Any) -> None:
-    theirs = FILES[PITMAN]
-    w, x, y, z = FILES[VEHICLE]["Steering Subsystems"][0]["Orientation"]
+def test_a_pitman_arm_keeps_its_points_and_axes(found: Any) -> None:
+    theirs, place = FILES[PITMAN], FILES[VEHICLE]["Steering Subsystems"][0]
+    w, x, y, z = place["Orientation"]
     turned = Rotation.from_quat([x, y, z, w])
-    arm = np.subtract(theirs["Universal Joint"]["Location"], theirs["Revolute Joint"]["Location"])
+    axle = found.car.axles["front"]
+    origin = axle.left.hardpoints.metres("lower_ball_joint") - lower_ball_of_chrono()
+    arm = axle.left.pitman_arm
+    assert axle.left.rack is None
+    for name, joint, key in (
+        ("pivot", "Revolute Joint", "Location"),
+        ("ball", "Universal Joint", "Location"),
+        ("idler_pivot", IDLER, "Location Chassis"),
+        ("idler_ball", IDLER, "Location Link"),
+    ):
+        expected = turned.apply(theirs[joint][key]) + place["Location"] + origin
+        np.testing.assert_allclose(arm.metres(name), expected, atol=1e-9)
+    for name, joint in (("axis", "Revolute Joint"), ("idler_axis", IDLER)):
+        expected = turned.apply(theirs[joint]["Direction"])
+        np.testing.assert_allclose(getattr(arm, name), expected, atol=1e-9)
+    assert any(line.startswith("steering: a Pitman arm, in Chrono") for line in found.assumptions)
 
-    def moved(angle: float) -> np.ndarray:
-        own = Rotation.from_rotvec(angle * np.array(theirs["Revolute Joint"]["Direction"]))
-        return turned.apply(own.apply(arm) - arm)
 
-    first = moved(1e-6) / np.linalg.norm(moved(1e-6))
-    axis = np.array(found.car.axles["front"].left.rack.axis)
-    np.testing.assert_allclose(axis, first * np.sign(first[1]), atol=1e-6)
-    far = moved(np.deg2rad(theirs["Revolute Joint"]["Maximum Angle (deg)"]))
-    along, off = abs(far @ axis), np.linalg.norm(far - far @ axis * axis)
-    (words,) = (line for line in found.assumptions if line.startswith("steering: a Pitman arm"))
-    assert f"by {1e3 * along:.1f} mm, and is {1e3 * off:.1f} mm off the rack's line" in words
+def lower_ball_of_chrono() -> np.ndarray:
+    """Return where the lower ball joint of the left front is in the axes of the chassis [m]."""
+    place = FILES[VEHICLE]["Axles"][0]["Suspension Location"]
+    return np.add(FILES[FRONT]["Lower Control Arm"]["Location Upright"], place)
 
 
 def test_a_rack_goes_as_far_as_its_pinion(tmp_path: Path) -> None:
@@ -282,7 +292,10 @@ MISTAKES: dict[str, dict[tuple[Any, ...], Any]] = {
     "tracks": {(VEHICLE, "Axles"): None, (VEHICLE, "Template"): "TrackedVehicle"},
     "kind": {(REAR, "Template"): "SolidAxle"},
     "steering": {(PITMAN, "Template"): "RotaryArm"},
-    "unlike arms": {(PITMAN, "Revolute-Spherical Joint", "Location Link"): [0.2, -0.325, 0]},
+    "no axis": {(PITMAN, "Revolute Joint", "Direction"): [0, 0, 0]},
+    "no idler arm": {
+        (PITMAN, IDLER, "Location Link"): FILES[PITMAN][IDLER]["Location Chassis"],
+    },
     "damper": {(REAR, "Shock", "Map Data"): [[0, 1], [2, 3]]},
     "no mass": {("generic/chassis/Chassis.json", "Components", 0, "Mass"): 0.0},
     "quaternion": {(VEHICLE, "Steering Subsystems", 0, "Orientation"): [2, 0, 0, 0]},

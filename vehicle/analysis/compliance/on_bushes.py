@@ -109,7 +109,7 @@ def carried_at(
         for joint, at_points in zip(equations.joints, every, strict=True)
         for which, point in enumerate(joint.at)
     }
-    if poses.rack_axis is None:
+    if poses.rack_axis is None:  # without a rack in its guide
         return found
     # the guide of the rack has the load of the tie rod
     return found | {GUIDE: found[RACK, "tie_rod", "tie_rod_inner"]}

@@ -16,8 +16,9 @@ from ....core.named_types import Array
 from ....core.vectors import cross
 from ...assembly.car import CarAssembly
 from ...assembly.coupling import STEERING
-from ...assembly.load import RACK, Load
+from ...assembly.load import Load
 from ...assembly.part_poses import CENTER, CONTACT, PartPoses
+from ...assembly.steering_linkage import steering_force
 from ...corner.corner import RoadWheel
 from ...corner.structure import GROUND
 from ...models.sides import SIDES
@@ -164,7 +165,7 @@ class CarInMotion:
 
 
 def rack_force(assembly: CarAssembly, states: Array, inputs: Array) -> Array:
-    """Return the force of the steering on the rack along its axis, (n,) [N].
+    """Return the force of the steering on the rack along its axis, see `steering_force`, (n,) [N].
 
     Parameters
     ----------
@@ -173,9 +174,8 @@ def rack_force(assembly: CarAssembly, states: Array, inputs: Array) -> Array:
     states, inputs : ndarray, shape (n, states) and (n, inputs)
     """
     front = CarInMotion(assembly, states, inputs).axle("front")
-    axes = [group.rack_axis for group in front.poses.values() if group.rack_axis is not None]
-    others = [load for own in front.loads.values() for load in own if load.part == RACK]
-    return -sum((load.force @ axes[0] for load in others), np.zeros(len(states)))
+    loads = [load for own in front.loads.values() for load in own]
+    return steering_force(next(iter(front.poses.values())), loads)
 
 
 def of_car(assembly: CarAssembly, states: Array, inputs: Array) -> xr.Dataset:
@@ -218,7 +218,7 @@ def _named(found: xr.Dataset, end: str, origin: float) -> xr.Dataset:
 
 
 def _name(name: str, end: str) -> str:
-    if name in _SHARED and (name != RACK or end == "front"):
+    if name in _SHARED and (name not in GROUND[1:] or end == "front"):
         return name
     stem, _, side = name.rpartition("_")
     return f"{stem}_{end}_{side}" if side in SIDES else f"{name}_{end}"

@@ -70,7 +70,9 @@ def static(
 
         A rack is held along its axis by ``steering``, and in other directions by the chassis: at
         ``rack_guide``, the end of the tie rod of a corner, or at the ``rack_middle`` of an axle,
-        whose ``rack_force`` [N] is the force of the steering along the axis. ``bar_torque`` [N m]
+        whose ``rack_force`` [N] is the force of the steering along the axis. A Pitman arm is held
+        by the moment of the ``steering`` about its axis, ``pitman_moment`` [N m], and by the
+        chassis at its pivot; ``rack_force`` is that moment over its length. ``bar_torque`` [N m]
         is that of an anti-roll bar, positive with the left half turned farther, or of a rigid axle
         with the left wheel up; parts of an axle with a bar are ``drop_link_left``, ``_right`` and
         the ``anti_roll_bar``. A rod of a rigid axle ends at the ``beam`` and the chassis, in the

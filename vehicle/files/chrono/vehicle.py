@@ -170,9 +170,9 @@ class _Reader:
         self._compare_wheelbase(vehicle, base)
         origin = np.array([front.center[0], 0.0, _ground(chassis, front, rear)])
         shared = {"wheelbase_mm": rounded(base)} | self._brake_share(vehicle)
-        rack = self._rack(vehicle)
+        steering = self._steering(vehicle, origin)
         sections = {
-            end: self._section(end, axle, origin[2], shared, rack if end == "front" else {})
+            end: self._section(end, axle, origin[2], shared, steering if end == "front" else {})
             for end, axle in axles.items()
         }
         for end, share in self._shares(vehicle).items():
@@ -306,7 +306,7 @@ class _Reader:
         axle: _Axle,
         ground: float,
         shared: Mapping[str, float],
-        rack: Mapping[str, Any],
+        steering: Mapping[str, Any],
     ) -> dict[str, Any]:
         """Return the section of an axle, in axes with the origin below its wheel centres."""
         try:
@@ -321,8 +321,8 @@ class _Reader:
         side["tyre"] |= {"free_height_mm": side["tyre"]["radius_mm"], "lifts_off": True}
         side["vehicle"] |= {"end": end, **shared}
         if isinstance(axle.suspension, SteeredPoints):
-            side["rack"] = rack or side["rack"]
-            if end == "front" and not rack:
+            side |= {"rack": None, **steering} if steering else {}
+            if end == "front" and not steering:
                 self.assumed.append(f"front: {RACK}")
         section: dict[str, Any] = {"axle": end, "side": side}
         if axle.place.bar is not None:
@@ -341,8 +341,15 @@ class _Reader:
                 f"{1e3 * given:g} mm of the vehicle's file move nothing, in Chrono neither"
             )
 
-    def _rack(self, vehicle: VehicleFile) -> dict[str, Any]:
-        """Return the rack of the front axle; empty without steering."""
+    def _steering(self, vehicle: VehicleFile, origin: Array) -> dict[str, Any]:
+        """Return the section of the steering of the front axle; empty without steering.
+
+        Parameters
+        ----------
+        vehicle : VehicleFile
+        origin : ndarray, shape (3,)
+            Of the axes of the axle [m].
+        """
         index = vehicle.axles[0].steering
         for i, unused in enumerate(vehicle.steerings):
             if i != index:
@@ -360,11 +367,11 @@ class _Reader:
             known = " and ".join(f'"{name}"' for name in _STEERINGS)
             problem = f'"Template" is {shown(template)}; of steerings, {known} can be read.'
             raise InputError([problem], str(file))
-        section, words = self._part(_STEERINGS[template], place.file, key).rack(
-            rotation(place.orientation)
+        found, words = self._part(_STEERINGS[template], place.file, key).steering(
+            rotation(place.orientation), np.array(place.location) - origin
         )
         self.assumed.append(words)
-        return section
+        return found
 
     def _brake_share(self, vehicle: VehicleFile) -> dict[str, float]:
         """Return the front share of the brake torque; empty without brakes."""

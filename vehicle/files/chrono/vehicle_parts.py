@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from ....core.vectors import cross
 from ...input.bodies import impossible_inertia
 from .keys import Part
 from .parts import Finite, Point, elements, millimetres
@@ -168,8 +167,16 @@ class RackPinion(_File):
     template: Literal["RackPinion"] = Field(alias="Template")
     pinion: _Pinion = Field(alias="Pinion")
 
-    def rack(self, turned: Array) -> tuple[dict[str, Any], str]:
-        """Return the section of a rack in a rotated frame, and its assumptions."""
+    def steering(self, turned: Array, at: Array) -> tuple[dict[str, Any], str]:
+        """Return the section of a rack in a rotated frame, and its assumptions.
+
+        Parameters
+        ----------
+        turned : ndarray, shape (3, 3)
+        at : ndarray, shape (3,)
+            Origin of the frame, which moves nothing.
+        """
+        del at
         most = np.deg2rad(self.pinion.greatest) * self.pinion.radius
         section = {
             "axis": direction(turned @ [0.0, 1.0, 0.0]),
@@ -179,7 +186,7 @@ class RackPinion(_File):
             f"steering wheel: turns the pinion, of {1e3 * self.pinion.radius:g} mm of radius; in "
             f"Chrono up to {self.pinion.greatest:g} deg, {1e3 * most:.1f} mm of rack, to each side"
         )
-        return section, words
+        return {"rack": section}, words
 
     def problems(self) -> list[str]:
         """Return none: any rack can be read."""
@@ -225,49 +232,44 @@ class PitmanArm(_File):
     idler: _Idler = Field(alias="Revolute-Spherical Joint")
     tie_rods: _TieRods = Field(alias="Tierod Locations")
 
-    def rack(self, turned: Array) -> tuple[dict[str, Any], str]:
-        """Return the section of a rack with the initial velocity of the link, and the differences.
+    def steering(self, turned: Array, at: Array) -> tuple[dict[str, Any], str]:
+        """Return the section of a Pitman arm in a rotated frame, and its assumptions.
 
-        Both arms have parallel axes and are equal, so that the link moves along a circle without
-        rotation (see `problems`): initially normal to the arm, and behind this line by its sagitta
-        at the greatest angle.
+        Parameters
+        ----------
+        turned : ndarray, shape (3, 3)
+        at : ndarray, shape (3,)
+            Origin of the frame [m].
         """
-        axis, arm, _ = self._arms()
-        across = cross(axis, arm)
-        length, most = float(np.linalg.norm(across)), np.deg2rad(self.revolute.greatest)
+
+        def place(own: Point) -> list[float]:
+            return [rounded(value) for value in turned @ own + at]
+
+        section = {
+            "pivot_mm": place(self.revolute.location),
+            "axis": direction(turned @ self.revolute.direction),
+            "ball_mm": place(self.universal.location),
+            "idler_pivot_mm": place(self.idler.chassis),
+            "idler_axis": direction(turned @ self.idler.direction),
+            "idler_ball_mm": place(self.idler.link),
+        }
         words = (
-            f"steering: a Pitman arm of {1e3 * length:g} mm, and not a rack; the rack here moves "
-            f"as its link does near the middle. At the greatest angle of Chrono, "
-            f"{self.revolute.greatest:g} deg, the link has moved by "
-            f"{1e3 * length * np.sin(most):.1f} mm, and is "
-            f"{1e3 * length * (1.0 - np.cos(most)):.1f} mm off the rack's line, along its arm. "
-            "The ratio of the steering gear is not in Chrono's files: enter travel_per_turn_mm"
+            f"steering: a Pitman arm, in Chrono up to {self.revolute.greatest:g} deg to each side. "
+            "The ratio of the steering gear is not in Chrono's files: enter gear_ratio"
         )
-        outward = across / length * np.sign((turned @ across)[1] or 1.0)
-        return {"axis": direction(turned @ outward)}, words
+        return {"pitman_arm": section}, words
 
     def problems(self) -> list[str]:
-        """Return the problem of a link that does not move as a rack near its middle."""
-        axis, arm, idler = self._arms()
-        other = np.array(self.idler.direction)
-        unit = other / np.linalg.norm(other) if np.linalg.norm(other) > 0.0 else other
-        if abs(axis @ unit) < 1.0 - _ALIKE:
-            return ['the axes of "Revolute Joint" and of its idler are not parallel.']
-        if np.linalg.norm(cross(axis, arm - idler)) > _ALIKE * np.linalg.norm(arm):
-            problem = (
-                f'the Pitman arm, {arm.round(6).tolist()} m from "Revolute Joint" to "Universal '
-                f'Joint", and the idler arm, {idler.round(6).tolist()} m, differ, so that the '
-                "link turns as it moves: a rack does not replace it. Make them alike, or leave "
-                "the steering out."
-            )
-            return [problem]
-        return []
-
-    def _arms(self) -> tuple[Array, Array, Array]:
-        given = np.array(self.revolute.direction)
-        axis = given / np.linalg.norm(given)
-        arm = np.subtract(self.universal.location, self.revolute.location)
-        return axis, arm, np.subtract(self.idler.link, self.idler.chassis)
+        """Return the problem of an axis without direction."""
+        axes = {
+            "Revolute Joint": self.revolute.direction,
+            "Revolute-Spherical Joint": self.idler.direction,
+        }
+        return [
+            f'"{key} > Direction" = {list(axis)} has no direction. Correct it.'
+            for key, axis in axes.items()
+            if not any(axis)
+        ]
 
 
 class Brake(_File):

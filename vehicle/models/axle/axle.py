@@ -390,11 +390,8 @@ def _problems_of_sides(axle: Axle) -> list[str]:
             f"[steering]: a {axle.right.TITLE} has no rack, and nothing steers its wheel. Remove "
             "that section."
         )
-    if steered and _apart(axle):
-        problems.append(
-            f"[rack] axis is {list(axle.right.rack.axis)} of the right side and "
-            f"{list(axle.left.rack.axis)} of the left: they have one rack. Make them equal."
-        )
+    if steered:
+        problems += _problems_of_steering(axle.right, axle.left)
     problems += [
         f"{side}: [bodies.{body}] mass_kg = {mass:g} kg: the rack of an axle is prescribed, and "
         "tie rod, rack and upper strut have no mass in its equations. Set it to zero."
@@ -406,8 +403,8 @@ def _problems_of_sides(axle: Axle) -> list[str]:
             f"[bushings.{RACK}] differs in the files of both sides: they have one rack. Make them "
             "equal."
         )
-    of_both = [*_OF_THE_VEHICLE, *(_OF_THE_RACK if steered else ())]
-    for section, key in of_both:
+    on_racks = steered and axle.right.rack is not None and axle.left.rack is not None
+    for section, key in [*_OF_THE_VEHICLE, *(_OF_THE_RACK if on_racks else ())]:
         right, left = (getattr(getattr(s, section), key) for s in (axle.right, axle.left))
         if right != left:
             problems.append(
@@ -417,10 +414,24 @@ def _problems_of_sides(axle: Axle) -> list[str]:
     return problems
 
 
-def _apart(axle: Axle) -> bool:
-    """Return whether the racks of both sides have different axes."""
-    right, left = (unit_vector(side.rack.axis) for side in (axle.right, axle.left))
-    return bool(np.abs(right - left).max() > _SAME_AXIS)
+def _problems_of_steering(right: Suspension, left: Suspension) -> list[str]:
+    """See that both sides are steered by the same rack, or by the same Pitman arm."""
+    if right.rack is not None and left.rack is not None:
+        axes = [unit_vector(rack.axis) for rack in (right.rack, left.rack)]
+        if np.abs(axes[0] - axes[1]).max() <= _SAME_AXIS:
+            return []
+        problem = (
+            f"[rack] axis is {list(right.rack.axis)} of the right side and "
+            f"{list(left.rack.axis)} of the left: they have one rack. Make them equal."
+        )
+    elif right.pitman_arm == left.pitman_arm:
+        return []
+    else:
+        problem = (
+            "[pitman_arm] differs in the files of both sides: they have one relay rod, and its "
+            "points are the same in both files. Make them equal."
+        )
+    return [problem]
 
 
 def _in_words(value: float | None) -> str:

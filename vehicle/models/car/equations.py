@@ -167,7 +167,10 @@ class _End:
                 "drive_on": drive.torque_on if (drive := axle.drive) else None,
             }
         steered = end == "front" and not axle.whole
-        return cls(axle.equations_name, axle.whole, axle.link_part, steered, **rolling)
+        name = axle.equations_name
+        if not steered:  # what would move the tie rods is a part of the body
+            name = name.removesuffix("_pitman_arm")
+        return cls(name, axle.whole, axle.link_part, steered, **rolling)
 
     def declared(self) -> "Formulation":
         """Return the declaration of the axle."""

@@ -1,0 +1,206 @@
+"""A Pitman arm with relay rod and idler arm, which steers a suspension instead of a rack."""
+
+import math
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar
+
+import numpy as np
+from pydantic import Field
+
+from ...core.columns import hypot, number
+from ...core.vectors import (
+    Vector,
+    angle_between_lines,
+    components,
+    cross,
+    distance_from_line,
+    unit_vector,
+)
+from .hardpoints import SMALLEST_DISTANCE
+from .section import AllowedRange, Number, Section, Triple
+from .units import in_metres
+
+RELAY_ROD = "relay_rod"
+
+_NAMES = {"pitman_arm": "Pitman arm", "idler_arm": "idler arm"}
+_UP = np.array([0.0, 0.0, 1.0])
+_ELEMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
+# Nearer than this to the vertical, the relay rod turns in its universal joint, in degrees.
+_SMALLEST_CROSS_ANGLE = 1.0
+_NO_DIRECTION = 1e-6
+
+GearRatio = Annotated[
+    Number,
+    Field(gt=0.0),
+    AllowedRange("more than 0", "Enter the turns of the steering wheel for one turn of the arm."),
+]
+
+
+class PitmanLinkage(Section):
+    """A Pitman arm, a relay rod to an idler arm, both on the chassis; no part has mass.
+
+    Points are in chassis axes, at the middle position. The relay rod carries the tie rods. The
+    default of the idler arm is the mirror image of the Pitman arm. The arm turns right-handed
+    about its axis for a positive displacement, which is the way of its ball along its circle.
+    """
+
+    BODIES: ClassVar[Mapping[str, tuple[str, str]]] = {
+        "pitman_arm": ("pivot", "ball"),
+        RELAY_ROD: ("ball", "idler_ball"),
+        "idler_arm": ("idler_pivot", "idler_ball"),
+    }
+
+    pivot_mm: Triple = Field(description="point on the axis of the Pitman arm")
+    axis: Triple = Field(
+        description="axis of the Pitman arm; it turns right-handed about it for positive "
+        "displacement"
+    )
+    ball_mm: Triple = Field(description="joint of Pitman arm and relay rod")
+    idler_pivot_mm: Triple | None = Field(
+        default=None, description="point on the axis of the idler arm; default: mirror image"
+    )
+    idler_axis: Triple | None = Field(
+        default=None, description="axis of the idler arm; default: mirror image"
+    )
+    idler_ball_mm: Triple | None = Field(
+        default=None, description="joint of idler arm and relay rod; default: mirror image"
+    )
+    gear_ratio: GearRatio | None = Field(
+        default=None, description="turns of the steering wheel for one turn of the Pitman arm"
+    )
+
+    def metres(self, name: str) -> Vector:
+        """Return the place of ``pivot``, ``ball``, ``idler_pivot`` or ``idler_ball`` [m]."""
+        given = getattr(self, f"{name}_mm")
+        if given is None:
+            x, y, z = self.metres(name.removeprefix("idler_"))
+            return np.array([x, 0.0 - y, z])
+        return np.array([in_metres(value, "mm") for value in given])
+
+    def direction_of(self, arm: str) -> Vector:
+        """Return the unit vector along the axis of ``pitman_arm`` or ``idler_arm``."""
+        if arm == "idler_arm" and self.idler_axis is not None:
+            return unit_vector(self.idler_axis)
+        x, y, z = self.axis
+        return unit_vector([x, 0.0 - y, z] if arm == "idler_arm" else self.axis)
+
+    def length(self) -> float:
+        """Return the distance of the ball of the Pitman arm from its axis [m]."""
+        pivot, axis = self.metres("pivot"), self.direction_of("pitman_arm")
+        return distance_from_line(self.metres("ball"), pivot, pivot + axis)
+
+    # -- interface of a steering, as that of a rack -----------------------------------------------
+
+    WORDS: ClassVar[str] = "steered by a Pitman arm"
+    """How both wheels of an axle are steered."""
+    TURN_KEY: ClassVar[str] = "[pitman_arm] gear_ratio"
+    """The key of its travel for one turn of the steering wheel."""
+    TIE_RODS_ON: ClassVar[str] = RELAY_ROD
+    """The part that the tie rods are joined to."""
+    MOVED: ClassVar[tuple[str, ...]] = ("pitman_ball", "idler_ball")
+    """Points that this part carries besides."""
+
+    def direction(self) -> Vector:
+        """Return the direction in which the ball moves from the middle, a unit vector."""
+        arm = self.metres("ball") - self.metres("pivot")
+        return unit_vector(cross(self.direction_of("pitman_arm"), arm))
+
+    def travel_per_turn(self) -> float | None:
+        """Return the way of the ball for one turn of the steering wheel [m]; None if unknown."""
+        return None if self.gear_ratio is None else 2.0 * math.pi * self.length() / self.gear_ratio
+
+    def points(self) -> dict[str, Vector]:
+        """Return the points of the linkage at design by name [m]."""
+        return {
+            "pitman_pivot": self.metres("pivot"),
+            "pitman_ball": self.metres("ball"),
+            "idler_pivot": self.metres("idler_pivot"),
+            "idler_ball": self.metres("idler_ball"),
+        }
+
+    def centers_of_mass(self) -> dict[str, Vector]:
+        """Return the point about which the equations count each part: its middle [m]."""
+        return {
+            body: 0.5 * (self.metres(first) + self.metres(second))
+            for body, (first, second) in self.BODIES.items()
+        }
+
+    def parameters(self) -> dict[str, float]:
+        """Return places, axes and bodies by their names in the equations, in SI units."""
+        values = components("rack_axis", self.direction()) | {"pitman_turn": 1.0 / self.length()}
+        for name, place in self.points().items():
+            values |= components(name, place)
+        values |= components("pitman_axis", self.direction_of("pitman_arm"))
+        values |= components("idler_axis", self.direction_of("idler_arm"))
+        for body, center in self.centers_of_mass().items():
+            values |= {f"{body}_mass": 0.0, **components(f"{body}_com", center)}
+            values |= {f"{body}_inertia_{element}": 0.0 for element in _ELEMENTS}
+        return values
+
+    @staticmethod
+    def mirror(data: dict[str, Any]) -> None:
+        """Change nothing of the section for the other side, which has the same linkage."""
+
+    # -- checks -----------------------------------------------------------------------------------
+
+    def problems(self) -> list[str]:
+        """Return the reasons why the linkage cannot move, or is at a dead centre in the middle."""
+        axes = {"axis": self.axis, "idler_axis": self.idler_axis}
+        problems = [
+            f"{key} = {list(axis)} (without unit) has the length {hypot(*axis):g} and no "
+            f"direction; allowed are lengths of more than {_NO_DIRECTION:g}. Enter "
+            "[0.0, 0.0, 1.0] for an arm that turns to the left."
+            for key, axis in axes.items()
+            if axis is not None and not _NO_DIRECTION < hypot(*axis) < math.inf
+        ]
+        if problems:
+            return problems
+        problems = [
+            *self._arm_problems("pitman_arm", "pivot", "ball"),
+            *self._arm_problems("idler_arm", "idler_pivot", "idler_ball"),
+        ]
+        rod = self.metres("idler_ball") - self.metres("ball")
+        length = hypot(*rod)
+        if length < SMALLEST_DISTANCE:
+            problems.append(
+                f"the ends of the relay rod, ball_mm and idler_ball_mm, are {1e3 * length:.3f} mm "
+                f"apart; at least {1e3 * SMALLEST_DISTANCE:g} mm are needed. Move one of them."
+            )
+        return problems or self._rod_problems(rod)
+
+    def _arm_problems(self, arm: str, pivot: str, ball: str) -> list[str]:
+        """Check that an arm has a length."""
+        base = self.metres(pivot)
+        length = distance_from_line(self.metres(ball), base, base + self.direction_of(arm))
+        if length >= SMALLEST_DISTANCE:
+            return []
+        problem = (
+            f"{ball}_mm is {1e3 * length:.3f} mm from the axis of the {_NAMES[arm]}; at "
+            f"least {1e3 * SMALLEST_DISTANCE:g} mm are needed. Move it off the axis."
+        )
+        return [problem]
+
+    def _rod_problems(self, rod: Vector) -> list[str]:
+        """Check that both arms move the relay rod along it, and that its joint holds it."""
+        problems = []
+        angle = angle_between_lines(rod, _UP)
+        if angle < _SMALLEST_CROSS_ANGLE:
+            problems.append(
+                f"the relay rod, from ball_mm to idler_ball_mm, is {angle:.3f} deg from the "
+                f"vertical; at least {_SMALLEST_CROSS_ANGLE:g} deg are needed for its universal "
+                "joint to hold it. Move one of the two points."
+            )
+        for arm, pivot, ball in (
+            ("pitman_arm", "pivot", "ball"),
+            ("idler_arm", "idler_pivot", "idler_ball"),
+        ):
+            across = cross(self.direction_of(arm), self.metres(ball) - self.metres(pivot))
+            lever = abs(number(across @ unit_vector(rod)))
+            if lever < SMALLEST_DISTANCE:
+                problems.append(
+                    f"the relay rod pulls at the {_NAMES[arm]} with a lever of "
+                    f"{1e3 * lever:.3f} mm; at least {1e3 * SMALLEST_DISTANCE:g} mm are needed, or "
+                    f"the linkage is at its dead centre. Move {ball}_mm, so that arm and rod are "
+                    "not in line."
+                )
+        return problems
