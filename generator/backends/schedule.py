@@ -48,7 +48,8 @@ _LATENCY = {
 _DEEPEST = 64
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+# not frozen: there are millions, which are then built in half of the time
+@dataclass(eq=False, slots=True)
 class Operation:
     """An operation and its operands.
 
@@ -263,8 +264,8 @@ _ONE = Operation("number", of=sp.Integer(1))
 
 def _after(kind: str, *operands: Operation, of: Any = None) -> Operation:
     """Return an operation that starts when its operands are there."""
-    start = max((operand.ready for operand in operands), default=0)
-    depth = max((operand.depth for operand in operands), default=0)
+    start = max([operand.ready for operand in operands], default=0)
+    depth = max([operand.depth for operand in operands], default=0)
     return Operation(kind, operands, of, start + _LATENCY[kind], depth + 1)
 
 

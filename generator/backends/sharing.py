@@ -225,6 +225,7 @@ class _Values:
     operations: list[tuple[Operation, tuple[int, ...]]] = field(default_factory=list)
     named: dict[int, str] = field(default_factory=dict)
     steps: dict[Function, dict[str, int]] = field(default_factory=dict)
+    parts: dict[str, Iterator[int]] = field(default_factory=dict)
     schedule: Schedule = field(init=False)
 
     @classmethod
@@ -288,7 +289,8 @@ class _Values:
         """Name a value that several read: by a short formula, or as a part of the first of them."""
         name = _short_formula(kind, parts, of)
         if not name or name in self.taken:
-            name = next(n for i in count(1) if (n := f"{owner}{_PART}{i}") not in self.taken)
+            numbers = self.parts.setdefault(owner, count(1))
+            name = next(n for i in numbers if (n := f"{owner}{_PART}{i}") not in self.taken)
         self._name(value, name)
 
     def _owners(

@@ -29,6 +29,8 @@ def unbroken(
     initial_indent, subsequent_indent
         What the first line, and the others, begin with.
     """
+    if 0 < len(text) <= width - len(initial_indent) and text.isprintable() and text.strip() == text:
+        return [initial_indent + text]
     return textwrap.wrap(
         text,
         width,

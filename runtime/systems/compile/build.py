@@ -109,6 +109,7 @@ def compile_mechanism(
             given.path("folder", folder)
     require_generator()
     from ...generator.equations.outputs import generate
+    from ...generator.memory import uncollected
 
     kept = cache_folder() if folder is None else Path(folder)
     refuse_shared(kept)
@@ -138,7 +139,7 @@ def compile_mechanism(
         message = f"{target}: {problem}. The compiled files are damaged, and are built again."
         warnings.warn(message, RuntimeWarning, stacklevel=2)
     if problem:
-        with appearing(target) as temporary, shown() as notify:
+        with uncollected(), appearing(target) as temporary, shown() as notify:
             build(derived or derive(notify), temporary, compiler, name=target.name, report=notify)
         refuse_damaged(target)
     module = load(target)
