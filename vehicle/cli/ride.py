@@ -50,12 +50,13 @@ def command(
     from ...core.validator import Validator
     from ...datasets import export
     from ..analysis import ride
+    from ..analysis.speeds import GREATEST_SPEED, LEAST_SPEED
     from ..plots.by_axle import by_axle
     from ..plots.motion import ENDINGS, shown_names
     from ..plots.motion import animate as write_motion
 
     with Validator("kintrafo ride") as given:
-        given.number("--speed", speed, "km/h", above=0.0)
+        given.number("--speed", speed, "km/h", least=LEAST_SPEED, below=GREATEST_SPEED)
         given.number("--duration", DURATION if duration is None else duration, "s", above=0.0)
         given.number("--output-step", output_step, "ms", above=0.0)
     suffixes = ["", "_response"] if road.is_rough else [""]
@@ -69,15 +70,18 @@ def command(
         assembly.require_riding()
     v = speed / 3.6
     profile, duration = road.for_time(assembly, v, duration)
+    times = {
+        "duration": duration,
+        "settle": min(5.0, 0.2 * duration) if road.is_rough else 0.0,
+        "output_step": output_step / 1e3,
+    }
+    ride.check_times(**times)  # before the equations are derived
     assembly = derived(assembly)
     found = {"at_rest": ride.at_rest(assembly), "modes": ride.modes(assembly)}
     if road.is_rough and road.contact_length is None:
         found["linear"] = ride.response(assembly, v, road.name)
-    settle = min(5.0, 0.2 * duration) if road.is_rough else 0.0
     with problems.status("the motion over the road"):
-        run = ride.run(
-            assembly, profile, v, duration=duration, settle=settle, output_step=output_step / 1e3
-        )
+        run = ride.run(assembly, profile, v, **times)
     motion = run.motion
     drawn = by_axle(motion)
     written = outputs.write(motion, title=title_of(file), drawn=drawn, names=shown_names(drawn))

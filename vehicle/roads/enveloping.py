@@ -67,7 +67,7 @@ def enveloped(road: Road, *, radius: float, contact_length: float) -> Road:
     half = LENGTH * radius
     parts = max(int(np.ceil(road.spacing * _POINTS / half)), 1)
     spacing = road.spacing / parts
-    at = np.arange(parts * (road.left.size - 1) + 1) / parts
+    at = points(road.length, spacing) / road.spacing
     left, right = (
         _effective(np.interp(at, np.arange(h.size), h), spacing, radius, contact_length)
         for h in (road.left, road.right)

@@ -10,6 +10,9 @@ from ...core.validator import Validator
 
 Array = NDArray[np.float64]
 
+MOST_POINTS = 4_000_000
+"""Number of points that a road has at most: 32 MB a track."""
+
 
 @dataclass(frozen=True, eq=False)
 class Road:
@@ -109,7 +112,20 @@ class Road:
 
 
 def points(length: float, spacing: float) -> Array:
-    """Return the distances of the points of a road [m]."""
+    """Return the distances of the points of a road [m].
+
+    Raises
+    ------
+    InputError
+        If there are more than `MOST_POINTS`.
+    """
+    with Validator("road") as given:
+        if not length <= spacing * MOST_POINTS:
+            given.fail(
+                f"a length of {length:g} m with points {spacing:g} m apart: {MOST_POINTS:,} points "
+                f"are allowed, {spacing * MOST_POINTS:g} m. Choose a shorter road, or longer waves "
+                "or bumps."
+            )
     return np.asarray(spacing * np.arange(int(np.ceil(length / spacing)) + 1), dtype=float)
 
 

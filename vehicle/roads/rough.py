@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...core.validator import Validator
-from .road import Road
+from .road import MOST_POINTS, Road
 
 Array = NDArray[np.float64]
 
@@ -33,8 +33,6 @@ CLASSES = {name: 4.0**k * 1e-6 for k, name in enumerate("ABCDEFGH", start=2)}
 
 WAVES = (0.01, 10.0)
 """Spatial frequencies that a road has [1/m]: waves of 100 m to 0.1 m."""
-
-_MOST_POINTS = 4_000_000
 
 
 def iso8608(
@@ -84,10 +82,10 @@ def iso8608(
         fade = given.number("fade", fade, "m", least=0.0)
         if not given.failed and spacing > 0.5 / WAVES[1]:
             given.fail(f"spacing = {spacing:g} m: at most {0.5 / WAVES[1]:g} m is allowed.")
-        if not given.failed and not 1.0 / WAVES[0] <= length <= spacing * _MOST_POINTS:
+        if not given.failed and not 1.0 / WAVES[0] <= length <= spacing * MOST_POINTS:
             given.fail(
                 f"length = {length:g} m: {1.0 / WAVES[0]:g} m, one of the longest waves, to "
-                f"{spacing * _MOST_POINTS:g} m are allowed."
+                f"{spacing * MOST_POINTS:g} m are allowed."
             )
         if not given.failed and fade > length:
             given.fail(f"fade = {fade:g} m: the length, {length:g} m, at most is allowed.")

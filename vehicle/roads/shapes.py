@@ -8,6 +8,8 @@ from .road import Road, both, points
 # A bump has so many points or more.
 _POINTS = 40
 _SPACING = 0.02  # [m]
+# No wheel climbs more [m].
+_HIGHEST = 1.0
 
 
 def bump(
@@ -18,7 +20,7 @@ def bump(
     Parameters
     ----------
     height : float
-        Of its middle, negative for a pothole [m].
+        Of its middle, negative for a pothole; 1 m at most [m].
     length : float
         [m]
     at : float, optional
@@ -34,7 +36,7 @@ def bump(
     0.05
     """
     with Validator("bump") as given:
-        height = given.number("height", height, "m")
+        height = given.number("height", height, "m", least=-_HIGHEST, below=_HIGHEST)
         length = given.number("length", length, "m", above=0.0)
         at = given.number("at", at, "m", least=0.0)
         end = given.number("end", end, "m", above=0.0)

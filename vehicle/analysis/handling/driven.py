@@ -21,8 +21,8 @@ from .result import quantity
 _METHOD: Literal["DormandPrince"] = "DormandPrince"
 # Below this cosine of the tilt of the body the car overturns.
 _FALLEN = 0.5
-# More samples would fill the memory: the step is probably wrong.
-_MOST_SAMPLES = 2_000_000
+MOST_SAMPLES = 2_000_000
+"""More samples would fill the memory: the step is probably wrong."""
 
 OF_WHEELS = {
     "fx": ("longitudinal force of the road on the tyre, positive forward", "N"),
@@ -105,7 +105,7 @@ def driven(
     how = samples or Sampling()
     count = max(round(duration / how.step), 1)
     with Validator("drive") as given:
-        if count > _MOST_SAMPLES:
+        if count > MOST_SAMPLES:
             given.fail(
                 f"step = {how.step:g} s makes {count:,} samples in {duration:g} s: too many."
             )

@@ -20,6 +20,8 @@ from .weighting import weighted
 
 # More outputs would fill the memory: the step is probably wrong.
 _MOST_OUTPUTS = 2_000_000
+# Fewer outputs than this are no motion.
+_FEWEST_OUTPUTS = 10
 # With linear interpolation between outputs at this step, the weighted acceleration of a wheel hop
 # at 12 Hz is some 3 % too small [s].
 _LONGEST_STEP = 0.01
@@ -118,14 +120,8 @@ def run(
             )
             usual = _SETTLED if road.stationary else 0.0
             begin = usual if settle is None else given.number("settle", settle, "s", least=0.0)
-            if begin >= end:
-                given.fail(f"settle = {begin:g} s: less than the duration, {end:g} s, is needed.")
-            if step > _LONGEST_STEP:
-                given.fail(f"output_step = {step:g} s: {_LONGEST_STEP:g} s at most is allowed.")
-            if end / step > _MOST_OUTPUTS:
-                given.fail(
-                    f"output_step = {step:g} s: {end / _MOST_OUTPUTS:.3g} s or more is needed."
-                )
+            if not given.failed:
+                check_times(end, begin, step)
     result = _simulated(assembly, road, speed, end, step, options)
     motion = _judged(_dataset(assembly, result), begin)
     states, inputs = result.y.T, result.inputs
@@ -133,6 +129,34 @@ def run(
     way = speed * result.t
     places = np.stack([way, 0.0 * way], axis=-1)
     return Run(car, motion, states, inputs, places, way, road)
+
+
+def check_times(duration: float, settle: float, output_step: float) -> None:
+    """Refuse times of a simulation that do not go together.
+
+    Parameters
+    ----------
+    duration, settle, output_step : float
+        As of `over` [s].
+
+    Raises
+    ------
+    InputError
+    """
+    least, finest = _FEWEST_OUTPUTS * output_step, duration / _MOST_OUTPUTS
+    step = f"output_step = {output_step:g} s"
+    with Validator("ride") as given:
+        if settle >= duration:
+            given.fail(f"settle = {settle:g} s: less than the duration, {duration:g} s, is needed.")
+        if output_step > _LONGEST_STEP:
+            given.fail(f"{step}: {_LONGEST_STEP:g} s at most is allowed.")
+        elif duration < least:
+            given.fail(
+                f"duration = {duration:g} s: {_FEWEST_OUTPUTS} times output_step, {least:g} s, or "
+                "more is needed."
+            )
+        if output_step < finest:
+            given.fail(f"{step}: {finest:.3g} s or more is needed.")
 
 
 def _simulated(

@@ -48,7 +48,7 @@ class Circle(Manoeuvre):
         if not least <= self.step_m_per_s2 <= most:
             step = f"step_m_per_s2 = {self.step_m_per_s2:g} m/s^2"
             return [f"{step}: {least:g} to {most:g} m/s^2 are allowed."]
-        return []
+        return super().problems()
 
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
         """Return gradients, and curves by lateral acceleration."""

@@ -4,8 +4,12 @@ from abc import abstractmethod
 from collections.abc import Callable
 from typing import ClassVar
 
+import numpy as np
+
 from ....input.section import Section
+from ....input.units import unit_of
 from ....models.car.car import Car
+from ...speeds import GREATEST_SPEED, LEAST_SPEED
 from ..car import DrivingCar
 from ..result import HandlingResult
 from ..subject import require_controls
@@ -13,6 +17,22 @@ from ..subject import require_controls
 Progress = Callable[[float], None]
 Number = tuple[float, str, str]
 """A metric of a manoeuvre: value, meaning and SI unit."""
+
+# The allowed ranges of the values of a file by key or unit; others are mistakes, such as of units.
+_RANGES = {
+    "radius_m": (1.0, 1e5),
+    "duration_s": (0.1, 3600.0),
+    "km/h": (LEAST_SPEED, GREATEST_SPEED),
+    "m/s^2": (1e-3, 60.0),
+    "deg": (1e-3, 2000.0),
+    "deg/s": (1e-3, 1e4),
+    "Hz": (1e-3, 100.0),
+    "m": (-1e5, 1e5),
+    "mm": (0.0, 2e4),
+    "s": (0.0, 3600.0),
+    "ms": (0.01, 1e4),
+    "N m": (1e-3, 1e6),
+}
 
 
 class Manoeuvre(Section):
@@ -24,6 +44,18 @@ class Manoeuvre(Section):
     """The endings of the names of files with its curves."""
     TRAVELS: ClassVar[bool] = True
     """Whether the car drives along a path that can be drawn."""
+
+    def problems(self) -> list[str]:
+        """Return the problems of the values together, and those outside of the range of a unit."""
+        return [
+            f"{key} = {value:g} {unit}: {least:g} to {most:g} {unit} are allowed."
+            for key in type(self).model_fields
+            for value in np.ravel(getattr(self, key))
+            for unit in [unit_of(key)]
+            if unit and value is not None
+            for least, most in [_RANGES.get(key) or _RANGES.get(unit, (-np.inf, np.inf))]
+            if not least <= value <= most
+        ]
 
     def check(self, car: Car) -> None:
         """Raise an `InputError` for a car that cannot drive it, before equations are derived."""

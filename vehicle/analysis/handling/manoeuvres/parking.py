@@ -84,10 +84,12 @@ class Parking(Manoeuvre):
 
     def problems(self) -> list[str]:
         """Return the problems of the values together."""
+        found = super().problems()
         least, most = self.largest_deg / _MOST_STEPS, 0.25 * self.largest_deg
         if not least <= self.step_deg <= most:
-            return [f"step_deg = {self.step_deg:g} deg: {least:g} to {most:g} deg are allowed."]
-        return []
+            step = f"step_deg = {self.step_deg:g} deg"
+            found.append(f"{step}: {least:g} to {most:g} deg are allowed.")
+        return found
 
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
         """Return the torque over the angle, and the greatest one."""

@@ -12,7 +12,7 @@ from .....core.named_types import Array
 from ....input.section import Positive
 from ..car import DrivingCar
 from ..circle import Turns
-from ..driven import Sampling, driven
+from ..driven import MOST_SAMPLES, Sampling, driven
 from ..drivers import HeldTorque, Observation, Pushes, SpeedHeld, Steers
 from ..result import quantity
 from ..steady import NoSteadyMotionError, Steady, SteadyCondition
@@ -32,14 +32,20 @@ class SimulatedManoeuvre(Manoeuvre):
 
     def problems(self) -> list[str]:
         """Return the problems of the values together."""
+        found = super().problems()
         ratio = self.output_step_ms / self.step_ms
         if abs(ratio - round(ratio)) > 1e-9 * ratio or ratio < 1.0:
-            problem = (
+            found.append(
                 f"output_step_ms = {self.output_step_ms:g} ms: a multiple of step_ms = "
                 f"{self.step_ms:g} ms is needed."
             )
-            return [problem]
-        return []
+        samples = 1e3 * getattr(self, "duration_s", 0.0) / self.step_ms
+        if samples > MOST_SAMPLES:
+            found.append(
+                f"step_ms = {self.step_ms:g} ms: {samples:.3g} samples in all, and at most "
+                f"{MOST_SAMPLES:.3g} are allowed."
+            )
+        return found
 
     @property
     def speed(self) -> float:
