@@ -67,6 +67,10 @@ def test_what_the_joints_carry_is_what_the_equations_need(loads) -> None:
 
 
 def test_forces_on_the_body_move_it(motion, loads) -> None:
+    the_body_is_balanced(motion, loads)
+
+
+def the_body_is_balanced(motion, loads) -> None:
     """Newton and Euler for the body, which is not among the parts that the analysis balances."""
     parameters, com = motion.model.parameters, motion.assembly.car.com
     own = loads.sel(load=loads["part"] == "chassis")
@@ -197,6 +201,29 @@ def test_an_axle_without_sides_has_its_parts_in_a_car(name) -> None:
     car = Car.from_dict(FILE | {"rear": rear, "body": FILE["body"] | {"com_mm": com}})
     bodies = {body.name for body in declared(car).mechanism.bodies}
     assert {f"rear_{mass.body}" for mass in found.masses().values()} <= bodies
+
+
+def test_loads_of_a_car_on_a_twist_beam() -> None:
+    """The smallest car with one: trailing arms in front, no steering; it turns, rolls and leaps."""
+    own = {"vehicle.end": "front", "vehicle.center_of_gravity_height_mm": None}
+    arm = kintrafo.load("trailing_arm_car").with_changes(own)
+    front = kintrafo.Axle.from_dict({"axle": "front", "side": arm, "drive": {"share": 1.0}})
+    body = FILE["body"] | {"com_mm": [-1300.0, 0.0, 575.0]}
+    car = Car.from_dict(FILE | {"front": front, "rear": "twist_beam", "body": body})
+    assembly = assembly_of(car)
+    start = assembly.running(15.0)
+    # angles of some degrees, speeds of some decimetres and tenths of a radian per second
+    off = np.random.default_rng(1).normal(scale=0.05, size=(3, len(start)))
+    states = np.asarray(start) + off
+    norm = [assembly.model.state_names.index(f"body_e{i}") for i in range(4)]
+    states[:, norm] /= np.linalg.norm(states[:, norm], axis=1)[:, None]
+    inputs = np.tile(start.inputs, (3, 1))
+    found, motion = of_car(assembly, states, inputs), CarInMotion(assembly, states, inputs)
+    assert np.abs(found["holding_force"]).max() < 1e-5
+    assert found["residual_moment"].max() < 1e-5
+    beam = found.sel(load=found["point"] == "shear_center_rear")
+    assert np.abs(beam["force"]).max() > 1.0
+    the_body_is_balanced(motion, found)
 
 
 def test_peaks_are_the_greatest_of_all_outputs(loads) -> None:
