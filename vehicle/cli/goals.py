@@ -36,15 +36,15 @@ Goals = Annotated[
 
 
 def read(
-    path: Path | None, ways: Sequence[str], known: Sequence[str] = ("travel", "rack")
+    path: Path | None, ways: Sequence[str] | None, known: Sequence[str] = ("travel", "rack")
 ) -> "list[Goal]":
     """Return the goals of a file about curves over some ways, or compliance; none without a file.
 
     Parameters
     ----------
     path : Path or None
-    ways : sequence of str
-        Axes of the curves, and supports of the wheels under loads.
+    ways : sequence of str or None
+        Axes of the curves, and supports of the wheels under loads; None for all that the file has.
     known : sequence of str, optional
         Those that the file may have, the usual first.
     """
@@ -55,14 +55,16 @@ def read(
     from ..analysis.compliance.flexibility import HELD
     from ..studies.sweep_axes import name_of_axis, sweep_axis
 
+    every = variation.goals(variation.read(path), known)
+    if ways is None:
+        ways = list(dict.fromkeys([known[0], *(goal.over for goal in every)]))
     looked_at = [over for over in ways if name_of_axis(over) in known or over in HELD]
     if not looked_at:
         problem = f"goals are about curves over {_or(known)}, and these are over {_or(ways)}."
         raise InputError([problem], str(path))
-    every = variation.goals(variation.read(path), known)
     found = [goal for goal in every if goal.over in ways]
     if not found:
-        kinematic = "toe" if known[0] == "travel" else "camber_left"
+        kinematic = {"travel": "toe", "heave": "camber_front_left"}.get(known[0], "camber_left")
         soft = "toe_by_lateral" if known[0] == "travel" else "toe_by_lateral_opposed_left"
         example = soft if looked_at[0] in HELD else kinematic
         problem = (

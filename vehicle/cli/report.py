@@ -35,6 +35,7 @@ EXAMPLES = (
     "kintrafo report reference_axle",
     "kintrafo report rigid_axle --loads",
     "kintrafo report quarter_car",
+    "kintrafo report driving_car --goals understeer.toml",
     "kintrafo report my_mechanism.py",
 )
 
@@ -64,7 +65,8 @@ def command(
 
     An axle has one side in the 3D view, and a chapter with the results of a rig for both; a rigid
     axle has drawings, tables and curves. A car is shown at rest, over a bump and, if it drives, in
-    a step steer, with curves that follow; its axles have chapters of their own. Compliance is
+    a step steer, with curves that follow; its axles have chapters of their own. Targets and limits
+    of --goals have a chapter. Compliance is
     included if FILE has bushes, or with --bushes.
     """
     from ...core.files import refuse
@@ -87,9 +89,7 @@ def command(
     else:
         assembly = assembly_of_file(file)
         if assembly.body_moves:
-            refuse_options(
-                "an axle or a suspension", {"--cases": cases, "--bushes": bushes, "--goals": goals}
-            )
+            refuse_options("an axle or a suspension", {"--cases": cases, "--bushes": bushes})
         aims = _aims(assembly, goals)
         with problems.status("tables and curves") as status:
             chapters = [
@@ -147,6 +147,8 @@ def _aims(assembly: "Assembly", path: Path | None) -> "list[Goal]":
     from ..studies.sweep_axes import sweep_axes_of
 
     known = sweep_axes_of(assembly.subject)
+    if assembly.body_moves:
+        return wanted.read(path, None, known)
     unsteered = len(assembly.wheels) == 1 and not assembly.steered
     return wanted.read(path, [*(known[:1] if unsteered else known), *HELD], known)
 
@@ -163,6 +165,7 @@ def _chapters(
     """Yield the chapters that an assembly has, then those of its parts on a held body."""
     from ..report import (
         axle_chapter,
+        goals_chapter,
         rest_chapter,
         ride_chapter,
         steady_turns_chapter,
@@ -182,9 +185,13 @@ def _chapters(
     if len(assembly.wheels) > 1:
         progress("motions of a rig")
         yield axle_chapter(assembly, goals)
+    if assembly.body_moves and goals:
+        progress("targets and limits")
+        yield goals_chapter(assembly, goals)
+    of_parts = () if assembly.body_moves else goals
     for name, part in assembly.held_parts.items():
         progress(f"tables and curves {name}".strip())
-        for chapter in _of_held(part, goals, cases, bushes, loads=loads):
+        for chapter in _of_held(part, of_parts, cases, bushes, loads=loads):
             title = f"{chapter.title}: {name}" if name else chapter.title
             yield replace(chapter, title=title)
 

@@ -75,7 +75,7 @@ def command(
         "settle": min(5.0, 0.2 * duration) if road.is_rough else 0.0,
         "output_step": output_step / 1e3,
     }
-    ride.check_times(**times)  # before the equations are derived
+    ride.simulated.check_times(**times)  # before the equations are derived
     assembly = derived(assembly)
     found = {"at_rest": ride.at_rest(assembly), "modes": ride.modes(assembly)}
     if road.is_rough and road.contact_length is None:

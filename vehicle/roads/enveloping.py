@@ -18,7 +18,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from ...core.validator import Validator
-from .road import Road, both, points
+from .road import Road, both, check_points, points
 
 Array = NDArray[np.float64]
 
@@ -67,7 +67,8 @@ def enveloped(road: Road, *, radius: float, contact_length: float) -> Road:
     half = LENGTH * radius
     parts = max(int(np.ceil(road.spacing * _POINTS / half)), 1)
     spacing = road.spacing / parts
-    at = points(road.length, spacing) / road.spacing
+    check_points(road.length, spacing)
+    at = np.arange(parts * (road.left.size - 1) + 1) / parts
     left, right = (
         _effective(np.interp(at, np.arange(h.size), h), spacing, radius, contact_length)
         for h in (road.left, road.right)

@@ -112,21 +112,31 @@ class Road:
 
 
 def points(length: float, spacing: float) -> Array:
-    """Return the distances of the points of a road [m].
+    """Return the distances of the points of a road [m], at most `MOST_POINTS` of them."""
+    check_points(length, spacing)
+    return np.asarray(spacing * np.arange(int(np.ceil(length / spacing)) + 1), dtype=float)
+
+
+def check_points(length: float, spacing: float) -> None:
+    """Refuse a road of more than `MOST_POINTS` points.
+
+    Parameters
+    ----------
+    length, spacing : float
+        [m]
 
     Raises
     ------
     InputError
-        If there are more than `MOST_POINTS`.
     """
+    longest = spacing * MOST_POINTS
     with Validator("road") as given:
-        if not length <= spacing * MOST_POINTS:
+        if not length <= longest:
             given.fail(
-                f"a length of {length:g} m with points {spacing:g} m apart: {MOST_POINTS:,} points "
-                f"are allowed, {spacing * MOST_POINTS:g} m. Choose a shorter road, or longer waves "
-                "or bumps."
+                f"a length of {length:g} m with points {spacing:g} m apart: at most "
+                f"{MOST_POINTS:,} points, {longest:g} m, are allowed. Choose a shorter road, or "
+                "longer waves or bumps."
             )
-    return np.asarray(spacing * np.arange(int(np.ceil(length / spacing)) + 1), dtype=float)
 
 
 def both(spacing: float, heights: ArrayLike, sides: str, words: str) -> Road:

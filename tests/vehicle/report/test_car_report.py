@@ -10,8 +10,20 @@ from browser import CHROMIUM, running
 from kintrafo.vehicle.plots.by_axle import by_axle, names_by_axle
 from kintrafo.vehicle.plots.ride import response_figures
 from kintrafo.vehicle.report.chapters import axle, handling
+from kintrafo.vehicle.report.chapters.goals import goals_chapter
 from xarray import Dataset
 
+GOALS = """
+[targets.heave_frequency]
+over = "speed"
+value = 5.0
+within = 0.1
+[limits.weighted_rms]
+over = "speed"
+road = "C"
+at_km_per_h = 60.0
+most = 30.0
+"""
 WHEELS = ["front_left", "front_right", "rear_left", "rear_right"]
 
 
@@ -20,8 +32,11 @@ def report(tmp_path_factory):
     from kintrafo.vehicle import cli
 
     path = tmp_path_factory.mktemp("car") / "quarter.html"
+    goals = path.with_name("goals.toml")
+    goals.write_text(GOALS, encoding="utf-8")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("sys.argv", ["kintrafo", "report", "quarter_car", str(path)])
+        words = ["kintrafo", "report", "quarter_car", str(path), "--goals", str(goals)]
+        patch.setattr("sys.argv", words)
         cli.run()
     return path
 
@@ -29,7 +44,10 @@ def report(tmp_path_factory):
 def test_a_quarter_car_has_the_chapters_that_apply_to_it(report) -> None:
     text = report.read_text(encoding="utf-8")
     titles = re.findall(r"<h2>(.*?)</h2>", text)
-    assert titles == ["The car at rest", "Ride", "K&amp;C sheet: corner", "Input data"]
+    assert titles == [
+        "The car at rest", "Ride", "Targets and limits", "K&amp;C sheet: corner", "Input data"
+    ]  # fmt: skip
+    assert "1 of 2 are met, 1 missed." in text
     assert report.stat().st_size < 1e6
     assert not re.findall(r'(?:src|href)="(?!data:|#)', text)
     assert "<code>[corner tyre]</code>" in text
@@ -63,6 +81,16 @@ def test_a_car_that_cannot_turn_says_why() -> None:
         assert not chapter.players
 
 
+def test_goals_of_wheels_are_in_the_curves_of_their_axles() -> None:
+    limits = {"camber_rear_left": {"at_mm": [-10.0, 10.0], "least": -3.0, "most": 3.0}}
+    wanted = kintrafo.variation.goals({"limits": limits}, ["heave", "pitch", "roll"])
+    chapter = goals_chapter(kintrafo.load("reference_vehicle"), wanted)
+    assert chapter.words[0] == "1 of 1 are met, 0 missed."
+    (table,), (picture,) = chapter.tables, chapter.pictures
+    assert table.rows[0][:2] == ("limit: camber, rear_left [deg]", "met")
+    assert picture.words == "Curves over heave of the body with targets and limits"
+
+
 def test_one_wheel_has_no_motions_of_a_rig() -> None:
     with pytest.raises(kintrafo.InputError, match="one wheel has no such chapter"):
         axle.axle_chapter(kintrafo.load("quarter_car"))
@@ -76,7 +104,7 @@ def test_curves_of_a_car_are_small_pictures(monkeypatch) -> None:
     assert [panel.words for panel in chapter.panels] == [f"front: {words}", f"rear: {words}"]
 
 
-@pytest.mark.parametrize("option", ["--goals", "--cases", "--bushes"])
+@pytest.mark.parametrize("option", ["--cases", "--bushes"])
 def test_what_is_about_an_axle_needs_its_file(kintrafo, option) -> None:
     code, _, message = kintrafo("report", "quarter_car", option, "some.toml")
     assert code == 2

@@ -9,6 +9,7 @@ from ....core.validator import Validator
 from ...analysis.compliance.flexibility import HELD
 from ...assembly.assembly import Assembly
 from ...assembly.of import given_assembly
+from ...plots.by_axle import by_axle
 from ...studies.evaluation import curves_over
 from ...studies.goals import Goal, Verdict, judge, words_of
 from ...studies.sweep_axes import sweep_axis
@@ -22,11 +23,11 @@ _MEANING = (
 
 
 def goals_chapter(subject: Any, goals: Sequence[Goal]) -> Chapter:
-    """Return which targets and limits a suspension or an axle meets, with its curves.
+    """Return which targets and limits a suspension, an axle or a car meets, with its curves.
 
     Parameters
     ----------
-    subject : Suspension, Model, Axle or RigidAxle
+    subject : Suspension, Model, Axle, RigidAxle or Car
     goals : sequence of Goal
         From `kintrafo.variation.goals`; one or more.
 
@@ -40,7 +41,7 @@ def goals_chapter(subject: Any, goals: Sequence[Goal]) -> Chapter:
         As of `kintrafo.variation.judge`.
     """
     with Validator("goals_chapter") as given:
-        assembly = given_assembly(given, subject)
+        assembly = given_assembly(given, subject, cars=True)
         if isinstance(goals, list | tuple) and not goals:
             given.fail("goals is empty: one target or limit is needed.")
     verdicts = judge(assembly, goals)
@@ -56,6 +57,7 @@ def _drawn(assembly: Assembly, goals: Sequence[Goal], over: str) -> tuple[Chapte
     """Return the curves that goals over something are about, with these."""
     own = [goal for goal in goals if goal.over == over]
     dataset = curves_over(assembly, over, positions_of(assembly, over, own))
+    dataset = by_axle(dataset) if assembly.axles else dataset
     kind = "Compliance" if over in HELD else "Curves"
     words = f"{kind} over {sweep_axis(over).words} with targets and limits"
     title = f"{words}\n{HELD[over]}" if over in HELD else words
