@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from .named_types import Array
+
 Flags = NDArray[np.bool_]
 
 Entries = Mapping[tuple[int, int], Array]

@@ -6,12 +6,9 @@ from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
-from .named_types import ArrayLike
+from .named_types import Array, ArrayLike
 from .validator import Validator
-
-Array = NDArray[np.float64]
 
 _EACH = 4096
 """Memory of all curves of a position, rounded up: there are 800 to 5500 curves [bytes]."""

@@ -15,14 +15,13 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .errors import InputError
 from .legible import legible, short
+from .named_types import Array
 from .reading import MOST_OF_MEASUREMENTS, text_of
 from .units import in_si
 
-Array = NDArray[np.float64]
 Row = tuple[int, list[Any]]
 
 _DELIMITERS = ("\t", ";", ",")

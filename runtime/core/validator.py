@@ -13,15 +13,14 @@ from pathlib import PurePath
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .errors import InputError
+from .named_types import Array
 from .suggestions import suggestion
 
 if TYPE_CHECKING:
     from types import TracebackType
 
-Array = NDArray[np.float64]
 
 _LONGEST = 60
 _MOST_PROBLEMS = 200

@@ -4,15 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 from scipy.integrate import trapezoid
 
+from ..core.named_types import Array
 from ..core.quantities import variable
 from ..core.validator import Validator
 from ..simulation.result import Simulation
 from ..systems.system import System
-
-Array = NDArray[np.float64]
 
 TIME = "time"
 

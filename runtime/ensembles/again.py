@@ -5,14 +5,12 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core.errors import KintrafoError
+from ..core.named_types import Array
 from ..simulation.lanes.problem import End, Kind, Problem
 from ..simulation.simulate import simulate_inputs
 from ..systems.system import System
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

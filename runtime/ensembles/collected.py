@@ -6,12 +6,11 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.named_types import Array
 from ..simulation.lanes.problem import End, Problem
 from .again import Again
 from .series import frequencies, percentile, spectra
 from .wanted import OutputSpec, Reduced
-
-Array = NDArray[np.float64]
 
 
 @dataclass

@@ -8,11 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
+from ..core.named_types import Array
 from ..simulation.signals import Segment, Spline, TimeInputs, time_inputs
 from ..systems.system import System
 from .variants import Variants, numbered
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -8,10 +8,9 @@ from typing import Any, Literal
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from ..core.errors import InputError
-from ..core.named_types import ArrayLike
+from ..core.named_types import Array, ArrayLike
 from ..core.validator import Validator, shown
 from ..simulation.accuracy import accuracy_of, outputs_of, span_of
 from ..simulation.lanes import library
@@ -30,8 +29,6 @@ from .results import dataset_of
 from .room import Room
 from .variants import Variants, impossible_sets, variants_of
 from .wanted import OutputSpec, asked_of
-
-Array = NDArray[np.float64]
 
 _OUTPUTS = 201
 # Steps in lanes that take about the time of BDF for a system (``make benchmark-stiff``): after as

@@ -4,9 +4,8 @@ The operations on a series and their order do not depend on other series, nor do
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ..core.named_types import Array
 
 USUAL_SEGMENT, LEAST_SEGMENT = 256, 8
 """Outputs in a segment of a spectrum: the default, as in SciPy, and the least allowed."""

@@ -9,14 +9,13 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ..core.named_types import Array
 from ..core.physical import impossible
 from ..core.suggestions import suggestion
 from ..core.validator import Validator, shown
 from ..systems.inputs import derived_inputs
 from ..systems.system import System
 from .room import Room
-
-Array = NDArray[np.float64]
 
 CAR = "car"
 """Dimension of variants that are given as rows of numbers."""

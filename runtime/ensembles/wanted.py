@@ -5,16 +5,14 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..core.named_types import Array
 from ..core.quantities import display_of
 from ..core.validator import Validator, shown
 from ..simulation.lanes.problem import Kind, LaneOutputs, Outcome, Reduction
 from ..simulation.validity import Bound
 from ..systems.system import System
 from .series import LEAST_SEGMENT, USUAL_SEGMENT, uniform_step
-
-Array = NDArray[np.float64]
 
 ON_THE_WAY = ("max", "min", "mean", "rms", "above")
 OF_SERIES = ("percentile", "psd")

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..core.named_types import Array
 from .status import NOT_FINITE, bit_of
 
-Array = NDArray[np.float64]
 Code = Callable[..., tuple[tuple[Any, ...], dict[int, Any]]]
 
 

@@ -10,9 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.named_types import Array
 from .errors import ModelError, place_of
-
-Array = NDArray[np.float64]
 
 TANGENTS, ADJOINTS = "tangents", "adjoints"
 """Parts of the emitted code that have these functions."""

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..core.named_types import Array
 from ..core.physical import inertia_of_no_body, out_of_range
 from .directions import ADJOINTS, TANGENTS, Directions, WiderArrays
 from .errors import HEAVIER, WEIGHTLESS, ClosureError, ModelError, ParameterError, located, place_of
@@ -16,7 +17,6 @@ from .layout import StateLayout
 from .residuals import Residuals
 from .status import LAST_GUARD_BIT, NOT_FINITE, bit_of, mask_of
 
-Array = NDArray[np.float64]
 Code = Mapping[str, int | Callable[..., Any]]
 """The functions by name: addresses of C functions, or functions over NumPy arrays."""
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ..core.named_types import Array
 
 ITERATIONS = 400
 """Most iterations of a call. Within the travel of a suspension five to seven are needed."""

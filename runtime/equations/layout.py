@@ -5,9 +5,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ..core.named_types import Array
 
 # Numbers of displacements, and of all positions, of a free body: a unit quaternion follows.
 _AXES, _POSITIONS = 3, 7

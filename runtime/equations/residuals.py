@@ -4,11 +4,10 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ..core.named_types import Array
 from .errors import ModelError, place_of
-
-Array = NDArray[np.float64]
 
 
 class Residuals:

@@ -7,13 +7,13 @@ from numpy.typing import NDArray
 
 from ..core.errors import InputError
 from ..core.files import Paths, refuse, replacing
+from ..core.named_types import Array
 from ..core.validator import Validator
 from ..pictures.animation import write_gif
 from ..simulation.result import Simulation
 from ..systems.skeleton import Skeleton
 from .mechanism.page import motion_page
 
-Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 ENDINGS = (".gif", ".html", ".htm")

@@ -7,12 +7,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 from PIL import Image
 
+from ..core.named_types import Array
 from ..systems.skeleton import Skeleton
-
-Array = NDArray[np.float64]
 
 COLOURS = (
     "#0072b2",

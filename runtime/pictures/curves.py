@@ -18,13 +18,12 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator, ScalarFormatter
 from numpy.typing import NDArray
 
+from ..core.named_types import Array
 from ..core.quantities import bracketed, display_of, displayed, long_name
 from ..core.validator import Validator
 from .figures import BLUE, GREEN, ORANGE, written_plainly
 from .labels import label_lines
 from .turned import turn
-
-Array = NDArray[np.float64]
 
 # Distinct in colour, and in black and white by the dashes.
 _COLOURS = (BLUE, ORANGE, GREEN, "#cc79a7", "#56b4e9", "#e69f00", "#000000")

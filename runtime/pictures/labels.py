@@ -7,9 +7,8 @@ import numpy as np
 from matplotlib import patheffects
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ..core.named_types import Array
 
 _SIZE = 8.0
 # Mean width of a letter, and height of a line with its margins, relative to the size of the type.

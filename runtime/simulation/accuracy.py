@@ -5,11 +5,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ..core.named_types import Array
 from ..core.validator import Validator, shown
-
-Array = NDArray[np.float64]
 
 _MOST_STEPS = 2**62
 # Times are refused if their rounding exceeds the first number [s] and they are more than the second

@@ -12,9 +12,8 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..core.named_types import ArrayLike
+from ..core.named_types import Array, ArrayLike
 from ..core.validator import Validator, shown
 from ..systems.derivatives import checked_directions
 from ..systems.state import inputs_of
@@ -28,7 +27,6 @@ from .signals import TimeInputs, time_inputs
 from .simulate import simulate_inputs
 from .sweep import Sweep
 
-Array = NDArray[np.float64]
 Measure = Literal["mean", "rms"]
 
 OUTPUTS = 201

@@ -4,15 +4,14 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 from typing_extensions import TypeAliasType
 
 from ..core.errors import InputError
+from ..core.named_types import Array
 from .fitting import fitted
 from .interpolation import WAYS, Samples, curves
 
-Array = NDArray[np.float64]
 Signal = TypeAliasType(
     "Signal", float | Samples | tuple[Any, Any] | list[Any] | PPoly | Callable[[float], Any]
 )

@@ -11,11 +11,10 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.named_types import Array
 from ..equations.errors import ClosureError
 from ..systems.system import System
 from .trust import ACTS, NOTHING, PART, SINGULAR
-
-Array = NDArray[np.float64]
 
 
 @cache

@@ -5,13 +5,11 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from ..core.errors import InputError
+from ..core.named_types import Array
 from ..core.validator import shown
-
-Array = NDArray[np.float64]
 
 # Longest time between two calls of a function [s], and least and most number of calls.
 _RESOLUTION = 1e-3

@@ -11,10 +11,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core.memory import refuse_beyond
-from ..core.named_types import ArrayLike
+from ..core.named_types import Array, ArrayLike
 from ..core.validator import Validator
 from ..systems.derivatives import checked_directions, direction_of, kept_together
 from ..systems.state import inputs_of
@@ -27,8 +26,6 @@ from .lanes.directions import followed as in_lanes
 from .result import Simulation
 from .retraced import NODES, STAGES, RetracedSteps, weights_within
 from .signals import time_inputs
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline, PchipInterpolator, PPoly
 
-Array = NDArray[np.float64]
+from ..core.named_types import Array
+
 Between = Literal["monotone", "spline", "linear"]
 WAYS: tuple[str, ...] = get_args(Between)
 

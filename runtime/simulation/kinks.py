@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 from scipy.optimize.elementwise import find_root
 
 from ..core.errors import InputError
+from ..core.named_types import Array
 from ..equations.errors import named
 from ..systems.system import System
 from .result import Simulation
 from .retraced import RetracedSteps
 from .signals import TimeInputs
 
-Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 _FUNCTION = "kinks"

@@ -4,16 +4,15 @@ from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.optimize import OptimizeResult
 
 from ..core.errors import KintrafoError
+from ..core.named_types import Array
 from ..core.validator import Validator
 from ..equations.errors import ModelError
 from ..systems.system import System
 from .validity import Excursion, bounds_of, excursions
-
-Array = NDArray[np.float64]
 
 # Roundings by which a time may be beyond the ends of the solution, such as the last of a range.
 _ROUNDINGS = 8.0

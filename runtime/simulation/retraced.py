@@ -6,12 +6,12 @@ The integration does not keep the states at the stages; they follow from its ste
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.named_types import Array
 from ..systems.system import System
 from . import _steps
 from .result import Simulation
 from .signals import TimeInputs
 
-Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 # Dormand and Prince's method: nodes, stages, and weights of a step and of its polynomial

@@ -15,10 +15,10 @@ from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline, CubicSpline, PPoly
 
 from ..core.errors import InputError
+from ..core.named_types import Array
 from ..core.suggestions import suggestion
 from ..core.validator import Validator
 from ..systems.inputs import Inputs, derived_inputs, may_jump, rates_of
@@ -26,8 +26,6 @@ from ..systems.system import System
 from .courses import Signal, course
 from .interpolation import Eased
 from .turning import merged, turning_points
-
-Array = NDArray[np.float64]
 
 # Relative difference of times that an integrator does not distinguish.
 _RESOLVED = 1e-13

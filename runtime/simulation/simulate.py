@@ -11,7 +11,7 @@ from typing_extensions import TypeAliasType
 
 from ..core.errors import InputError
 from ..core.memory import refuse_beyond
-from ..core.named_types import ArrayLike
+from ..core.named_types import Array, ArrayLike
 from ..core.validator import Validator
 from ..equations.errors import ModelError
 from ..systems.state import inputs_of
@@ -38,7 +38,6 @@ from .solvers import (
     why_not_native,
 )
 
-Array = NDArray[np.float64]
 Method = TypeAliasType(
     "Method",
     Literal[

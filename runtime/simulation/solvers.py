@@ -13,9 +13,9 @@ from math import factorial, isinf
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
+from ..core.named_types import Array
 from ..core.validator import Validator
 from ..equations.errors import ModelError
 from ..systems.system import System
@@ -24,8 +24,6 @@ from .dead_points import Approach, DeadPoint, meanings
 from .events import Events
 from .signals import Segment, TimeInputs
 from .watched import TooManySteps, watched
-
-Array = NDArray[np.float64]
 
 # Names of the methods in C: a multistep family or a Butcher table of SUNDIALS, or our own method.
 NATIVE_METHODS = {

@@ -4,11 +4,10 @@ from collections.abc import Mapping
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
 from ..core.errors import InputError
-from ..core.named_types import ArrayLike
+from ..core.named_types import Array, ArrayLike
 from ..core.validator import Validator, shown
 from ..systems.inputs import derived_inputs, rates_of
 from ..systems.state import inputs_of
@@ -25,7 +24,6 @@ from .solvers import (
     why_not_native,
 )
 
-Array = NDArray[np.float64]
 Method = Literal["RK4", "RODASP", "DormandPrince"]
 
 _TOLERANCE = (1e-6, 1e-9)

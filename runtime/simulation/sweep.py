@@ -16,11 +16,11 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.named_types import Array
 from ..systems.system import System
 from . import _steps
 from .retraced import NODES, STAGES, RetracedSteps, weights_within
 
-Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 # Rows that are differentiated together: some MB.

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
-Array = NDArray[np.float64]
+from ..core.named_types import Array
 
 # Swings below this part of the range are noise: of a value, and of its derivatives, which are less
 # accurate in a spline through values.

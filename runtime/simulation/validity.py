@@ -10,11 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.named_types import Array
 from ..core.quantities import attributes, display_of
 from ..systems.system import System
 from .levels import Values, value_of
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

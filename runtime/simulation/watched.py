@@ -4,10 +4,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import BDF, DOP853, LSODA, RK45, OdeSolver, Radau
 
+from ..core.named_types import Array
 from ..equations.errors import ModelError
 from .dead_points import Approach, DeadPoint
 from .trust import (
@@ -20,8 +19,6 @@ from .trust import (
     SMALLEST_OF_TIME,
     SMALLEST_PART,
 )
-
-Array = NDArray[np.float64]
 
 _METHODS = {"RK45": RK45, "DOP853": DOP853, "Radau": Radau, "BDF": BDF, "LSODA": LSODA}
 # An integration fails if this number of steps together covers less than this part of the whole

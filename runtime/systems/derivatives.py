@@ -4,16 +4,13 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core.errors import InputError
-from ..core.named_types import ArrayLike
+from ..core.named_types import Array, ArrayLike
 from ..core.validator import Validator
 from ..equations.directions import Directions
 from .state import inputs_of
 from .system import System
-
-Array = NDArray[np.float64]
 
 
 def derivative(

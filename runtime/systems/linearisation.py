@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.errors import InputError
-from ..core.named_types import ArrayLike
+from ..core.named_types import Array, ArrayLike
 from ..core.validator import Validator
 from ..equations.layout import StateLayout
 from .inputs import rates_of
@@ -32,7 +32,6 @@ if TYPE_CHECKING:
     from scipy.signal import StateSpace
 
 
-Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 # Rate below which a state counts as steady, relative to the accelerations by the forces.

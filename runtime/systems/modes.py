@@ -8,7 +8,8 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ..core.named_types import Array
+
 Complex = NDArray[np.complex128]
 
 

@@ -3,16 +3,13 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core.errors import InputError
-from ..core.named_types import ArrayLike
+from ..core.named_types import Array, ArrayLike
 from ..core.validator import Validator
 from ..equations.errors import ModelError, located
 from .state import State, inputs_of
 from .system import System
-
-Array = NDArray[np.float64]
 
 _MOST_STEPS, _HALVINGS = 100, 30
 # A smaller step [rad, m] is a rounding error.

@@ -5,13 +5,11 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..core.named_types import ArrayLike
+from ..core.named_types import Array, ArrayLike
 from ..core.validator import Validator
 from .system import System
 
-Array = NDArray[np.float64]
 End = tuple[str, str]
 # A body with points in one place only is drawn with its centre of mass.
 CENTER = "centre of mass"

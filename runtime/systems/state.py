@@ -3,12 +3,9 @@
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core.errors import InputError
-from ..core.named_types import ArrayLike
-
-Array = NDArray[np.float64]
+from ..core.named_types import Array, ArrayLike
 
 
 class StateNames(NamedTuple):

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.named_types import ArrayLike
+from ..core.named_types import Array, ArrayLike
 from ..core.validator import Validator, shown
 from ..equations.layout import StateLayout
 from .allowed import LengthLimit
@@ -16,8 +16,6 @@ from .compile.loader import find
 from .modes import eigenvalues_of
 from .state import StateNames, inputs_of
 from .tangent import Tangent
-
-Array = NDArray[np.float64]
 
 
 class System:

@@ -15,11 +15,9 @@ constant coefficients.
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..core.named_types import Array
 from ..equations.layout import StateLayout
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -6,13 +6,11 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core.errors import InputError
+from ..core.named_types import Array
 from ..systems.compile.shipped import sources_of
 from ..systems.system import System
-
-Array = NDArray[np.float64]
 
 
 class Result(NamedTuple):

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import InputError
+from ...core.named_types import Array
 from ...simulation.accuracy import Accuracy
 from ...simulation.lanes.library import widths
 from ...simulation.lanes.problem import LaneOutputs, Problem, Systems
@@ -23,7 +24,6 @@ from ..collected import Collected
 from ..wanted import OutputSpec
 from .versions import differences, versions
 
-Array = NDArray[np.float64]
 Report = Callable[[int], None]
 
 

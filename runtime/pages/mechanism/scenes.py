@@ -5,14 +5,12 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.legible import legible
+from ...core.named_types import Array
 from ...equations.errors import ModelError
 from ...simulation.result import Simulation
 from ...systems.skeleton import Skeleton
-
-Array = NDArray[np.float64]
 
 # Positions on each side of the design position; most frames of a motion.
 _TO_EACH_SIDE, MOST_FRAMES = 60, 400

@@ -9,12 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...systems.system import System
 from ..retraced import RetracedSteps, weights_within
 from . import library
 from .run import usual_threads
-
-Array = NDArray[np.float64]
 
 _DOUBLES, _INTS = ctypes.POINTER(ctypes.c_double), ctypes.POINTER(ctypes.c_int)
 _LONGS = ctypes.POINTER(ctypes.c_long)

@@ -9,13 +9,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...systems.system import System
 from ..accuracy import Accuracy
 from ..dead_points import meanings
 from ..signals import TimeInputs
 from . import library
 
-Array = NDArray[np.float64]
 Numbers = NDArray[np.int32]
 
 
