@@ -21,7 +21,7 @@ build: .venv/.built ## Compile the generated models
 	@$(PYTHON) setup.py --quiet build_ext --inplace
 	@touch $@
 
-sundials: ## Build SUNDIALS anew, optimised, for the next build (set-up does it where there is none)
+sundials: ## Build an optimised SUNDIALS for the next build (set-up does it if there is none)
 	@.ci/sundials
 
 generate: .venv/.ready ## Derive the equations again and write generated/
@@ -61,7 +61,7 @@ format: .venv/.ready ## Rewrite the sources in the project's style
 	@.venv/bin/ruff format --quiet .
 
 # mypy and the linter follow folders, not the mapping of the four of them onto one package: this is
-# a tree of links that has that shape, made anew so that nothing in it points to what has moved
+# a tree of links with that shape, created again so that no link points to a file that has moved
 tree:
 	@rm -rf build/types && mkdir -p build/types/kintrafo
 	@for item in runtime/*; do ln -sfn "../../../$$item" build/types/kintrafo/; done
@@ -113,7 +113,7 @@ benchmark-drive: build ## How fast cars drive: operations, derivation, and a swi
 benchmark-braking: build ## A wheel that brakes to standstill: where a tyre is stiff, by all methods
 	@$(PYTHON) -m benchmarks.braking --page docs/theory/gear-against-runge-kutta.md
 
-benchmark-real-time: build ## Steps of one length: errors, and what one takes
+benchmark-real-time: build ## Fixed steps: errors, and the time of a step
 	@$(PYTHON) -m benchmarks.real_time --page docs/simulation/real-time.md
 
 benchmark-stiff: build ## Which cars of an ensemble go to BDF, and what percentiles and spectra cost

@@ -1,8 +1,7 @@
-"""See that what is installed has all that is compiled: every method in C, every model in lanes.
+"""Check that the installed package is complete: every method in C, every model in lanes.
 
-Nothing else would show that it is missing: without SUNDIALS, SciPy integrates, only ensembles need
-lanes, and units of FMI are compiled where there is a compiler. On Windows, where wheels have none
-of them, every model is moved by SciPy.
+No other check detects a missing part: without SUNDIALS, SciPy integrates, and only ensembles need
+lanes. On Windows, where wheels have neither, every model is simulated by SciPy.
 """
 
 import sys
@@ -19,7 +18,7 @@ from kintrafo.targets.fmi.sources import library_files
 
 
 def main() -> None:
-    """Move a model by each method in C, and every model in lanes."""
+    """Simulate a model by each method in C, and every model in lanes."""
     if sys.platform == "win32":
         by_scipy()
         return
@@ -48,7 +47,7 @@ def has_unit(system: kintrafo.System) -> bool:
 
 
 def by_scipy() -> None:
-    """Move every model by SciPy."""
+    """Simulate every model by SciPy."""
     systems = every_system()
     for name, system in systems.items():
         if not kintrafo.simulate(system, (0.0, 1e-3), system.state(), backend="scipy").success:
@@ -57,7 +56,7 @@ def by_scipy() -> None:
 
 
 def every_system() -> dict[str, kintrafo.System]:
-    """Return a system of each model, by name."""
+    """Return a system of each model by name."""
     names = sorted(path.stem for path in Path(generated.__path__[0]).glob("*.json"))
     return {n: kintrafo.System(import_module(f"{generated.__name__}.{n}")) for n in names}
 

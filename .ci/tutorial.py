@@ -1,4 +1,4 @@
-"""Run the commands of docs/get-started/first-car.md with the `kintrafo` that is on the path."""
+"""Run the commands of docs/get-started/first-car.md with the `kintrafo` on the path."""
 
 import re
 import shlex
@@ -11,14 +11,14 @@ PAGE = (Path(__file__).parent.parent / "docs/get-started/first-car.md").read_tex
 
 
 def main(folder: Path) -> None:
-    """Do what the page says, the change of the file included."""
+    """Run the commands of the page in a folder, with its change of the file."""
     if shutil.which("cc") or shutil.which("gcc"):
         sys.exit("there is a compiler on the path")
     (changed,) = re.findall(r"```toml\n(.*?)\n```", PAGE, flags=re.DOTALL)
     for block in re.findall(r"```sh\n(.*?)```", PAGE, flags=re.DOTALL):
         for line in block.splitlines():
             command = shlex.split(line, comments=True)
-            if command[0] == "cp":  # nothing but `kintrafo` is on the path
+            if command[0] == "cp":  # only `kintrafo` is on the path
                 text = (folder / command[1]).read_text(encoding="utf-8")
                 text = re.sub(r"^tie_rod_inner = .*$", changed, text, flags=re.MULTILINE)
                 (folder / command[2]).write_text(text, encoding="utf-8")

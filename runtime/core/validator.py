@@ -169,6 +169,15 @@ class Validator:
             return array
         return np.ones((1,) if last is None else (last,))
 
+    def broadcast(self, what: str, shapes: Iterable[tuple[int, ...]]) -> None:
+        """Refuse leading dimensions that are neither equal nor broadcast."""
+        listed = list(shapes)
+        try:
+            np.broadcast_shapes(*listed)
+        except ValueError:
+            text = ", ".join(map(str, listed))
+            self.fail(f"{what}: the leading dimensions {text} must be equal, or broadcast.")
+
     # -- names and kinds ------------------------------------------------------------------------
 
     def among(self, name: str, value: Any, known: Iterable[str]) -> Any:

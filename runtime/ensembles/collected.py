@@ -40,7 +40,11 @@ class Collected:
     def __post_init__(self) -> None:
         count, asked = self.problem.systems.count, self.asked
         self.samples = np.full((count, len(asked.signals), asked.times.size), np.nan)
-        self.of_series = {r: np.full((count, *_shape(r, asked)), np.nan) for r in asked.of_series}
+        shapes = {
+            r: frequencies(asked.times, int(r.level)).shape if r.kind == "psd" else ()
+            for r in asked.of_series
+        }
+        self.of_series = {r: np.full((count, *shape), np.nan) for r, shape in shapes.items()}
         self.solvers = np.full(count, "", dtype=object)
 
     def __call__(self, first: int, last: int, samples: Array, stopped: Callable[[], bool]) -> None:
@@ -63,7 +67,10 @@ class Collected:
         done = np.flatnonzero(outcome.ends[first:last] == End.DONE)
         for reduced, found in self.of_series.items():
             series = samples[done, self.asked.sampled.index(reduced.signal)]
-            found[first + done] = _reduced(reduced, series, self.asked)
+            if reduced.kind == "psd":
+                found[first + done] = spectra(series, self.asked.times, int(reduced.level))
+            else:
+                found[first + done] = percentile(series, reduced.level)
 
     def _do_again(
         self, again: Again, first: int, samples: Array, stopped: Callable[[], bool]
@@ -80,13 +87,3 @@ EXPLICIT = "DormandPrince"
 
 BEYOND_IT = (End.MANY_STEPS, End.SMALL_STEP, End.STIFF)
 """Ends of systems that an implicit method may finish."""
-
-
-def _shape(reduced: Reduced, asked: OutputSpec) -> tuple[int, ...]:
-    return (frequencies(asked.times, int(reduced.level)).size,) if reduced.kind == "psd" else ()
-
-
-def _reduced(reduced: Reduced, series: Array, asked: OutputSpec) -> Array:
-    if reduced.kind == "psd":
-        return spectra(series, asked.times, int(reduced.level))
-    return percentile(series, reduced.level)

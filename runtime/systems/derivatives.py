@@ -9,8 +9,7 @@ from ..core.errors import InputError
 from ..core.named_types import Array, ArrayLike
 from ..core.validator import Validator
 from ..equations.directions import Directions
-from .state import inputs_of
-from .system import System
+from .system import System, checked_point
 
 
 def derivative(
@@ -69,7 +68,7 @@ def derivative(
             given.among("function", function, directions.of)
             named = given.mapping("along", along, "names and numbers")
             changes = _changes(given, system, named)
-            values = _values(given, system, state, inputs)
+            values = checked_point(given, system, state, inputs)
             _broadcast(given, "along, state and inputs", [*changes, *values])
     direction, of_state, of_inputs = changes
     parameters = kept_together(system, directions, direction)
@@ -135,7 +134,7 @@ def gradient(
         directions = checked_directions(given, system)
         if not given.failed:
             given.among("function", function, directions.of)
-            values = _values(given, system, state, inputs)
+            values = checked_point(given, system, state, inputs)
         if not given.failed:
             shape = getattr(system.equations, function).shape
             rows = _flat(given, weights, shape)
@@ -215,7 +214,9 @@ def _changes(given: Validator, system: System, along: Mapping[str, Any]) -> list
         given.among("name", name, known): given.array(f"along {name}", value, empty=True)
         for name, value in along.items()
     }
-    if given.failed or not _go_together(given, "along", [v.shape for v in checked.values()]):
+    if not given.failed:
+        given.broadcast("along", [value.shape for value in checked.values()])
+    if given.failed:
         return []
     found = []
     for names in _names(system):
@@ -233,15 +234,6 @@ def direction_of(system: System, along: Mapping[str, float]) -> list[Array]:
     return [np.array([along.get(name, 0.0) for name in names]) for names in _names(system)]
 
 
-def _values(given: Validator, system: System, state: Any, inputs: Any) -> list[Array]:
-    rows = given.array("state", state, last=len(system.state_names), empty=True, finite=False)
-    held = inputs_of(state, system.names_of_states) if inputs is None else inputs
-    count = len(system.input_names)
-    if held is None:
-        return [rows, np.zeros(count)]
-    return [rows, given.array("inputs", held, last=count, empty=True, finite=False)]
-
-
 def _flat(given: Validator, weights: Any, shape: tuple[int, ...]) -> Array:
     rows = given.array("weights", weights, empty=True)
     if rows.shape[-len(shape) :] != shape:
@@ -252,17 +244,7 @@ def _flat(given: Validator, weights: Any, shape: tuple[int, ...]) -> Array:
 
 def _broadcast(given: Validator, what: str, arrays: list[Array]) -> None:
     if not given.failed:
-        _go_together(given, what, [array.shape[:-1] for array in arrays])
-
-
-def _go_together(given: Validator, what: str, shapes: list[tuple[int, ...]]) -> bool:
-    try:
-        np.broadcast_shapes(*shapes)
-    except ValueError:
-        text = ", ".join(map(str, shapes))
-        given.fail(f"{what}: the leading dimensions {text} must be equal, or broadcast.")
-        return False
-    return True
+        given.broadcast(what, [array.shape[:-1] for array in arrays])
 
 
 def kept_together(system: System, directions: Directions, direction: Array) -> Array:

@@ -166,14 +166,9 @@ class System:
         """
         with Validator(f"{self.equations.NAME}.{function}") as given:
             given.among("function", function, _functions(self.equations))
-            rows = given.array("state", state, last=len(self.state_names), empty=True, finite=False)
-            held = inputs_of(state, self.names_of_states)
-            columns = held if inputs is None else inputs
-            if columns is not None:
-                columns = given.array(
-                    "inputs", columns, last=len(self.input_names), empty=True, finite=False
-                )
-                _check_leading(given, rows, columns)
+            rows, columns = checked_point(given, self, state, inputs)
+            if not given.failed:
+                given.broadcast("state and inputs", [rows.shape[:-1], columns.shape[:-1]])
         result: Array = getattr(self.equations, function)(rows, columns, self.constants)
         return result
 
@@ -276,11 +271,11 @@ def _assign(array: Array, names: tuple[str, ...], values: Mapping[str, Any], wha
             array[names.index(given.among("element", name, names))] = number
 
 
-def _check_leading(given: Validator, state: Array, inputs: Array) -> None:
-    try:
-        np.broadcast_shapes(state.shape[:-1], inputs.shape[:-1])
-    except ValueError:
-        given.fail(
-            f"state and inputs have the shapes {state.shape} and {inputs.shape}: their leading "
-            "dimensions must be equal, or broadcast."
-        )
+def checked_point(given: Validator, system: System, state: Any, inputs: Any) -> tuple[Array, Array]:
+    """Return checked states and inputs; without inputs those of a `State`, or zeros."""
+    rows = given.array("state", state, last=len(system.state_names), empty=True, finite=False)
+    held = inputs_of(state, system.names_of_states) if inputs is None else inputs
+    count = len(system.input_names)
+    if held is None:
+        return rows, np.zeros(count)
+    return rows, given.array("inputs", held, last=count, empty=True, finite=False)

@@ -74,47 +74,38 @@ def by_hand(skeleton: Skeleton) -> Iterator[Scene]:
     mechanism.
     """
     system = skeleton.system
-    start, none = system.design_state, np.zeros(len(system.input_names))
+    point = system.design_state, np.zeros(len(system.input_names))
     for place in system.layout.joints:
         name = system.state_names[place]
-        yield from _scene(skeleton, name, system.equations.STATE[name], _moving(start, place, none))
+        yield from _scene(skeleton, name, system.equations.STATE[name], _varied(point, 0, place))
     for place, name in enumerate(system.input_names):
         entries = system.equations.INPUTS[name]
-        if entries["unit"] in ("m", "rad") and _moves(skeleton, place):
-            yield from _scene(skeleton, name, entries, _given(start, none, place))
+        moved = _varied(point, 1, place)
+        if entries["unit"] in ("m", "rad") and _moves(skeleton, moved[1]):
+            yield from _scene(skeleton, name, entries, moved)
 
 
 Position = Callable[[float], tuple[Array, Array]]
 
 
-def _moving(start: Array, place: int, none: Array) -> tuple[float, Position]:
+def _varied(point: tuple[Array, Array], which: int, place: int) -> tuple[float, Position]:
+    """Return an element of the state (0) or the inputs (1), and the point for other values."""
+
     def at(value: float) -> tuple[Array, Array]:
-        state = start.copy()
-        state[place] = value
-        return state, none
+        state, inputs = (array.copy() for array in point)
+        (state, inputs)[which][place] = value
+        return state, inputs
 
-    return float(start[place]), at
-
-
-def _given(start: Array, none: Array, place: int) -> tuple[float, Position]:
-    def at(value: float) -> tuple[Array, Array]:
-        inputs = none.copy()
-        inputs[place] = value
-        return start, inputs
-
-    return 0.0, at
+    return float(point[which][place]), at
 
 
-def _moves(skeleton: Skeleton, place: int) -> bool:
+def _moves(skeleton: Skeleton, at: Position) -> bool:
     """Return whether an input moves any point."""
-    system = skeleton.system
-    inputs = np.zeros(len(system.input_names))
-    inputs[place] = 1e-3
     try:
-        after = skeleton.places(system.design_state, inputs)
+        after = skeleton.places(*at(1e-3))
     except ModelError:
         return False
-    before = skeleton.places(system.design_state)
+    before = skeleton.places(skeleton.system.design_state)
     far = max(np.abs(after[b] - before[b]).max(initial=0.0) for b in before)
     return bool(far > _MOVES * extent(before))
 
