@@ -7,11 +7,18 @@ from functools import cache
 from pathlib import Path
 
 import kintrafo
+import pytest
 from kintrafo.generator import Formulation, JointForce, Motion
 from kintrafo.generator.mechanisms import four_bar
+from kintrafo.systems.compile.compiler import find_compiler
+from kintrafo.targets.fmi import binaries
 from own_models import STRICT, UNOPTIMISED, own
 
 CC = ("cc", "-std=c99", UNOPTIMISED, "-ffp-contract=off", *STRICT)
+
+needs_library = pytest.mark.skipif(
+    find_compiler() is None or not binaries.HERE, reason="no compiler for Linux on x86-64"
+)
 
 
 @cache

@@ -7,6 +7,7 @@ import shutil
 import numpy as np
 import pytest
 from as_commands import ROOT, run_module
+from exported import needs_library
 from kintrafo.simulation import solvers
 from kintrafo.simulation.lanes.library import widths
 from kintrafo.simulation.solvers import native_available
@@ -164,6 +165,7 @@ def test_what_is_kept_of_stiff_cars_is_measured(tmp_path):
     assert keep in page.read_text()
 
 
+@needs_library
 @pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc")
 def test_exports_are_measured(tmp_path):
     page = tmp_path / "export.md"

@@ -6,6 +6,7 @@ import kintrafo
 import numpy as np
 import own_mechanisms
 import pytest
+from exported import needs_library
 from free_bodies import (
     INERTIA,
     compared,
@@ -462,6 +463,7 @@ def test_events_and_steps_of_one_length(block):
     np.testing.assert_allclose(stepper.state, expected, atol=1e-7)
 
 
+@needs_library
 @pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
 def test_other_programs_simulate_it(hanging, tmp_path, kind):
     fmpy = pytest.importorskip("fmpy")

@@ -13,10 +13,9 @@ import kintrafo
 import numpy as np
 import pytest
 from c_text import EMITTED
-from exported import system_named
+from exported import needs_library, system_named
 from folders import ROOT
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
-from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.targets.emitted import Emitted
 from kintrafo.targets.fmi import binaries
 from kintrafo.targets.fmi.sources import library_files
@@ -26,9 +25,7 @@ from mockup import DISCARD, ERROR, OK, Unit
 from own_models import STRICT, UNOPTIMISED
 from own_yokes import WHEEL_ON_A_YOKE
 
-pytestmark = pytest.mark.skipif(
-    find_compiler() is None or not binaries.HERE, reason="no compiler for Linux on x86-64"
-)
+pytestmark = needs_library
 MINGW = "x86_64-w64-mingw32-gcc"
 VERSIONS = (2, 3)
 NAMES = ("four_bar", "reference_car")
