@@ -220,8 +220,8 @@ def units(wrappers: Iterable[Path]) -> Iterator[Unit]:
     """Yield the units of the models, if this machine can run them."""
     for wrapper in wrappers if UNITS else ():
         name = wrapper.stem.removeprefix("_")
-        if not (GENERATED / f"units/{name}_model.c").exists():  # `make generate` writes it, too
-            continue
+        if not (GENERATED / f"units/{name}_model.c").exists():
+            continue  # compiled where a unit is written
         manifest = json.loads((GENERATED / f"{name}.json").read_text(encoding="utf-8"))
         yield Unit(name, [(SOURCES / source).as_posix() for source in manifest["sources"]])
 

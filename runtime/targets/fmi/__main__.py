@@ -7,15 +7,18 @@ import json
 import sys
 from pathlib import Path
 
+from .files import COMPILED_LATER
 from .tables import any_tables
 
 
 def main(models: Path) -> None:
-    """Write those of all manifests in a folder into its folder ``units``, and nothing else."""
+    """Write those of manifests in a folder into its folder ``units``, and remove others."""
     folder = models / "units"
     folder.mkdir(exist_ok=True)
     written = set()
     for manifest in sorted(models.glob("*.json")):
+        if manifest.stem in COMPILED_LATER:
+            continue
         content = json.loads(manifest.read_text(encoding="utf-8"))
         for name, text in any_tables(content).items():
             path = folder / f"{manifest.stem}_{name}"

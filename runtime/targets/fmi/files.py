@@ -28,6 +28,10 @@ HEADERS = {
 }
 """The C file of each version of FMI, and the headers of the standard that it includes."""
 
+COMPILED_LATER = ("andrews", "excavator", "excavator_lifting", "front_axle")
+"""Models that come with the project without a library: no file of a vehicle has their equations,
+and wheels are to remain below 10 MB."""
+
 
 def common_files(here: Any, native: Any, fronts: Iterable[str]) -> dict[str, Any]:
     """Return the files of every unit by path below ``sources``, with fronts from `HEADERS`.
