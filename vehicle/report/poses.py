@@ -120,7 +120,8 @@ def poses(model: Model, travel: Array, rack: Array) -> Poses:
     """
     heights, rack = design_height(model) + travel[:, None], racks_of(model, rack)
     states, inputs = at_rest(model, arm_angles(model, heights, rack), rack)
-    points = hardpoints(model, states, inputs)
+    shown = model.suspension.hardpoints.at_design()  # without those of a steering linkage
+    points = {n: p for n, p in hardpoints(model, states, inputs).items() if n in shown}
     parameters = model.suspension.parameters()
     axis = np.array([parameters[f"spin_axis_{c}"] for c in "xyz"])
     rotations = model.evaluate("orientations", states, inputs)

@@ -12,11 +12,15 @@ import numpy as np
 import pytest
 from benches import Wishbones
 from differences import difference
-from kintrafo import Axle, InputError, Model, characteristics, loads
+from driving_cars import FILE
+from kintrafo import Axle, InputError, Model, characteristics, compliance, loads
 from kintrafo.vehicle.assembly.axle import AxleAssembly
 from kintrafo.vehicle.models.axle.equations import declared
+from kintrafo.vehicle.models.car import Car
+from kintrafo.vehicle.models.car.equations import declared as of_a_car
 from kintrafo.vehicle.models.points import hardpoints
 from kintrafo.vehicle.models.reach import at_rest
+from kintrafo.vehicle.studies.sensitivity import sensitivity
 from own_models import needs_gcc, own
 
 # A linkage in which nothing is parallel, upright or equal.
@@ -113,6 +117,43 @@ def test_the_moment_of_the_arm_does_the_work_of_both_tie_rods() -> None:
     assert abs(found["moment"].values[about.values] @ axis).max() < 1e-9
 
 
+@pytest.mark.parametrize("whole", [False, True], ids=["corner", "axle"])
+def test_in_the_middle_it_holds_tie_rods_on_bushes_as_a_rack_does(whole: bool) -> None:
+    """The ends of the tie rods are the same, and rest: so are all deflections."""
+    soft = {
+        "lower_arm_front": {"radial_N_per_mm": 5000.0, "axial_N_per_mm": 2000.0},
+        "tie_rod_inner": {"axial_N_per_mm": 8000.0},
+    }
+    on_arm = RIGHT.with_changes({"bushings": soft})
+    on_rack = on_arm.with_changes({"pitman_arm": None, "rack": {"axis": [0.0, 1.0, 0.0]}})
+    subjects = [
+        Axle.from_dict({"axle": "front", "side": o}) if whole else o for o in (on_arm, on_rack)
+    ]
+    for found, expected in (
+        [compliance.linear(each) for each in subjects],
+        [compliance.nonlinear(each, None, "lateral", [0.0, 2000.0]) for each in subjects],
+    ):
+        numbers = [name for name in expected if expected[name].dtype.kind == "f"]
+        assert numbers
+        for name in numbers:
+            # the equilibrium is found to 1e-12 m and rad
+            np.testing.assert_allclose(found[name], expected[name], rtol=1e-9, atol=1e-11)
+
+
+def test_its_points_vary_in_studies() -> None:
+    """Against differences of characteristics over cars whose file has other values."""
+    place, step = "pitman_arm.idler_pivot_mm.y", 0.01
+
+    def steer(change: float) -> float:
+        moved = RIGHT.with_changes({place: ARM["idler_pivot_mm"][1] + change})
+        return float(characteristics.over(Model(moved), "rack", [0.04])["steer"][0])
+
+    found = sensitivity(RIGHT, [place], over="rack", positions=[0.04], names=["steer"])
+    difference = (steer(step) - steer(-step)) / (2e-3 * step)
+    # of second order in 10 micrometres, and rounding over that
+    assert float(found["steer"].squeeze()) == pytest.approx(difference, rel=1e-6)
+
+
 # -- equations of an axle -------------------------------------------------------------------------
 
 
@@ -143,6 +184,15 @@ def test_the_sides_of_an_axle_share_the_linkage() -> None:
         expected = model.evaluate("rhs", np.array(own_state), np.array(own_inputs))
         # sums of some hundred terms in another order
         assert [found[name] for name in names] == pytest.approx(expected, rel=1e-11)
+
+
+def test_at_the_rear_of_a_car_it_is_a_part_of_the_body() -> None:
+    rear = Axle.from_dict({"axle": "rear", "side": RIGHT.with_changes({"vehicle.end": "rear"})})
+    car = Car.from_dict({**FILE, "car": "roll", "tyres": None, "rear": rear.to_dict()})
+    assert "rear axle: [pitman_arm] (a part of the body" in "; ".join(car.unused)
+    names = {body.name for body in of_a_car(car).mechanism.bodies}
+    assert "rear_left_tie_rod" in names
+    assert not any("relay_rod" in name for name in names)
 
 
 # -- files ----------------------------------------------------------------------------------------

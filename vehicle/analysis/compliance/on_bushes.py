@@ -81,7 +81,7 @@ def _carried_at_design(assembly: HeldAssembly, bushes: Bushings) -> dict[str, Ca
         suffix: dict(carried_at(own, pulled.get(suffix, ()), bushes.by_suffix[suffix]))
         for suffix, own in poses.items()
     }
-    if assembly.steered and len(found) > 1:
+    if len(found) > 1 and all(GUIDE in own for own in found.values()):
         # all tie rods act on one rack
         both = sum((own[GUIDE] for own in found.values()), np.zeros(6))
         found = {suffix: own | {GUIDE: both} for suffix, own in found.items()}
