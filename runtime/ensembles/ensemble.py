@@ -208,8 +208,8 @@ def _start(given: Validator, model: System, y0: Any) -> Array:
     size = len(model.state_names)
     if not size:
         given.fail(
-            f"{model.equations.NAME} moves as its inputs say, and has no state to be integrated. "
-            "Use kintrafo.simulate for each, or the signals of a System at many inputs."
+            f"the inputs prescribe the motion of {model.equations.NAME}: it has no state to "
+            "integrate. Use kintrafo.simulate for each, or the signals of a System at many inputs."
         )
     if y0 is None:
         return np.full((1, size), np.nan)
@@ -234,8 +234,8 @@ def _check_rows(given: Validator, model: System, y0: Any, names: set[str]) -> No
         forgotten = [name for name in moved if name not in names]
         if forgotten:
             given.fail(
-                f"y0 has rows of states that belong to {', '.join(forgotten)}, and rows of numbers "
-                f"do not know that: give {' and '.join(forgotten)} in variants or inputs."
+                f"y0 has states that belong to {', '.join(forgotten)}, and as rows of numbers they "
+                f"do not keep that: give {' and '.join(forgotten)} in variants or inputs."
             )
             return
 

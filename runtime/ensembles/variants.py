@@ -264,8 +264,8 @@ def _broadcast(
     shape = dict(together[0].sizes) if together else {}
     if rows is not None and shape != {CAR: rows}:
         arguments.fail(
-            f"y0 has {rows} rows, and variants go over {', '.join(map(str, shape))}: vary elements "
-            "of the state by name in variants."
+            f"y0 has {rows} rows, and variants have the dimensions {', '.join(map(str, shape))}: "
+            "vary elements of the state by name in variants."
         )
     wide = dict(zip(columns, together[len(start) :], strict=True))
     return wide, shape or {CAR: 1}

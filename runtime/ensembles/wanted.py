@@ -226,9 +226,7 @@ def _reduced(given: Validator, signal: str, kind: Any, unit: str) -> Reduced:
     if isinstance(kind, tuple) and len(kind) == 2 and isinstance(kind[0], str):
         return _with_value(given, signal, *kind, unit)
     if not isinstance(kind, str):
-        given.fail(
-            f"reductions {signal!r}: {shown(kind)} is none; there are {', '.join(REDUCTIONS)}."
-        )
+        given.fail(f"reductions {signal!r}: {shown(kind)} is not one of {', '.join(REDUCTIONS)}.")
         return Reduced(signal, "max")
     if kind in _EXAMPLES:
         given.fail(f"reductions {signal!r}: {kind!r} needs {_EXAMPLES[kind]}.")

@@ -175,8 +175,8 @@ def _refuse_varying(
     with Validator("motion_sensitivity") as given:
         for name in sorted({n for direction in along.values() for n in direction} & vary):
             given.fail(
-                f"by {name!r}: this input of {system.equations.NAME} varies with time, so that it "
-                "has no one value to be changed. Name inputs that do not vary."
+                f"by {name!r}: this input of {system.equations.NAME} varies with time and has no "
+                "single value to change. Name inputs that do not vary."
             )
 
 

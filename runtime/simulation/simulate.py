@@ -509,7 +509,7 @@ class _Run:
             "signal.",
             "memory": "out of memory. Ask for fewer outputs with t_eval.",
         }
-        failed = f"the solver gave up ({piece.detail}). Loosen rtol, or try another method."
+        failed = f"the solver failed ({piece.detail}). Loosen rtol, or try another method."
         return texts.get(piece.outcome, failed)
 
     def _refuse(self, guard: int | None, state: Array, inputs: Array) -> None:

@@ -144,7 +144,7 @@ class _Search:
         if worst not in own:
             rate = f"still changes by {left[worst]:.3g} ({unit})/s"
         words = (
-            f"no rest was found: at {located(values, described)}, {name} {rate}. Begin nearer to "
-            "it, with other inputs, or see whether there is one."
+            f"no state of rest was found: at {located(values, described)}, {name} {rate}. Start "
+            "nearer to it or with other inputs, if there is such a state."
         )
         raise InputError([words], "rest")

@@ -711,7 +711,7 @@ def test_nothing_is_known_of_what_never_began(car: Model) -> None:
 
 def test_rows_of_states_do_not_forget_their_inputs(car: Model) -> None:
     steered = state_at_height(car, 0.32, rack_position=0.02)
-    with pytest.raises(InputError, match="rows of states that belong to rack_position"):
+    with pytest.raises(InputError, match="has states that belong to rack_position"):
         ensemble(car, None, (0.0, 1.0), [steered, steered])
     given = {"road_height": steered.inputs[car.input_names.index("road_height")]}
     found = ensemble(
