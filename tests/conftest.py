@@ -139,6 +139,8 @@ def pytest_unconfigure(config: pytest.Config) -> None:
     seconds after which workers are killed.
     """
     if hasattr(config, "workerinput"):
+        if "kintrafo.generator.memory" in sys.modules:
+            atexit.unregister(sys.modules["kintrafo.generator.memory"].forget)
         atexit._run_exitfuncs()
         os._exit(0)
 
