@@ -1,1 +1,1 @@
-"""What prints a derived model: a folder for each target."""
+"""Printers of a derived model: a folder for each target."""

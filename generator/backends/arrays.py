@@ -1,6 +1,7 @@
 """Print the functions of a model as Python over arrays of some library.
 
-A library is a `Dialect`: NumPy where there is no compiler, and what models are exported to.
+A library is a `Dialect`: NumPy where there is no compiler, and the libraries that models are
+exported to.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 
 
 def differentiable(derivation: Derivation) -> list[Function]:
-    """Return the functions of constants, state and inputs that are no derivatives themselves."""
+    """Return the functions of constants, state and inputs that are not derivatives themselves."""
     others = {KINKS, *(function.name for function in derivation.by_parameters.functions)}
     return [
         function
@@ -34,17 +35,10 @@ def differentiable(derivation: Derivation) -> list[Function]:
 
 
 def exported(derivation: Derivation, dialect: Dialect) -> str:
-    """Return the functions that a library with derivatives of its own is given.
+    """Return the functions of a model for a library that differentiates them.
 
     These are ``prepare``, ``design_state`` and those of `differentiable`, each of which returns its
-    results and, by the place of each guard, whether it holds. Equations that iterate have none.
-
-    Parameters
-    ----------
-    derivation
-        Whose functions are printed.
-    dialect
-        How operations are spelt.
+    results and, by the index of each guard, whether it holds. Equations that iterate have none.
     """
     arrays = ArrayFunctions(derivation, dialect)
     texts = [arrays.prepare(), arrays.of_parameters(derivation.design)]
@@ -126,7 +120,7 @@ def definition(
     dialect: Dialect,
     holds: Sequence[str] = (),
 ) -> str:
-    """Return a function: what it reads, its steps, its results and what its guards say.
+    """Return the text of a function, with the conditions of its guards.
 
     Parameters
     ----------
@@ -139,7 +133,7 @@ def definition(
     dialect
         How operations are spelt.
     holds
-        What the guards say, each after its place.
+        The conditions of the guards, each after its index.
     """
     steps, results = _written(function, dialect)
     lines = [
@@ -154,15 +148,7 @@ def definition(
 
 
 def printed_blocks(blocks: Sequence[IterationBlock], dialect: Dialect) -> list[str]:
-    """Return the equations of loops that are followed, and the call that follows them.
-
-    Parameters
-    ----------
-    blocks
-        The iterations.
-    dialect
-        How operations are spelt.
-    """
+    """Return the equations of loops that are followed, and the call that follows them."""
     return [_block(block, dialect) for block in blocks]
 
 
@@ -212,18 +198,18 @@ def loaded(
     dialect: Dialect,
     behind: Mapping[str, int] | None = None,
 ) -> list[str]:
-    """Return the lines that give the elements of an array, as far as they are read, their names.
+    """Return the lines that load the elements of an array that a function reads.
 
     Parameters
     ----------
     array, names
         The array, and the names of its elements in order.
     function
-        What reads them.
+        Their reader.
     dialect
-        How elements are spelt.
+        Syntax of elements.
     behind
-        Names and places of what follows the values.
+        Names and indices behind the values.
     """
     read = {s.name for s in function.free_symbols}
     read.update(s.name for guard in function.guards for s in guard.floor.free_symbols)
@@ -232,6 +218,6 @@ def loaded(
 
 
 def _written(function: Function | Stage, dialect: Dialect) -> tuple[list[str], list[str]]:
-    """Write steps and results in the order of operations that the C code has."""
+    """Return steps and results in the order of operations of the C code."""
     steps, results = written(function, dialect)
     return [f"{step.name} = {step.text}" for step in steps], results

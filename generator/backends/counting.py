@@ -1,4 +1,4 @@
-"""The arithmetic operations of a function, counted on what all back ends write."""
+"""The arithmetic operations of a function, counted on the schedule that all back ends write."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 
 OPERATIONS = ("add", "multiply", "divide", "root", "trigonometric")
 
-# What each kind counts as. A sign in front is an addition; guards, limits and the choice of a
-# branch are comparisons and do not count.
+# Class of each kind. A sign in front is an addition; guards, limits and the choice of a branch are
+# comparisons and do not count.
 _COUNTED = {
     "add": "add",
     "subtract": "add",
@@ -33,7 +33,7 @@ _counts: WeakKeyDictionary[Function | Stage, Counter[str]] = WeakKeyDictionary()
 
 
 def counted(operations: Iterable[Operation]) -> Counter[str]:
-    """Count some operations, with all that they are carried out on."""
+    """Count operations, with those of their operands."""
     total: Counter[str] = Counter()
     waiting = list(operations)
     while waiting:
@@ -48,7 +48,7 @@ def counted(operations: Iterable[Operation]) -> Counter[str]:
 def operations_of(emitted: Function | Stage) -> Counter[str]:
     """Count the arithmetic operations of one call, exactly as they are written.
 
-    Of a block that iterates, those of one iteration.
+    For a block that iterates, they are those of one iteration.
     """
     if emitted not in _counts:
         order = scheduled(emitted)

@@ -1,4 +1,4 @@
-"""The files that are written for a model, by path below the folder of all of them."""
+"""The files that are written for a model, by path below the folder of all models."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def _elementary() -> str:
 
 
 def _facts(derivation: Derivation) -> dict[str, str]:
-    """Return what a model is: as data, as a module, and for a person to read."""
+    """Return the description of a model: as data, as a module, and as a page."""
     name = derivation.formulation.name
     return {
         f"{name}.json": manifest(derivation),

@@ -1,9 +1,9 @@
-"""The operations of an expression in the order in which they are carried out.
+"""The operations of an expression in the order of their execution.
 
 An expression of SymPy has no order: a sum is a set of terms. Here it becomes a tree of operations
-of one or two operands, which is what all back ends write and what is counted. Sums and products are
-put together in the order in which their parts become known, since a compiler must not change it.
-There is no ``pow``: integer powers are products, half-integer ones are roots.
+of one or two operands, which all back ends write and which is counted. Sums and products are
+evaluated in the order in which their parts become known, since a compiler must not change it. There
+is no ``pow``: integer powers are products, half-integer ones are roots.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ T = TypeVar("T", "Operation", "tuple[Operation, bool]")
 SELECTIONS = (Guarded, SignOf, Positive, IsPositive)
 """Comparisons, not arithmetic."""
 
-# About how many cycles the result of an operation is waited for on present processors. Only the
-# order of operations follows from these numbers, never their count.
+# Approximate latency of the operations on present processors, in cycles. Only the order of
+# operations follows from these numbers, never their count.
 _LATENCY = {
     "add": 4,
     "subtract": 4,
@@ -43,8 +43,8 @@ _LATENCY = {
 }
 
 
-# Compilers take 256 brackets within each other or more, and Python some 300 calls. A sum of which
-# each term waits for the one before is as deep as it is long.
+# Compilers accept 256 nested brackets or more, and Python some 300 calls. A sum of which each term
+# depends on the one before is as deep as it is long.
 _DEEPEST = 64
 
 
@@ -60,14 +60,14 @@ class Operation:
         ``selection`` (a call); ``iterate`` (the call of a block) and ``component`` (one of its
         results); ``symbol`` and ``number``.
     operands
-        What it is carried out on.
+        Its operands.
     of
-        What it is beside its kind: the symbol, the number, the class of the function, the name of
-        the block, the place of the component.
+        Specification of the kind: the symbol, the number, the class of the function, the name of
+        the block, the index of the component.
     ready
-        When the result is there, in cycles from the start of the function.
+        Time at which the result is known, in cycles from the start of the function.
     depth
-        How many operations are within each other.
+        Number of nested operations.
     """
 
     kind: str
@@ -79,7 +79,7 @@ class Operation:
 
 @dataclass(frozen=True, slots=True)
 class Assignment:
-    """A value with a name, and the part of the derivation that it belongs to.
+    """A value with a name, and its section of the derivation.
 
     Attributes
     ----------
@@ -96,7 +96,7 @@ class Assignment:
 
 @dataclass(frozen=True)
 class Schedule:
-    """The operations of what is emitted: of its steps, and of each of its results."""
+    """The operations of the steps of a function, and of each of its results."""
 
     steps: tuple[Assignment, ...]
     results: tuple[Operation, ...]
@@ -106,7 +106,7 @@ _orders: WeakKeyDictionary[Function, Schedule] = WeakKeyDictionary()
 
 
 def ordered(function: Function) -> Schedule:
-    """Return the operations of a function; they are put in order once."""
+    """Return the operations of a function, in an order that is found once."""
     if function not in _orders:
         _orders[function] = _ordered(function)
     return _orders[function]
@@ -118,7 +118,7 @@ def _ordered(function: Function) -> Schedule:
     taken = {s.name for s in (*function.free_symbols, *(step.symbol for step in function.steps))}
 
     def value_of(expression: sp.Expr, name: str, section: str) -> Operation:
-        """Return a value; what would be too deep in it becomes a step before it."""
+        """Return a value; parts that are nested too deeply become steps before it."""
         names = (n for i in count(1) if (n := f"{name}_part_{i}") not in taken)
         scheduler = _Scheduler(ready, names)
         value = scheduler.operation(expression)
@@ -139,14 +139,16 @@ def _ordered(function: Function) -> Schedule:
 
 
 def schedule(expression: sp.Expr, ready: Mapping[sp.Symbol, int] | None = None) -> Operation:
-    """Put the operations of an expression in order.
+    """Return the operations of an expression in order.
 
     Parameters
     ----------
+    expression
+        In symbols.
     ready
-        When each symbol is there, in cycles; zero for those that are left out. Of several terms or
-        factors, those that are there first are put together first: a compiler must not change the
-        order, and the longest chain of operations is what a call takes.
+        Time at which each symbol is known, in cycles; zero for others. Terms or factors that are
+        known first are combined first: a compiler must not change the order, and the longest chain
+        of operations determines the time of a call.
 
     Raises
     ------
@@ -158,13 +160,13 @@ def schedule(expression: sp.Expr, ready: Mapping[sp.Symbol, int] | None = None) 
 
 @dataclass(frozen=True)
 class _Scheduler:
-    """Puts expressions in order, given when their symbols are there.
+    """Orders expressions by the times at which their symbols are known.
 
     Attributes
     ----------
     ready
     names
-        Prefix of the names of parts that would be nested too deeply; none: they stay nested.
+        Names for parts that would be nested too deeply; None: they stay nested.
     parts
         Those, by name.
     """
@@ -202,12 +204,12 @@ class _Scheduler:
         return self.ready.get(symbol, 0)
 
     def _sum(self, expression: sp.Expr) -> Operation:
-        """Add the terms that are there first, and subtract rather than put a sign in front."""
+        """Add the terms that are known first; subtract instead of putting a sign in front."""
         terms = [
             (self.operation(magnitude), negative)
             for negative, magnitude in _signed_terms(expression)
         ]
-        if all(negative for _, negative in terms):  # the sign goes to what waits anyway
+        if all(negative for _, negative in terms):  # the first term has time for the sign
             first = min(range(len(terms)), key=lambda i: terms[i][0].ready)
             terms[first] = _after("negate", terms[first][0]), False
         total, _ = _join(terms, self._added)
@@ -223,7 +225,7 @@ class _Scheduler:
         return self._shallow(_after("multiply", one, two))
 
     def _shallow(self, operation: Operation) -> Operation:
-        """Return an operation, or the name of it where it is too deep."""
+        """Return an operation, or a name for it where it is too deep."""
         if self.names is None or operation.depth < _DEEPEST:
             return operation
         name = next(self.names)
@@ -263,14 +265,14 @@ _ONE = Operation("number", of=sp.Integer(1))
 
 
 def _after(kind: str, *operands: Operation, of: Any = None) -> Operation:
-    """Return an operation that starts when its operands are there."""
+    """Return an operation that starts when its operands are known."""
     start = max([operand.ready for operand in operands], default=0)
     depth = max([operand.depth for operand in operands], default=0)
     return Operation(kind, operands, of, start + _LATENCY[kind], depth + 1)
 
 
 def _join(parts: Sequence[T], together: Callable[[T, T], T]) -> T:
-    """Put parts together, always the two that are there first; equals in their order."""
+    """Combine parts, always the two that are known first; equals in their order."""
     waiting = [(_ready(part), place, part) for place, part in enumerate(parts)]
     heapq.heapify(waiting)
     places = count(len(waiting))

@@ -1,8 +1,8 @@
-"""The schedule of what is emitted; what several functions have in common comes once.
+"""The schedule of emitted code, with the common steps of several functions once.
 
 Each function has a program of its own, and the order of its operations. Equal operations on equal
-operands are found by numbering values, so that nothing is put together in another order: every
-result is the same to the last bit as if its function were alone.
+operands are found by numbering values, so that no order changes: every result is the same to the
+last bit as if its function were alone.
 """
 
 from __future__ import annotations
@@ -38,17 +38,17 @@ _SPOKEN = {
     "negate": "minus",
     "root": "root",
 }
-# Characters of a name that spells a formula; what would be longer is a part of what reads it.
+# Longest name in the words of a formula; otherwise a value is named as a part of its reader.
 _LONGEST = 36
 
 
 def scheduled(emitted: Function | Stage) -> Schedule:
-    """Return the operations of what is emitted; they are put in order once."""
+    """Return the operations of a function or stage, in an order that is found once."""
     return _scheduled(emitted)[0]
 
 
 def names_in(emitted: Function | Stage) -> dict[str, str]:
-    """Return what the steps of a program are called in its schedule: of equal ones, the first."""
+    """Return the names of a program's steps in its schedule; equal ones share the first name."""
     return _scheduled(emitted)[1]
 
 
@@ -61,18 +61,18 @@ def _scheduled(emitted: Function | Stage) -> tuple[Schedule, dict[str, str]]:
 
 @dataclass(frozen=True)
 class OwnSteps:
-    """What one of several functions has beside the steps of all.
+    """Steps of one of several functions beside the common ones.
 
     Attributes
     ----------
     reads
-        Names of what not every function has to be read, as far as this one reads it.
+        Names of arguments that only some functions have, and this one reads.
     steps
-        Those that need it.
+        Those that depend on them.
     results
-        What it returns.
+        Its results.
     names
-        What the steps of its own program are called here.
+        Names here of the steps of its own program.
     """
 
     reads: frozenset[str]
@@ -88,11 +88,11 @@ class Together:
     Attributes
     ----------
     reads
-        Names of what all functions have to be read, as far as one of them reads it.
+        Names of arguments that all functions have, and one of them reads.
     steps
-        The steps, whichever function needs them.
+        The steps of all functions.
     parts
-        What each function has beside them.
+        The further steps of each function.
     """
 
     reads: frozenset[str]
@@ -114,10 +114,12 @@ def together(
 
     Parameters
     ----------
+    functions
+        The functions.
     order
-        Places of the steps by their names.
+        Positions of the steps by their names.
     own
-        Names of what not every function has to be read.
+        Names of arguments that only some functions have.
     """
     values = _Values.of(functions, order)
     reading = {step.name: {*symbols_in(step.value)} for step in values.schedule.steps}
@@ -143,7 +145,7 @@ def together(
 
 
 def _behind(names: Iterable[str], reading: Mapping[str, Iterable[str]]) -> set[str]:
-    """Return names, and the names of all that they are computed from."""
+    """Return names, and the names of all values that they depend on."""
     waiting, found = [*names], set[str]()
     while waiting:
         name = waiting.pop()
@@ -154,17 +156,7 @@ def _behind(names: Iterable[str], reading: Mapping[str, Iterable[str]]) -> set[s
 
 
 def alive_in(function: Function | Stage, part: OwnSteps, steps: Iterable[Assignment]) -> set[str]:
-    """Return the names that a function of several needs for its results and guards.
-
-    Parameters
-    ----------
-    function
-        One of several functions.
-    part
-        Its results and guards, in the names of all steps.
-    steps
-        All steps by their names.
-    """
+    """Return the names that a function of several needs for its results and guards."""
     guarded = (part.names.get(g.quantity.name, g.quantity.name) for g in function.guards)
     reading = {step.name: {*symbols_in(step.value)} for step in steps}
     return _behind([*chain(*map(symbols_in, part.results)), *guarded], reading)
@@ -179,10 +171,10 @@ def symbols_in(operation: Operation) -> Iterator[str]:
 
 
 def _short_formula(kind: str, parts: Sequence[Operation], of: Any) -> str:
-    """Return the name of an operation on one or two symbols, in words; empty where it is long."""
+    """Return a name for an operation on one or two symbols, in words; empty where it is long."""
     names = [part.of.name if part.kind == "symbol" else "" for part in parts]
     if any(_PART in name for name in names):
-        return ""  # the name of what reads a part says more than that of the part
+        return ""  # the name of the reader of a part is more meaningful than that of the part
     if kind == "divide" and parts[0].kind == "number" and parts[0].of == 1:
         found = f"{names[1]}_inverse" if names[1] else ""
     elif kind == "selection" and of is Guarded:
@@ -213,11 +205,11 @@ class _Values:
     operations
         Each with the numbers of its operands, in the order of numbers.
     named
-        The name of a value, as far as it has one.
+        The names of values that have one.
     steps
         The numbers of the steps of each function, by their names.
     schedule
-        The steps of all, and the results one behind the other.
+        The steps of all, and the results of one behind those of the other.
     """
 
     taken: set[str]
@@ -232,7 +224,7 @@ class _Values:
     def of(
         cls, functions: Iterable[Function | Stage], order: Mapping[str, int] | None = None
     ) -> _Values:
-        """Give numbers to the values of functions, and an order to their steps."""
+        """Return the numbered values of functions, with their steps in order."""
         members = [member for function in functions for member in function.members]
         values = cls({s.name for member in members for s in member.free_symbols})
         steps: list[tuple[int, Assignment]] = []
@@ -246,7 +238,7 @@ class _Values:
         return values
 
     def names_in(self, function: Function | Stage) -> dict[str, str]:
-        """Return what the steps of a function are called; of two alike, the first of them."""
+        """Return the names of the steps of a function; equal ones have that of the first."""
         numbers: dict[str, int] = {}
         for member in function.members:
             numbers = self.steps[member] | numbers
@@ -286,7 +278,7 @@ class _Values:
     def _name_shared(
         self, value: int, kind: str, parts: tuple[Operation, ...], of: Any, owner: str
     ) -> None:
-        """Name a value that several read: by a short formula, or as a part of the first of them."""
+        """Name a value with several readers: by a short formula, or as a part of the first."""
         name = _short_formula(kind, parts, of)
         if not name or name in self.taken:
             numbers = self.parts.setdefault(owner, count(1))
@@ -299,7 +291,7 @@ class _Values:
         results: Sequence[int],
         sources: Sequence[str],
     ) -> dict[int, str]:
-        """Return the step, or the function, that is the first to read each value without a name."""
+        """Return the first reader of each value without a name: a step, or a function."""
         found: dict[int, str] = {}
 
         def claim(value: int, owner: str) -> None:
@@ -335,7 +327,7 @@ class _Values:
         repeated, owners = self._repeated(results), self._owners(steps, results, sources)
 
         def place(value: int, section: str) -> Operation:
-            """Return what represents a value, and put what has names before it."""
+            """Return the operation or the name of a value, with named ones assigned before."""
             operation, operands = self.operations[value]
             if operation.kind in _LEAVES:
                 return operation

@@ -1,8 +1,9 @@
-"""Operations as text, in the words of a target language."""
+"""Operations as text, in the syntax of a target language."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 import sympy as sp
@@ -16,13 +17,13 @@ if TYPE_CHECKING:
     from ..program.function import Function, Stage
     from .schedule import Assignment, Operation
 
-# binding strength of a written operation, loosest first
+# Precedence of a written operation, lowest first.
 _SUM, _NEGATIVE, _PRODUCT, _ATOM = range(4)
 
 
 @dataclass(frozen=True)
 class Dialect:
-    """How a target language spells what is not the same in all of them.
+    """Syntax of a target language, where languages differ.
 
     Attributes
     ----------
@@ -31,9 +32,9 @@ class Dialect:
     root, component
         The square root, and one of several results.
     argument
-        A number that a block which iterates is given.
+        A number as an argument of a block that iterates.
     element
-        Of an array of states, inputs, constants or parameters, by its place.
+        Of an array of states, inputs, constants or parameters, by its index.
     negation
         A comparison that must not hold.
     """
@@ -46,32 +47,24 @@ class Dialect:
     negation: str = "not {}"
 
 
-def _named(symbol: sp.Symbol) -> str:
-    name: str = symbol.name
-    return name
-
-
 def text_of(
-    operation: Operation, dialect: Dialect, name: Callable[[sp.Symbol], str] = _named
+    operation: Operation,
+    dialect: Dialect,
+    name: Callable[[sp.Symbol], str] | None = None,
 ) -> str:
-    """Write an operation.
-
-    Parameters
-    ----------
-    name
-        What a symbol is called; by default its own name.
+    """Return an operation as text, with names of its symbols other than their own, if given.
 
     Raises
     ------
     ValueError
         If the dialect has no spelling for a function.
     """
-    return _Writer(dialect, name).write(operation)[0]
+    return _Writer(dialect, name or attrgetter("name")).write(operation)[0]
 
 
 @dataclass(frozen=True)
 class StepText:
-    """A step as text: name and value, the part of the derivation, and what kind of operation."""
+    """A step as text: name and value, its section of the derivation, and the kind of operation."""
 
     name: str
     text: str
@@ -83,13 +76,7 @@ class StepText:
 def written(
     emitted: Function | Stage, dialect: Dialect, names: Mapping[str, str] | None = None
 ) -> tuple[list[StepText], list[str]]:
-    """Write the steps and the results of what is emitted.
-
-    Parameters
-    ----------
-    names
-        What is called otherwise than it is.
-    """
+    """Return the steps and the results of a function as text, with other names for some symbols."""
     order = scheduled(emitted)
     return written_steps(order.steps, dialect, names), written_values(order.results, dialect, names)
 
@@ -97,17 +84,7 @@ def written(
 def written_steps(
     steps: Sequence[Assignment], dialect: Dialect, names: Mapping[str, str] | None = None
 ) -> list[StepText]:
-    """Write some steps, with other names for what is called otherwise than it is.
-
-    Parameters
-    ----------
-    steps
-        In their order.
-    dialect
-        How operations are spelt.
-    names
-        Other names for some symbols.
-    """
+    """Return steps as text, with other names for some symbols."""
     texts = written_values((step.value for step in steps), dialect, names)
     return [
         StepText((names or {}).get(s.name, s.name), text, s.section, s.value.kind, s.value.of)
@@ -118,31 +95,13 @@ def written_steps(
 def written_values(
     values: Iterable[Operation], dialect: Dialect, names: Mapping[str, str] | None = None
 ) -> list[str]:
-    """Write some values, with other names for what is called otherwise than it is.
-
-    Parameters
-    ----------
-    values
-        What is written.
-    dialect
-        How operations are spelt.
-    names
-        Other names for some symbols.
-    """
+    """Return values as text, with other names for some symbols."""
     others = names or {}
     return [text_of(value, dialect, lambda s: others.get(s.name, s.name)) for value in values]
 
 
 def formula(expression: sp.Expr, dialect: Dialect) -> str:
-    """Write an expression on its own, where it does not matter what is there first.
-
-    Parameters
-    ----------
-    expression
-        What is written.
-    dialect
-        How operations are spelt.
-    """
+    """Return a single expression as text."""
     return text_of(schedule(expression), dialect)
 
 
@@ -152,7 +111,7 @@ class _Writer:
     name: Callable[[sp.Symbol], str]
 
     def write(self, operation: Operation) -> tuple[str, int]:
-        """Return the text, and how strongly it binds."""
+        """Return the text, and its precedence."""
         kind, of = operation.kind, operation.of
         if kind == "symbol":
             return self.name(of), _ATOM
@@ -182,7 +141,7 @@ class _Writer:
 
 
 def _inside(part: tuple[str, int], strength: int) -> str:
-    """Return a text, in parentheses where its surroundings bind more strongly."""
+    """Return a text, in parentheses where its surroundings have a higher precedence."""
     text, own = part
     return text if own >= strength else f"({text})"
 
@@ -194,14 +153,6 @@ def _sum(first: tuple[str, int], second: tuple[str, int]) -> tuple[str, int]:
     return f"{first[0]} + {_inside(second, _PRODUCT)}", _SUM
 
 
-def _difference(first: tuple[str, int], second: tuple[str, int]) -> tuple[str, int]:
-    return f"{first[0]} - {_inside(second, _PRODUCT)}", _SUM
-
-
-def _negative(part: tuple[str, int]) -> tuple[str, int]:
-    return f"-{_inside(part, _PRODUCT)}", _NEGATIVE
-
-
 def _product(one: tuple[str, int], two: tuple[str, int]) -> tuple[str, int]:
     """Write a product; of two factors, one that is a product itself is in front."""
     if two[1] == _PRODUCT and one[1] != _PRODUCT:
@@ -209,21 +160,17 @@ def _product(one: tuple[str, int], two: tuple[str, int]) -> tuple[str, int]:
     return f"{_inside(one, _PRODUCT)}*{_inside(two, _ATOM)}", _PRODUCT
 
 
-def _quotient(above: tuple[str, int], below: tuple[str, int]) -> tuple[str, int]:
-    return f"{_inside(above, _PRODUCT)}/{_inside(below, _ATOM)}", _PRODUCT
-
-
 _OPERATORS: dict[str, Callable[..., tuple[str, int]]] = {
     "add": _sum,
-    "subtract": _difference,
-    "negate": _negative,
+    "subtract": lambda one, two: (f"{one[0]} - {_inside(two, _PRODUCT)}", _SUM),
+    "negate": lambda part: (f"-{_inside(part, _PRODUCT)}", _NEGATIVE),
     "multiply": _product,
-    "divide": _quotient,
+    "divide": lambda one, two: (f"{_inside(one, _PRODUCT)}/{_inside(two, _ATOM)}", _PRODUCT),
 }
 
 
 def number_text(number: sp.Expr) -> tuple[str, int]:
-    """Write a number in double precision, and say how strongly it binds."""
+    """Return a number in double precision, and its precedence."""
     if number == sp.pi:
         return "3.14159265358979323846", _ATOM
     value = sp.Rational(number)

@@ -1,4 +1,4 @@
-"""What several back ends say of a model: its hash, its counts, its iterations."""
+"""Descriptions of a model for several back ends: its hash, its counts, its iterations."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ FORMULA = Dialect(
     root="sqrt({})",
     component="{}.at[{}]",
 )
-"""As C writes it: for a person to read, too, and for what depends on no back end."""
+"""Syntax of C, also for formulas in reports, and for hashes."""
 
 
 def count_line(function: Function | Stage) -> str:
@@ -55,21 +55,21 @@ def count_line(function: Function | Stage) -> str:
 
 
 def iteration_note(derivation: Derivation) -> str:
-    """Say which loops of a model are solved by iteration; nothing where all have a closed form."""
+    """Return a note on the loops that are solved by iteration; empty without any."""
     blocks = blocks_of(derivation.functions.values())
     if not blocks:
         return ""
     found = "; ".join(block.doc for block in blocks)
     return (
-        f"This model is not free of iteration. Newton's method finds {found}: in stages from the "
-        f"design position on, in at most {ITERATIONS} iterations, until a correction is below "
-        f"{CONVERGED}. A status bit says where that fails. Operations are counted for "
-        "one iteration."
+        f"Some loops of this model are solved by iteration. Newton's method finds {found}: in "
+        f"stages from the design position, in at most {ITERATIONS} iterations in total, until a "
+        f"correction is below {CONVERGED}. A status bit reports a failure. Operation counts are "
+        "those of one iteration."
     )
 
 
 def blocks_of(functions: Iterable[Function | Stage]) -> list[IterationBlock]:
-    """Return the iterations of some functions, each once, and behind those that it calls."""
+    """Return the iterations of functions, each once, behind those that it calls."""
     found: dict[str, IterationBlock] = {}
     for block in (b for f in functions for b in f.blocks):
         found |= {inner.name: inner for inner in blocks_of([block.once])} | {block.name: block}
@@ -83,7 +83,7 @@ def emitted_names(derivation: Derivation) -> list[str]:
 
 
 def mechanism_hash(derivation: Derivation) -> str:
-    """Return a hash of everything that the emitted arithmetic depends on; computed once."""
+    """Return a hash of all inputs of the emitted arithmetic; computed once."""
     if derivation not in _hashes:
         _hashes[derivation] = _hash(derivation)
     return _hashes[derivation]
@@ -106,5 +106,5 @@ def _hash(derivation: Derivation) -> str:
 
 
 def reads_given(function: Function | Stage) -> bool:
-    """Return whether a function takes relative coordinates as an argument of their own."""
+    """Return whether a function has relative coordinates as a separate argument."""
     return any(s.name.startswith("given_") for s in function.free_symbols)

@@ -1,4 +1,4 @@
-"""What the C texts of one model have in common: what things are called, and how they begin."""
+"""Names and first lines of the C texts of one model."""
 
 from __future__ import annotations
 
@@ -18,17 +18,7 @@ ARGUMENTS = "const double *restrict constants, const double *restrict state,"
 def unbroken(
     text: str, *, width: int = WIDTH, initial_indent: str = "", subsequent_indent: str = ""
 ) -> list[str]:
-    """Break code into lines: between words only, however long they are.
-
-    Parameters
-    ----------
-    text
-        The code.
-    width
-        The most characters of a line.
-    initial_indent, subsequent_indent
-        What the first line, and the others, begin with.
-    """
+    """Break code into lines of a width, between words only, however long they are."""
     if 0 < len(text) <= width - len(initial_indent) and text.isprintable() and text.strip() == text:
         return [initial_indent + text]
     return textwrap.wrap(
@@ -51,15 +41,7 @@ class CText:
         self.upper = self.prefix.upper()
 
     def enumerator(self, kind: str, name: str) -> str:
-        """Return the C name of an index.
-
-        Parameters
-        ----------
-        kind
-            What is counted, as in ``"status"``.
-        name
-            Which of these.
-        """
+        """Return the C name of an index of a kind, as ``"status"``."""
         return f"{self.upper}_{kind.upper()}_{name.upper()}"
 
     def banner(self, extra: str = "") -> str:
@@ -73,28 +55,12 @@ class CText:
         return "/*\n" + "\n".join(f" * {line}".rstrip() for line in text.split("\n")) + "\n */"
 
     def from_parameters(self, name: str, out: str, returns: str = "int") -> str:
-        """Return the start of a function that reads parameters.
-
-        Parameters
-        ----------
-        name, out
-            Of the function, and of what it writes.
-        returns
-            Its type.
-        """
+        """Return the start of a function that reads parameters, with the name of its output."""
         arguments = f"const double *restrict parameters, double *restrict {out}"
         return f"{returns} {self.prefix}_{name}({arguments})"
 
     def signature(self, function: Function | Stage, returns: str = "int") -> str:
-        """Return the start of a function that reads constants, state and inputs.
-
-        Parameters
-        ----------
-        function
-            The function.
-        returns
-            Its type.
-        """
+        """Return the start of a function that reads constants, state and inputs."""
         name = f"{returns} {self.prefix}_{function.name}("
         given = "const double *restrict given, " if reads_given(function) else ""
         indent = " " * len(name)

@@ -1,4 +1,4 @@
-"""Print what iterates: one iteration of a block, and the function that follows its loops."""
+"""Print iterations: one iteration of a block, and the function that follows its loops."""
 
 from __future__ import annotations
 

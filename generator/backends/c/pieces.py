@@ -1,8 +1,8 @@
-"""Long functions in pieces, since what a compiler does to a function grows with its length squared.
+"""Long functions in pieces, since compile time grows with the square of a function's length.
 
 A function is a straight line; here it is cut where the fewest values are alive. Each piece is a
-function of its own that reads what earlier ones found from an array, and writes there what later
-ones read. Every operation is the same as in one piece, and so is every bit of a result.
+function of its own that reads values of earlier ones from an array, and writes values for later
+ones there. Every operation is the same as in one piece, and so is every bit of a result.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ if TYPE_CHECKING:
     from ..sharing import OwnSteps, Together
 
 LONG = 5_000
-"""From how many operations on the functions of a file are cut. Up to there a compiler takes as long
-for an operation either way, and a call is faster by a twentieth or so in one piece."""
+"""Number of operations above which the functions of a file are cut. Below it, compile time per
+operation is the same either way, and a call in one piece is faster by a twentieth or so."""
 
 PIECE = 800
-"""At most so many operations in a piece, unless a single step has more."""
+"""Largest number of operations in a piece, unless a single step has more."""
 
 
 @dataclass(frozen=True)
@@ -37,9 +37,9 @@ class Piece:
     ----------
     steps
     results
-        Places of the results that can be returned behind these steps, and not earlier.
+        Indices of the results that can be returned behind these steps, and not earlier.
     reads
-        All names that are read and not found here.
+        All names that are read and not defined here.
     """
 
     steps: tuple[Assignment, ...]
@@ -55,9 +55,9 @@ class Cut:
     ----------
     pieces
     kept
-        The place of each value that one piece hands over to others.
+        The index of each value that one piece leaves for others.
     size
-        How many places there are.
+        Number of indices.
     """
 
     pieces: tuple[Piece, ...]
@@ -66,7 +66,7 @@ class Cut:
 
 
 def length_of(whole: Together) -> int:
-    """Return how many operations the functions of a file have, each counted once."""
+    """Return the number of operations of the functions of a file, each counted once."""
     values = [step.value for step in whole.steps]
     values += [step.value for part in whole.parts for step in part.steps]
     values += [result for part in whole.parts for result in part.results]
@@ -74,7 +74,7 @@ def length_of(whole: Together) -> int:
 
 
 def is_long(steps: Sequence[Assignment]) -> bool:
-    """Return whether steps that are carried out once for a parameter set are more than a piece."""
+    """Return whether steps that are computed once for a parameter set are more than a piece."""
     return sum(map(_weight, steps)) > PIECE
 
 
@@ -83,17 +83,7 @@ def _weight(step: Assignment) -> int:
 
 
 def steps_of(function: Function | Stage, part: OwnSteps, whole: Together) -> list[Assignment]:
-    """Return the steps that the results and the guards of a function need, in their order.
-
-    Parameters
-    ----------
-    function
-        One of several functions.
-    part
-        Its results and guards, in the names of all steps.
-    whole
-        The steps of all of them.
-    """
+    """Return the steps that the results and the guards of a function need, in their order."""
     steps = [*whole.steps, *part.steps]
     alive = alive_in(function, part, steps)
     return [step for step in steps if step.name in alive]
@@ -109,10 +99,12 @@ def cut(
 
     Parameters
     ----------
+    steps, results
+        Of the function.
     guards
-        Of each guard, the names that it reads.
+        The names that each guard reads.
     sizes
-        Numbers that a value has, where it has more than one.
+        Number of elements of values with more than one.
     """
     reading = [frozenset(symbols_in(step.value)) for step in steps]
     places = {step.name: i for i, step in enumerate(steps)}
@@ -141,7 +133,7 @@ def _last(names: Iterator[str] | frozenset[str], places: Mapping[str, int], of: 
 
 
 def _alive(reading: Sequence[frozenset[str]], places: Mapping[str, int]) -> list[int]:
-    """Return how many values are found before each step and read from there on."""
+    """Return the number of values defined before each step and read from there on."""
     until = {name: place for place, names in enumerate(reading) for name in names if name in places}
     change = [0] * (len(reading) + 2)
     for name, last in until.items():
@@ -155,7 +147,7 @@ def _alive(reading: Sequence[frozenset[str]], places: Mapping[str, int]) -> list
 
 
 def _ends(steps: Sequence[Assignment], alive: Sequence[int]) -> Iterator[tuple[int, int]]:
-    """Yield first and last place of each piece, the latter not included; there is one at least."""
+    """Yield the first index of each piece, one at least, and the index behind it."""
     weights = [*map(_weight, steps)]
     start = 0
     while sum(weights[start : start + PIECE]) > PIECE:
@@ -175,7 +167,7 @@ def _ends(steps: Sequence[Assignment], alive: Sequence[int]) -> Iterator[tuple[i
 def _places(
     pieces: Sequence[Piece], places: Mapping[str, int], sizes: Mapping[str, int]
 ) -> tuple[dict[str, int], int]:
-    """Return places of values handed over; a place is used again after its last reading."""
+    """Return the indices of values left for other pieces; one is reused after its last reading."""
     last = {name: k for k, piece in enumerate(pieces) for name in piece.reads if name in places}
     kept: dict[str, int] = {}
     free: list[int] = []

@@ -56,8 +56,8 @@ class Source(CText):
     ----------
     derivation
     in_pieces
-        Cut long functions. Else a file has its derivation once and whole, to be read, and what is
-        called most is fastest; a compiler takes longer.
+        Whether to cut long functions. Otherwise a file has its derivation once and whole, for
+        readers, and the most frequent call is fastest; a compiler takes longer.
     """
 
     def __init__(self, derivation: Derivation, *, in_pieces: bool = False) -> None:
@@ -66,7 +66,7 @@ class Source(CText):
 
     @property
     def parts(self) -> list[str]:
-        """The source files of the model, by what their names add to the model's."""
+        """The source files of the model, by the ends of their names behind the model's."""
         return list(dict.fromkeys(["", *(f.part for f in self.derivation.emitted.values())]))
 
     def file_name(self, part: str) -> str:
@@ -116,7 +116,7 @@ class Source(CText):
         return [f"{comment}\n#define ROUNDING {ROUNDING}"]
 
     def _blocks(self, blocks: Sequence[IterationBlock]) -> list[str]:
-        """Print what follows loops, and the equations of each."""
+        """Print the code that follows loops, and the equations of each."""
         if not blocks:
             return []
         sizes = {
@@ -137,7 +137,7 @@ class Source(CText):
         names = {name: f"{c}->{name}" for name in prepare.labels}
         results = written(prepare, FORMULA, names)[1]
         steps = scheduled(prepare).steps
-        equal = [  # one whose value another one has
+        equal = [  # assignments of constants that equal other ones
             f"    {names[name]} = {in_all_lanes(value)};" if value != names[name] else ""
             for name, value in zip(prepare.labels, results, strict=True)
         ]
@@ -170,9 +170,9 @@ class Source(CText):
         given: Mapping[str, str],
         c: str,
     ) -> tuple[list[str], list[str]]:
-        """Print the pieces of `prepare`, and how they are called: what it stores, others read.
+        """Print the pieces of `prepare`, and their calls; one reads values that others stored.
 
-        A compiler looks at every store of a long function for each of its reads.
+        A compiler compares each read with every store of a long function.
         """
         found = cut(steps, scheduled(self.derivation.prepare).results, [], {})
         kept = _free("kept", {step.name for step in steps})
@@ -225,7 +225,7 @@ class Source(CText):
         )
 
     def _assumptions(self, c: str) -> list[str]:
-        """Return the checks of what must be zero, and of what must not; the first one counts."""
+        """Return the checks of constants that must be zero, or must not; the first one counts."""
 
         def constant(expression: sp.Expr) -> str:
             return text_of(schedule(expression), FORMULA, lambda symbol: f"{c}->{symbol.name}")
@@ -248,7 +248,7 @@ class Source(CText):
         return numbered[::-1]
 
     def _functions(self, functions: Sequence[Function | Stage]) -> list[str]:
-        """Print functions: what they compute, each step once, and each of them as a call of it."""
+        """Print functions: one with every step once, and each of them as a call of it."""
         own = {f"given_{e.name}" for e in self.derivation.relative}
         own.update(self.derivation.by_parameters.weights("inputs"))
         whole = together(functions, self.derivation.order, own)
@@ -266,7 +266,7 @@ class Source(CText):
     def _where_needed(
         self, printed_functions: Iterable[tuple[Function | Stage, Sequence[str]]]
     ) -> list[str]:
-        """Guard functions: many systems need some that one alone does not, and the other way."""
+        """Guard functions: some are needed for many systems only, or for single ones only."""
         always: list[str] = []
         alone: list[str] = []
         in_lanes: list[str] = []
@@ -288,7 +288,7 @@ class Source(CText):
         return f"{self.signature(function, 'status_word')}\n{{\n    return {call};\n}}"
 
     def _cut(self, function: Function | Stage, part: OwnSteps, whole: Together) -> list[str]:
-        """Print the pieces of a function, and what calls them."""
+        """Print the pieces of a function, and their caller."""
         steps, guards = steps_of(function, part, whole), self._guards_of(function, part)
         sizes = {block.name: len(block.results) for block in blocks_of([function])}
         of_blocks = {s.name: s.value.of for s in steps if s.value.kind == "iterate"}
@@ -306,7 +306,7 @@ class Source(CText):
     def _guards_of(
         self, function: Function | Stage, part: OwnSteps
     ) -> list[tuple[str, sp.Symbol, sp.Expr]]:
-        """Return names of the guards that act, with what they compare."""
+        """Return names, quantities and floors of the guards that act."""
         acting = {guard.name: guard for guard in function.guards}
         return [
             (g.name, sp.Symbol(part.names.get(q.name, q.name)), acting[g.name].floor)
@@ -318,7 +318,7 @@ class Source(CText):
     def _compute(
         self, functions: Sequence[Function | Stage], whole: Together, *, given: bool
     ) -> str:
-        """Print what all functions compute, each step once."""
+        """Print the function that computes all of them, with each step once."""
         c = _free("c", whole.names)
         names = self.constants_in(c)
         start = "INLINED status_word compute("
@@ -346,27 +346,19 @@ class Source(CText):
         return "\n".join([*lines, "    return status;", "}"])
 
     def constants_in(self, c: str) -> dict[str, str]:
-        """Return how constants are read, and their directions, which follow them."""
+        """Return the C expressions of constants, and of their directions behind them."""
         labels = self.derivation.prepare.labels
         names = {name: f"{c}->{name}" for name in labels}
         behind = self.derivation.by_parameters.places("constants")
         return names | {n: f"{c}[1].{labels[i - len(labels)]}" for n, i in behind.items()}
 
     def _places(self, array: str, names: Iterable[str]) -> dict[str, int]:
-        """Return the places of the elements of an array, with what follows its values."""
+        """Return the indices of the elements of an array, with the names behind its values."""
         behind = self.derivation.by_parameters.places(array)
         return {name: i for i, name in enumerate(names)} | behind
 
     def pointer(self, c: str, read: Collection[str]) -> list[str]:
-        """Return the declaration of the constants; mark what is not read.
-
-        Parameters
-        ----------
-        c
-            What the pointer is called.
-        read
-            Whether anything reads it.
-        """
+        """Return the declaration of the constants by a pointer name; mark unread arrays."""
         lines = [
             f"    (void){array};"
             for array, places in self._arrays().items()
@@ -378,7 +370,7 @@ class Source(CText):
         return [pointer, *lines]
 
     def _arrays(self) -> dict[str, dict[str, int]]:
-        """Return the places of all that is read by name but constants."""
+        """Return the indices of all elements of arrays that are read by name, without constants."""
         arrays = {
             "state": [e.name for e in self.derivation.state],
             "inputs": [e.name for e in self.derivation.inputs],
@@ -387,7 +379,7 @@ class Source(CText):
         return {array: self._places(array, names) for array, names in arrays.items()}
 
     def loads(self, read: Collection[str]) -> list[str]:
-        """Return the declarations of what is read of state, inputs and given coordinates."""
+        """Return the declarations of the elements that are read, without constants."""
         return declared(
             [
                 f"{name} = {array}[{i}]"
@@ -400,7 +392,7 @@ class Source(CText):
     def _part(
         self, function: Function | Stage, part: OwnSteps, names: Mapping[str, str]
     ) -> list[str]:
-        """Print the results of a function, and the steps that it alone has."""
+        """Print the results of a function, and the steps that only it needs."""
         lines = [*self.loads(part.reads), *printed(part.steps, names)]
         texts, start = written_values(part.results, FORMULA, names), 0
         for member in function.members:
@@ -410,7 +402,7 @@ class Source(CText):
 
     @staticmethod
     def _results(part: Function, texts: Sequence[str], start: int) -> list[str]:
-        """Return the assignments of an array: row by row, and then what is zero."""
+        """Return the assignments of an array: row by row, and then the zeros."""
         rows = [label.partition(" by ") for label in part.labels]
         columns = dict.fromkeys(column for _, _, column in rows if column)
         title = f"/* {part.name}{' by ' if columns else ''}{', '.join(columns)} */"
@@ -441,9 +433,9 @@ class Source(CText):
     def _status_of(
         self, function: Function | Stage, part: OwnSteps, names: Mapping[str, str]
     ) -> list[str]:
-        """Collect the status: comparisons only, no branch.
+        """Return the statements of the status: comparisons only, no branch.
 
-        A NaN or infinity that goes in comes out as one, or is caught by a guard.
+        A NaN or infinity in the input results in one, or is caught by a guard.
         """
 
         def bit(guard: Guard) -> str:
@@ -459,7 +451,7 @@ class Source(CText):
 
 
 class _Pieces:
-    """Prints the pieces of one function, and what calls them."""
+    """Prints the pieces of one function, and their caller."""
 
     def __init__(
         self,
@@ -485,7 +477,7 @@ class _Pieces:
         return f"status |= guard_bit({value}, {text}, {self._source.enumerator('status', name)});"
 
     def piece(self, number: int, bits: Sequence[str]) -> str:
-        """Print one piece: what it reads, its steps, what it hands over, its results."""
+        """Print one piece: its inputs, its steps, values for others, its results."""
         piece, kept = self._found.pieces[number], self._kept
         start = f"NOT_INLINED static status_word {self._function.name}_{number + 1}("
         indent = " " * len(start)
@@ -514,7 +506,7 @@ class _Pieces:
         return "\n".join(lines)
 
     def _handed(self, piece: Piece) -> list[str]:
-        """Return the numbers that a piece takes over, in the order of their places."""
+        """Return the values that a piece takes over, in the order of their indices."""
         names = (piece.reads & self._found.kept.keys()) - self._wide.keys()
         return sorted(names, key=self._found.kept.__getitem__)
 
@@ -561,10 +553,10 @@ class _Pieces:
 
 
 def _only(condition: str, texts: Sequence[str]) -> list[str]:
-    """Let texts be compiled where numbers are vectors, or where they are not."""
+    """Guard texts so that they are compiled with vectors only, or without them only."""
     return [f"#{condition} KINTRAFO_LANES", *texts, "#endif"] if texts else []
 
 
 def _free(name: str, taken: Collection[str]) -> str:
-    """Return a name that nothing else in a function has."""
+    """Return a name that is not taken in a function."""
     return next(n for n in (name, f"{name}_", f"{name}__") if n not in taken)

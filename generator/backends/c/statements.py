@@ -1,4 +1,4 @@
-"""Print statements: declarations, assignments, and the words between them."""
+"""Print statements: declarations, assignments, and comments of sections."""
 
 from __future__ import annotations
 
@@ -19,28 +19,25 @@ if TYPE_CHECKING:
 _IN_ALL_LANES = "number({})"
 
 STATEMENT = replace(FORMULA, argument=_IN_ALL_LANES)
-"""As C writes a step."""
+"""Steps in C."""
 
 _LETTERS = frozenset(string.ascii_letters) - {"e"}
-"""What a value has that is no number alone."""
+"""Letters of a value that is not a mere number."""
 
 
 def printed(steps: Sequence[Assignment], names: Mapping[str, str]) -> list[str]:
-    """Return assignments, with the parts of the derivation in between.
-
-    Parameters
-    ----------
-    steps
-        In their order.
-    names
-        Other names for some symbols.
-    """
+    """Return the assignments of steps, by section, with other names for some symbols."""
     lines: list[str] = []
-    for section, group in groupby(written_steps(steps, STATEMENT, names), key=_section):
+    texts_of_steps = written_steps(steps, STATEMENT, names)
+    for section, group in groupby(texts_of_steps, key=lambda step: step.section):
         lines += ["", f"    /* {section} */"]
         for kind, run in groupby(group, key=_kind):
             texts = [f"{step.name} = {in_all_lanes(step.text)}" for step in run]
-            lines += declared(texts) if kind == "const double" else _each(kind, texts)
+            if kind == "const double":
+                lines += declared(texts)
+                continue
+            start = f"{kind} " if kind else ""
+            lines += [line for text in texts for line in wrapped(f"{start}{text};", 4)]
     return lines
 
 
@@ -53,33 +50,17 @@ def declared(assignments: Sequence[str]) -> list[str]:
 
 
 def in_all_lanes(text: str) -> str:
-    """Write a value; one that is a number is marked where it may be a vector."""
+    """Return a value, with a number marked where it may be a vector."""
     return text if set(text) & _LETTERS else _IN_ALL_LANES.format(text)
 
 
-def _each(kind: str, assignments: Sequence[str]) -> list[str]:
-    """Return assignments that are statements of their own."""
-    start = f"{kind} " if kind else ""
-    return [line for text in assignments for line in wrapped(f"{start}{text};", 4)]
-
-
 def wrapped(text: str, indent: int) -> list[str]:
-    """Break a statement into lines.
-
-    Parameters
-    ----------
-    text, indent
-        The statement, and what each line begins with.
-    """
+    """Break a statement into lines with an indent."""
     return unbroken(text, initial_indent=" " * indent, subsequent_indent=" " * (indent + 4))
 
 
-def _section(step: StepText) -> str:
-    return step.section
-
-
 def _kind(step: StepText) -> str:
-    """Return how a step is declared: a number, what an iteration returns, or an element."""
+    """Return the type that a step is declared with: double, the struct of an iteration, or none."""
     if step.kind == "iterate":
         return f"const struct {step.of}"
     return "" if "->" in step.name else "const double"

@@ -1,4 +1,4 @@
-"""How CasADi spells functions."""
+"""Syntax of CasADi."""
 
 import sympy as sp
 

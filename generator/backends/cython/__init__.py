@@ -1,1 +1,1 @@
-"""What links the C code to Python by Cython."""
+"""Links between C code and Python by Cython."""

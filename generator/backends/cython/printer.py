@@ -1,4 +1,4 @@
-"""Print what links the C code of a model to Python, where it is built with this project."""
+"""Print the link from a model's C code to Python, where it is built with this project."""
 
 from __future__ import annotations
 

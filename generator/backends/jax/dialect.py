@@ -1,4 +1,4 @@
-"""How JAX spells functions."""
+"""Syntax of JAX."""
 
 import sympy as sp
 

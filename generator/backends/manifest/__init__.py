@@ -1,1 +1,1 @@
-"""What a model is, as data."""
+"""Description of a model, as data."""

@@ -1,4 +1,4 @@
-"""What a mechanism is drawn from: points that its bodies carry, at the design position."""
+"""Data for drawing a mechanism: points that its bodies carry, at the design position."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
-from ...declare.geometry import Line, Point
+from ...declare.geometry import Point
 from ...declare.joints import Cylindrical, Free, Prismatic, Revolute
 from ...declare.paths import AlongLine
 from ...declare.wheel import Wheel
@@ -22,17 +22,12 @@ End = tuple[str, str]
 
 
 def drawing(mechanism: Mechanism) -> dict[str, Any]:
-    """Return what is drawn of a mechanism.
-
-    Parameters
-    ----------
-    mechanism
-        The whole mechanism.
+    """Return the data for drawing a mechanism.
 
     Returns
     -------
     dict
-        ``points``, the names and places of what each body carries, the ground first: names of
+        ``points``, the names and positions of the points of each body, the ground first: names of
         parameters, with a minus before them in mirror images, or numbers [m]; ``joints``, the names
         of the points of each; of ``guides`` and ``springs`` the two ends, each a body and a point
         of it; ``wheels``, the centre of each likewise.
@@ -66,22 +61,18 @@ def drawing(mechanism: Mechanism) -> dict[str, Any]:
 
 
 def _points_of(joint: Joint) -> list[Point]:
-    """Return the points that both bodies of a joint carry; none of guides, which are anywhere."""
+    """Return the points that both bodies of a joint carry; none for guides."""
     if isinstance(joint, Prismatic | Cylindrical | Free):
         return []
     if joint.center is not None:
         return [joint.center]
     if isinstance(joint, Revolute):
-        return _on(joint.axis)
+        return [p for p in (joint.axis.through, joint.axis.towards) if isinstance(p, Point)]
     return []
 
 
-def _on(line: Line) -> list[Point]:
-    return [p for p in (line.through, line.towards) if isinstance(p, Point)]
-
-
 def _telescopes(joints: tuple[Joint, ...]) -> Iterator[tuple[tuple[str, Point], ...]]:
-    """Yield the ends of telescopes: of a cylindrical joint's axis one is on either body."""
+    """Yield the ends of telescopes: one point of a cylindrical joint's axis on either body."""
     for joint in joints:
         if isinstance(joint, Cylindrical) and isinstance(joint.axis.towards, Point):
             first, second = joint.bodies
@@ -89,7 +80,7 @@ def _telescopes(joints: tuple[Joint, ...]) -> Iterator[tuple[tuple[str, Point], 
 
 
 def _coordinates(mechanism: Mechanism, point: Point) -> Place:
-    """Return a place by the names of its parameters; copies have those of what they copy."""
+    """Return a position by the names of its parameters; copies have those of the original."""
     found: Place = []
     for value in point.position:
         named = value.xreplace({s: mechanism.derived.get(s.name, s) for s in value.free_symbols})

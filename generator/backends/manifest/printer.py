@@ -1,4 +1,4 @@
-"""Print what is known of a model as one JSON file: `kintrafo.equations.Equations` reads it."""
+"""Print the description of a model as one JSON file, which `kintrafo.equations.Equations` reads."""
 
 from __future__ import annotations
 
@@ -103,9 +103,9 @@ def _described(entries: Iterable[Entry]) -> dict[str, dict[str, str]]:
 
 
 def _layout(states: DeclaredStates) -> dict[str, Any]:
-    """Return where free bodies begin among the positions, and which speed goes with each position.
+    """Return the sizes of the state, and the index of the speed that changes each position.
 
-    That is null of the scalar part of a quaternion, and where constraints give the speed.
+    It is null for the scalar part of a quaternion, and where constraints give the speed.
     """
     return {
         "positions": len(states.positions),
@@ -149,16 +149,16 @@ def _signal(mechanism: Mechanism, shown: Shown) -> dict[str, Any]:
 
 
 def _given(**facts: Any) -> dict[str, Any]:
-    """Return what says something."""
+    """Return the facts that have a value."""
     return {
         name: fact for name, fact in facts.items() if fact not in (None, "") and fact is not False
     }
 
 
 def _level(mechanism: Mechanism, level: Level | None) -> float | str | None:
-    """Return a number as it is, a parameter by its name, with a minus before it if it has one.
+    """Return a number unchanged, and a parameter as its name, with a minus for a negative one.
 
-    A copy's parameters are those of what it is a copy of.
+    The parameters of a copy are those of its original.
     """
     if level is None or isinstance(level, float):
         return level
@@ -181,7 +181,7 @@ def _inputs(entries: Iterable[Input]) -> dict[str, dict[str, str | None]]:
 
 
 def _assumptions(derivation: Derivation) -> list[dict[str, str]]:
-    """Return what is checked of a parameter set, in the order in which it is."""
+    """Return the checks of a parameter set, in their order."""
     zero = [
         {"quantity": str(a.quantity), "unit": a.unit, "meaning": a.meaning, "remedy": a.remedy}
         for a in derivation.assumptions
@@ -200,7 +200,7 @@ def _assumptions(derivation: Derivation) -> list[dict[str, str]]:
 
 
 def _functions(derivation: Derivation) -> dict[str, dict[str, Any]]:
-    """Return what is known of every array, and of what computes it."""
+    """Return the description of every array, and of its function."""
     found = {}
     for emitted in derivation.emitted.values():
         start = 0
@@ -224,7 +224,7 @@ def _function(derivation: Derivation, function: Function) -> dict[str, Any]:
 
 
 def _split(labels: tuple[str, ...]) -> tuple[list[str], list[str]]:
-    """Return the rows and the columns of a matrix of derivatives; of all else, labels alone."""
+    """Return the rows and the columns of a matrix of derivatives; for others, the labels alone."""
     pairs = [label.partition(" by ") for label in labels]
     rows = list(dict.fromkeys(row for row, _, _ in pairs))
     columns = list(dict.fromkeys(column for _, by, column in pairs if by))
@@ -260,7 +260,7 @@ def _transformer(transformer: Transformer) -> dict[str, Any]:
 
 
 def _text(value: Any, indent: int) -> str:
-    """Return JSON text: what fits into a line is in one."""
+    """Return JSON text: a value that fits into a line is in one."""
     line = json.dumps(value, ensure_ascii=False)
     if not isinstance(value, dict | list | tuple) or indent + len(line) <= WIDTH:
         return line

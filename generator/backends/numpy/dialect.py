@@ -1,4 +1,4 @@
-"""How NumPy spells functions."""
+"""Syntax of NumPy."""
 
 import sympy as sp
 

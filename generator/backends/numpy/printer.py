@@ -1,7 +1,7 @@
 """Print a model over NumPy arrays, for where there is no compiler: the steps of the C code.
 
-Sums and products are put together in the same order as in C, so that the two agree to the last
-digits of the library's sines and cosines.
+Sums and products have the same order as in C, so that the two agree to the last digits of the
+library's sines and cosines.
 """
 
 from __future__ import annotations

@@ -1,1 +1,1 @@
-"""The Python face of a model."""
+"""The Python interface of a model."""

@@ -1,7 +1,7 @@
-"""Print the module of a model: what its manifest describes, as names of Python.
+"""Print the module of a model: the contents of its manifest, as names of Python.
 
 It imports the functions from a file beside it, which is Cython where the C code is built with this
-project, and Python where it lies in a shared library, or where there is no C.
+project, and Python where it is in a shared library, or where there is no C.
 """
 
 from __future__ import annotations
@@ -22,15 +22,7 @@ def module(derivation: Derivation) -> str:
 
 
 def addresses_in(derivation: Derivation, library: str) -> str:
-    """Return the text of a ``.py`` file that finds the functions in a library beside it.
-
-    Parameters
-    ----------
-    derivation
-        The model.
-    library
-        The file's name.
-    """
+    """Return the text of a ``.py`` file that finds the functions in a library beside it."""
     return template("python", "addresses.py").substitute(
         name=derivation.formulation.name,
         library=library,

@@ -1,4 +1,4 @@
-"""The derivation report: what was found, chosen and solved, with operation counts."""
+"""The derivation report: loops, choices and solutions, with operation counts."""
 
 from __future__ import annotations
 
@@ -23,15 +23,7 @@ if TYPE_CHECKING:
 
 
 def bodies_of(topology: JointGraph, cycle: Cycle) -> str:
-    """Return a cycle as the numbers and names of its bodies.
-
-    Parameters
-    ----------
-    topology
-        That of the mechanism.
-    cycle
-        The loop.
-    """
+    """Return a cycle as the numbers and names of its bodies."""
     return " - ".join(_numbered(topology.mechanism, body) for body in cycle.bodies)
 
 
@@ -80,7 +72,7 @@ def mobility_line(topology: JointGraph) -> str:
 
 
 def cycles_line(topology: JointGraph) -> str:
-    """Say how many cycles Horton's construction tries, and what is left of them."""
+    """Return a sentence on the candidates of Horton's construction, and the cycles among them."""
     bodies, joints = len(topology.mechanism.bodies), len(topology.mechanism.joints)
     return (
         "Horton's construction closes a path over each joint from each body that the joint does "
@@ -94,7 +86,7 @@ def cycles_line(topology: JointGraph) -> str:
 
 
 def _cut(transformer: Transformer) -> str:
-    """Return where a loop is cut."""
+    """Return the pair at which a loop is cut, in words."""
     if transformer.pair is None:
         return "none: solved together with others, in the unknowns of all"
     a, b = transformer.pair.joints
@@ -106,15 +98,7 @@ def _cut(transformer: Transformer) -> str:
 
 
 def transformation(topology: JointGraph, transformer: Transformer) -> Transformation:
-    """Return a transformer as a block with its inputs and outputs.
-
-    Parameters
-    ----------
-    topology
-        That of the mechanism.
-    transformer
-        The transformer.
-    """
+    """Return a transformer as a block with its inputs and outputs."""
     closure, solution = transformer.step.words(transformer.closing)
     cycle = transformer.cycle
     inside = {
@@ -138,15 +122,7 @@ def mermaid(topology: JointGraph) -> str:
 
 
 def preference(topology: JointGraph, transformer: Transformer) -> str:
-    """Say why a loop was taken before others of the same length.
-
-    Parameters
-    ----------
-    topology
-        That of the mechanism.
-    transformer
-        The transformer of the loop.
-    """
+    """Return the reason why a loop was taken before others of the same length."""
     if not transformer.rivals:
         return "It is the only shortest cycle that extends the basis."
     others = "; ".join(
@@ -178,7 +154,7 @@ def derivation_report(derivation: Derivation) -> list[Block]:
         *_transformers(derivation, number),
         *motion_sections(derivation, number),
         Heading(2, "Functions"),
-        Paragraph("What is compiled, and the arithmetic of one call of each:"),
+        Paragraph("The compiled functions, and the arithmetic of one call of each:"),
         _counts(derivation),
         Paragraph("A leading sign counts as an addition; guards are comparisons and do not count."),
         *_validity(derivation),
@@ -186,13 +162,13 @@ def derivation_report(derivation: Derivation) -> list[Block]:
 
 
 def _summary(derivation: Derivation) -> str:
-    """Say what the chapter is about, and in which order."""
+    """Return the summary of the chapter, in its order."""
     topology, mechanism = derivation.plan.topology, derivation.formulation.mechanism
     loops, freedoms = topology.loop_count, topology.mobility
     closed = "" if iteration_note(derivation) else " in closed form"
     way = (
         "Its loops are closed one after the other by kinematic transformers, each of which is "
-        f"solved{closed}. From the relative coordinates that they give follow"
+        f"solved{closed}. From the resulting relative coordinates follow"
         if loops
         else "From its relative coordinates, which no loop ties to each other, follow"
     )
@@ -250,7 +226,7 @@ def _structure(topology: JointGraph) -> list[Block]:
 
 def _cycles(topology: JointGraph) -> list[Block]:
     if not topology.candidate_cycles:
-        return [Paragraph("The joint graph is a tree: there is no cycle in it.")]
+        return [Paragraph("The joint graph is a tree, without a cycle.")]
     return [
         Paragraph(cycles_line(topology)),
         TextTable(
@@ -263,7 +239,7 @@ def _cycles(topology: JointGraph) -> list[Block]:
 def _transformers(derivation: Derivation, number: EquationNumbers) -> Iterator[Block]:
     topology = derivation.plan.topology
     if not derivation.plan.transformers:
-        yield Paragraph("There is no loop, and so nothing to close.")
+        yield Paragraph("The mechanism has no loop to close.")
         return
     yield Paragraph(
         "A loop is cut at a pair of joints whose points keep a known distance. Of the six "
@@ -295,13 +271,13 @@ def _transformers(derivation: Derivation, number: EquationNumbers) -> Iterator[B
 
 
 def _turns(derivation: Derivation, number: EquationNumbers) -> Iterator[Block]:
-    """Yield how the equation of an unknown angle is solved, where a loop has it."""
+    """Yield the solution of the equation of an unknown angle, where a loop has it."""
     steps = ((t.step, t.closing) for t in derivation.plan.transformers)
     if not any(step.words(closing)[1].startswith("a cos x") for step, closing in steps):
         return
     yield Paragraph(
         "Where the unknown is an angle x, the distance gives an equation whose coefficients follow "
-        "from what is known:"
+        "from known quantities:"
     )
     yield number(r"a\cos x + b\sin x = c")
     yield number(
@@ -317,7 +293,7 @@ def _turns(derivation: Derivation, number: EquationNumbers) -> Iterator[Block]:
 
 
 def _validity(derivation: Derivation) -> Iterator[Block]:
-    """Yield where the formulas end, and which parameters are refused."""
+    """Yield the limits of the formulas, and the conditions on parameters."""
     yield Heading(2, "Validity")
     yield Paragraph("Each function reports, by a status bit, which of these has left its range:")
     yield TextTable(
@@ -329,8 +305,8 @@ def _validity(derivation: Derivation) -> Iterator[Block]:
     )
     if derivation.assumptions:
         yield Paragraph(
-            "Parameters are refused for which one of these is not zero (an angle by its sine; to "
-            f"{ROUNDING}, of a distance relative to a length):"
+            "Parameters are refused if one of these is not zero (the sine of an angle, or a "
+            f"distance relative to a length, to {ROUNDING}):"
         )
         yield TextTable(
             ("quantity", "unit", "meaning when it is not zero"),

@@ -1,7 +1,7 @@
 """The elements of a report, in any output format.
 
-Texts within a line are marked as forges read them: ``code`` between backticks, formulas between
-$` and `$, and what is strong between two stars. `pieces` takes them apart.
+Texts within a line have the marks of forges: ``code`` between backticks, formulas between $` and
+`$, and strong text between two stars. `pieces` separates them.
 """
 
 from __future__ import annotations
@@ -58,9 +58,9 @@ class Picture:
     Attributes
     ----------
     name
-        Which of the figures.
+        Name of the figure.
     caption
-        What it shows.
+        Its caption.
     mermaid
         The diagram as text, if there is one.
     """
@@ -72,7 +72,7 @@ class Picture:
 
 @dataclass(frozen=True)
 class Transformation:
-    """A kinematic transformer: what enters, what is inside, and what leaves."""
+    """A kinematic transformer: inputs, contents, and outputs."""
 
     number: int
     inputs: Sequence[str]
@@ -84,7 +84,7 @@ Block = Heading | Paragraph | TextTable | Equation | Picture | Transformation
 
 
 def pieces(text: str) -> Iterator[tuple[str, str]]:
-    """Yield the pieces of a text with what they are: 'words', 'code', 'formula' or 'strong'."""
+    """Yield the pieces of a text with their kinds: 'words', 'code', 'formula' or 'strong'."""
     end = 0
     for found in _MARKED.finditer(text):
         if found.start() > end:

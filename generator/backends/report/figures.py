@@ -47,14 +47,14 @@ ELEMENTS = {
 
 
 def draw_figures(plan: Plan, folder: Path, *, force: bool = False) -> list[Path]:
-    """Write the three figures of a mechanism, two if it has no loop; return where they are.
+    """Write the three figures of a mechanism, two if it has no loop; return their paths.
 
     Parameters
     ----------
     plan
         The analysed mechanism.
     folder
-        Where to write; made if it is not there.
+        Of the files; it is made if missing.
     force
         Whether files that kintrafo did not write are replaced, see `kintrafo.core.files`.
     """
@@ -77,9 +77,9 @@ def draw_figures(plan: Plan, folder: Path, *, force: bool = False) -> list[Path]
 
 
 def print_figures(plan: Plan, text: Path, *, force: bool = False) -> dict[str, str]:
-    """Write the figures of a mechanism as they are printed in a text; return their files' names.
+    """Write the figures of a mechanism for a printed text; return their files' names.
 
-    They are PDF, without titles, since a caption says what they show.
+    They are PDF, without titles, since the text has captions.
 
     Parameters
     ----------
@@ -182,7 +182,7 @@ def _filled(text: str) -> str:
 
 
 def _held(mechanism: Mechanism, ends: dict[str, list[Any]]) -> dict[str, list[Any]]:
-    """Return what each body is drawn between: its joints, and of a telescope the middle too."""
+    """Return the points that each body is drawn between: joints, and middles of telescopes."""
     held: dict[str, list[Any]] = {body: [] for body in mechanism.numbers}
     for joint in mechanism.joints:
         if not isinstance(joint, Cylindrical):
@@ -202,14 +202,14 @@ def _held(mechanism: Mechanism, ends: dict[str, list[Any]]) -> dict[str, list[An
 
 
 def _free(at: Any, others: list[Any], radius: float) -> Any:
-    """Return the place around a point that is farthest from all others."""
+    """Return the position around a point that is farthest from all others."""
     angles = np.arange(16) * np.pi / 8
     around = [at + radius * np.array([np.cos(a), np.sin(a)]) for a in angles]
     return max(around, key=lambda p: min(round(float(np.hypot(*(p - o))), 9) for o in others))
 
 
 def _points(joint: Joint) -> list[Point]:
-    """Return the hardpoints of a joint, or nothing of a guide, which is anywhere."""
+    """Return the hardpoints of a joint, none for a guide."""
     if joint.center is not None:
         return [joint.center]
     if isinstance(joint, Revolute | Cylindrical):
@@ -218,7 +218,7 @@ def _points(joint: Joint) -> list[Point]:
 
 
 def _letters(joints: tuple[Joint, ...], ends: dict[str, Any]) -> list[tuple[str, Any]]:
-    """Return what is written at which place; a name of two letters is one for each end."""
+    """Return the labels with their positions; a name of two letters is one for each end."""
     taken: dict[tuple[float, ...], list[str]] = {}
     for joint in joints:
         points = ends[joint.name]
@@ -252,15 +252,7 @@ _SHOWN = {
 
 
 def graph(plan: Plan, shown: tuple[bool, ...] = (False, True)) -> Figure:
-    """Draw the joint graph (False), that of the elementary joints (True), or both of them.
-
-    Parameters
-    ----------
-    plan
-        The analysed mechanism.
-    shown
-        Which graphs, beside each other.
-    """
+    """Draw the joint graph (False), that of the elementary joints (True), or both."""
     alone = min(2.0 + 0.5 * len(plan.formulation.mechanism.numbers), 7.5)
     side = alone if len(shown) == 1 else 7.2
     figure = Figure(figsize=(1.04 * side * len(shown), side), layout="constrained")
@@ -279,10 +271,10 @@ def graph(plan: Plan, shown: tuple[bool, ...] = (False, True)) -> Figure:
 
 
 def _layout(plan: Plan) -> dict[str, Any]:
-    """Return places without crossings, where there are such, drawn out evenly."""
+    """Return positions without crossings where possible, evenly spread."""
     joints = plan.topology.graph
     layouts: list[dict[str, Any]] = [nx.kamada_kawai_layout(joints, weight=None)]
-    for seed in range(6):  # from other starts there are others, some of them without crossings
+    for seed in range(6):  # other starts lead to other layouts, some of them without crossings
         start = nx.random_layout(joints, seed=seed)
         layouts.append(nx.kamada_kawai_layout(joints, pos=start, weight=None))
         layouts.append(nx.spring_layout(joints, seed=seed, iterations=100))
@@ -292,13 +284,13 @@ def _layout(plan: Plan) -> dict[str, Any]:
 
 
 def _nearest(joints: nx.Graph, places: dict[str, Any]) -> float:
-    """Return the least distance of what is written: at bodies, and halfway between them."""
+    """Return the least distance between labels: at bodies, and halfway between them."""
     at = [*places.values(), *((places[a] + places[b]) / 2 for a, b in joints.edges)]
     return round(min(float(np.hypot(*(p - q))) for p, q in combinations(at, 2)), 3)
 
 
 def _crossings(joints: nx.Graph, places: dict[str, Any]) -> int:
-    """Return how many pairs of straight edges cross each other."""
+    """Return the number of pairs of straight edges that cross each other."""
 
     def side(a: Any, b: Any, c: Any) -> bool:
         return bool((b[0] - a[0]) * (c[1] - a[1]) > (b[1] - a[1]) * (c[0] - a[0]))
@@ -368,28 +360,28 @@ class _Wires:
             self.names.setdefault(f"{c.joint.name}.{c.kind}", []).append(name)
 
     def leaving(self, wire: str) -> str | None:
-        """Return the name under which a coordinate is known where it is found."""
+        """Return the name of a coordinate at the block that solves it."""
         return _sign(self.names[wire][0]) if wire in self.names else None
 
     def entering(self, wire: str) -> str | None:
-        """Return its name where it is taken up: that of its copies, where there are some."""
+        """Return the names of its copies, at the blocks that read them."""
         found = self.names.get(wire, [])[1:]
         return ", ".join(map(_sign, found)) or None
 
 
 def _sign(name: str) -> str:
-    """Return a name as it is written in a figure: betaN with its Greek letter."""
+    """Return a name as drawn in a figure: betaN with its Greek letter."""
     number = name.removeprefix("beta")
     return f"$\\beta_{{{number}}}$" if number != name and number.isdigit() else name
 
 
 def _plain(name: str) -> str:
-    """Return a name as wide as it is drawn: betaN is a letter with its number."""
+    """Return a name of the width of the drawn one: betaN is a letter with its number."""
     return name.removeprefix("beta") + "b" if name.removeprefix("beta").isdigit() else name
 
 
 def _columns(plan: Plan) -> list[int]:
-    """Return how many others in a row precede each transformer."""
+    """Return the number of blocks in a row before each transformer."""
     found: dict[str, int] = {}
     columns = []
     for t in plan.transformers:
@@ -406,7 +398,7 @@ def transformers(plan: Plan, *, numbered: bool = False) -> Figure:
     plan
         The analysed mechanism.
     numbered
-        Whether coordinates are written as the report numbers them, rather than by their names.
+        Whether coordinates have the numbers of the report, instead of their names.
     """
     wires, blocks = _Wires(plan, numbered=numbered), plan.transformers
     heights = [max(len(t.inputs), len(_shown(t, wires)) + 1, 3) * PITCH for t in blocks]
@@ -463,12 +455,12 @@ def transformers(plan: Plan, *, numbered: bool = False) -> Figure:
 
 
 def _shown(transformer: Transformer, wires: _Wires) -> list[str]:
-    """Return the coordinates that a transformer finds and the mechanism reports."""
+    """Return the coordinates that a transformer solves and the mechanism reports."""
     return [wire for wire in transformer.outputs if wire in wires.names]
 
 
 def _room(transformer: Transformer, wires: _Wires) -> float:
-    """Return how far before a block wires may turn, so as to pass what is written there."""
+    """Return the distance before a block at which wires may turn, beside the labels."""
     return max(0.9, 0.17 * max(len(wires.entering(w) or "") for w in transformer.inputs))
 
 
@@ -479,7 +471,7 @@ def _enter(
     wire: str,
     place: tuple[float, float, float],
 ) -> None:
-    """Draw a wire into a block: from the block that found it, or from outside."""
+    """Draw a wire into a block: from the block that solves it, or from outside."""
     channel, left, y = place
     name = wires.entering(wire)
     if wire in sources:
@@ -502,7 +494,7 @@ def _arrow(axes: Axes, start: tuple[float, float], end: tuple[float, float]) -> 
 
 
 def _others(axes: Axes, wires: _Wires, drawn: set[str], bottom: float) -> None:
-    """Write the coordinates that no block finds or reads: they are inputs of the bodies alone."""
+    """Write the coordinates that no block solves or reads: they are inputs of the bodies alone."""
     rest = [_sign(names[0]) for wire, names in wires.names.items() if wire not in drawn]
     if rest:
         words = f"through no transformer: {', '.join(rest)}"

@@ -26,7 +26,7 @@ def markdown(derivation: Derivation) -> str:
 
 @singledispatch
 def _written(block: Block) -> str:
-    """Return a block as Markdown; nothing of what only a picture can show."""
+    """Return a block as Markdown; empty for a mere picture."""
     raise TypeError(block)
 
 

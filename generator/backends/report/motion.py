@@ -1,7 +1,7 @@
 """The report from velocities on: screws of the joints, Jacobians, M, B and Q.
 
-Formulas are LaTeX in the signs that the section *Signs* explains. Everything follows from the
-declaration; what the compiled functions compute is beside it by its name.
+Formulas are LaTeX in the signs of the section *Signs*. Everything follows from the declaration; the
+compiled functions are named beside the quantities that they compute.
 """
 
 from __future__ import annotations
@@ -21,7 +21,6 @@ from .document import Equation, Heading, Paragraph, TextTable
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from ...declare.formulation import Formulation
     from ...declare.joints import Joint, RelativeCoordinate
     from ...equations.outputs import Derivation
     from .document import Block
@@ -29,14 +28,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ScrewFormula:
-    """How a unit rate of a relative coordinate moves what follows in the chain.
+    """Motion of the rest of a chain per unit rate of a relative coordinate.
 
     Attributes
     ----------
     axis
         Unit vector along or about which it moves, as LaTeX.
     point
-        A point on the axis, of which body; None of a slide.
+        A point on the axis, with its body; None of a slide.
     """
 
     axis: str
@@ -44,7 +43,7 @@ class ScrewFormula:
 
 
 class EquationNumbers:
-    """Numbers equations, and puts the paper's numbers beside them."""
+    """Numbers equations, with the paper's numbers beside them."""
 
     def __init__(self) -> None:
         self._count = 0
@@ -90,7 +89,7 @@ class MotionFormulas:
         ]
 
     def _origin(self, coordinate: RelativeCoordinate) -> str:
-        """Say where the value of a coordinate comes from."""
+        """Return the source of the value of a coordinate, in words."""
         first, joint = self.first(coordinate), coordinate.joint
         if first != coordinate.name:
             return f"copy of {inline(beta(self.numbers[first]))}"
@@ -107,7 +106,7 @@ class MotionFormulas:
         return "follows from the poses"
 
     def _place_of(self, joint: Joint) -> str:
-        """Say where the positions of an independent joint are in q."""
+        """Return the elements of q that belong to an independent joint."""
         positions = self.derivation.states.positions
         first, *others = self.derivation.states.part_of(joint).positions
         place = positions.index(first) + 1
@@ -173,7 +172,7 @@ class MotionFormulas:
         return holder
 
     def _frame(self, body: str) -> str:
-        """Return the rotation of a body with which its own directions turn; nothing at rest."""
+        """Return the rotation of a body as a factor of its directions; empty at rest."""
         if body == self.mechanism.ground:
             return ""
         return rf"{rotation(self.mechanism.numbers[body])}\,"
@@ -214,7 +213,7 @@ class MotionFormulas:
         )
 
     def pose_of(self, body: str) -> list[str]:
-        """Return orientation and position of a body from its last joint; a cross gives no angle."""
+        """Return orientation and position of a body from its last joint; a cross has no angle."""
         joint = (chain_to(self.mechanism, body) or [])[-1]
         b, f = (self.mechanism.numbers[name] for name in (body, joint.first.name))
         frame = self._frame(joint.first.name)
@@ -248,20 +247,20 @@ class MotionFormulas:
         return [*turned, rf"\mathbf{{s}}_{{{b}}} = {at} + {arm}"]
 
     def _slid(self, joint: Prismatic | Weld) -> str:
-        """Return how far a body is from where its joint has it at the design position."""
+        """Return the displacement of a body by its guide."""
         if isinstance(joint, Weld):
             return ""
         k = self.numbers[reported(self.mechanism, joint.name, "slide") or ""]
         return rf" + {beta(k)}\,\mathbf{{a}}_{{{k}}}"
 
     def _crosses(self, body: str) -> list[Universal]:
-        """Return the crosses in a chain whose shafts turn about themselves as they demand."""
+        """Return the crosses in a chain that determine the turn of their shafts."""
         chain = chain_to(self.mechanism, body) or []
         crosses = (joint for joint in chain if isinstance(joint, Universal))
         return [joint for joint in crosses if not before_telescope(chain, joint)]
 
     def shaft_equations(self) -> Iterator[str]:
-        """Yield how shafts turn about themselves, as their crosses demand."""
+        """Yield the equations of the turns of shafts by their crosses."""
         for joint in dict.fromkeys(joint for body in self.bodies for joint in self._crosses(body)):
             for kind in joint.coordinates:
                 k = self.numbers[reported(self.mechanism, joint.name, kind) or ""]
@@ -276,27 +275,27 @@ class MotionFormulas:
 
 
 def beta(number: int) -> str:
-    """Return the sign of a relative coordinate."""
+    """Return the symbol of a relative coordinate."""
     return rf"\beta_{{{number}}}"
 
 
 def rotation(number: int) -> str:
-    """Return the sign of the rotation of a body from its design orientation."""
+    """Return the symbol of the rotation of a body from its design orientation."""
     return rf"\mathbf{{A}}_{{{number}}}"
 
 
 def along(joint: Joint) -> str:
-    """Return the sign of the unit vector along a joint's axis at the design position."""
+    """Return the symbol of the unit vector along a joint's axis at the design position."""
     return rf"\mathbf{{u}}_{{\mathrm{{{plain(joint.name)}}}}}"
 
 
 def plain(name: str) -> str:
-    """Return a name as it can be in a formula."""
+    """Return a name for a formula."""
     return name.replace("_", r"\ ")
 
 
 def inline(formula: str) -> str:
-    """Return a formula in a line, in the way that forges read without changing it."""
+    """Return a formula within a line, in the marks of forges."""
     return f"$`{formula}`$"
 
 
@@ -322,7 +321,7 @@ _SIGNS = {
     ),
     r"\mathbf{a}": (
         r"$`\mathbf{a}_k`$",
-        r"axis along or about which $`\beta_k`$ moves what follows in the chain",
+        r"axis along or about which $`\beta_k`$ moves the rest of the chain",
     ),
     r"\mathbf{p}": (r"$`\mathbf{p}_k`$", "a point on that axis"),
     r"\mathbf{t}": (
@@ -331,7 +330,7 @@ _SIGNS = {
     ),
     "^0": (r"a raised $`0`$", "the value at the design position"),
 }
-"""What each sign represents, by what shows that it is used."""
+"""Symbol and meaning of each sign, by a part of formulas that contain it."""
 
 _SHAFTS = (
     r"A shaft that universal joint J holds turns about itself as the cross demands: with "
@@ -342,15 +341,7 @@ _SHAFTS = (
 
 
 def motion_sections(derivation: Derivation, number: EquationNumbers) -> list[Block]:
-    """Return the sections from the relative coordinates to M, B and Q.
-
-    Parameters
-    ----------
-    derivation
-        The model.
-    number
-        Numbers the equations.
-    """
+    """Return the sections from the relative coordinates to M, B and Q."""
     motion = MotionFormulas(derivation)
     return [
         *_coordinates(motion),
@@ -417,7 +408,7 @@ def _relative(motion: MotionFormulas, number: EquationNumbers) -> list[Block]:
 
 
 def closure_reads(derivation: Derivation) -> dict[str, tuple[list[str], list[str]]]:
-    """Return for each closure equation the given coordinates, and states and inputs, it reads."""
+    """Return for each closure equation its given coordinates, and its states and inputs."""
     function, names = derivation.functions["residuals"], [e.name for e in derivation.relative]
     given = {f"given_{name}": name for name in names}
     outer = [e.name for e in derivation.state] + [e.name for e in derivation.inputs]
@@ -485,7 +476,7 @@ def _absolute(motion: MotionFormulas, number: EquationNumbers) -> list[Block]:
 
 
 def _signs(blocks: list[Block]) -> Iterator[tuple[str, str]]:
-    """Yield the signs that some blocks use, and what they represent."""
+    """Yield the signs that blocks contain, with their meanings."""
     cells = (
         cell
         for block in blocks
@@ -524,8 +515,8 @@ def _dynamics(motion: MotionFormulas, number: EquationNumbers) -> list[Block]:
     sections: list[Block] = [
         Heading(2, "Equations of motion"),
         Paragraph(
-            f"The sums are over the bodies with mass: {bodies}. By d'Alembert's principle, what "
-            "inertia and applied forces do along every admissible motion vanishes:"
+            f"The sums are over the bodies with mass: {bodies}. By d'Alembert's principle, the "
+            "power of inertia and applied forces vanishes along every admissible motion:"
         ),
         number(
             r"\sum_b \left[\mathbf{J}_b^T\left(\boldsymbol{\Xi}_b\,\ddot{\mathbf{s}}_b"
@@ -585,10 +576,11 @@ def _dynamics(motion: MotionFormulas, number: EquationNumbers) -> list[Block]:
             Paragraph(
                 f"Constraints on speeds, {names}, give {given}. With "
                 r"$`\mathbf{v} = \mathbf{T}\mathbf{v}_i + \mathbf{p}`$ for the other speeds "
-                r"$`\mathbf{v}_i`$, what is compiled is $`\mathbf{T}^T\mathbf{M}\mathbf{T}`$, "
-                r"$`\mathbf{T}^T\mathbf{Q}`$ and "
+                r"$`\mathbf{v}_i`$, the compiled functions return "
+                r"$`\mathbf{T}^T\mathbf{M}\mathbf{T}`$, $`\mathbf{T}^T\mathbf{Q}`$ and "
                 r"$`\mathbf{T}^T(\mathbf{B} + \mathbf{M}\mathbf{g})`$, where "
-                r"$`\mathbf{g}`$ is what the eliminated speeds change by themselves."
+                r"$`\mathbf{g}`$ are the rates of the eliminated speeds at constant "
+                r"$`\mathbf{v}_i`$."
             )
         )
     for rotor in motion.rotors():
@@ -600,7 +592,9 @@ def _dynamics(motion: MotionFormulas, number: EquationNumbers) -> list[Block]:
                 "across it, at every angle of rotation."
             )
         )
-    rows = _force_rows(motion.formulation)
+    formulation = motion.formulation
+    acting = [f for f in formulation.mechanism.forces if f.along not in formulation.prescribed]
+    rows = [(*astuple(f.describe()), formulation.cites.get(f.identity[1], "")) for f in acting]
     sections += [
         Paragraph(
             r"Each force that acts adds its share to $`\mathbf{Q}`$, the coefficient of its power "
@@ -609,9 +603,3 @@ def _dynamics(motion: MotionFormulas, number: EquationNumbers) -> list[Block]:
         TextTable(("force", "acts", "share of Q", "paper"), rows),
     ]
     return sections
-
-
-def _force_rows(formulation: Formulation) -> list[tuple[str, ...]]:
-    """Return for each force that acts its name, what it does, its share of Q, the paper's place."""
-    acting = [f for f in formulation.mechanism.forces if f.along not in formulation.prescribed]
-    return [(*astuple(f.describe()), formulation.cites.get(f.identity[1], "")) for f in acting]

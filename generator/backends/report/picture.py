@@ -33,7 +33,7 @@ def draw(plan: Plan, path: Path, *, force: bool = False) -> None:
     plan
         The analysed mechanism.
     path
-        Where to write; the ending gives the format.
+        Of the file; the ending gives the format.
     force
         Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
     """

@@ -1,4 +1,4 @@
-"""The derivation report as files, for a person to read or to print."""
+"""The derivation report as files, to be read or printed."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def check_files(path: Path, *, force: bool = False, inputs: Iterable[Path] = ()) -> None:
-    """Refuse what `write_report` would have to refuse, before anything is derived.
+    """Raise the errors of `write_report` on its files, before anything is derived.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ def write_report(
     Parameters
     ----------
     derivation
-        What was derived.
+        The derived model.
     path
         Ends in .md, or in .tex: the figures are written beside that, as PDF.
     force
