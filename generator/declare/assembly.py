@@ -1,4 +1,4 @@
-"""What a mechanism consists of: what its joints and forces refer to, and how to find it."""
+"""The parts of a mechanism: all parts that its joints and forces refer to, by kind and by name."""
 
 from __future__ import annotations
 
@@ -21,8 +21,6 @@ from .parameters import Owner, Parameter
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    import sympy as sp
-
     from .geometry import Point
 
 _ENDS = 2  # of a rod
@@ -33,10 +31,10 @@ Named = TypeVar("Named", Body, Joint, Input)
 @declared
 @dataclass(frozen=True)
 class Parts:
-    """The parts of a mechanism, before anything is checked that several of them must fulfil.
+    """The parts of a mechanism, before the checks that concern several of them.
 
-    Bodies, inputs and parameters are those that joints, forces and all else refer to,
-    in the order in which they were written; the ground is the first body. `derived` are names that
+    Bodies, inputs and parameters are those that joints, forces and other parts refer to, in the
+    order in which they were written; the ground is the first body. `derived` are names that
     equations read like parameters, and that are expressions in parameters.
     """
 
@@ -58,20 +56,22 @@ class Parts:
         object.__setattr__(self, "bodies", tuple(dict.fromkeys(bodies)))
         object.__setattr__(self, "inputs", tuple(self.every(Input)))
         object.__setattr__(self, "parameters", tuple(dict.fromkeys(numbers)))
-        object.__setattr__(self, "derived", self._derived())
+        owners: list[Owner] = self.every(Owner)
+        derived = {name: value for owner in owners for name, value in owner.derived.items()}
+        object.__setattr__(self, "derived", derived)
 
     def every(self, kind: type[Any] | tuple[type[Any], ...]) -> list[Any]:
-        """Return what there is of a kind in all that is declared, each once."""
+        """Return all parts of a kind, each once."""
         return [part for part in self._parts if isinstance(part, kind)]
 
     @property
     def internal_states(self) -> tuple[InternalState, ...]:
-        """The states that forces have of their own."""
+        """The internal states of all forces."""
         return tuple(self.every(InternalState))
 
     @property
     def owners(self) -> tuple[Owner, ...]:
-        """What owns the parameters, in the order in which it was written."""
+        """The owners of the parameters, in the order in which they were written."""
         roots = (owner.root for owner in self.every(Owner))
         return tuple(dict.fromkeys(sorted(roots, key=lambda owner: owner.order)))
 
@@ -90,19 +90,14 @@ class Parts:
             raise DeclarationError(self.name, list(dict.fromkeys(problems)))
         return tuple(dict.fromkeys(found))
 
-    def _derived(self) -> dict[str, sp.Expr]:
-        """Return what the names of copies represent: expressions in parameters."""
-        owners: list[Owner] = self.every(Owner)
-        return {name: value for owner in owners for name, value in owner.derived.items()}
-
     @property
     def ground(self) -> str:
-        """Name of what all motion is relative to: the body that rests, or the world itself."""
+        """Name of the body that all motion is relative to: the one at rest, or the world."""
         return self.bodies[0].name
 
     @property
     def axes(self) -> str:
-        """What the axes are called in which places and directions are given."""
+        """Name of the axes of positions and directions, for comments."""
         return f"{self.ground} axes"
 
     @property
@@ -149,7 +144,7 @@ class Parts:
 
     @property
     def passive_links(self) -> tuple[str, ...]:
-        """Links that may turn about their line as they like, since only two joints hold them.
+        """Links that may turn about their line freely, between two joints.
 
         Both are ball joints, or one of them is that of a telescope. The turn moves nothing else,
         and is not a degree of freedom that is driven.
@@ -162,12 +157,12 @@ class Parts:
         )
 
     def universal_at(self, body: str, center: Point) -> Universal | None:
-        """Return the universal joint that holds a shaft at a point, if there is one.
+        """Return the universal joint that holds a shaft at a point, or None.
 
         Parameters
         ----------
         body, center
-            The shaft, and the point.
+            Name of the shaft, and the point.
         """
         for joint in self.joints_of(body):
             if isinstance(joint, Universal) and joint.at == center and joint.second.name == body:
@@ -176,7 +171,7 @@ class Parts:
 
 
 def _unhashable(part: object) -> str:
-    """Say why something has no hash; empty if it has one."""
+    """Return the reason why a part has no hash; empty if it has one."""
     try:
         hash(part)
     except TypeError as error:
@@ -185,7 +180,7 @@ def _unhashable(part: object) -> str:
 
 
 def _named(things: Iterable[Named], name: str) -> Named:
-    """Return one of several things by its name."""
+    """Return the thing of a name."""
     things = tuple(things)
     found = next((thing for thing in things if thing.name == name), None)
     if found is None:

@@ -1,4 +1,4 @@
-"""Bodies: what moves and has mass, and the ground."""
+"""Bodies: moving ones with mass, and the ground."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .parameters import (
     next_order,
 )
 
-# Names of the numbers of an inertia, how many of them may be given, and what they mean.
+# Names of the numbers of an inertia, their allowed counts, and their meaning.
 _Elements = tuple[tuple[str, ...], tuple[int, ...], str]
 _SPATIAL: _Elements = (
     ELEMENTS,
@@ -57,7 +57,7 @@ class Inertia(Owner):
 
     @property
     def turned(self) -> tuple[int, ...]:
-        """The mirror is the plane y = 0."""
+        """Signs of the elements in the mirror, the plane y = 0."""
         return tuple(-1 if element in _MIRRORED else 1 for element, *_ in self.given)
 
 
@@ -87,7 +87,7 @@ class Body:
     order: int = field(default_factory=next_order, repr=False, compare=False, kw_only=True)
 
     def __post_init__(self) -> None:
-        place = self.order  # what it owns stands where it does
+        place = self.order  # its parameters have its place in lists
         if not isinstance(self.mass, Mass):
             what = self.name if self._normal else f"the {self.name}"
             mass = Mass(f"{self.name}_mass", self.mass, f"mass of {what}", order=place)
@@ -109,7 +109,7 @@ class Body:
 
     @property
     def _normal(self) -> str:
-        """Axis across the plane of a planar body; nothing for others."""
+        """Axis across the plane of a planar body; empty for others."""
         return self.com.flat if isinstance(self.com, Point) else ""
 
     def _elements(self) -> tuple[tuple[str, float, str], ...]:
@@ -180,7 +180,7 @@ class Ground(Body):
     Parameters
     ----------
     number
-        Its number in the figure; the other bodies count on from it, in the order in which they were
+        Its number in the figure; the other bodies continue from it, in the order in which they were
         written.
     """
 

@@ -1,4 +1,4 @@
-"""Find mistakes in the declaration of a mechanism before anything is derived from it."""
+"""Checks of the declaration of a mechanism before anything is derived from it."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 def check_mechanism(mechanism: Parts) -> None:
-    """Raise `DeclarationError` if a mechanism has names or numbers that cannot be."""
+    """Raise `DeclarationError` if names or numbers of a mechanism are impossible."""
     strange = _force_problems(mechanism)
     if strange:
         raise DeclarationError(mechanism.name, strange)
@@ -40,18 +40,18 @@ def check_mechanism(mechanism: Parts) -> None:
         *name_problems(mechanism),
         *text_problems(mechanism),
     ]
-    # ranges and lines are those of the parameters; of two with one name it is unknown which
+    # ranges and lines depend on parameters, which must have different names
     problems += [] if problems else value_problems(mechanism)
     if problems:
         raise DeclarationError(mechanism.name, problems)
 
 
 def _force_problems(mechanism: Parts) -> list[str]:
-    """See that forces, also those of users, can be distinguished."""
+    """Return problems of the identities and joints of forces, also of users' own."""
     problems = []
     for force in mechanism.forces:
         kind = type(force).__name__
-        found: Any = force.identity  # a user's own class may return anything
+        found: Any = force.identity  # anything, in a user's own class
         along: Any = force.along
         if not (isinstance(found, tuple) and [type(part) for part in found] == [str, str]):
             problems.append(f"identity of a {kind} is {found!r}; two texts are needed: kind, name")
@@ -61,7 +61,7 @@ def _force_problems(mechanism: Parts) -> list[str]:
 
 
 def _ground_problems(mechanism: Parts) -> list[str]:
-    """See that one body rests in the world, or that the world itself is what others move on."""
+    """Return problems of the ground: one body is at rest, or the world itself is the ground."""
     grounds = [b.name for b in mechanism.bodies if isinstance(b, Ground)]
     fixed = [name for name in grounds if name != WORLD.name]
     free = [j.name for j in mechanism.joints if isinstance(j, Free)]
@@ -85,7 +85,7 @@ def _ground_problems(mechanism: Parts) -> list[str]:
 
 
 def _repeated_problems(mechanism: Parts) -> list[str]:
-    """Find different things of one name, and things that there must be once."""
+    """Return problems of names used more than once."""
     problems = []
     identities = [force.identity for force in mechanism.forces]
     kinds = dict.fromkeys(kind for kind, _ in identities)
@@ -118,7 +118,7 @@ def _plural(kind: str) -> str:
 
 
 def _stranger_problems(mechanism: Parts) -> list[str]:
-    """Find joints and bodies that forces and coordinates refer to, but that are not joined."""
+    """Return problems of joints and bodies that forces use, but that are not joined."""
     joined = {body for joint in mechanism.joints for body in (joint.first, joint.second)}
     problems = [
         f"joint {joint.name!r}, which a force or a coordinate refers to, is not one of its joints; "
@@ -135,7 +135,7 @@ def _stranger_problems(mechanism: Parts) -> list[str]:
 
 
 def _weld_problems(mechanism: Parts) -> list[str]:
-    """See that nothing else is joined to what is welded: it is one with the first body."""
+    """Return problems of bodies joined to a welded one instead of its first body."""
     welds = [joint for joint in mechanism.joints if isinstance(joint, Weld)]
     problems = [
         f"{joint.name!r} welds {joint.second.name!r} to the ground, so that it never moves; leave "
@@ -153,7 +153,7 @@ def _weld_problems(mechanism: Parts) -> list[str]:
 
 
 def _weight_problems(mechanism: Parts) -> list[str]:
-    """See that gravity is not along the normal of a plane in which all that is joined moves."""
+    """Return problems of gravity along the normal of a plane in which all bodies move."""
     return [
         f"Weight acts against {force.upward.name!r}, along the normal of the plane in which "
         "everything moves, and has no effect: give it a direction in the plane, such as "
@@ -181,11 +181,11 @@ def check_symbols(
     Parameters
     ----------
     name
-        What is derived, for the message.
+        Of the derivation, for the message.
     used, declared
-        Symbols of the equations, and those that something declares.
+        Symbols of the equations, and those that are declared.
     mechanism
-        Whose equations they are.
+        The mechanism.
     """
     unknown = [n for n in sorted(used) if n not in declared]
     problems = list(_leaving_problems(mechanism, unknown))
@@ -195,7 +195,7 @@ def check_symbols(
 
 
 def _leaving_problems(mechanism: Parts, unknown: Collection[str]) -> Iterator[str]:
-    """Yield planar bodies of which equations read more inertia, with what leaves their planes."""
+    """Yield planar bodies without a full inertia, and the joints by which they leave the plane."""
     for body in mechanism.moving:
         axis, read = body.center.flat, any(n.startswith(f"{body.name}_inertia_") for n in unknown)
         normal = _NORMALS.get(axis)

@@ -1,18 +1,18 @@
-"""Mechanisms put together from copies of a declared one, also from its mirror image.
+"""Mechanisms composed of copies of a declared one, also of its mirror image.
 
-A copy has names of its own for everything but what the copies share: the ground, and bodies and
-inputs that are named, with the joints between these. The *parameters* stay those of the
-declaration: where a copy says ``left_ball_joint_y``, its point knows that this is
-``-ball_joint_y`` (`Owner.image`). A symmetrical machine is so given by the numbers of one side,
-cannot become lopsided by a typing error, and what is alike on both sides is one step of the
-constants. What shall differ between the copies is named, and each copy has its own.
+A copy has names of its own for everything but the shared parts: the ground, and bodies and inputs
+that are named, with the joints between these. The *parameters* are those of the declaration: the
+point of a copy refers to ``left_ball_joint_y`` as ``-ball_joint_y`` (`Owner.image`). A symmetrical
+machine is so given by the numbers of one side, cannot become lopsided by a typing error, and equal
+quantities of both sides are one step of the constants. Points, directions and parameters that shall
+differ between the copies are named, and each copy has its own.
 
-The mirror is the plane y = 0, and every type knows its image there. A point and a direction of
-motion have theirs, (x, -y, z). Axes of rotation have the opposite of their image, (-x, y, -z):
-turns about them look in the mirror like turns about the originals, so a wheel that rolls forward
-spins positively on both sides, and mirrored motions have the same coordinates. Where a hinge counts
-its angle to a point, and for the angles of a universal joint, the declaration's own rule holds on
-both sides.
+The mirror is the plane y = 0, and every type has its image there. A point and a direction of motion
+have theirs, (x, -y, z). Axes of rotation have the opposite of their image, (-x, y, -z): turns about
+them look in the mirror like turns about the originals, so a wheel that rolls forward spins
+positively on both sides, and mirrored motions have the same coordinates. Where a hinge counts its
+angle to a point, and for the angles of a universal joint, the declaration's own rule holds on both
+sides.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ class Copy:
     Parameters
     ----------
     source
-        What is written once.
+        The original mechanism.
     prefix
         Begins the names of the copy's bodies, joints, coordinates, points, elements and inputs.
     mirrored
@@ -53,8 +53,8 @@ class Copy:
         The bodies, beside the ground, and the inputs that all copies have in common. Joints between
         such bodies, with their coordinates, are common too.
     own
-        Points, directions and parameters of which the copy has its own, with the prefix; as a
-        default, the value that the declaration's would give it.
+        Points, directions and parameters of which the copy has its own, with the prefix; their
+        defaults are the values of the declaration's.
 
     Attributes
     ----------
@@ -107,13 +107,7 @@ class Copy:
         return self._copied(thing)  # type: ignore[no-any-return] # of the same type
 
     def _copied(self, thing: Any, *, turns: bool = False) -> Any:  # noqa: PLR0911 (of types)
-        """Return something in the copy.
-
-        Parameters
-        ----------
-        turns
-            Whether it is an axis of rotation.
-        """
+        """Return the image of a thing in the copy, which may be an axis of rotation (`turns`)."""
         if isinstance(thing, tuple):
             return tuple(map(self._copied, thing))
         if isinstance(thing, Mapping):
@@ -133,7 +127,7 @@ class Copy:
         return self._rebuilt(thing)
 
     def _is_common(self, thing: Any) -> bool:
-        """Return whether the copies have something in common."""
+        """Return whether a thing is common to all copies."""
         if isinstance(thing, Ground) or thing in self.shared:
             return True
         if isinstance(thing, Force):
@@ -143,7 +137,7 @@ class Copy:
         return isinstance(thing, RelativeCoordinate) and self._is_common(thing.joint)
 
     def _body(self, body: Body) -> Body:
-        """Copy a body; also one that is shared has the place in lists that the copy gives it."""
+        """Return the copy of a body; a shared one, too, has its place in lists by the copy."""
         place = next_order()
         return (
             replace(body, order=place)
@@ -152,7 +146,7 @@ class Copy:
         )
 
     def _rebuilt(self, thing: Any, **known: Any) -> Any:
-        """Copy something field by field."""
+        """Return a copy of a thing, field by field."""
         if hasattr(thing, "name"):
             known["name"] = self._new(thing.name)
         turning = getattr(thing, "turns_about", ())
@@ -168,7 +162,7 @@ class Copy:
     # -- what owns parameters ---------------------------------------------------------------------
 
     def _owner(self, owner: Owner, *, turns: bool) -> Owner:
-        """Copy what owns parameters; those of the copy represent the declaration's."""
+        """Return a copy of an owner of parameters; its own are represented by the declaration's."""
         signs = _signs(owner, turns=turns) if self.mirrored else (1,) * len(owner.numbers)
         changes: dict[str, Any] = {"image": Image(owner, signs)}
         if owner in self.own:
@@ -187,7 +181,7 @@ class Copy:
         return made
 
     def _unowned(self, direction: Direction, *, turns: bool) -> Direction:
-        """Copy a direction that is no parameter; a fixed one that is its own image stays."""
+        """Return a copy of a direction without parameters; a fixed one may be its own image."""
         if direction.between is not None:
             start, end = map(self._copied, direction.between)
             ends = (end, start) if self.mirrored and turns else (start, end)
@@ -201,7 +195,7 @@ class Copy:
         return replace(direction, name=self._new(direction.name), fixed=image)
 
     def _hinge_line(self, hinge: Revolute) -> Line:
-        """Copy the axis of a hinge; between points it is turned if angles count about it."""
+        """Return a copy of a hinge's axis; one between points is reversed for angles about it."""
         line = hinge.axis
         if isinstance(line.towards, Point) and self.mirrored and hinge.angle_to is None:
             through, towards = self._copied(line.through), self._copied(line.towards)
@@ -229,14 +223,14 @@ def _turned_defaults(owner: Owner, signs: tuple[int, ...]) -> dict[str, Any]:
 
 
 def replaced(thing: Thing, bodies: Mapping[Body, Body]) -> Thing:
-    """Return something declared, with other bodies in the place of some; all else is the same.
+    """Return a declared thing in which some bodies are replaced, and all else is the same.
 
     Parameters
     ----------
     thing
         Joints, forces, coordinates and so on, also in tuples and mappings.
     bodies
-        By the body that is replaced.
+        The new bodies, by the replaced ones.
     """
     return _replaced(thing, bodies)  # type: ignore[no-any-return] # of the same type
 
@@ -269,10 +263,12 @@ def combined(
 
     Parameters
     ----------
+    name, title
+        Of the mechanism.
     parts
-        Each has the same ground.
+        Copies with the same ground.
     forces, coordinates, outputs
-        What acts between the parts, and what else is reported.
+        Forces between the parts, and further signals.
     """
     wholes = [part.mechanism for part in parts]
     return Mechanism(

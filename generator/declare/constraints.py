@@ -1,7 +1,7 @@
-"""Constraints on speeds: what rolls without slip, or glides along an edge.
+"""Constraints on speeds: rolling without slip, gliding along an edge.
 
 They are linear in the speeds and cannot be integrated to constraints on positions, as a rule. Each
-says which velocities vanish. As many speeds as that are eliminated (`Formulation.eliminated`).
+lists velocities that vanish. The same number of speeds is eliminated (`Formulation.eliminated`).
 """
 
 from __future__ import annotations
@@ -33,14 +33,14 @@ class SpeedConstraint(ABC):
     name: Name
 
     count: ClassVar[int]
-    """How many."""
+    """Number of these velocities."""
 
     @abstractmethod
     def velocities(self, at: Surroundings) -> list[Motion]:
-        """Return what vanishes, per unit rate of each coordinate that moves it."""
+        """Return the vanishing velocities, per unit rate of each coordinate that moves them."""
 
     def signals(self, at: Surroundings) -> Iterator[Shown]:
-        """Yield what shows how well it holds."""
+        """Yield signals of its deviation."""
         del at
         yield from ()
 
@@ -55,11 +55,11 @@ class NoSlip(SpeedConstraint):
     name
         Its name.
     body, point
-        The point by its place at the design position.
+        The body, and the point at the design position.
     direction
-        Along which it does not move; its length does not count.
+        Along which it does not move, of any length.
     follows
-        Whether the direction turns with the body; else it stays as it is in the world.
+        Whether the direction turns with the body; else it is fixed in the world.
     """
 
     body: Body
@@ -110,20 +110,7 @@ class Rolling(SpeedConstraint):
     count: ClassVar[int] = 3
 
     def __post_init__(self) -> None:
-        bearing, wheel, problems = self.bearing, self.wheel, []
-        if bearing is not None and bearing.first.name != wheel.carrier.name:
-            problems.append(
-                f"hinge {bearing.name!r} leads from {bearing.first.name!r}, and the wheel is "
-                f"carried by {wheel.carrier.name!r}; give the wheel's bearing"
-            )
-        if bearing is not None and (
-            bearing.axis.towards != wheel.spin or bearing.angle_to is not None
-        ):
-            problems.append(
-                f"hinge {bearing.name!r} does not turn about the wheel's spin axis "
-                f"{wheel.spin.name!r}; give its bearing the same Direction, and no angle_to"
-            )
-        if problems:
+        if self.bearing and (problems := self.wheel.bearing_problems(self.bearing)):
             raise DeclarationError(f"Rolling {self.name!r}", problems)
 
     def velocities(self, at: Surroundings) -> list[Motion]:

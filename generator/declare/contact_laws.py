@@ -1,4 +1,4 @@
-"""What a rolling tyre does on the road: load, forces and moments at its contact."""
+"""Forces of a rolling tyre on the road: load, forces and moments at its contact."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar
 
 import sympy as sp
+from typing_extensions import override
 
 from ...formulas import linear_contact, magic_formula, tmeasy, vertical
 from ...formulas.arithmetic import at_most
@@ -24,12 +25,12 @@ if TYPE_CHECKING:
     from ...formulas.magic_formula import Forces
 
 
-_SMALL_DEFLECTION = sp.Rational(1, 10**9)  # added to that whose root is taken [m]
+_SMALL_DEFLECTION = sp.Rational(1, 10**9)  # added to a radicand [m]
 
 
 @dataclass(frozen=True)
 class RollingState:
-    """How a tyre rolls, at an instant.
+    """Rolling motion of a tyre at an instant.
 
     Attributes
     ----------
@@ -40,11 +41,12 @@ class RollingState:
     inclination
         Sine of the inclination about the forward axis.
     direction, rolling
-        Vcx over the speed of the contact, and over its own size; both smoothed near standstill.
+        Vcx over the speed of the contact, and over its own absolute value; both smoothed near
+        standstill.
     speed
         Vcx [m/s].
     size
-        Its own size, smoothed [m/s].
+        Its absolute value, smoothed [m/s].
     """
 
     load: sp.Expr
@@ -57,14 +59,14 @@ class RollingState:
     size: sp.Expr
 
     def contact(self, **others: sp.Expr) -> Contact:
-        """Return what formulas are handed, some of it replaced."""
+        """Return the inputs of formulas, with some of them replaced."""
         own = {key: value for key, value in vars(self).items() if key != "size"}
         return Contact(**(own | others))
 
 
 @dataclass(frozen=True, kw_only=True)
 class AnyContactLaw(Owner):
-    """What the laws of a contact have in common.
+    """Base of the laws of a contact.
 
     Parameters
     ----------
@@ -75,7 +77,7 @@ class AnyContactLaw(Owner):
     name: Name
 
     _POSITIVE: ClassVar[tuple[str, ...]] = ("vxlow",)
-    """Divisors of the law, which are more than zero for every tyre."""
+    """Divisors of the law, which are positive for every tyre."""
 
     @cached_property
     def numbers(self) -> tuple[Parameter, ...]:
@@ -115,17 +117,43 @@ class AnyContactLaw(Owner):
 
     @abstractmethod
     def rolling_radius(self, a: Arithmetic, load: sp.Expr) -> sp.Expr:
-        """Return the speed of a freely rolling wheel over its rate of spin [m]."""
+        """Return the speed of a freely rolling wheel over its rate of spin [m].
+
+        Parameters
+        ----------
+        a
+            Defines intermediate values, and has the functions of formulas.
+        load
+            Force along the normal of the road [N].
+        """
 
     @abstractmethod
     def forces(self, a: Arithmetic, at: RollingState) -> Forces:
-        """Return forces and moments at the contact."""
+        """Return forces [N] and moments [N m] at the contact.
+
+        Parameters
+        ----------
+        a
+            Defines intermediate values, and has the functions of formulas.
+        at
+            Rolling motion of the tyre.
+        """
 
     @abstractmethod
     def relaxation(
         self, a: Arithmetic, load: sp.Expr, inclination: sp.Expr
     ) -> tuple[sp.Expr, sp.Expr]:
-        """Return the longitudinal and the lateral relaxation length [m]."""
+        """Return the longitudinal and the lateral relaxation length [m].
+
+        Parameters
+        ----------
+        a
+            Defines intermediate values, and has the functions of formulas.
+        load
+            Force along the normal of the road [N].
+        inclination
+            Sine of the inclination about the forward axis.
+        """
 
     @abstractmethod
     def describe(self) -> str:
@@ -164,21 +192,21 @@ class LinearContact(AnyContactLaw):
         """Return the load of a deflection [N]."""
         return self.symbol("vertical_stiffness") * deflection
 
+    @override
     def rolling_radius(self, a: Arithmetic, load: sp.Expr) -> sp.Expr:
-        """Return the speed of a freely rolling wheel over its rate of spin [m]."""
         del a, load
         return self.symbol("effective_radius")
 
+    @override
     def forces(self, a: Arithmetic, at: RollingState) -> Forces:
-        """Return forces and moments at the contact."""
         p = {what: self.symbol(what) for what in linear_contact.COEFFICIENTS}
         contact = at.contact(pressure=sp.Integer(0))
         return linear_contact.forces(a, p, contact, self.radius)
 
+    @override
     def relaxation(
         self, a: Arithmetic, load: sp.Expr, inclination: sp.Expr
     ) -> tuple[sp.Expr, sp.Expr]:
-        """Return the longitudinal and the lateral relaxation length [m]."""
         del a, load, inclination
         return self.symbol("relaxation_x"), self.symbol("relaxation_y")
 
@@ -203,8 +231,8 @@ class MagicFormulaContact(AnyContactLaw):
     angle
         The lateral slip is an angle; else a tangent.
     without
-        Coefficients that do nothing in all tyres that are meant: they are no parameters, and the
-        arithmetic of their terms is not there.
+        Coefficients without effect in the intended tyres: they are not parameters, and their terms
+        are left out.
     """
 
     newer: bool = True
@@ -245,7 +273,7 @@ class MagicFormulaContact(AnyContactLaw):
 
     @property
     def turned(self) -> tuple[int, ...]:
-        """The sign of every number in the mirror."""
+        """Sign of every number in the mirror."""
         return tuple(-1 if key in ODD else 1 for key in (*self._SIZES, *self._keys))
 
     @property
@@ -263,7 +291,7 @@ class MagicFormulaContact(AnyContactLaw):
 
     @property
     def _stiffening(self) -> sp.Expr:
-        """What scale and pressure multiply the load with."""
+        """Factor of the load by scale and pressure."""
         return self._coefficients["LCZ"] * (1 + self._coefficients["PFZ1"] * self._pressure)
 
     @property
@@ -277,8 +305,9 @@ class MagicFormulaContact(AnyContactLaw):
         shape = share * (self._coefficients["Q_FZ1"] + self._coefficients["Q_FZ2"] * share)
         return shape * (self._coefficients["FNOMIN"] * self._stiffening)
 
+    @override
     def rolling_radius(self, a: Arithmetic, load: sp.Expr) -> sp.Expr:
-        """Return the speed of a freely rolling wheel over its rate of spin [m] (A3.6)."""
+        # (A3.6)
         first, second = self._coefficients["Q_FZ1"], self._coefficients["Q_FZ2"]
         moved = self._stiffening
         # load over slope of the deflection, at the nominal load
@@ -289,8 +318,8 @@ class MagicFormulaContact(AnyContactLaw):
         part = self._coefficients["DREFF"] * a.atan(self._coefficients["BREFF"] * share)
         return self.radius - length * (part + self._coefficients["FREFF"] * share)
 
+    @override
     def forces(self, a: Arithmetic, at: RollingState) -> Forces:
-        """Return forces and moments at the contact."""
         given = {"speed": at.speed / self._coefficients["LONGVL"], "pressure": self._pressure}
         if self.angle:
             given["lateral"] = a.define("slip_as_angle", a.atan(at.lateral))
@@ -298,13 +327,11 @@ class MagicFormulaContact(AnyContactLaw):
         form = Form(newer=self.newer, weighted=self.weighted, angle=self.angle)
         return magic_formula.forces(a, self._coefficients, contact, form)
 
+    @override
     def relaxation(
         self, a: Arithmetic, load: sp.Expr, inclination: sp.Expr
     ) -> tuple[sp.Expr, sp.Expr]:
-        """Return the longitudinal and the lateral relaxation length [m].
-
-        Stiffness over that of the carcass (A3.9); of PAC2002 by PTX and PTY.
-        """
+        # stiffness over that of the carcass (A3.9); of PAC2002 by PTX and PTY
         p, zero = self._coefficients, sp.Integer(0)
         nominal = p["FNOMIN"] * p["LFZO"]
         dfz = a.define("load_change", (load - nominal) / nominal)
@@ -350,8 +377,8 @@ class TMeasyContact(AnyContactLaw):
         """Return the load of a deflection [N]."""
         return tmeasy.load_of(self._coefficients, deflection)
 
+    @override
     def rolling_radius(self, a: Arithmetic, load: sp.Expr) -> sp.Expr:
-        """Return the speed of a freely rolling wheel over its rate of spin [m]."""
         p = self._coefficients
         deflection = self._deflection(a, load)
         once, twice = p["rolling_1"], p["rolling_2"]
@@ -362,17 +389,17 @@ class TMeasyContact(AnyContactLaw):
         found, _ = tmeasy.deflection_of(a, self._coefficients, load)
         return a.define("pressed_by_load", found)
 
+    @override
     def forces(self, a: Arithmetic, at: RollingState) -> Forces:
-        """Return forces and moments at the contact."""
         pressed = self._deflection(a, at.load) + _SMALL_DEFLECTION
         length = a.define("contact_length", 2 * a.sqrt(self.radius * pressed))
         contact = at.contact(pressure=sp.Integer(0))
         return tmeasy.forces(a, self._coefficients, contact, length)
 
+    @override
     def relaxation(
         self, a: Arithmetic, load: sp.Expr, inclination: sp.Expr
     ) -> tuple[sp.Expr, sp.Expr]:
-        """Return the longitudinal and the lateral relaxation length [m]."""
         del inclination
         p = self._coefficients
         load = at_most(a, load, p["greatest_load"])

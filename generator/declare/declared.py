@@ -1,12 +1,11 @@
-"""What a person declares is checked where it is written: types, names and numbers.
+"""Checks of declarations where they are written: types, names and numbers.
 
 `declared` is for the dataclasses of a declaration, `checked` for functions that make parts of one.
-Arguments are validated by pydantic against their annotations, so that a field says everything about
-itself in one place. One `DeclarationError` reports all problems: the name of the thing,
-the value and what to write instead. Lists do where tuples are meant, and every kind of real number
-does for a float.
+Arguments are validated by pydantic against their annotations, so that a field describes itself in
+one place. One `DeclarationError` reports all problems: the name of the thing, the value and a
+remedy. Lists are accepted for tuples, and every kind of real number for a float.
 
-What depends on several fields, or on other parts of the declaration, is looked at in `checks`.
+Conditions on several fields, or on other parts of the declaration, are in `checks`.
 """
 
 from __future__ import annotations
@@ -42,9 +41,9 @@ class DeclarationError(KintrafoError, ValueError):
     Parameters
     ----------
     name
-        What was declared.
+        Of the declared thing.
     problems
-        One text for each: what is wrong, and what to do.
+        One text each: the error, and its remedy.
     """
 
     def __init__(self, name: str, problems: Sequence[str]) -> None:
@@ -57,7 +56,7 @@ class DeclarationError(KintrafoError, ValueError):
         return "\n".join([f"{self.name}:", *(f"  - {problem}" for problem in self.problems)])
 
 
-# -- what fields can be ---------------------------------------------------------------------------
+# -- types of fields ------------------------------------------------------------------------------
 
 
 def _identifier(name: str) -> str:
@@ -68,7 +67,7 @@ def _identifier(name: str) -> str:
 
 
 def _real(value: object) -> float:
-    """Take a real number of any library."""
+    """Return a real number of any library as a float."""
     whole_array = isinstance(value, np.ndarray) and value.ndim > 0
     imaginary = isinstance(value, Complex) and not isinstance(value, Real)
     number = math.nan
@@ -83,13 +82,13 @@ def _real(value: object) -> float:
 
 
 Name = Annotated[str, AfterValidator(_identifier)]
-"""A name that code can have."""
+"""An identifier of C and Python."""
 
 Number = Annotated[float, BeforeValidator(_real)]
 """A finite real number."""
 
 Count = Annotated[int, Field(ge=1)]
-"""How many there are of something: at least one."""
+"""A count of at least one."""
 
 Numeral = Annotated[int, Field(ge=0)]
 """The number of something in a figure."""
@@ -99,14 +98,14 @@ Numeral = Annotated[int, Field(ge=0)]
 
 
 def declared(cls: Declared) -> Declared:
-    """Let a dataclass check what it is given."""
-    # ruff's advice to assign is for what has no types: mypy does not let a method be replaced
+    """Return a dataclass that checks its arguments."""
+    # no assignment, against ruff's advice: mypy does not allow to replace a method
     setattr(cls, "__init__", _checked(vars(cls)["__init__"], cls.__name__, cls))  # noqa: B010
     return cls
 
 
 def checked(function: Function) -> Function:
-    """Let a function check what it is given."""
+    """Return a function that checks its arguments."""
     return cast("Function", _checked(function, function.__name__, function))
 
 
@@ -141,7 +140,7 @@ def _checked(function: Callable[..., Any], name: str, annotated: Any) -> Callabl
 
 
 def _with_tuples(value: Any) -> Any:
-    """Return a value with tuples in the place of lists and of what makes one item after another."""
+    """Return a value with tuples instead of lists and iterators."""
     if isinstance(value, list | tuple | Iterator) and not hasattr(value, "_fields"):
         return tuple(_with_tuples(item) for item in value)
     if isinstance(value, Mapping):
@@ -153,11 +152,11 @@ def _title(what: str, name: object) -> str:
     return f"{what} {name!r}" if isinstance(name, str) else what
 
 
-# -- the words ------------------------------------------------------------------------------------
+# -- messages -------------------------------------------------------------------------------------
 
 
 def _problems(error: ValidationError, names: list[str], given: Mapping[str, Any]) -> list[str]:
-    """Say what is wrong, place by place: of a choice of types all are named at once."""
+    """Return one problem for each place, with all types of a choice."""
     places: dict[str, tuple[Any, list[Any]]] = {}
     for detail in error.errors(include_url=False):
         first, *rest = detail["loc"]
@@ -169,7 +168,7 @@ def _problems(error: ValidationError, names: list[str], given: Mapping[str, Any]
 
 
 def _place(field: str, rest: Sequence[int | str], given: Mapping[str, Any]) -> tuple[str, Any]:
-    """Return where something is, and what is there; names of types are no places."""
+    """Return a place and its value; names of types are not places."""
     place: str = field
     value: Any = given.get(field)
     for key in rest:
@@ -185,7 +184,8 @@ def _problem(place: str, value: Any, found: list[Any], fields: list[str]) -> str
     if kind == "unexpected_keyword_argument":
         return f"{place} is not one of its fields. {suggestion(place, fields)}"
     if kind == "unexpected_positional_argument":
-        return f"{_shown(detail['input'])} is one argument too many; its fields are {_list(fields)}"
+        known = ", ".join(fields)
+        return f"{_shown(detail['input'])} is one argument too many; its fields are {known}"
     if kind == "multiple_argument_values":
         return f"{place} is given twice"
     if kind.startswith("missing"):
@@ -197,24 +197,16 @@ def _problem(place: str, value: Any, found: list[Any], fields: list[str]) -> str
 
 
 def _missing(kind: str, value: Any) -> str:
-    """Say what is missing: a name before what is there, something in it, or all of it."""
+    """Return a description of a missing argument: its name, a part of it, or all of it."""
     if kind == "missing_keyword_only_argument" and value is not None:
         return f"is {_shown(value)} without its name: write its name and = before it"
     return f"is {_shown(value)}, too few" if value else "is missing"
 
 
 _PARAMETERS = (
-    "a SpringRate",
-    "a DamperRate",
-    "a Displacement",
-    "a Length",
-    "a Distance",
-    "a Gravity",
-    "a ForceLevel",
-    "a Speed",
-    "a Share",
-    "a Progression",
-)
+    "a SpringRate", "a DamperRate", "a Displacement", "a Length", "a Distance",
+    "a Gravity", "a ForceLevel", "a Speed", "a Share", "a Progression",
+)  # fmt: skip
 _WANTED = {
     "string_type": "a text",
     "int_type": "a whole number",
@@ -228,7 +220,7 @@ _WANTED = {
 
 
 def _wanted(detail: Any) -> str:
-    """Say what would have been right."""
+    """Return a description of the value that is needed."""
     context = detail.get("ctx", {})
     if detail["type"] == "literal_error":
         return str(context["expected"])
@@ -243,7 +235,7 @@ def _wanted(detail: Any) -> str:
 
 
 def _advice(value: Any, wanted: list[str]) -> str:
-    """Say how to write what was probably meant."""
+    """Return the syntax of the value that was probably intended."""
     kind = type(value).__name__
     cases = (
         (isinstance(value, type), f"write {getattr(value, '__name__', '')}(...)"),
@@ -277,11 +269,7 @@ def _either(words: Sequence[str]) -> str:
     return " or ".join(filter(None, (", ".join(words[:-1]), words[-1])))
 
 
-def _list(words: Sequence[str]) -> str:
-    return ", ".join(words)
-
-
-# -- what is inside -------------------------------------------------------------------------------
+# -- parts of a declaration -----------------------------------------------------------------------
 
 
 def parts(value: object) -> Iterator[Any]:
@@ -292,7 +280,7 @@ def parts(value: object) -> Iterator[Any]:
     elif is_dataclass(value):
         yield value
         for entry in fields(value):
-            if entry.name != "image":  # what it is an image of is in another mechanism
+            if entry.name != "image":  # the original is in another mechanism
                 yield from parts(getattr(value, entry.name))
 
 

@@ -1,4 +1,4 @@
-"""Defaults that no mechanism could have: out of range, of no body, or without a direction."""
+"""Impossible defaults: out of range, of no body, or without a direction."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ if TYPE_CHECKING:
     from ..program.vectors import Vector
     from .assembly import Parts
 
-# What rounding may leave of a length or an angle that is none, relative to what it comes from.
+# Bound below which a length or an angle counts as zero, relative to its scale.
 _ROUNDING = 1e-9
 
 
 def value_problems(mechanism: Parts) -> list[str]:
-    """Find defaults out of their ranges, impossible inertia, and lines without a direction."""
+    """Return problems of defaults: ranges, impossible inertia, and lines without a direction."""
     values = {p.name: p.default for p in mechanism.parameters}
     problems = out_of_range(values, described(mechanism)) or [
         *inertia_of_no_body(values),
@@ -34,7 +34,7 @@ def value_problems(mechanism: Parts) -> list[str]:
 
 
 def _lost_directions(mechanism: Parts) -> Iterator[str]:
-    """Find points that coincide where a line is between them, and directions of length zero."""
+    """Yield problems of coincident points with a line between, and of directions of length zero."""
     value = AtDefaults(mechanism)
     named: set[str] = set()
     for part in mechanism.every((AlongLine, Line, Direction)):
@@ -62,12 +62,12 @@ def _between(one: Point, other: Point) -> str:
 
 
 def _size(value: AtDefaults, *places: Vector) -> float:
-    """Return how far from the origin some places are: what their distance is compared with."""
+    """Return the greatest distance of places from the origin, the scale of their distances."""
     return max(float(np.linalg.norm(list(map(value, place)))) for place in places)
 
 
 def _angle_problems(mechanism: Parts) -> list[str]:
-    """Find hinges whose angle counts from, or to, what lies along the hinge."""
+    """Return problems of hinges with a reference of their angle along the hinge."""
     value, problems = AtDefaults(mechanism), []
     for joint in mechanism.joints:
         if not isinstance(joint, Revolute) or joint.angle_to is None:

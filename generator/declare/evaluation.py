@@ -1,4 +1,4 @@
-"""The value of an expression in parameters with their defaults."""
+"""Values of expressions in parameters with their defaults."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class AtDefaults:
-    """The default parameters of a mechanism, to be put into expressions."""
+    """Evaluation of expressions with the default parameters of a mechanism."""
 
     def __init__(self, mechanism: Parts) -> None:
         self._derived = {sp.Symbol(n): value for n, value in mechanism.derived.items()}

@@ -1,4 +1,4 @@
-"""Formulations: what of a mechanism is state, what is prescribed, what has mass."""
+"""Formulations: the states, the prescribed motions and the massive bodies of a mechanism."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .mechanism import Mechanism
 from .names import file_name_problems, input_name_problems, unwritable
 from .states import DeclaredStates
 
-# what the right-hand side has beside its variants: rhs_jacobian, rhs_input_jacobian
+# further functions of the right-hand side: rhs_jacobian, rhs_input_jacobian
 _FUNCTIONS = ("jacobian", "input_jacobian")
 
 _ALL_THAT_MOVE: Any = None
@@ -27,7 +27,7 @@ DRIVABLE: dict[type[Joint], str] = {
     Free: "three guides and three hinges, with links between them",
     Weld: "a hinge or a guide instead",
 }
-"""Chains of hinges and guides in place of a joint that cannot be driven."""
+"""Chains of hinges and guides instead of a joint that cannot be driven."""
 
 
 @declared
@@ -42,19 +42,20 @@ class Formulation:
     prescribed
         The joints whose coordinates are given, with their motion.
     massive
-        Bodies whose inertia enters the equations; all that move, if nothing is said.
+        Bodies whose inertia enters the equations; by default all moving ones.
     eliminated
-        Names of the speeds that the constraints of the mechanism give, as many as they are: of a
-        hinge or guide the rate of its coordinate, of a free body u, v, w, p, q and r. They are no
-        states.
+        Names of the speeds that the constraints of the mechanism determine, of the same number: of
+        a hinge or guide the rate of its coordinate, of a free body u, v, w, p, q and r. They are
+        not states.
     held
         Variants of the right-hand side: name to the prescribed joints that do not move in it.
     allow_iteration
         Whether a loop without a closed form may be solved by Newton's method, for that loop alone.
         Without it such a loop is refused.
     cites
-        Where a publication has what a function returns, by the name of the function; how a body
-        moves, by ``omega of <body>`` and ``position of <body>``; what a force does, by its name.
+        Places in a publication: of the results of a function, by the name of the function; of the
+        motion of a body, by ``omega of <body>`` and ``position of <body>``; of a force, by its
+        name.
     """
 
     name: Name
@@ -171,7 +172,7 @@ def _driven_problems(formulation: Formulation) -> list[str]:
 
 
 def _gear_problems(formulation: Formulation) -> list[str]:
-    """See that all followers of a joint, direct or not, are moved by that one alone."""
+    """Return problems of gears: all followers of a joint, direct or not, are moved by it alone."""
     problems = [
         f"joint {joint.name!r} follows {joint.gear.joint.name!r}, and nothing else can move it; "
         f"make {joint.first_followed.name!r} independent or prescribed instead"
@@ -187,7 +188,7 @@ def _gear_problems(formulation: Formulation) -> list[str]:
 
 
 def _input_problems(formulation: Formulation) -> list[str]:
-    """Find motions in other units than their joints, or given twice, and inputs of one name."""
+    """Return problems of motions: units of their joints, and names."""
     units = [
         f"motion {motion.name!r} is in {motion.unit}; {joint.unit} is needed for joint "
         f"{joint.name!r}, which is {joint.kind}"
@@ -206,7 +207,7 @@ def _input_problems(formulation: Formulation) -> list[str]:
 
 
 def _eliminated_problems(formulation: Formulation) -> list[str]:
-    """See that as many speeds are eliminated as there are constraints on speeds."""
+    """Return problems of eliminated speeds: there must be as many as constraints."""
     speeds = [entry.name for part in formulation.states.joints for entry in part.speeds]
     known, needed = ", ".join(speeds), sum(c.count for c in formulation.mechanism.constraints)
     problems = repeated("eliminated speed", formulation.eliminated)
@@ -247,7 +248,7 @@ def _mass_problems(formulation: Formulation) -> list[str]:
 
 
 def _force_problems(formulation: Formulation) -> list[str]:
-    """See that every force along a joint does work: there is none for a joint that follows."""
+    """Return problems of forces along joints that are not driven and do no work."""
     return [
         f"{kind}: {joint.name!r} is neither independent nor prescribed, and a {kind} acts along "
         "such joints only. Make it independent, or let an Actuator in a ForceElement push between "
@@ -258,7 +259,7 @@ def _force_problems(formulation: Formulation) -> list[str]:
 
 
 def _passive_problems(formulation: Formulation) -> list[str]:
-    """See that nothing with mass can spin about itself: nothing would determine its turn."""
+    """Return problems of massive links that may turn about their line freely."""
     problems = []
     for body in formulation.mechanism.passive_links:
         if formulation.has_mass(body):

@@ -1,6 +1,6 @@
 """Points, directions and lines of a mechanism at its design position, in the axes of the world.
 
-They are those of ISO 8855: x forward, y left, z up. All components are parameters.
+The axes are those of ISO 8855: x forward, y left, z up. All components are parameters.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from .parameters import Displacement, Owner, Parameter
 
 
 def _vector(given: Any) -> Any:
-    """Take three numbers for a vector, but not zeros, and return the unit vector along it."""
+    """Return the unit vector along three numbers that are not all zero."""
     components = given if isinstance(given, Vector | tuple) else ()
     try:
         vector = Vector.of(*components)
@@ -34,7 +34,7 @@ def _vector(given: Any) -> Any:
 
 
 def _written_out(number: sp.Expr) -> sp.Expr:
-    """Return a number as C can represent it: a ratio of integers, or a double."""
+    """Return a number in a form of C: a ratio of integers, or a double."""
     return number if number.is_Rational else sp.Float(float(number))
 
 
@@ -52,8 +52,8 @@ class Point(Owner):
     meaning
         For the documentation of the generated code; without it, the name.
     flat
-        Axis along which the coordinate is zero and no parameter: the points of a planar mechanism.
-        Their places have two coordinates.
+        Axis along which the coordinate is zero and not a parameter: the points of a planar
+        mechanism. Their places have two coordinates.
     """
 
     name: Name
@@ -88,7 +88,7 @@ class Point(Owner):
 
     @property
     def turned(self) -> tuple[int, ...]:
-        """The mirror is the plane y = 0."""
+        """Signs of the coordinates in the mirror, the plane y = 0."""
         return tuple(-1 if axis == "y" else 1 for axis in self._axes)
 
     @cached_property
@@ -99,7 +99,7 @@ class Point(Owner):
 
 
 ORIGIN = Point("origin", (), flat="xyz")
-"""Of the axes in which a mechanism is declared."""
+"""Origin of the axes in which a mechanism is declared."""
 
 
 @declared
@@ -116,11 +116,11 @@ class Direction(Owner):
     meaning
         For the documentation of the generated code; without it, the name.
     fixed
-        In the place of `along`: components that are no parameters, of any length.
+        Instead of `along`: components that are not parameters, of any length.
     between
-        In the place of `along`: two points; from the first to the second at the design position.
+        Instead of `along`: two points; from the first to the second at the design position.
     axial
-        Whether it is the image of an axis of rotation, which a mirror turns the other way.
+        Whether it is the image of an axis of rotation, which a mirror reverses.
     """
 
     name: Name
@@ -151,7 +151,7 @@ class Direction(Owner):
 
     @property
     def turned(self) -> tuple[int, ...]:
-        """The mirror is the plane y = 0; an axis of rotation has the opposite signs."""
+        """Signs in the mirror, the plane y = 0; an axis of rotation has the opposite ones."""
         return (1, -1, 1)
 
     @cached_property

@@ -1,4 +1,4 @@
-"""What is given from outside as time goes on: forces, roads, motions of joints."""
+"""Inputs, which vary in time: forces, roads, motions of joints."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 @declared
 @dataclass(frozen=True)
 class Input:
-    """A number that varies in time and is given from outside.
+    """A number that varies in time and is given by the caller.
 
     Attributes
     ----------
@@ -25,7 +25,7 @@ class Input:
     meaning
         For the documentation of the generated code.
     derivative_of
-        The input whose rate this one is. A simulation takes that one alone.
+        The input whose rate this one is. A simulation reads that one only.
     """
 
     name: Name
@@ -48,7 +48,7 @@ class Input:
 @declared
 @dataclass(frozen=True)
 class Motion:
-    """The motion of a joint that is given from outside: three inputs.
+    """The given motion of a joint: three inputs.
 
     Attributes
     ----------
@@ -57,7 +57,7 @@ class Motion:
     unit
         Of the position: m for a guide, rad for a hinge.
     position, velocity, acceleration
-        What the inputs mean; the latter two follow from the first if they are left out.
+        Meanings of the inputs; the latter two follow from the first if they are left out.
     """
 
     name: Name
@@ -90,7 +90,7 @@ class Motion:
 
 
 def input_problems(inputs: Iterable[Input]) -> list[str]:
-    """Find inputs that are rates of what has a rate already."""
+    """Return problems of inputs that are rates of the same input."""
     rates: dict[Input, str] = {}
     problems = []
     for entry in inputs:

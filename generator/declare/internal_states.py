@@ -1,4 +1,4 @@
-"""States that forces have of their own, of first order: z' = f."""
+"""Internal states of forces, of first order: z' = f."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from .declared import DeclarationError, Name, declared
 class InternalState:
     """A state of a force or a law: zero at design, with a rate that its force returns.
 
-    A force in a damper that lags behind its velocity is one, or the deflection of a tyre. It comes
-    last in the state of a model.
+    Examples are the force of a damper that lags behind its velocity, and the deflection of a tyre.
+    Internal states come last in the state of a model.
 
     Attributes
     ----------

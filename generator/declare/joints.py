@@ -1,4 +1,4 @@
-"""Joints: their degrees of freedom, and what they leave in common to the two bodies.
+"""Joints: their degrees of freedom, and their constraints on the two bodies.
 
 Each joint names its relative coordinates (`coordinates`). The sense of a coordinate is that of the
 motion of the second body relative to the first, along or about the axis of the joint.
@@ -54,7 +54,7 @@ class Joint:
 
     @property
     def shared(self) -> str:
-        """What the two bodies have in common, and what the joint follows, for a table."""
+        """Its constraint, and the gear that it follows, for a table."""
         return f"{self.common}; {self.gear_words}" if self.gear else self.common
 
     @property
@@ -66,12 +66,12 @@ class Joint:
 
     @property
     def gear(self) -> Gear | None:
-        """The gear that its coordinate follows, if there is one."""
+        """The gear that its coordinate follows, or None."""
         return getattr(self, "follows", None)
 
     @property
     def first_followed(self) -> Joint:
-        """The joint that it follows, through all gears between; itself, if it follows none."""
+        """The joint that it follows, through all gears between; itself without a gear."""
         return self if self.gear is None else self.gear.joint.first_followed
 
     @property
@@ -81,7 +81,7 @@ class Joint:
 
     @property
     def center(self) -> Point | None:
-        """The point that stays common to both bodies in every motion, if there is one."""
+        """The point that both bodies share in every motion, or None."""
         return None
 
     def _coordinate(self, kind: str, name: str, meaning: str) -> RelativeCoordinate:
@@ -99,17 +99,17 @@ class Gear:
     """Wheels with teeth, rack and pinion, a thread, a belt: a coordinate in proportion to another.
 
     A hinge or guide that `follows` it has no degree of freedom of its own. Both coordinates count
-    from the design position, so a hinge at either end may have no ``angle_to``. Nothing slips,
-    nothing has play, and what the teeth carry does no work.
+    from the design position, so a hinge at either end may have no ``angle_to``. There is no slip
+    and no play, and the forces between the teeth do no work.
 
     Parameters
     ----------
     joint
         The hinge or guide that is followed: independent, prescribed, or one that follows another.
     ratio
-        The coordinate of what follows, for one unit of the other: a `Ratio` between hinges or
-        between guides, a `Lead` [m/rad] of a guide behind a hinge, a `TurnPerTravel` [rad/m] of a
-        hinge behind a guide.
+        The coordinate of the follower per unit of the other: a `Ratio` between hinges or between
+        guides, a `Lead` [m/rad] of a guide behind a hinge, a `TurnPerTravel` [rad/m] of a hinge
+        behind a guide.
     """
 
     joint: Joint
@@ -156,9 +156,9 @@ class Revolute(TurningJoint):
     angle_from, angle_to
         The angle is measured from the projection of a direction fixed in the first body to that of
         a point of the second body, and it lies between 0 and pi at the design position: where the
-        axis as declared would make it negative, the axis is taken the other way round. Without
-        ``angle_to`` the angle is zero at the design position, the axis is as declared, and
-        ``angle_from`` means nothing.
+        axis as declared would make it negative, the axis is reversed. Without ``angle_to`` the
+        angle is zero at the design position, the axis is as declared, and ``angle_from`` is
+        ignored.
     follows
         A gear that gives its angle.
     """
@@ -247,7 +247,7 @@ class Universal(Joint):
     -----
     The two angles that are *reported* are those of the shaft relative to the first body, in the
     z-x sequence of the paper: the local y axis of ``Rz(azimuth) Rx(elevation)`` lies along the
-    shaft. They say nothing about the cross, which stays regular where this sequence is singular
+    shaft. They are not those of the cross, which stays regular where this sequence is singular
     (shaft along z).
     """
 
@@ -290,8 +290,8 @@ class Universal(Joint):
 class Weld(Joint):
     """No degree of freedom: the second body moves with the first, as a caliper with its knuckle.
 
-    It has mass and points of its own, for forces and outputs. Every other body that is joined to it
-    is declared at the first body, which is the same one to all joints.
+    It has mass and points of its own, for forces and outputs. Joints to other bodies are declared
+    at the first body.
     """
 
     kind: ClassVar[str] = "weld"
@@ -307,7 +307,7 @@ class Free(Joint):
     The state has the displacement of its centre of mass from design in the world, ``<body>_x`` to
     ``_z`` [m], and its unit quaternion, ``<body>_e0`` to ``_e3``, scalar first; then its velocity
     ``<body>_u``, ``_v``, ``_w`` [m/s] and its angular velocity ``<body>_p``, ``_q``, ``_r`` [rad/s]
-    in its own axes, which are those of the world at design. What can be reported is that
+    in its own axes, which are those of the world at design. Reported coordinates are that
     displacement, and the angles of the body in the z-y-x sequence (yaw, pitch, roll).
     """
 
@@ -328,7 +328,7 @@ class Free(Joint):
         Parameters
         ----------
         kind
-            Which one.
+            Kind of the coordinate.
         name, meaning
             Of the coordinate: its name, and its description in the documentation of the code.
         """
@@ -360,7 +360,7 @@ class RelativeCoordinate:
     Attributes
     ----------
     joint, kind
-        Whose coordinate it is, and which of them.
+        The joint, and the kind of its coordinate.
     meaning
         For the documentation of the generated code.
     """
@@ -381,12 +381,12 @@ class RelativeCoordinate:
 
     @property
     def unit(self) -> str:
-        """Of its value."""
+        """Unit of its value."""
         return "m" if self.kind in ("slide", "x", "y", "z") else "rad"
 
 
 def _gear_problems(joint: Joint) -> list[str]:
-    """See that a gear leads from a hinge or guide to another one, in units that suit them."""
+    """Return problems of a gear, which connects hinges or guides, in matching units."""
     if joint.gear is None:
         return []
     followed, ratio = joint.gear.joint, joint.gear.ratio
@@ -415,4 +415,4 @@ _RATIOS: dict[tuple[type[Joint], type[Joint]], tuple[str, str]] = {
     (Prismatic, Revolute): ("m/rad", "Lead"),
     (Revolute, Prismatic): ("rad/m", "TurnPerTravel"),
 }
-"""Unit and type of a gear's ratio, by what follows and what is followed."""
+"""Unit and type of a gear's ratio, by the kinds of the follower and the followed joint."""

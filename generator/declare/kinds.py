@@ -1,4 +1,4 @@
-"""The kinds of something, each in a file of its own in one folder."""
+"""Kinds of a thing, each in a file of its own in one folder."""
 
 from __future__ import annotations
 
@@ -8,13 +8,7 @@ from inspect import isclass
 
 
 def defined_in(package: str) -> list[type]:
-    """Return the classes that the files of a folder define, file by file.
-
-    Parameters
-    ----------
-    package
-        Name of the folder's package. Its own ``__init__`` is not looked at.
-    """
+    """Return the classes that the files of a package define, without its ``__init__``."""
     files = (found.name for found in pkgutil.iter_modules(import_module(package).__path__))
     modules = [import_module(f"{package}.{name}") for name in files]
     return [

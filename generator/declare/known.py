@@ -1,4 +1,4 @@
-"""Parts that are declared twice, and parts that are not declared."""
+"""Checks for parts that are declared twice, and for undeclared parts."""
 
 from __future__ import annotations
 
@@ -18,27 +18,13 @@ class Named(Protocol):
 
 
 def repeated(what: str, names: Iterable[str]) -> list[str]:
-    """Find what is named more than once.
-
-    Parameters
-    ----------
-    what, names
-        What the names are of, for the message, and the names.
-    """
+    """Return problems of names that occur more than once, for a kind of things."""
     counts = Counter(names).items()
     return [f"{what} {n!r} is declared {c} times; once is enough" for n, c in counts if c > 1]
 
 
 def strangers(what: str, used: Iterable[Named], known: Collection[Named]) -> list[str]:
-    """Find what a model refers to and its mechanism does not have.
-
-    Parameters
-    ----------
-    what
-        What refers to them, for the message.
-    used, known
-        What is referred to, and what there is.
-    """
+    """Return problems of parts that a model refers to and its mechanism does not have."""
     names = ", ".join(thing.name for thing in known) or "none"
     return [
         f"{what} {thing.name!r} is not in its mechanism; there are {names}"

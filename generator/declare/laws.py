@@ -1,7 +1,7 @@
-"""Laws of force elements: what a spring, damper or stop does with a length and its rate.
+"""Laws of force elements: the force of a spring, damper or stop by a length and its rate.
 
 Every law returns the force that pushes the two ends of its element apart, in newtons; along a twist
-of hinges, the moment. A law owns its parameters, whose types say which of the two it is.
+of hinges, the moment. A law owns its parameters, whose types are those of a force or of a moment.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 import sympy as sp
+from typing_extensions import override
 
 from ...core.si_units import powers_of
 from ..program.functions import Positive
@@ -46,7 +47,7 @@ if TYPE_CHECKING:
 
 
 def _of_either_sign(length: Parameter | None, path: AnyPath) -> list[str]:
-    """See that only the slide of a guide is compared with what may be negative."""
+    """Return problems of a length that may be negative, on a path whose length is positive."""
     if path.of_either_sign or not isinstance(length, Displacement):
         return []
     return [f"{length.name!r} is a Displacement, and no length is negative; give a Length"]
@@ -72,10 +73,10 @@ class Stretch:
 
 
 class AnyLaw(ABC):
-    """What the laws have in common."""
+    """Base of the laws."""
 
     from_outside: ClassVar[bool] = False
-    """Whether an input gives the force, which then is not shown."""
+    """Whether the force is an input, and not shown."""
 
     @property
     @abstractmethod
@@ -88,20 +89,20 @@ class AnyLaw(ABC):
         """The meaning of that signal."""
 
     def ranges_of_rate(self) -> tuple[Range, ...]:
-        """Return where it knows its force, by the rate of the length."""
+        """Return the valid ranges of the rate of the length."""
         return ()
 
     def ranges_of_length(self) -> tuple[Range, ...]:
-        """Return where it knows its force, by the length."""
+        """Return the valid ranges of the length."""
         return ()
 
     def events_of_length(self, element: str) -> tuple[Event, ...]:
-        """Return what happens at certain lengths of an element of this name."""
+        """Return events at certain lengths of an element of this name."""
         del element
         return ()
 
     def describe(self) -> str:
-        """Return what a report says of it: what it is, with a formula where that is short."""
+        """Return its description in reports: its name, with a formula where that is short."""
         return self.meaning
 
     @abstractmethod
@@ -114,13 +115,13 @@ class AnyLaw(ABC):
         return {}
 
     def problems(self, path: AnyPath) -> list[str]:
-        """Say what of it cannot be on a path."""
+        """Return problems of the law on a path."""
         del path
         return []
 
 
 def _with_formula(law: AnyLaw) -> str:
-    """Return what a law is, and its force by the names of what it depends on."""
+    """Return the name of a law, and its force by the names of its inputs."""
     length, velocity, slide = (sp.Symbol(name) for name in ("length", "velocity", "slide"))
     force = law.force(Stretch(None, "", length, velocity, slide))  # type: ignore[arg-type]
     return f"{law.meaning} `{force}`"
@@ -136,8 +137,8 @@ class LinearSpring(AnyLaw):
     rate
         [N/m]; of a twist, [N m/rad].
     free_slide, free_length
-        Where the spring is free of force [m]: one of the two, the first for a telescope only
-        (Eq. 23 of the paper). Of a twist, the free angle [rad].
+        Slide or length at which the spring is free of force [m]: one of the two, the first for a
+        telescope only (Eq. 23 of the paper). Of a twist, the free angle [rad].
     """
 
     rate: SpringRate | TorsionRate
@@ -156,7 +157,7 @@ class LinearSpring(AnyLaw):
         return _with_formula(self)
 
     def problems(self, path: AnyPath) -> list[str]:
-        """See that the path has the coordinate that it is free of force at."""
+        """Return problems of its free slide or length on a path."""
         if self.free_slide is not None and not path.has_slide:
             return ["a free_slide needs a telescope; give its spring a free_length"]
         return _of_either_sign(self.free_length, path)
@@ -196,10 +197,11 @@ class LinearDamper(AnyLaw):
 
 @dataclass(frozen=True, kw_only=True)
 class AnyTable(AnyLaw, Owner):
-    r"""A curve of force over what an element is pressed by, smooth but for what its data say.
+    r"""A curve of force over compression, as smooth as its data.
 
-    Let p_i be how far knot i is passed, 0 before it, of knots 0 to n. With t_i the part of segment
-    i that is passed, 0 before and 1 behind it, and x_0 what is left to the first knot,
+    Let p_i be the compression beyond knot i, 0 before it, of knots 0 to n. With t_i the fraction of
+    segment i that is passed, 0 before and 1 behind it, and x_0 the compression beyond the first
+    knot, negative before it,
 
         force = F_0 + s_0 min(x_0, 0) + sum_i t_i (a_i + t_i (b_i + t_i c_i)) + s_n p_n,
         t_i = (p_i - p_{i+1}) / (width of segment i),    min(x_0, 0) = x_0 - p_0.
@@ -215,8 +217,8 @@ class AnyTable(AnyLaw, Owner):
         ``<name>_last_slope``, ``<name>_knot_<i>``, and for each segment
         ``<name>_inverse_width_<i>``, ``_linear``, ``_quadratic``, ``_cubic`` [N].
     segments
-        Number of segments; those that are not needed have width and coefficients zero (but any
-        inverse width).
+        Number of segments; superfluous ones have width and coefficients zero (but any inverse
+        width).
     """
 
     name: Name
@@ -225,25 +227,25 @@ class AnyTable(AnyLaw, Owner):
     units: ClassVar[tuple[str, str, str]]
     """Of a slope, a knot and an inverse width."""
     knots: ClassVar[str]
-    """What the knots are of."""
+    """Quantity of the knots."""
     ends: ClassVar[tuple[str, str]]
-    """Where the slopes of the first and the last knot hold."""
+    """Sides on which the slopes of the first and the last knot hold."""
 
     @abstractmethod
     def beyond(self, at: Stretch, knot: sp.Symbol) -> sp.Expr:
-        """Return how far the element is pressed beyond a knot.
+        """Return the compression of the element beyond a knot.
 
         Parameters
         ----------
         at
-            Length or velocity of the element.
+            State of the element.
         knot
             A point of the curve.
         """
 
     @cached_property
     def numbers(self) -> tuple[Parameter, ...]:
-        """All of them; the defaults are no force."""
+        """All parameters; by default there is no force."""
         return tuple(
             Parameter(f"{self.name}_{what}", default, unit, meaning)
             for what, default, unit, meaning in self._entries()
@@ -266,7 +268,7 @@ class AnyTable(AnyLaw, Owner):
         return sp.Symbol(f"{self.name}_{what}")
 
     def _end_knots(self) -> tuple[sp.Symbol, sp.Symbol]:
-        """Return both ends; the knots of segments without need are the last one."""
+        """Return both ends; the knots of superfluous segments equal the last one."""
         return self._symbol("knot_0"), self._symbol(f"knot_{self.segments}")
 
     def force(self, at: Stretch) -> sp.Expr:
@@ -308,8 +310,8 @@ class DamperTable(AnyTable):
     knots = "compression velocity"
     ends = "below", "above"
 
+    @override
     def beyond(self, at: Stretch, knot: sp.Symbol) -> sp.Expr:
-        """Return how much faster than at a knot it is compressed."""
         return -at.velocity - knot
 
     def ranges_of_rate(self) -> tuple[Range, ...]:
@@ -341,13 +343,13 @@ class SpringTable(AnyTable):
     ends = "by compression before", "by compression behind"
 
     def problems(self, path: AnyPath) -> list[str]:
-        """See that the path has a length."""
+        """Return a problem on a path of an angle."""
         if path.words.force == "moment":
             return [f"the lengths of {self.name!r} are in m, and a twist has none"]
         return []
 
+    @override
     def beyond(self, at: Stretch, knot: sp.Symbol) -> sp.Expr:
-        """Return how much shorter than at a knot it is."""
         return knot - at.length
 
     def ranges_of_length(self) -> tuple[Range, ...]:
@@ -389,7 +391,7 @@ class Friction(AnyLaw):
 @declared
 @dataclass(frozen=True, kw_only=True)
 class Stop(AnyLaw):
-    """A progressive stop: ``rate x + progression x^3``, x being how far it is pressed in.
+    """A progressive stop: ``rate x + progression x^3`` for a compression x of it.
 
     Parameters
     ----------
@@ -418,11 +420,11 @@ class Stop(AnyLaw):
         return f"force of the {self.side} stop"
 
     def problems(self, path: AnyPath) -> list[str]:
-        """See that the path can be as long as where it is touched."""
+        """Return problems of its length on a path."""
         return _of_either_sign(self.length, path)
 
     def events_of_length(self, element: str) -> tuple[Event, ...]:
-        """Return when it is touched."""
+        """Return the event at which it is touched."""
         name, rising = f"{element}_reaches_{self.side}_stop", self.side == "rebound"
         meaning = f"{words_of(element)} touches its {self.side} stop"
         return (Event(name, self.length.symbol, rising, meaning, needs=self.rate),)
@@ -440,7 +442,7 @@ class Stop(AnyLaw):
 @declared
 @dataclass(frozen=True)
 class Actuator(AnyLaw):
-    """A force that is given from outside.
+    """A force that is an input.
 
     Parameters
     ----------
@@ -466,9 +468,8 @@ class LaggingDamper(AnyLaw):
     """A damper whose force follows ``-rate velocity`` with a lag.
 
     ``lag force' = -rate velocity - force``.
-
-    So does a damper in a row with a spring of the stiffness ``rate / lag``, as between soft bushes
-    (Maxwell's element): slow strokes feel the damper, fast ones the spring.
+    The same is a damper in series with a spring of the stiffness ``rate / lag``, as between soft
+    bushes (Maxwell's element): the damper dominates slow strokes, the spring fast ones.
 
     Parameters
     ----------
@@ -502,7 +503,7 @@ class LaggingDamper(AnyLaw):
         return {self.state.name: behind / self.lag.symbol}
 
     def problems(self, path: AnyPath) -> list[str]:
-        """See that the state is in the unit of the force."""
+        """Return a problem if the state is not in the unit of the force."""
         if powers_of(self.state.unit) == powers_of(path.words.unit):
             return []
         return [f"state {self.state.name!r} is in {self.state.unit}; {path.words.unit} is needed"]

@@ -15,11 +15,11 @@ class Mechanism(Parts):
     """Joints between bodies, with everything that acts on them.
 
     The ground is the body that rests in the world, with its axes along those of the world at design
-    (`Ground`); where all move, a joint `Free` says which body they hang on, and the ground is the
-    world itself.
+    (`Ground`); where all bodies move, one hangs on the world itself, by a joint `Free`.
+
     `coordinates` are the relative coordinates of the report, in the numbering of the figure,
-    `outputs` what else is to be seen. What all these refer to is found by itself: `bodies`,
-    `inputs`, `parameters`, and in copies `derived`, what the names of a copy represent.
+    `outputs` further signals. All parts that these refer to are found automatically: `bodies`,
+    `inputs`, `parameters`, and in copies `derived`, the expressions of the names of a copy.
     """
 
     def __post_init__(self) -> None:

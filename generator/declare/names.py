@@ -1,6 +1,6 @@
-"""Names and texts of a declaration that the emitted C and Python could not have.
+"""Names and texts of a declaration that are impossible in the emitted C and Python.
 
-That a name is an identifier is checked where it is given (`declared.Name`).
+That a name is an identifier is checked at its declaration (`declared.Name`).
 """
 
 from __future__ import annotations
@@ -19,11 +19,12 @@ if TYPE_CHECKING:
     from .inputs import Input
     from .outputs import Output
 
-# What the emitted C and Python call their own, and the words of both languages.
+# Words of C, and names that the emitted C and Python use.
 _C_WORDS = """
 auto break case char const continue default do double else enum extern float for goto if inline int
 long register restrict return short signed sizeof static struct switch typedef union unsigned void
-volatile while
+volatile while bool true false asm typeof thread_local nullptr constexpr alignas alignof
+static_assert
 """
 # macros of <math.h>, also those of compilers that are not strict
 _MACROS = """
@@ -42,25 +43,7 @@ ADDRESSES MECHANISM kept INLINE GREATEST_ANGLE ROUNDER SPREAD BITS REAL MODEL WI
 kt_any_sine kt_any_cosine kt_sine kt_cosine kt_arc_sine kt_arc_tangent kt_root kt_magnitude
 kt_with_sign_of kt_exponential kt_logarithm kt_real
 """
-_WORDS = frozenset(
-    [
-        *_C_WORDS.split(),
-        *_MACROS.split(),
-        *_OWN_WORDS.split(),
-        *keyword.kwlist,
-        "bool",
-        "true",
-        "false",
-        "asm",
-        "typeof",
-        "thread_local",
-        "nullptr",
-        "constexpr",
-        "alignas",
-        "alignof",
-        "static_assert",
-    ]
-)
+_WORDS = frozenset([*_C_WORDS.split(), *_MACROS.split(), *_OWN_WORDS.split(), *keyword.kwlist])
 # arguments of the residuals, functions that iterate, and macros of headers
 _BEGINNINGS = ("given_", "loops_through_", "pose_of_", "KINTRAFO_")
 # files without a model's name that lie beside its own when they are compiled
@@ -70,7 +53,7 @@ _COUNTED = ("count",)  # an enumeration ends with the number of its elements
 
 
 def name_problems(mechanism: Parts) -> list[str]:
-    """Find names that code cannot have: reserved words, one name for two things."""
+    """Return problems of names: reserved words, and one name for two things."""
     coordinates = [c.name for c in mechanism.coordinates]
     forces = [force.identity for force in mechanism.forces]
     kinds = {
@@ -83,11 +66,11 @@ def name_problems(mechanism: Parts) -> list[str]:
         "force": [name for kind, name in forces if kind == "force"],
         "output": [o.name for o in mechanism.outputs],
     }
-    # what the code reads by its own name; other names have something before or behind them
+    # names of variables in the code; other names are a part of one
     read_alone = ("parameter", "coordinate", "input", "internal state")
     problems = [p for kind in read_alone for n in kinds[kind] for p in _reserved(kind, n)]
     for kind, names in kinds.items():
-        if kind != "joint":  # of joints there is no enumeration
+        if kind != "joint":  # joints have no enumeration
             problems += _differ_in_case_only(kind, names)
     owners: dict[str, str] = {}
     rates = [f"{name}_rate" for name in coordinates]
@@ -111,13 +94,7 @@ def name_problems(mechanism: Parts) -> list[str]:
 
 
 def input_name_problems(mechanism: Parts, inputs: Iterable[Input]) -> list[str]:
-    """Find names that inputs cannot have beside those of a mechanism.
-
-    Parameters
-    ----------
-    mechanism, inputs
-        Whose names are taken, and the inputs.
-    """
+    """Return problems of names of inputs in a mechanism."""
     taken = {p.name: "parameter" for p in mechanism.parameters}
     taken |= {c.name: "coordinate" for c in mechanism.coordinates}
     problems = []
@@ -131,21 +108,21 @@ def input_name_problems(mechanism: Parts, inputs: Iterable[Input]) -> list[str]:
 
 
 def file_name_problems(name: str) -> list[str]:
-    """Find out whether the files of a model would be called like others beside them."""
+    """Return a problem if the files of a model would have the names of other files."""
     if name.lower() in _FILES:
         return [f"a file that the generated code needs is called {name.lower()}; rename the model"]
     return []
 
 
 def _reserved(kind: str, name: str) -> list[str]:
-    """Find out whether a name is one that the code has for something else."""
+    """Return a problem if the code uses a name for something else."""
     if name in _WORDS or name.lower() in _COUNTED or name.startswith(_BEGINNINGS):
         return [f"{kind} {name!r} has a name that the generated code needs; choose another one"]
     return []
 
 
 def text_problems(mechanism: Parts) -> list[str]:
-    """Find units and meanings that comments and docstrings cannot have."""
+    """Return problems of units and meanings in comments and docstrings."""
     entries = [
         *((f"parameter {p.name!r}", (p.unit, p.meaning)) for p in mechanism.parameters),
         *((f"coordinate {c.name!r}", (c.unit, c.meaning)) for c in mechanism.coordinates),
@@ -158,20 +135,14 @@ def text_problems(mechanism: Parts) -> list[str]:
 
 
 def _texts(output: Output) -> Iterator[str]:
-    """Yield what an output says of itself in words."""
+    """Yield the texts of an output."""
     for text in (getattr(output, field.name) for field in fields(output)):
         if isinstance(text, str):
             yield text
 
 
 def unwritable(what: str, text: str) -> list[str]:
-    """Find out whether a text would end the comment or the docstring that it is in.
-
-    Parameters
-    ----------
-    what, text
-        What the text is, for the message, and the text.
-    """
+    """Return a problem if a text would end the comment or the docstring that contains it."""
     if any(end in text for end in _ENDS_OF_COMMENTS):
         allowed = 'write one line without */, """ and backslashes'
         return [f"{what}: the text {text!r} cannot be in a comment of the code; {allowed}"]

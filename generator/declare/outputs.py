@@ -1,7 +1,7 @@
-"""What a person wants to see of a mechanism, beside the signals of its tyres and force elements.
+"""Declared signals of a mechanism, beside those of its tyres and force elements.
 
-An output makes one signal or three; vectors are in world axes, with ``_x``, ``_y``, ``_z`` behind
-their names.
+An output makes one signal or three; vectors are in world axes, and their signals end with ``_x``,
+``_y``, ``_z``.
 """
 
 from __future__ import annotations
@@ -37,9 +37,9 @@ class OfPoint(Output):
     Parameters
     ----------
     body, point
-        The body, and the point by its place at the design position.
+        The body, and the point at the design position.
     meaning
-        What the point is, for the documentation of the generated code.
+        Description of the point, for the documentation of the generated code.
     """
 
     body: Body
@@ -50,19 +50,19 @@ class OfPoint(Output):
 @declared
 @dataclass(frozen=True)
 class PositionOf(OfPoint):
-    """Where a point is [m]."""
+    """Position of a point [m]."""
 
 
 @declared
 @dataclass(frozen=True)
 class VelocityOf(OfPoint):
-    """The velocity of a point [m/s]."""
+    """Velocity of a point [m/s]."""
 
 
 @declared
 @dataclass(frozen=True)
 class AccelerationOf(OfPoint):
-    """The acceleration of a point [m/s^2], as it follows from the forces."""
+    """Acceleration of a point [m/s^2], as it follows from the forces."""
 
 
 @declared
@@ -115,7 +115,7 @@ class AngleBetween(Output):
 class ForceOf(Output):
     """The force of an element: the sum of its laws, positive when it pushes its ends apart [N].
 
-    Of a twist it is a moment, positive when it increases the twist [N m].
+    For a twist it is a moment, positive when it increases the twist [N m].
     """
 
     element: ForceElement

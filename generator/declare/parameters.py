@@ -1,8 +1,8 @@
-"""Numbers that a user of the generated code may change, and what owns them.
+"""Parameters, numbers that users of the generated code may change, and their owners.
 
 Every declared object owns its parameters: a point its coordinates, a body its mass, a law its
-rates. A mechanism collects them from what refers to them, in the order in which their owners were
-written. The type of a parameter says its unit and its range.
+rates. A mechanism collects them from its parts, in the order in which their owners were written.
+The type of a parameter defines its unit and its range.
 """
 
 from __future__ import annotations
@@ -21,20 +21,20 @@ _written = count()
 
 
 def next_order() -> int:
-    """Return a number greater than all before: the place of what is written now."""
+    """Return a number greater than all before: the place in lists of a new object."""
     return next(_written)
 
 
 @dataclass(frozen=True)
 class Image:
-    """What an owner in a copy is the image of.
+    """The original of an owner in a copy.
 
     Attributes
     ----------
     original
         The owner whose parameters represent those of the copy.
     signs
-        Of every number: -1 where a mirror turns it round.
+        Of every number: -1 where a mirror reverses it.
     """
 
     original: Owner
@@ -43,14 +43,14 @@ class Image:
 
 @dataclass(frozen=True, kw_only=True)
 class Owner:
-    """Something that owns parameters.
+    """An owner of parameters.
 
     Attributes
     ----------
     order
         Its place in lists: that of its creation, which `dataclasses.replace` keeps.
     image
-        In a copy: what it is the image of; its numbers then are none of its own.
+        In a copy: its original, which owns the numbers.
     """
 
     order: int = field(default_factory=next_order, repr=False, compare=False)
@@ -63,12 +63,12 @@ class Owner:
 
     @property
     def turned(self) -> tuple[int, ...]:
-        """The sign of every number in the mirror."""
+        """Sign of every number in the mirror."""
         return (1,) * len(self.numbers)
 
     @property
     def root(self) -> Owner:
-        """What owns the numbers: itself, or what it is an image of."""
+        """The owner of the numbers: itself, or its original."""
         return self if self.image is None else self.image.original.root
 
     @cached_property
@@ -81,7 +81,7 @@ class Owner:
 
     @property
     def derived(self) -> dict[str, sp.Expr]:
-        """What its names represent, where they are no parameters."""
+        """Expressions of its names in parameters of the original; empty for an original."""
         if self.image is None:
             return {}
         return {p.name: value for p, value in zip(self.numbers, self.values, strict=True)}
@@ -101,7 +101,7 @@ class Parameter(Owner):
     meaning
         For the documentation of the generated code.
     least, above, most
-        Bounds of its values: the smallest, what it must be more than, the greatest.
+        Bounds of its values: the smallest, an exclusive lower bound, the greatest.
     """
 
     name: Name
@@ -113,10 +113,7 @@ class Parameter(Owner):
     most: Number | None = None
 
     of_angle: ClassVar[bool | None] = False
-    """Whether it is about an angle or a moment, where others are about a length or a force.
-
-    None: it is about neither.
-    """
+    """Whether it is about an angle or a moment (True), a length or a force (False), or neither."""
 
     def __post_init__(self) -> None:
         problem = problem_of(self.unit)
@@ -137,7 +134,7 @@ class Parameter(Owner):
 @declared
 @dataclass(frozen=True)
 class DimensionedParameter(Parameter):
-    """A parameter whose class says its unit and its range.
+    """A parameter whose class defines its unit and its range.
 
     Parameters
     ----------

@@ -1,6 +1,6 @@
-"""Paths that a force element acts along: how long one is, and how fast that changes.
+"""Paths of force elements: their length, and its rate.
 
-What is a length of most paths is an angle of a `TwistOfHinges`, and what is a force is a moment.
+The length is an angle for a `TwistOfHinges`, and the force a moment.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import sympy as sp
+from typing_extensions import override
 
 from ..program.floors import DIRECTION
 from .bodies import Body
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 
 
 class Course(NamedTuple):
-    """Where a path is at an instant.
+    """Length of a path at an instant, and its rate.
 
     Attributes
     ----------
@@ -42,14 +43,14 @@ class Course(NamedTuple):
 
 
 class Words(NamedTuple):
-    """What the signals of an element on a path are called, with units and meanings.
+    """Names of the signals of an element on a path, with units and meanings.
 
     Attributes
     ----------
     length, rate
         End of the name, unit, and meaning with ``{}`` for the element's name.
     force, unit, sense
-        What acts, its unit, and when it is positive.
+        Kind of the force, its unit, and the sense in which it is positive.
     """
 
     length: tuple[str, str, str]
@@ -88,31 +89,31 @@ _OF_A_GUIDE = _OF_A_LINE._replace(
 
 
 class AnyPath(ABC):
-    """What the paths have in common."""
+    """Base of the paths."""
 
     words: ClassVar[Words] = _OF_A_LINE
     has_slide: ClassVar[bool] = False
     of_either_sign: ClassVar[bool] = False
-    """Whether what is called its length may be negative: that of a guide."""
+    """Whether its length may be negative: that of a guide."""
 
     def ranges_of_length(self, name: str) -> tuple[Range, ...]:
-        """Return how long an element of this name can be."""
+        """Return the valid lengths of an element of this name."""
         del name
         return ()
 
     def events_of_length(self, name: str) -> tuple[Event, ...]:
-        """Return what happens at certain lengths of an element of this name."""
+        """Return events at certain lengths of an element of this name."""
         del name
         return ()
 
     @abstractmethod
     def course(self, at: Surroundings, name: str) -> Course:
-        """Append its length and the rate of that; `name` begins the names of the steps.
+        """Append its length and its rate.
 
         Parameters
         ----------
         at
-            What surrounds the element.
+            Surroundings of the element.
         name
             Begins the names of the steps.
         """
@@ -137,7 +138,7 @@ class AlongTelescope(AnyPath):
     has_slide: ClassVar[bool] = True
 
     def ranges_of_length(self, name: str) -> tuple[Range, ...]:
-        """Return how long it can be."""
+        """Return its valid lengths."""
         most = self.longest and self.longest.symbol
         below, above = (
             f"{words_of(name)} is {than} than it can be" for than in ("shorter", "longer")
@@ -145,7 +146,7 @@ class AlongTelescope(AnyPath):
         return (Range(0.0, most, below, above),)
 
     def events_of_length(self, name: str) -> tuple[Event, ...]:
-        """Return when it comes apart."""
+        """Return the event at which it comes apart."""
         if self.longest is None:
             return ()
         meaning = f"{words_of(name)} reaches its greatest length"
@@ -154,8 +155,8 @@ class AlongTelescope(AnyPath):
             Event(f"{name}_fully_extended", level, rising=True, meaning=meaning, terminal=True),
         )
 
+    @override
     def course(self, at: Surroundings, name: str) -> Course:
-        """Return the length of the telescope."""
         del name
         return Course(*at.telescope(self.joint.name))
 
@@ -186,8 +187,8 @@ class AlongLine(AnyPath):
         (one, start), (other, end) = self.first, self.second
         return (one.name, start), (other.name, end)
 
+    @override
     def course(self, at: Surroundings, name: str) -> Course:
-        """Append the distance of the two points."""
         program = at.program
         way, rates = at.between(*self.ends)
         span = program.vector(f"{name}_span", way)
@@ -217,9 +218,9 @@ class AlongLine(AnyPath):
 class TwistOfHinges(AnyPath):
     """The angle of one hinge less that of another, which is the twist of a bar between them.
 
-    What elsewhere is a length is an angle here [rad], and what is a force is a moment [N m]: it
-    acts with its sign on the second hinge and against it on the first, so that its power is that
-    of the moment at the rate of the twist.
+    Its length is an angle [rad], and the force a moment [N m], which acts with its sign on the
+    second hinge and against it on the first, so that its power is that of the moment at the rate of
+    the twist.
 
     Parameters
     ----------
@@ -238,8 +239,8 @@ class TwistOfHinges(AnyPath):
             problem = f"the angle of {name!r} less itself is always zero; give two hinges"
             raise DeclarationError("TwistOfHinges", [problem])
 
+    @override
     def course(self, at: Surroundings, name: str) -> Course:
-        """Return the angle between the hinges."""
         del name
         twist, motion = sp.Integer(0), dict.fromkeys(at.coordinates, sp.Integer(0))
         for sense, hinge in ((-1, self.first), (1, self.second)):
@@ -267,8 +268,8 @@ class AlongHinge(AnyPath):
 
     words: ClassVar[Words] = _OF_A_HINGE
 
+    @override
     def course(self, at: Surroundings, name: str) -> Course:
-        """Return the angle of the hinge."""
         del name
         return Course(*at.hinge(self.hinge.name))
 
@@ -291,8 +292,8 @@ class AlongGuide(AnyPath):
     words: ClassVar[Words] = _OF_A_GUIDE
     of_either_sign: ClassVar[bool] = True
 
+    @override
     def course(self, at: Surroundings, name: str) -> Course:
-        """Return the slide of the guide."""
         del name
         return Course(*at.guide(self.guide.name))
 

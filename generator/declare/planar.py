@@ -1,4 +1,4 @@
-"""What the declarations of planar mechanisms share: flat points, hinges across the plane."""
+"""Declarations of planar mechanisms: flat points, hinges across the plane."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _NORMALS = {"z": UP, "y": _ACROSS}
 def flat(
     name: str, place: tuple[float, float], meaning: str = "", normal: Literal["y", "z"] = "z"
 ) -> Point:
-    """Return a point of a planar mechanism: of its coordinates, two are parameters.
+    """Return a point of a planar mechanism: two of its coordinates are parameters.
 
     Parameters
     ----------
@@ -30,12 +30,12 @@ def flat(
     meaning
         For the documentation of the generated code; without it, the name.
     normal
-        The axis that the plane is perpendicular to and contains the origin of.
+        Axis across the plane, which contains the origin.
 
     Raises
     ------
     DeclarationError
-        If this is no point of such a plane.
+        If the normal is another one.
 
     Examples
     --------
@@ -64,7 +64,7 @@ def hinge(name: str, first: Body, second: Body, at: Point) -> Revolute:
     Raises
     ------
     DeclarationError
-        If the point is of no plane.
+        If the point is not flat.
 
     Examples
     --------

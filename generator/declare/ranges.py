@@ -1,4 +1,4 @@
-"""The parameters of a mechanism with their ranges, as generated modules have them."""
+"""The parameters of a mechanism with their ranges, as in generated modules."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ def described(mechanism: Parts) -> dict[str, dict[str, float | str]]:
     Returns
     -------
     dict
-        By name: ``default``, ``unit``, ``meaning``, and ``least``, ``above``, ``most`` as far as
-        there are such bounds.
+        By name: ``default``, ``unit``, ``meaning``, and the existing bounds of ``least``, ``above``
+        and ``most``.
     """
     found: dict[str, dict[str, float | str]] = {}
     for p in mechanism.parameters:

@@ -1,4 +1,4 @@
-"""Signals: what a mechanism shows of itself, with what can be said of their values."""
+"""Signals of a mechanism, with ranges and events of their values."""
 
 from __future__ import annotations
 
@@ -15,24 +15,24 @@ Level: TypeAlias = float | sp.Expr
 
 
 def words_of(name: str) -> str:
-    """Return the name of an element as a sentence has it."""
+    """Return the name of an element for a sentence."""
     return f"the {name.replace('_', ' ')}"
 
 
 @dataclass(frozen=True)
 class Range:
-    """Where the values of a signal mean something. With ``least >= most`` it says nothing.
+    """Valid range of the values of a signal; with ``least >= most`` there is no limit.
 
     Attributes
     ----------
     least, most
         Its ends, None for none.
     below, above
-        What is the case beyond either end, ready for a sentence.
+        The situation beyond either end, as a clause.
     possible
-        Whether things can go there, and only the data end.
+        Whether values beyond are possible, and only the data end.
     unless
-        Where this parameter is not zero, the range is none.
+        Where this parameter is not zero, there is no range.
     """
 
     least: Level | None = None
@@ -52,11 +52,11 @@ class Event:
     name
         By which a simulation watches for it.
     level
-        What is passed.
+        Value of the signal.
     rising
         Whether upwards; else downwards.
     meaning
-        What happens, ready for a sentence.
+        The event, as a clause.
     terminal
         Whether a simulation ends there.
     needs

@@ -1,10 +1,9 @@
-"""The state of a formulation: positions q, speeds v, internal states z, and how they are called.
+"""The state of a formulation: positions q, speeds v, internal states z, and their names.
 
-What a hinge or a guide does has one coordinate and its rate. A body that moves freely has seven
-positions, of which four are a unit quaternion, and six speeds in its own axes. Speeds are what
-velocities, the mass matrix and the forces are counted in; positions change by ``q' = N(q) v``,
-which is ``q' = v`` but for bodies that move freely (`kinematics.base`). Forces may have internal
-states, of first order.
+A hinge or a guide has one coordinate and its rate. A body that moves freely has seven positions, of
+which four are a unit quaternion, and six speeds in its own axes. Velocities, the mass matrix and
+the forces refer to the speeds; positions change by ``q' = N(q) v``, which is ``q' = v`` but for
+bodies that move freely (`kinematics.base`). Forces may have internal states, of first order.
 """
 
 from __future__ import annotations
@@ -25,7 +24,7 @@ if TYPE_CHECKING:
 class Entry:
     """One element of an array: its name, unit and meaning; of a state, also its value at design.
 
-    That value is none of the parameters: see `equations.design` for what depends on these.
+    That value is a constant: see `equations.design` for values that depend on parameters.
     """
 
     name: str
@@ -41,14 +40,14 @@ class JointStates:
     Attributes
     ----------
     joint
-        Whose it is.
+        The joint.
     positions, speeds
         Elements of q and of v.
     coordinates
-        What the speeds are the rates of, as velocities per unit rate are called: the coordinate of
-        a hinge or a guide; of a free body, which has no such coordinates, the speeds themselves.
+        The names under which velocities per unit of each speed are stored: the coordinate of a
+        hinge or a guide; of a free body, which has no such coordinates, the speeds themselves.
     partners
-        Of each position the place of the speed that changes it most directly: none of the scalar
+        For each position, the index of the speed that changes it most directly; None for the scalar
         part of a quaternion.
     """
 
@@ -75,7 +74,7 @@ class DeclaredStates:
     internal
         Those of forces.
     eliminated
-        Names of speeds that constraints give, and that are no states.
+        Names of speeds that constraints determine, and that are not states.
     """
 
     joints: tuple[JointStates, ...]
@@ -112,17 +111,17 @@ class DeclaredStates:
 
     @property
     def coordinates(self) -> tuple[str, ...]:
-        """What the speeds are the rates of, in their order."""
+        """The coordinates whose rates are the speeds, in their order."""
         return tuple(k for k, name in self.speed_of.items() if name not in self.eliminated)
 
     @property
     def eliminated_coordinates(self) -> tuple[str, ...]:
-        """What the eliminated speeds are the rates of."""
+        """The coordinates whose rates are the eliminated speeds."""
         return tuple(k for k, name in self.speed_of.items() if name in self.eliminated)
 
     @property
     def partners(self) -> list[int | None]:
-        """Of each position the place among the speeds of that which changes it most directly."""
+        """For each position, the index of the speed that changes it most directly."""
         places = {entry.name: place for place, entry in enumerate(self.speeds)}
         return [
             None if speed is None else places.get(part.speeds[speed].name)
@@ -132,7 +131,7 @@ class DeclaredStates:
 
     @property
     def speed_of(self) -> dict[str, str]:
-        """The name of the speed of each coordinate, also of those that are eliminated."""
+        """The name of the speed of each coordinate, also of eliminated ones."""
         return {
             k: entry.name
             for part in self.joints

@@ -1,4 +1,4 @@
-"""What a force sees of the mechanism in motion."""
+"""Surroundings of a force: the mechanism in motion."""
 
 from __future__ import annotations
 
@@ -15,24 +15,24 @@ if TYPE_CHECKING:
     from .whole import Whole
 
 Motion = dict[str, "sp.Expr"]
-"""The rate of something per unit rate of each coordinate that moves it."""
+"""The rate of a quantity per unit rate of each coordinate that changes it."""
 
 
 class UnseenError(LookupError):
-    """A force asks for what there is not."""
+    """A force asks for a thing that does not exist."""
 
     def __str__(self) -> str:
-        """Return what is asked for, and what there is."""
+        """Return the request, and the possible ones."""
         return str(self.args[0])
 
 
 class Surroundings(Protocol):
-    """Places, twists and directions of the bodies, in program steps.
+    """Positions, twists and directions of the bodies, in program steps.
 
-    Vectors are in the axes of the body that is named, or in those of the world: x forward, y left,
-    z up. Axes of a body that hangs on a base which turns, as the body of a car, are those of the
-    base. Coordinates are those that are independent or prescribed. Bodies, joints and coordinates
-    are given by their names; where there is none of a name, `UnseenError` says which there are.
+    Vectors are in the axes of the named body, or in those of the world: x forward, y left, z up.
+    Axes of a body that hangs on a base which turns, as the body of a car, are those of the base.
+    Coordinates are the independent and the prescribed ones. Bodies, joints and coordinates are
+    given by their names; for an unknown name, `UnseenError` lists the known ones.
     """
 
     @property
@@ -41,7 +41,7 @@ class Surroundings(Protocol):
 
     @property
     def mechanism(self) -> Whole:
-        """Whose bodies they are."""
+        """The mechanism."""
 
     @property
     def independent(self) -> Sequence[str]:
@@ -56,15 +56,15 @@ class Surroundings(Protocol):
     def coordinate(self, joint: str) -> str:
         """Return the coordinate of a driven joint: one that is independent or prescribed.
 
-        A joint that follows it through gears has none of its own: `hinge` and `guide` say how fast
-        it is for a rate of that coordinate.
+        A joint that follows it through gears has none of its own: `hinge` and `guide` return its
+        rate per unit rate of that coordinate.
         """
 
     def rate(self, coordinate: str) -> sp.Expr:
         """Return the rate of a coordinate."""
 
     def acceleration(self, coordinate: str) -> sp.Expr:
-        """Return the acceleration of a coordinate, for signals: `Force.act` is refused it.
+        """Return the acceleration of a coordinate, for signals: `Force.act` may not read it.
 
         That of a prescribed coordinate is an input, and zero here.
         """
@@ -72,7 +72,7 @@ class Surroundings(Protocol):
     # -- bodies --
 
     def local(self, body: str, point: Point) -> Vector:
-        """Return the way from the origin of a body to a point of it, in its axes.
+        """Return the vector from the origin of a body to its point, in its axes.
 
         Parameters
         ----------
@@ -107,7 +107,7 @@ class Surroundings(Protocol):
         """Return the twist per unit rate of each coordinate that moves a body, in its axes."""
 
     def momenta(self) -> Iterator[tuple[str, str, Vector]]:
-        """Yield body, coordinate and linear momentum per unit rate, in its axes, where mass is."""
+        """Yield massive body, coordinate and linear momentum per unit rate, in body axes."""
 
     def height(self, body: str, local: Vector) -> sp.Expr:
         """Return the height of a point of a body in the world.
@@ -137,7 +137,7 @@ class Surroundings(Protocol):
         """
 
     def rising(self, body: str, local: Vector) -> sp.Expr:
-        """Return the upward acceleration of a point that the coordinates' own leave over.
+        """Return the upward acceleration of a point without accelerations of the coordinates.
 
         Parameters
         ----------
@@ -159,7 +159,7 @@ class Surroundings(Protocol):
     def between(
         self, first: tuple[str, Point], second: tuple[str, Point]
     ) -> tuple[Vector, Mapping[str, Vector]]:
-        """Return the way from one point to another, and its rate per unit rate, in equal axes.
+        """Return the vector from one point to another, and its rate per unit rate, in equal axes.
 
         Parameters
         ----------
@@ -168,7 +168,7 @@ class Surroundings(Protocol):
         """
 
     def extent(self, body: str, point: Point) -> Vector:
-        """Return where a point is at the design position: a measure of size.
+        """Return the design position of a point: a measure of size.
 
         Parameters
         ----------

@@ -31,10 +31,10 @@ class WheelAttitude:
     up, axis
         Unit vectors up and along the spin axis.
     pull
-        What of the upward direction is in the plane of the wheel; its length is the cosine of the
+        Part of the upward direction in the plane of the wheel; its length is the cosine of the
         camber.
     squared
-        The square of that, guarded.
+        The square of that length, guarded.
     """
 
     up: Vector
@@ -57,8 +57,8 @@ class Wheel:
     spin
         Direction of the spin axis, fixed in the carrier; it points to the left.
     heading
-        Body whose x axis, seen from above, is ahead in camber, toe and steer; without it that of
-        the world is.
+        Body whose x axis, projected on the ground, is the reference of camber, toe and steer;
+        without it, that of the world.
     """
 
     carrier: Body
@@ -93,7 +93,7 @@ class Wheel:
         Parameters
         ----------
         at
-            What surrounds the wheel.
+            Surroundings of the wheel.
         coordinate
             The coordinate.
         """
@@ -110,7 +110,7 @@ class Wheel:
         Parameters
         ----------
         at
-            What surrounds the wheel.
+            Surroundings of the wheel.
         prefix
             Begins the names of the steps.
         """
@@ -118,7 +118,7 @@ class Wheel:
         axis = at.direction(self._body, self.spin)
         lean = program.define(f"{prefix}wheel_axis_up", axis.dot(up))
         pull = program.vector(f"{prefix}tyre_pull", up - axis * lean, "123")
-        # not 1 - lean^2: of a wheel that lies flat, rounding would leave something positive
+        # not 1 - lean^2: for a wheel that lies flat, rounding could leave a positive value
         squared = program.guarded(
             f"{prefix}cos_camber_squared",
             pull.dot(pull),
@@ -134,7 +134,7 @@ class Wheel:
         Parameters
         ----------
         at
-            What surrounds the wheel.
+            Surroundings of the wheel.
         prefix
             Begins the names of the signals.
         """

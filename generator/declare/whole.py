@@ -1,4 +1,4 @@
-"""What a force asks of the mechanism that it is part of."""
+"""Interface of a mechanism for its forces."""
 
 from __future__ import annotations
 

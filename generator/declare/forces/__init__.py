@@ -1,6 +1,6 @@
-"""What acts on the bodies: a file for each kind of force, which is all there is to do for another.
+"""Forces on the bodies, one file for each kind.
 
-All forces that are defined in this folder are found here.
+All forces that are defined in this folder are found here: a new kind is a new file.
 """
 
 from __future__ import annotations
@@ -18,5 +18,5 @@ KINDS = tuple(c for c in defined_in(__name__) if issubclass(c, _Force) and c is 
 if TYPE_CHECKING:
     Force = _Force
 else:
-    # an error names every kind; besides these, a user may declare his own
+    # an error names every kind; users may define further ones
     Force = Union[(*KINDS, _Force)]

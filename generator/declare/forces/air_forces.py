@@ -1,4 +1,4 @@
-"""What still air does to a body that moves through it: drag and lift."""
+"""Forces of still air on a body that moves through it: drag and lift."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import sympy as sp
+from typing_extensions import override
 
 from ...program.vectors import Vector
 from ..bodies import Body
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 
     from ..surroundings import Surroundings
 
-# Added to the square of a speed whose root is taken [m^2/s^2].
+# Added to the radicand of a speed [m^2/s^2].
 _SMALL = sp.Rational(1, 10**6)
 _UNITS = {"density": "kg/m^3", "drag": "m^2", "lift": "m^2", "pitching": "m^3"}
 
@@ -40,7 +41,7 @@ class AirForces(Force):
     name
         Of its signals, ``<name>_drag`` and ``<name>_lift`` [N].
     body, point
-        Where it acts: the point by its place at the design position.
+        Body, and point of action at the design position.
     density
         Of the air [kg/m^3].
     drag, lift
@@ -90,7 +91,7 @@ class AirForces(Force):
         for k, rate in moving.items():
             velocity += rate * at.rate(k)
         velocity = program.vector(f"{own}velocity", velocity)
-        # axes of the body at design are not always those in which it is seen
+        # the axes of components are not always those of the body at design
         forward, up = (at.direction(body, axis) for axis in (FORWARD, UP))
         ahead = program.define(f"{own}ahead", velocity.dot(forward))
         half = program.define(f"{own}half_density", self.density.symbol / 2)
@@ -107,8 +108,8 @@ class AirForces(Force):
         }
         return Action(forces, {f"{own}drag": drag * speed, f"{own}lift": lift})
 
+    @override
     def signals(self, at: Surroundings, action: Action) -> Iterator[Shown]:
-        """Yield drag and lift."""
         del at
         words = {"drag": "drag, against the velocity", "lift": "lift, positive upward"}
         for what, meaning in words.items():

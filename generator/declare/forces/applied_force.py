@@ -1,4 +1,4 @@
-"""A force at a point of a body, given from outside."""
+"""External forces at points of bodies."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ class AppliedForce(Force):
     Parameters
     ----------
     body, point
-        Where it acts: the point by its place at the design position.
+        Body, and point of action at the design position.
     direction
-        Along which the force is positive; its length does not count.
+        Along which the force is positive, of any length.
     input
         The force.
     follows
-        Whether the direction turns with the body; else it stays as it is in the world.
+        Whether the direction turns with the body; else it is fixed in the world.
     """
 
     body: Body
@@ -45,7 +45,7 @@ class AppliedForce(Force):
 
     @property
     def identity(self) -> tuple[str, str]:
-        """Body and input: several may push at one body."""
+        """Body and input: a body may have several."""
         return "AppliedForce at", f"{self.body.name} by {self.input.name}"
 
     def describe(self) -> Description:

@@ -1,4 +1,4 @@
-"""A moment on a body, given from outside."""
+"""External moments on bodies."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ class AppliedMoment(Force):
     body
         On which it acts.
     direction
-        About which the moment is positive; its length does not count.
+        About which the moment is positive, of any length.
     input
         The moment.
     follows
-        Whether the direction turns with the body; else it stays as it is in the world.
+        Whether the direction turns with the body; else it is fixed in the world.
     """
 
     body: Body
@@ -46,7 +46,7 @@ class AppliedMoment(Force):
 
     @property
     def identity(self) -> tuple[str, str]:
-        """Body and input: several may turn one body."""
+        """Body and input: a body may have several."""
         return "AppliedMoment on", f"{self.body.name} by {self.input.name}"
 
     def describe(self) -> Description:

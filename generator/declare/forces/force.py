@@ -1,4 +1,4 @@
-"""What a force says of itself: how it acts, what it shows."""
+"""Interface of forces: their actions, signals and descriptions."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from ..bodies import Body
     from ..inputs import Input
     from ..joints import Joint
+    from ..parameters import Parameter
     from ..shown import Shown
     from ..surroundings import Surroundings
 
@@ -28,14 +29,14 @@ class Action:
     Attributes
     ----------
     forces
-        Generalised force [N or N m] by the name of the coordinate. What is along a prescribed
-        coordinate does no work on the others, and does not count.
+        Generalised force [N or N m] by the name of the coordinate. That along a prescribed
+        coordinate does no work on the others, and is ignored.
     values
-        What its signals will show, by name.
+        Values of its signals, by name.
     total
-        Of what pushes two ends apart: with how much [N or N m].
+        Force [N] or moment [N m] that pushes two ends apart, of an element with ends.
     rates
-        Of each of its internal states the rate, by name.
+        Rates of its internal states, by name.
     """
 
     forces: dict[str, sp.Expr]
@@ -46,14 +47,14 @@ class Action:
 
 @dataclass(frozen=True)
 class Description:
-    """How a report speaks of a force.
+    """Description of a force in reports.
 
     Attributes
     ----------
     name
-        What it is called.
+        Its name.
     acts
-        What it does, with names of parameters and inputs.
+        Its action, with names of parameters and inputs.
     share
         Its share of Q, by the paper's Eqs. 23 and 24: words, or LaTeX between ``$`` and ``$``.
     """
@@ -64,7 +65,7 @@ class Description:
 
 
 class Force(ABC):
-    """Something that acts on the bodies of a mechanism: a dataclass with a decorator, `declared`.
+    """A force on the bodies of a mechanism: a dataclass with a decorator, `declared`.
 
     Bodies, inputs and parameters in its fields are those of the mechanism. Copies are made field by
     field; `turns_about` names the fields that are axes of rotation. Derivatives need no formulas: a
@@ -73,16 +74,16 @@ class Force(ABC):
 
     turns_about: ClassVar[tuple[str, ...]] = ()
     in_common: ClassVar[bool] = False
-    """Whether it acts on all bodies there are, so that copies of a mechanism have one of it."""
+    """Whether it acts on all bodies, so that copies of a mechanism share it."""
 
     @property
     @abstractmethod
     def identity(self) -> tuple[str, str]:
-        """Kind and name, by which one of them is distinguished from another; each is there once."""
+        """Kind and name, which distinguish it from all other forces of a mechanism."""
 
     @property
     def along(self) -> Joint | None:
-        """The joint whose coordinate it acts along, so that this must be driven."""
+        """The joint along whose coordinate it acts, which must be driven."""
         return None
 
     def describe(self) -> Description:
@@ -100,24 +101,31 @@ class Force(ABC):
         Parameters
         ----------
         at
-            What surrounds the force.
+            Surroundings of the force.
         action
-            What it does.
+            Its action.
         """
         del at, action
         yield from ()
 
 
-def check_applied(kind: str, body: Body, given: Input, unit: str) -> None:
-    """See that what acts from outside is in its unit, and on something that moves.
+def road_problems(road: Input, damper: Parameter | None, road_velocity: Input | None) -> list[str]:
+    """Return the problems of a road and its rate, which the damper of a tyre needs."""
+    problems = []
+    if road.unit != "m":
+        problems.append(f"road {road.name!r} is in {road.unit}; m is needed")
+    if (damper is None) != (road_velocity is None):
+        problems.append("give damper and road_velocity, or neither")
+    elif road_velocity is not None and road_velocity.derivative_of != road:
+        problems.append(
+            f"road_velocity {road_velocity.name!r} is not the rate of the road {road.name!r}; give "
+            f"Input({road_velocity.name!r}, unit, meaning, derivative_of=the road)"
+        )
+    return problems
 
-    Parameters
-    ----------
-    kind, body
-        What acts, and on which body.
-    given, unit
-        The inputs, and the unit that they must have.
-    """
+
+def check_applied(kind: str, body: Body, given: Input, unit: str) -> None:
+    """Raise `DeclarationError` unless an external force is in its unit, on a body that moves."""
     problems = []
     if given.unit != unit:
         problems.append(f"input {given.name!r} is in {given.unit}; {unit} is needed")

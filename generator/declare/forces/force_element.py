@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import sympy as sp
+from typing_extensions import override
 
 from ..declared import DeclarationError, Name, declared
 from ..inputs import Input
@@ -33,9 +34,9 @@ class ForceElement(Force):
         Begins the names of its signals: ``<name>_length``, ``<name>_velocity``; of a twist,
         ``<name>_angle`` and ``<name>_angular_velocity``.
     path
-        What it acts along.
+        Its line or joint of action.
     laws
-        What it does; the forces add up.
+        Springs, dampers and so on; their forces add up.
     """
 
     name: Name
@@ -88,14 +89,14 @@ class ForceElement(Force):
         return law.signal.replace("force", self.path.words.force)
 
     def shown_as(self, law: Law, mechanism: Whole) -> str:
-        """Return the name of a law's signal, with the element's where others have it too.
+        """Return the name of a law's signal, with the element's where other elements have it too.
 
-        That of a moment always has it: it is rarely the only thing that springs.
+        That of a moment always has the element's name.
 
         Parameters
         ----------
         law, mechanism
-            One of its laws, and where it acts.
+            One of its laws, and the mechanism.
         """
         signal = self.signal(law)
         having = [
@@ -114,7 +115,7 @@ class ForceElement(Force):
         return Description(self.name, f"F, {self.path.words.sense}: {laws}", share)
 
     def act(self, at: Surroundings) -> Action:
-        """Sum the laws; a force that pushes the ends apart does work on the length."""
+        """Append the sum of the laws; a force that pushes the ends apart acts on the length."""
         program, name = at.program, self.name
         course = self.path.course(at, name)
         rates = [m * at.rate(k) for k, m in course.motion.items()]
@@ -144,8 +145,8 @@ class ForceElement(Force):
     def _of_rate(self) -> str:
         return f"{self.name}_{self.path.words.rate[0]}"
 
+    @override
     def signals(self, at: Surroundings, action: Action) -> Iterator[Shown]:
-        """Yield length and rate, then the force of each law that is not given from outside."""
         words, described = self.path.words, {}
         for name, (_, unit, meaning) in (
             (self._of_length, words.length),
@@ -163,7 +164,7 @@ class ForceElement(Force):
 
     @property
     def _ranges(self) -> dict[str, tuple[Range, ...]]:
-        """Where length and rate mean something."""
+        """Valid ranges of length and rate."""
         of_path = self.path.ranges_of_length(self.name)
         of_length = tuple(r for law in self.laws for r in law.ranges_of_length())
         of_rate = tuple(r for law in self.laws for r in law.ranges_of_rate())
@@ -171,6 +172,6 @@ class ForceElement(Force):
 
     @property
     def _events(self) -> tuple[Event, ...]:
-        """What happens at certain lengths."""
+        """Events at certain lengths."""
         of_laws = (event for law in self.laws for event in law.events_of_length(self.name))
         return (*self.path.events_of_length(self.name), *of_laws)

@@ -43,7 +43,7 @@ class JointForce(Force):
 
     @property
     def identity(self) -> tuple[str, str]:
-        """Joint and input: several may push along one joint."""
+        """Joint and input: a joint may have several."""
         return "JointForce along", f"{self.joint.name} by {self.input.name}"
 
     @property
@@ -58,5 +58,5 @@ class JointForce(Force):
         return Description(name, acts, "itself, in the row of that coordinate")
 
     def act(self, at: Surroundings) -> Action:
-        """Append the force; it does its work on the coordinate."""
+        """Append the force along the coordinate."""
         return Action({at.coordinate(self.joint.name): sp.Symbol(self.input.name)})

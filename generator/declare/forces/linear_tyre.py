@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import sympy as sp
+from typing_extensions import override
 
 from ...program.functions import IsPositive, Positive
 from ..declared import DeclarationError, Name, declared
@@ -13,7 +14,7 @@ from ..inputs import Input
 from ..parameters import DamperRate, Displacement, Share, SpringRate
 from ..shown import Event, Range, Shown
 from ..wheel import Wheel
-from .force import Action, Description, Force
+from .force import Action, Description, Force, road_problems
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from ..whole import Whole
 
 
-# Force at which a tyre touches, and below which its pull is rounding [N]: nanometres of deflection.
+# Force at which a tyre touches, and below which tension is rounding [N]: nanometres of deflection.
 _TOUCH = 1e-3
 
 
@@ -36,14 +37,14 @@ class LinearTyre(Force):
 
     With a damper the load is ``rate x + damper x'``. A tyre that lifts off neither pulls nor damps
     in the air: its load is zero where x or the load itself would be negative; one that does not
-    holds on to the road, as in the paper.
+    is bonded to the road, as in the paper.
 
     Parameters
     ----------
     name
         Begins the names of its signals, and those of the wheel, where there are several tyres.
     wheel
-        What it is on; the force acts at its centre.
+        Its wheel, at whose centre the force acts.
     rate, free_height
         [N/m]; height of the wheel centre at which the tyre is free of force [m].
     road
@@ -64,17 +65,7 @@ class LinearTyre(Force):
     lifts_off: Share | None = None
 
     def __post_init__(self) -> None:
-        problems = []
-        if self.road.unit != "m":
-            problems.append(f"road {self.road.name!r} is in {self.road.unit}; m is needed")
-        if (self.damper is None) != (self.road_velocity is None):
-            problems.append("give damper and road_velocity, or neither")
-        elif self.road_velocity is not None and self.road_velocity.derivative_of != self.road:
-            rate, road = self.road_velocity.name, self.road.name
-            problems.append(
-                f"road_velocity {rate!r} is not the rate of the road {road!r}; give "
-                f"Input({rate!r}, unit, meaning, derivative_of=the road)"
-            )
+        problems = road_problems(self.road, self.damper, self.road_velocity)
         if problems:
             raise DeclarationError(f"LinearTyre {self.name!r}", problems)
 
@@ -115,7 +106,7 @@ class LinearTyre(Force):
         return Action(forces, {f"{prefix}tyre_force": shown})
 
     def _bonded(self, at: Surroundings, deflection: sp.Expr) -> sp.Expr:
-        """Return the load of spring and damper on a road that it holds on to."""
+        """Return the load of spring and damper of a tyre that is bonded to the road."""
         load = self.rate.symbol * deflection
         if self.damper is None or self.road_velocity is None:
             return load
@@ -136,8 +127,8 @@ class LinearTyre(Force):
         pressed = IsPositive(deflection) * Positive(load)
         return load + self.lifts_off.symbol * (pressed - load)
 
+    @override
     def signals(self, at: Surroundings, action: Action) -> Iterator[Shown]:
-        """Yield those of the wheel, then the force."""
         yield from self.wheel.signals(at, self.prefix(at.mechanism))
         meaning = "tyre force in the wheel plane, positive in compression"
         limits = self._ranges, self._events(self.prefix(at.mechanism))
@@ -146,13 +137,13 @@ class LinearTyre(Force):
 
     @property
     def _ranges(self) -> tuple[Range, ...]:
-        """What it can do: a tyre that never lifts off would have to pull."""
+        """Its valid range: a tyre that never lifts off would have to pull."""
         return (Range(-_TOUCH, below="the tyre pulls at the road", unless=self.lifts_off),)
 
     @staticmethod
     def _events(prefix: str) -> tuple[Event, ...]:
-        """When the wheel leaves the road, and meets it."""
-        # in the air the force of a tyre that lifts off is zero, all the time
+        """Events at which the wheel leaves the road, and meets it."""
+        # in the air, the force of a tyre that lifts off is constantly zero
         leaves, touches = (f"{prefix}wheel_{what}_ground" for what in ("leaves", "touches"))
         return (
             Event(leaves, _TOUCH, rising=False, meaning="the tyre force falls to nothing"),

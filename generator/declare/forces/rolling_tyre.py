@@ -1,4 +1,4 @@
-"""A tyre that rolls: a normal force by its deflection, and forces and moments by its slip."""
+"""Rolling tyres: a normal force by deflection, and forces and moments by slip."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import sympy as sp
+from typing_extensions import override
 
 from ...program.formulas import Steps
 from ...program.functions import IsPositive, Positive
@@ -18,7 +19,7 @@ from ..joints import Revolute
 from ..parameters import DamperRate
 from ..shown import Event, Shown
 from ..wheel import Wheel
-from .force import Action, Description, Force
+from .force import Action, Description, Force, road_problems
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -36,9 +37,10 @@ _TOUCH = 1e-3  # load at which a tyre touches [N]
 class RollingTyre(Force):
     """A tyre that rolls on a level road, in the axes of ISO 8855 at its contact.
 
-    The wheel is a thin disc. Its normal force acts at the lowest point of the disc, by how far that
-    is below the road, and so is conservative, but for its damper; a tyre in the air has none. All
-    other forces act where the plane of the wheel meets the road, straight below the axis.
+    The wheel is a thin disc. Its normal force acts at the lowest point of the disc, depends on the
+    distance of that point below the road, and so is conservative, but for its damper; a tyre in the
+    air has none. All other forces act where the plane of the wheel meets the road, straight below
+    the axis.
 
     With V the velocity of the wheel's centre, and of the contact as part of the carrier, Omega the
     rate of spin in the world, n up, x = a x n forward and y to the left::
@@ -46,10 +48,9 @@ class RollingTyre(Force):
         V_cx = x . V_centre,  V_cy = y . V_contact,  |V| = sqrt(V_cx^2 + V_low^2)
         kappa = (r_e Omega - V_cx) / |V|,  tan(alpha) = V_cy / |V|
 
-    V_low smooths them: at standstill the contact damps, and rolling backward is nothing special.
-
-    With states u and v, in which the contact is deflected along and across, the slips follow with
-    the relaxation lengths s_x and s_y, which are taken to be 50 mm at least::
+    V_low smooths them: at standstill the contact damps, and rolling backward needs no case of its
+    own. With states u and v, the deflections of the contact along and across, the slips follow with
+    the relaxation lengths s_x and s_y, of 50 mm at least::
 
         u' = r_e Omega - V_cx - |V| u / s_x,  kappa = u / s_x
         v' = V_cy - |V| v / s_y,              tan(alpha) = v / s_y
@@ -59,11 +60,11 @@ class RollingTyre(Force):
     name
         Begins the names of its signals.
     wheel
-        What it is on.
+        Its wheel.
     bearing
         The driven hinge about which the wheel turns on its carrier, along its spin axis.
     law
-        What it does by load and slip.
+        Forces by load and slip.
     road
         Height of the road under the tyre in the world [m].
     damper, road_velocity
@@ -83,16 +84,7 @@ class RollingTyre(Force):
     deflections: tuple[InternalState, InternalState] | None = None
 
     def __post_init__(self) -> None:
-        problems = []
-        if self.road.unit != "m":
-            problems.append(f"road {self.road.name!r} is in {self.road.unit}; m is needed")
-        if (self.damper is None) != (self.road_velocity is None):
-            problems.append("give damper and road_velocity, or neither")
-        elif self.road_velocity is not None and self.road_velocity.derivative_of != self.road:
-            problems.append(
-                f"road_velocity {self.road_velocity.name!r} is not the rate of the road "
-                f"{self.road.name!r}; give it derivative_of=the road"
-            )
+        problems = road_problems(self.road, self.damper, self.road_velocity)
         problems += [
             f"state {state.name!r} is in {state.unit}; m is needed"
             for state in self.deflections or ()
@@ -109,7 +101,7 @@ class RollingTyre(Force):
 
     @property
     def along(self) -> Revolute:
-        """The bearing: its coordinate is turned."""
+        """The bearing, which it turns."""
         return self.bearing
 
     def describe(self) -> Description:
@@ -122,7 +114,7 @@ class RollingTyre(Force):
         return Description(f"tyre {self.name}", acts, share)
 
     def act(self, at: Surroundings) -> Action:
-        """Append the power of all of it on the motion of the carrier, and on the spin."""
+        """Append its power on the motion of the carrier, and on the spin."""
         program, carrier, steps = at.program, self.wheel.carrier.name, Steps(at.program, self._own)
         upright = self.wheel.upright(at, self._own)
         cosine = program.define(f"{self._own}cosine", sp.sqrt(upright.squared))
@@ -192,7 +184,7 @@ class RollingTyre(Force):
         cosine: sp.Expr,
         moving: tuple[Vector, Vector, Vector],
     ) -> tuple[sp.Expr, sp.Expr]:
-        """Return how far the lowest point is below the road, and the force along the normal."""
+        """Return the depth of the lowest point below the road, and the force along the normal."""
         program, body, radius = at.program, self.wheel.carrier.name, self.law.radius
         height = at.height(body, at.local(body, self.wheel.center))
         deflection = program.define(
@@ -218,7 +210,7 @@ class RollingTyre(Force):
         load: sp.Expr,
         moving: tuple[Vector, Vector, Vector, WheelAttitude],
     ) -> RollingState:
-        """Return how the tyre rolls."""
+        """Return the rolling motion of the tyre."""
         (forward, left, _), (velocity, turning, arm, upright) = axes, moving
         ahead = steps.define("ahead", forward.dot(velocity))
         sideways = steps.define("sideways", left.dot(velocity + turning.cross(arm)))
@@ -239,14 +231,14 @@ class RollingTyre(Force):
         )
 
     def _forces(self, steps: Steps, at: RollingState) -> Forces:
-        """Return the forces of the law: of all motion, they depend on a few numbers alone."""
+        """Return the forces of the law, which depend on a few numbers of all motion."""
         found = self.law.forces(steps, at)
         named = {n: steps.define(f"contact_{n}", v) for n, v in vars(found).items()}
         steps.program.narrow(vars(at).values(), named.values())
         return replace(found, **named)
 
     def _relaxed(self, steps: Steps, at: RollingState) -> tuple[RollingState, dict[str, sp.Expr]]:
-        """Return how the tyre rolls with slips that follow, and the rates of the deflections."""
+        """Return the rolling motion with slips that lag, and the rates of the deflections."""
         if self.deflections is None:
             return at, {}
         along, across = self.deflections
@@ -263,8 +255,8 @@ class RollingTyre(Force):
         }
         return replace(at, longitudinal=slip, lateral=lateral), rates
 
+    @override
     def signals(self, at: Surroundings, action: Action) -> Iterator[Shown]:
-        """Yield those of the wheel, then forces, slips and deflection."""
         yield from self.wheel.signals(at, self._own)
         described = {
             "fx": ("N", "longitudinal force of the road on the tyre, positive forward"),
@@ -287,7 +279,7 @@ class RollingTyre(Force):
 
     @property
     def _events(self) -> tuple[Event, ...]:
-        """When the wheel leaves the road, and meets it."""
+        """Events at which the wheel leaves the road, and meets it."""
         leaves, touches = (f"{self._own}wheel_{what}_ground" for what in ("leaves", "touches"))
         return (
             Event(leaves, _TOUCH, rising=False, meaning="the tyre leaves the road"),

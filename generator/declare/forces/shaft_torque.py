@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import networkx as nx
 import sympy as sp
+from typing_extensions import override
 
 from ...program.functions import IsPositive
 from ..bodies import Body
@@ -37,7 +38,7 @@ class ShaftTorque(Force):
     Parameters
     ----------
     name
-        Of its signal: the torque that acts [N m].
+        Of its signal: the acting torque [N m].
     wheel
         The wheel that it turns.
     bearing
@@ -72,7 +73,7 @@ class ShaftTorque(Force):
 
     @property
     def along(self) -> Revolute:
-        """The bearing: its coordinate is turned."""
+        """The bearing, which it turns."""
         return self.bearing
 
     def describe(self) -> Description:
@@ -88,7 +89,7 @@ class ShaftTorque(Force):
         rates = {spin: sp.Integer(1)}
         if self.reaction.name != carrier:
             self._see_reaction(at)
-            # what moves the reaction moves the carrier with it, and does not turn the two apart
+            # coordinates that move the reaction move the carrier with it, without a relative turn
             together = at.twists(self.reaction.name)
             rates |= {
                 k: axis.dot(twist.angular)
@@ -100,7 +101,7 @@ class ShaftTorque(Force):
             turning = sum((rate * at.rate(k) for k, rate in rates.items()), sp.Integer(0))
             turning = at.program.define(f"{self.name}_spin", turning)
             slow = self.standstill.symbol
-            # at zero the derivative by the torque is the one-sided one, of torques above zero
+            # at zero, the derivative with respect to the torque is that of positive torques
             pressed = torque * (1 - IsPositive(-torque))
             torque = -pressed * turning / sp.sqrt(turning * turning + slow * slow)
         torque = at.program.define(f"{self.name}_acting", torque)
@@ -109,7 +110,7 @@ class ShaftTorque(Force):
         return Action(forces, {self.name: torque})
 
     def _see_reaction(self, at: Surroundings) -> None:
-        """Refuse a reaction on a body beside the suspension."""
+        """Raise an error for a reaction on a body beside the suspension."""
         graph = nx.Graph([(j.first.name, j.second.name) for j in at.mechanism.joints])
         ground, carrier = at.mechanism.ground, self.wheel.carrier.name
         reaction = self.reaction.name
@@ -123,8 +124,8 @@ class ShaftTorque(Force):
             )
             raise DeclarationError(f"ShaftTorque {self.name!r}", [problem])
 
+    @override
     def signals(self, at: Surroundings, action: Action) -> Iterator[Shown]:
-        """Yield the torque that acts."""
         del at
         meaning = "torque on the wheel about its spin axis, positive as it rolls forward"
         yield Shown(self.name, action.values[self.name], "N m", meaning)

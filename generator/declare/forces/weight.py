@@ -26,7 +26,7 @@ class Weight(Force):
     gravity
         [m/s^2].
     upward
-        Against which it pulls: a direction in the world, of any length.
+        Direction opposite to its pull in the world, of any length.
     """
 
     gravity: Gravity = field(
@@ -39,7 +39,7 @@ class Weight(Force):
 
     @property
     def identity(self) -> tuple[str, str]:
-        """There is one."""
+        """A constant: a mechanism has one."""
         return "weight", "Weight"
 
     def describe(self) -> Description:

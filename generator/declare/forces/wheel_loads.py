@@ -1,4 +1,4 @@
-"""What a road and a drive shaft do to a wheel, given from outside."""
+"""External loads on a wheel, of a road and a drive shaft."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class WheelLoads(Force):
     Parameters
     ----------
     wheel
-        Where it is; what does not turn the wheel about its axis is carried by its carrier.
+        The wheel; its carrier takes all loads that do not turn it about its axis.
     bearing
         The driven hinge about which it turns on its carrier, along its spin axis.
     radius
@@ -71,20 +71,9 @@ class WheelLoads(Force):
             for given in inputs
             if given.unit != unit
         ]
-        name, first = self.bearing.name, self.bearing.first.name
-        carrier, spin = self.wheel.carrier.name, self.wheel.spin.name
-        if first != carrier:
-            problems.append(
-                f"hinge {name!r} leads from {first!r}, and the wheel is carried by {carrier!r}; "
-                "give the wheel's bearing"
-            )
-        if self.bearing.axis.towards != self.wheel.spin or self.bearing.angle_to is not None:
-            problems.append(
-                f"hinge {name!r} does not turn about the wheel's spin axis {spin!r}; give its "
-                "bearing the same Direction, and no angle_to"
-            )
+        problems += self.wheel.bearing_problems(self.bearing)
         if problems:
-            raise DeclarationError(f"WheelLoads by {name!r}", problems)
+            raise DeclarationError(f"WheelLoads by {self.bearing.name!r}", problems)
 
     @property
     def identity(self) -> tuple[str, str]:
@@ -93,7 +82,7 @@ class WheelLoads(Force):
 
     @property
     def along(self) -> Revolute:
-        """The bearing: its coordinate is turned."""
+        """The bearing, which it turns."""
         return self.bearing
 
     def describe(self) -> Description:
@@ -108,7 +97,7 @@ class WheelLoads(Force):
         )
 
     def act(self, at: Surroundings) -> Action:
-        """Append the power of all of it on the motion of the carrier, and on the spin."""
+        """Append its power on the motion of the carrier, and on the spin."""
         carrier, name = self.wheel.carrier.name, self.bearing.name
         upright = self.wheel.upright(at, f"{name}_")
         cosine, axis = sp.sqrt(upright.squared), upright.axis
