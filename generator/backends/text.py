@@ -48,9 +48,7 @@ class Dialect:
 
 
 def text_of(
-    operation: Operation,
-    dialect: Dialect,
-    name: Callable[[sp.Symbol], str] | None = None,
+    operation: Operation, dialect: Dialect, name: Callable[[sp.Symbol], str] | None = None
 ) -> str:
     """Return an operation as text, with names of its symbols other than their own, if given.
 

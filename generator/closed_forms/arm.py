@@ -64,13 +64,7 @@ class Arm:
 
     @classmethod
     def of(
-        cls,
-        kin: Kinematics,
-        body: str,
-        line: Vector,
-        base: Point,
-        end: Point,
-        extent: sp.Expr,
+        cls, kin: Kinematics, body: str, line: Vector, base: Point, end: Point, extent: sp.Expr
     ) -> Arm:
         """Return the arm of a body from a base on its line to its end D.
 

@@ -248,14 +248,7 @@ class _RodAtBody:
 
     @classmethod
     def of(
-        cls,
-        kin: Kinematics,
-        entry: Leg,
-        end: Vector,
-        start: Vector,
-        size: sp.Expr,
-        *,
-        pinned: bool,
+        cls, kin: Kinematics, entry: Leg, end: Vector, start: Vector, size: sp.Expr, *, pinned: bool
     ) -> _RodAtBody:
         """Return a rod to an end at the body; positions are relative to `start`."""
         program, rod = kin.program, entry.rod_of(kin, entry)

@@ -115,11 +115,7 @@ def rotation(program: Program, name: str, u: Vector) -> Axes:
 def turned(axes: Axes, turn: Vector) -> Axes:
     """Return axes after an infinitesimal rotation, a vector along the same axes [rad]."""
     x, y, z = axes
-    return (
-        x + y * turn.z - z * turn.y,
-        y + z * turn.x - x * turn.z,
-        z + x * turn.y - y * turn.x,
-    )
+    return (x + y * turn.z - z * turn.y, y + z * turn.x - x * turn.z, z + x * turn.y - y * turn.x)
 
 
 def split(values: Sequence[sp.Expr]) -> tuple[Vector, Vector]:

@@ -160,11 +160,7 @@ class Position:
 
 
 def position(
-    program: Program,
-    label: str,
-    tree: Tree,
-    geometry: Geometry,
-    unknowns: Sequence[sp.Expr],
+    program: Program, label: str, tree: Tree, geometry: Geometry, unknowns: Sequence[sp.Expr]
 ) -> Position:
     """Append the position for values of the unknowns; the label begins the names of steps."""
     size, rest = geometry["size"].x, iter(unknowns)
@@ -278,10 +274,7 @@ _SQUARE_IN_PLANE = {Revolute.kind: [], Prismatic.kind: [("axis", "side")]}
 
 
 def block(
-    program: Program,
-    tree: Tree,
-    geometry: Geometry,
-    driven: Iterable[DrivenCoordinate],
+    program: Program, tree: Tree, geometry: Geometry, driven: Iterable[DrivenCoordinate]
 ) -> IterationBlock:
     """Return the iteration that finds the unknowns (`IterationDerivation`).
 

@@ -153,11 +153,7 @@ def _revolute_frame(
         z_parent = _beside(kin, joint, child, axis)
         origin, z_child = through, z_parent
         local = {joint.axis.through: ZERO}
-    design_axes = (
-        axis,
-        kin.program.vector(f"{child}_side_design", z_child.cross(axis)),
-        z_child,
-    )
+    design_axes = (axis, kin.program.vector(f"{child}_side_design", z_child.cross(axis)), z_child)
     start = (axis, kin.program.vector(f"{child}_side_zero", z_parent.cross(axis)), z_parent)
     parent_axes = kin.program.axes(
         (f"{child}_axis_on_parent", f"{child}_side_on_parent", f"{child}_top_on_parent"),

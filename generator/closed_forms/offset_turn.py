@@ -62,12 +62,7 @@ class _OffsetTurn:
     """The solution for one body, from its dimensions to its bias acceleration."""
 
     def __init__(
-        self,
-        kin: Kinematics,
-        step: Spanning,
-        leg: Leg,
-        record: OffLine,
-        rod_anchor: PointMotion,
+        self, kin: Kinematics, step: Spanning, leg: Leg, record: OffLine, rod_anchor: PointMotion
     ) -> None:
         self.kin, self.program = kin, kin.program
         self.step, self.leg, self.record, self.rod_anchor = step, leg, record, rod_anchor
@@ -105,10 +100,7 @@ class _OffsetTurn:
         kin, body, leg = self.kin, self.body, self.leg
         size = sp.sqrt(self.extent)
         line = f"the line of {self.base.name} and {self.record.ends.anchor.name}"
-        for name, point, way in (
-            ("arm", leg.end, arm),
-            ("reach", leg.anchor, reach),
-        ):
+        for name, point, way in (("arm", leg.end, arm), ("reach", leg.anchor, reach)):
             normal = self.program.vector(f"{body}_{name}_across_span", span.cross(way))
             require(
                 kin,
@@ -156,8 +148,7 @@ class _OffsetTurn:
             f"{body}_share_of_span", (along_span * distance - needed * slant) * inverse
         )
         v = program.define(
-            f"{body}_share_of_reach",
-            (needed * record.span_squared - along_span * slant) * inverse,
+            f"{body}_share_of_reach", (needed * record.span_squared - along_span * slant) * inverse
         )
         room = program.guarded(
             f"{body}_closure",

@@ -201,6 +201,5 @@ def _solve_offset(kin: Kinematics, step: Telescope) -> None:
         },
     )
     kin.slides[name] = program.define(
-        f"slide_{name}",
-        joint.length_at_zero_slide.symbol - kin.off_line[ends.end_link].length,
+        f"slide_{name}", joint.length_at_zero_slide.symbol - kin.off_line[ends.end_link].length
     )

@@ -100,12 +100,7 @@ class _Base:
 
 
 def _reach(
-    kin: Kinematics,
-    body: str,
-    record: OnLine,
-    base: _Base,
-    arm: Arm,
-    rod_anchor: PointMotion,
+    kin: Kinematics, body: str, record: OnLine, base: _Base, arm: Arm, rod_anchor: PointMotion
 ) -> Reach:
     """Return the position of the rod's anchor relative to the line.
 

@@ -43,14 +43,7 @@ from .laws import (
     Stop,
 )
 from .mechanism import Mechanism
-from .outputs import (
-    AccelerationOf,
-    AngleBetween,
-    DistanceBetween,
-    ForceOf,
-    PositionOf,
-    VelocityOf,
-)
+from .outputs import AccelerationOf, AngleBetween, DistanceBetween, ForceOf, PositionOf, VelocityOf
 from .parameters import (
     Angle,
     AngularSpeed,

@@ -9,22 +9,11 @@ from typing import Any, ClassVar
 from ..program.vectors import ELEMENTS
 from .declared import DeclarationError, Name, Number, Numeral, declared
 from .geometry import ORIGIN, Direction, Point
-from .parameters import (
-    Mass,
-    MomentOfInertia,
-    Owner,
-    Parameter,
-    ProductOfInertia,
-    next_order,
-)
+from .parameters import Mass, MomentOfInertia, Owner, Parameter, ProductOfInertia, next_order
 
 # Names of the numbers of an inertia, their allowed counts, and their meaning.
 _Elements = tuple[tuple[str, ...], tuple[int, ...], str]
-_SPATIAL: _Elements = (
-    ELEMENTS,
-    (0, 3, 6),
-    "{element} element of the inertia tensor of the {body}",
-)
+_SPATIAL: _Elements = (ELEMENTS, (0, 3, 6), "{element} element of the inertia tensor of the {body}")
 _MIRRORED = ("xy", "yz")  # products with y change their sign in the mirror
 
 

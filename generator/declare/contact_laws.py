@@ -405,11 +405,7 @@ class TMeasyContact(AnyContactLaw):
         load = at_most(a, load, p["greatest_load"])
         x, y = (
             tmeasy.by_load(
-                load,
-                p["nominal_load"],
-                p[f"{axis}_slope_1"],
-                p[f"{axis}_slope_2"],
-                quadratic=True,
+                load, p["nominal_load"], p[f"{axis}_slope_1"], p[f"{axis}_slope_2"], quadratic=True
             )
             / p[f"stiffness_{axis}"]
             for axis in "xy"

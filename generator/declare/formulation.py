@@ -89,10 +89,7 @@ class Formulation:
         """The layout of the state."""
         mechanism = self.mechanism
         return DeclaredStates.of(
-            self.independent,
-            mechanism.coordinates,
-            mechanism.internal_states,
-            self.eliminated,
+            self.independent, mechanism.coordinates, mechanism.internal_states, self.eliminated
         )
 
     @property

@@ -318,10 +318,7 @@ class Free(Joint):
     coordinates: ClassVar[tuple[str, ...]] = ("x", "y", "z", "yaw", "pitch", "roll")
 
     def coordinate(
-        self,
-        kind: Literal["x", "y", "z", "yaw", "pitch", "roll"],
-        name: Name,
-        meaning: str,
+        self, kind: Literal["x", "y", "z", "yaw", "pitch", "roll"], name: Name, meaning: str
     ) -> RelativeCoordinate:
         """Return one of its coordinates as a relative coordinate [m or rad].
 

@@ -153,10 +153,7 @@ class Dynamics:
 
     @staticmethod
     def _rotor_moments(body: Body) -> tuple[sp.Symbol, sp.Symbol]:
-        return (
-            sp.Symbol(f"{body.name}_inertia_spin"),
-            sp.Symbol(f"{body.name}_inertia_diametral"),
-        )
+        return (sp.Symbol(f"{body.name}_inertia_spin"), sp.Symbol(f"{body.name}_inertia_diametral"))
 
     def _ground_axes(self, placed: BodyMotion) -> tuple[Vector, Vector, Vector]:
         """Return the body axes at the design position, in ground axes."""
@@ -541,10 +538,7 @@ class Dynamics:
         return self.program.define(f"{rotor.body.name}_share_{k}", axis.dot(along))
 
     def _cholesky(
-        self,
-        names: list[str],
-        matrix: dict[tuple[str, str], sp.Expr],
-        right: dict[str, sp.Expr],
+        self, names: list[str], matrix: dict[tuple[str, str], sp.Expr], right: dict[str, sp.Expr]
     ) -> dict[str, sp.Expr]:
         """Solve the symmetric system by L D L^T, unrolled."""
         program = self.program

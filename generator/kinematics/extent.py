@@ -40,13 +40,7 @@ def extent_squared(kin: Kinematics, step: Spanning) -> sp.Expr:
 
 
 def require(
-    kin: Kinematics,
-    name: str,
-    quantity: Any,
-    least: Any,
-    unit: str,
-    meaning: str,
-    remedy: str,
+    kin: Kinematics, name: str, quantity: Any, least: Any, unit: str, meaning: str, remedy: str
 ) -> None:
     """Have `prepare` refuse parameters for which a constant vanishes.
 

@@ -1,7 +1,7 @@
-"""The mechanisms that come with the project: a file each, which is all that there is to do.
+"""The mechanisms that come with the project, one file each.
 
-`MODELS` of a file are emitted with the project, unless it says ``EMITTED = False``; `SELDOM` are
-equations that are derived where they are needed.
+`MODELS` of a file are emitted with the project, unless it has ``EMITTED = False``; `SELDOM` are
+equations that are derived on demand.
 """
 
 from importlib import import_module
@@ -13,12 +13,8 @@ from ..declare import Formulation
 _FIRST = "macpherson"  # the suspension of the paper
 
 
-def _files() -> list[str]:
-    names = [found.name for found in iter_modules(__path__)]
-    return sorted(names, key=lambda name: (name != _FIRST, name))
-
-
-_FOUND: list[Any] = [import_module(f"{__name__}.{name}") for name in _files()]
+_FILES = sorted((m.name for m in iter_modules(__path__)), key=lambda n: (n != _FIRST, n))
+_FOUND: list[Any] = [import_module(f"{__name__}.{name}") for name in _FILES]
 
 MODELS: tuple[Formulation, ...] = tuple(
     model
@@ -26,7 +22,7 @@ MODELS: tuple[Formulation, ...] = tuple(
     if getattr(found, "EMITTED", True)
     for model in getattr(found, "MODELS", ())
 )
-"""Those that are emitted with the project."""
+"""The equations that are emitted with the project."""
 
 _SELDOM: tuple[Formulation, ...] = tuple(
     model for found in _FOUND for model in getattr(found, "SELDOM", ())
@@ -34,5 +30,5 @@ _SELDOM: tuple[Formulation, ...] = tuple(
 
 
 def model_named(name: str) -> Formulation:
-    """Return the equations of a name, of those that are emitted or derived when they are needed."""
+    """Return the equations of a name, among those that are emitted or derived on demand."""
     return next(model for model in (*MODELS, *_SELDOM) if model.name == name)

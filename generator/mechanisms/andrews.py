@@ -13,7 +13,7 @@ import sympy as sp
 from .. import declare as d
 from ..declare import flat, hinge
 
-_DIGITS = 40  # so that defaults are rounded once, on every machine alike
+_DIGITS = 40  # so that defaults are rounded once, equally on every machine
 
 
 def _number(text: str) -> sp.Float:
@@ -61,18 +61,12 @@ def _places() -> dict[str, tuple[sp.Expr, sp.Expr]]:
         ),
         "k1_com": (RA * cos(beta), RA * sin(beta)),
         "k2_com": (crank_x - DA * cos(beta + theta), crank_y - DA * sin(beta + theta)),
-        "k3_com": (
-            XB + SA * sin(gamma) + SB * cos(gamma),
-            YB - SA * cos(gamma) + SB * sin(gamma),
-        ),
+        "k3_com": (XB + SA * sin(gamma) + SB * cos(gamma), YB - SA * cos(gamma) + SB * sin(gamma)),
         "k4_com": (
             XA + ZT * cos(delta) + (E - EA) * sin(phi + delta),
             YA + ZT * sin(delta) - (E - EA) * cos(phi + delta),
         ),
-        "k5_com": (
-            XA + TA * cos(delta) - TB * sin(delta),
-            YA + TA * sin(delta) + TB * cos(delta),
-        ),
+        "k5_com": (XA + TA * cos(delta) - TB * sin(delta), YA + TA * sin(delta) + TB * cos(delta)),
         "k6_com": (
             XA + U * sin(epsilon) + (ZF - FA) * cos(omega + epsilon),
             YA - U * cos(epsilon) + (ZF - FA) * sin(omega + epsilon),

@@ -35,7 +35,7 @@ def mechanism(
     Parameters
     ----------
     name, title
-        What it is called.
+        Of the axle.
     corner
         The equations of the suspension of the right side, whose rack, if any, is prescribed.
     pulls
@@ -44,7 +44,7 @@ def mechanism(
     own
         Whether the left side has parameters of its own, whose names begin with ``left_``.
     end
-        What the tyres are called: where the axle is.
+        Name of the tyres: the end of the car.
     """
     side = _with_tyres_called(end, corner.mechanism)
     if not pulls:
@@ -95,7 +95,7 @@ class _HalfBar:
 
 
 def _half_bar(suspension: d.Mechanism, pulls: str) -> _HalfBar:
-    """Declare half a bar behind the suspension, so that its bodies come behind it in all lists."""
+    """Declare half a bar after the suspension, so that its bodies are behind it in all lists."""
     chassis, pulled = map(suspension.body, (suspension.ground, pulls))
     bush = d.Point("bar_bush", (0.24, -0.4, 0.32), "bush of the bar's half, on its axis")
     along = d.Direction("bar_axis", (0.0, 1.0, 0.0), "axis of the bar in its bush, pointing left")

@@ -1,10 +1,10 @@
 """A car: suspensions on a body that moves, with one, two, three or six degrees of freedom.
 
 The suspensions are those of one side, or whole axles, as they are declared on a ground: here the
-ground that they hang on is the body of the car, and the road takes its place. The body moves along
-the upward axis of the world (heave), turns about the axis to the left (pitch) and about the axis
-forward (roll), in this order, through its centre of mass, and does not travel. The body of a car
-that drives moves freely; its wheels roll on tyres, and have torques of brakes and drive (`full`).
+body of the car replaces that ground, and the road is the ground. The body moves along the upward
+axis of the world (heave), turns about the axis to the left (pitch) and about the axis forward
+(roll), in this order, through its centre of mass, and does not travel. The body of a car that
+drives moves freely; its wheels roll on tyres, and have torques of brakes and drive (`full`).
 """
 
 from __future__ import annotations
@@ -63,13 +63,7 @@ _AIR = d.AirForces(
 
 
 def quarter(corner: d.Formulation) -> d.Formulation:
-    """Return the equations of a quarter car: a suspension, whose body heaves.
-
-    Parameters
-    ----------
-    corner
-        Those of the suspension on a chassis that rests.
-    """
+    """Return the equations of a quarter car: a suspension whose body heaves."""
     name, title = f"quarter_{corner.name}", f"Quarter car: {_lower(corner.mechanism.title)}"
     return replace(_on_the_body(corner, FREEDOMS[:1]), name=name, title=title)
 
@@ -82,7 +76,7 @@ def car(
     Parameters
     ----------
     name, title
-        What it is called.
+        Of the car.
     axles
         The front and the rear one, each from `of_corners` or `of_whole_axle`.
     freedoms
@@ -119,7 +113,7 @@ def full(name: str, title: str, axles: Sequence[d.Formulation]) -> d.Formulation
     Parameters
     ----------
     name, title
-        What it is called.
+        Of the car.
     axles
         The front and the rear one, each from `driving`.
     """
@@ -131,7 +125,7 @@ def full(name: str, title: str, axles: Sequence[d.Formulation]) -> d.Formulation
             d.AccelerationOf("body_acceleration", BODY, BODY.center, "centre of mass of the body"),
         ),
     )
-    # its rack moves: what is shorter with a rack that rests would be as long again to compile
+    # its rack moves: a variant with a rack at rest would take as long again to compile
     return replace(found, mechanism=mechanism, held={})
 
 
@@ -209,7 +203,7 @@ def _torque(
 def _rolling(
     tyre: d.LinearTyre, bearing: d.Revolute, law: ContactLaw, *, relaxing: bool
 ) -> d.RollingTyre:
-    """Return the tyre that rolls in the place of one that is a spring."""
+    """Return a rolling tyre instead of a radial spring."""
     rising = tyre.road.name.replace("height", "velocity")
     along = d.InternalState(f"{tyre.name}_along", "m", "deflection of the contact, forward")
     across = d.InternalState(f"{tyre.name}_across", "m", "deflection of the contact, to the left")
@@ -235,7 +229,7 @@ def _with_heading(force: d.Force) -> d.Force:
 
 
 def _on_the_car(axle_on_ground: d.Formulation, prefix: str) -> dict[str, tuple[Any, ...]]:
-    """Return what an axle is made of, under names of its own, on the body of a car."""
+    """Return the parts of an axle, under names of its own, on the body of a car."""
     source = axle_on_ground.mechanism
     copy = d.Copy(source, prefix, own=source.every(Owner))
     on = {source.body(source.ground): BODY}
@@ -260,7 +254,7 @@ def of_corners(corner: d.Formulation, *, pulls: str = "", steered: bool = True) 
     corner
         The equations of the suspension of the right side, on a chassis that rests.
     pulls
-        The body of it that the drop link of an anti-roll bar is joined to; without it, no bar.
+        Its body that the drop link of an anti-roll bar is joined to; without it, no bar.
     steered
         Whether its rack, if any, moves; otherwise it is a part of the body.
     """
@@ -304,7 +298,7 @@ def with_a_fixed_rack(corner: d.Formulation) -> d.Formulation:
 
 
 def _on_the_body(source: d.Formulation, freedoms: Sequence[str]) -> d.Formulation:
-    """Return equations in which the body of a car, which moves, takes the place of the ground."""
+    """Return equations in which the moving body of a car replaces the ground."""
     joints, coordinates = _body_joints(freedoms)
     on = {source.mechanism.body(source.mechanism.ground): BODY}
     mechanism = replace(

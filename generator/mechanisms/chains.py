@@ -1,4 +1,4 @@
-"""Closed chains of hinges, for which there is no closed form.
+"""Closed chains of hinges without a closed form.
 
 Seven hinges in general positions are the general loop: a polynomial of degree 16 in one of its
 angles. Bricard's line-symmetric chain has six, and by Grübler's count no degree of freedom; but its

@@ -121,14 +121,13 @@ DOUBLE_WISHBONE = d.Mechanism(
     ),
 )
 
-# what cars have beyond it
+# with further elements of cars
 GENERAL = replace(
     DOUBLE_WISHBONE,
     name="double_wishbone_general",
     title="Double wishbone suspension with stops",
     forces=_forces(
-        (SPRING, spring_table(), DAMPER, *further_laws("damper", 1.0), ACTUATOR),
-        of_rubber(TYRE),
+        (SPRING, spring_table(), DAMPER, *further_laws("damper", 1.0), ACTUATOR), of_rubber(TYRE)
     ),
 )
 
@@ -147,8 +146,5 @@ def _model(mechanism: d.Mechanism, title: str) -> d.Formulation:
 
 MODELS = (
     _model(DOUBLE_WISHBONE, "Double wishbone suspension, rack prescribed"),
-    _model(
-        GENERAL,
-        "Double wishbone suspension with curves, friction, stops; rack prescribed",
-    ),
+    _model(GENERAL, "Double wishbone suspension with curves, friction, stops; rack prescribed"),
 )

@@ -1,4 +1,4 @@
-"""A wheel carrier that only rods hold, all together, for which there is no closed form.
+"""Wheel carriers held by several rods together, without a closed form.
 
 Three of them, all rear right, ISO 8855 axes, ground at z = 0; the numbers are this project's own.
 In `CONTROL_ARM` the carrier hangs at the ball joint of a lower control arm, and an upper link, a
@@ -6,8 +6,8 @@ camber link and a toe link hold it: three equations. In `FIVE_LINK` five links h
 rod that leads to a rocker, in `STRUT` five links and a strut, whose slide is the coordinate: six
 equations. A rack steers the rear wheel at the inner end of the toe link.
 
-Their models are declared with ``allow_iteration=True``. They show what can be closed like that; the
-multi-link suspension that comes with the project is another one.
+Their models are declared with ``allow_iteration=True``, as examples of such loops; the multi-link
+suspension that comes with the project is another one.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class Rod:
     outer: d.Point
 
     def joints(self, base: d.Body) -> tuple[d.Joint, d.Joint]:
-        """Return its joints, the inner one at some body."""
+        """Return its joints, the inner one at a base."""
         name, line = self.body.name, d.Line(self.inner, self.outer)
         return (
             d.Universal(
@@ -69,11 +69,7 @@ WHEEL = d.Rotor("wheel", 21.0, WHEEL_CENTER, axis=SPIN_AXIS, spin=1.0, diametral
 
 RACK_GUIDE = d.Prismatic("rack_guide", CHASSIS, RACK, direction=RACK_AXIS)
 BEARING = d.Revolute("bearing", CARRIER, WHEEL, axis=d.Line(WHEEL_CENTER, SPIN_AXIS))
-_STEERED_LINKS = (
-    *UPPER_LINK.joints(CHASSIS),
-    *CAMBER_LINK.joints(CHASSIS),
-    *TOE_LINK.joints(RACK),
-)
+_STEERED_LINKS = (*UPPER_LINK.joints(CHASSIS), *CAMBER_LINK.joints(CHASSIS), *TOE_LINK.joints(RACK))
 _FIVE_LINKS = (*_STEERED_LINKS, *FRONT_LINK.joints(CHASSIS), *LOWER_LINK.joints(CHASSIS))
 _REPORTED = (
     BEARING.angle("spin_angle", "wheel spin angle relative to the carrier"),

@@ -72,9 +72,9 @@ def strut(lower: d.Point) -> tuple[d.Cylindrical, d.Universal]:
 
 
 def coordinates(bc: d.Cylindrical, c: d.Universal) -> tuple[d.RelativeCoordinate, ...]:
-    """Return those of Figure 3.
+    """Return the coordinates of Figure 3.
 
-    beta6 to beta9 are the second transformer's copies of what the first one gives it.
+    beta6 to beta9 are the second transformer's copies of coordinates from the first one.
     """
     return (
         OA.angle("beta1", "arm angle from the chassis vertical (Eq. 6); falls as the wheel rises"),
@@ -102,9 +102,7 @@ BC, C = strut(BALL_JOINT)
 SPRING = d.LinearSpring(
     rate=SPRING_RATE,
     free_slide=d.Displacement(
-        "spring_free_slide",
-        _FREE_SLIDE,
-        "strut slide at which the spring is free of force (l10)",
+        "spring_free_slide", _FREE_SLIDE, "strut slide at which the spring is free of force (l10)"
     ),
 )
 TYRE = d.LinearTyre(
@@ -123,7 +121,7 @@ FORCES = (
     d.JointForce(Y, RACK_FORCE),
 )
 
-# -- what cars have beyond it: see `general` ------------------------------------------------------
+# -- further elements of cars: see `general` ------------------------------------------------------
 
 STRUT_LOWER = d.Point("strut_lower", (0.005, -0.71, 0.18), "lower end of the strut, on its axis")
 SPRING_TOP = d.Point(
@@ -170,7 +168,7 @@ def mechanism(*, free_rack: bool = False) -> d.Mechanism:
 
 
 def general(*, free_rack: bool = False) -> d.Mechanism:
-    """Return the suspension as it is on cars.
+    """Return the suspension with further elements of cars.
 
     The strut's axis may miss the ball joint, the spring has seats of its own, the damper a curve,
     the strut friction and stops, and the tyre damps and lifts off. With the defaults of all these
@@ -186,7 +184,7 @@ def general(*, free_rack: bool = False) -> d.Mechanism:
     )
 
 
-# where the paper has what the functions return, how bodies move, and what forces do
+# places in the paper of the results of functions, the motion of bodies, and forces
 EQUATIONS_OF_THE_PAPER = {
     "relative_coordinates": "Figure 3",
     "residuals": "Eqs. 4 to 13",
@@ -235,7 +233,7 @@ MODELS = (
     ),
 )
 
-# Seldom wanted, and as long as all others together: `kintrafo.Model` compiles it when it is needed.
+# Seldom needed, and as long as all others together: `kintrafo.Model` compiles it on demand.
 GENERAL_FREE_RACK = d.Formulation(
     "macpherson_general_free_rack",
     "MacPherson suspension with an offset strut, spring seats, stops; rack free",

@@ -3,9 +3,9 @@
 Two upper and two lower links and a toe link hold the carrier; where two of them meet in a ball
 joint, they are an arm. The spring acts on the rear lower link, the damper on the carrier. The
 coordinate is that of a height sensor: the angle of a lever high above the wheel, from whose tip a
-rod hangs down to the wheel centre, both without mass. So no link and no spring has to be well
-placed for it. The default values are this project's own: a rear right corner, ISO 8855 axes, ground
-at z = 0.
+rod hangs down to the wheel centre, both without mass. So the coordinate is regular for any position
+of links and spring. The default values are this project's own: a rear right corner, ISO 8855 axes,
+ground at z = 0.
 """
 
 from __future__ import annotations
@@ -16,10 +16,9 @@ from .suspension import (
     RACK_MOTION,
     actuator,
     damper,
-    further_laws,
     of_rubber,
     spring,
-    spring_table,
+    spring_and_damper,
     tyre,
 )
 
@@ -103,15 +102,10 @@ SENSOR_BALL = d.Spherical("sensor_ball", KNUCKLE, SENSOR_ROD, at=WHEEL_CENTER)
 SPRING = spring(90000.0, 0.359)
 DAMPER = damper(2500.0)
 ACTUATOR = actuator()
-COIL = d.ForceElement(
-    "spring",
-    d.AlongLine((CHASSIS, SPRING_TOP), (REAR_LOWER, SPRING_SEAT)),
-    (SPRING, spring_table(), ACTUATOR),
-)
-SHOCK = d.ForceElement(
-    "damper",
-    d.AlongLine((CHASSIS, DAMPER_TOP), (KNUCKLE, DAMPER_SEAT)),
-    (DAMPER, *further_laws("damper", 1.0)),
+COIL, SHOCK = spring_and_damper(
+    ((CHASSIS, SPRING_TOP), (REAR_LOWER, SPRING_SEAT)),
+    ((CHASSIS, DAMPER_TOP), (KNUCKLE, DAMPER_SEAT)),
+    (SPRING, ACTUATOR, DAMPER),
 )
 TYRE = tyre("rear", d.Wheel(KNUCKLE, WHEEL_CENTER, SPIN_AXIS), 0.329)
 

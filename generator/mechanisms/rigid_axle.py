@@ -1,7 +1,7 @@
 """A beam with two wheels on four rods, which leave it heave and roll: a rigid axle.
 
 Each rod leads from the chassis to the beam, anywhere. Three links and a Panhard rod are four rods,
-and so are four links of which two are triangulated. The coordinates are what an axle moves in:
+and so are four links of which two are triangulated. The coordinates are those of an axle's motion:
 the height of the middle between the wheels, and the inclination of the line through them. From the
 chassis outward the beam is moved up, to the left and forward, turned about the vertical (yaw), then
 about its axis forward (roll) and last about the line through the wheels (pitch). So the heights of
@@ -15,18 +15,8 @@ values are this project's own: a rear axle, ISO 8855 axes, ground at z = 0.
 from __future__ import annotations
 
 from .. import declare as d
-from ..declare.declared import parts
-from ..declare.parameters import Owner
 from ..program.vectors import UNIT_Y
-from .suspension import (
-    actuator,
-    damper,
-    further_laws,
-    of_rubber,
-    spring,
-    spring_table,
-    tyre,
-)
+from .suspension import actuator, damper, of_rubber, own_values, spring, spring_and_damper, tyre
 
 Place = tuple[float, float, float]
 
@@ -37,12 +27,10 @@ CHASSIS = d.Ground("chassis", 1)
 BEAM = d.Body("beam", 80.0, (0.02, 0.0, 0.37), (14.0, 1.1, 14.5))
 
 
-def _way(name: str) -> d.Body:
-    """Return a body between chassis and beam: without mass, at the middle of the axle."""
-    return d.Body(f"{name}_frame", 0.0, AXLE_CENTER)
-
-
-HEAVING, SWAYING, SHIFTING, YAWING, ROLLING = map(_way, ("heave", "sway", "shift", "yaw", "roll"))
+# bodies between chassis and beam: without mass, at the middle of the axle
+HEAVING, SWAYING, SHIFTING, YAWING, ROLLING = (
+    d.Body(f"{name}_frame", 0.0, AXLE_CENTER) for name in ("heave", "sway", "shift", "yaw", "roll")
+)
 HEAVE = d.Prismatic("heave_guide", CHASSIS, HEAVING, direction=d.UP)
 SWAY = d.Prismatic("sway_guide", HEAVING, SWAYING, direction=LEFTWARD)
 SHIFT = d.Prismatic("shift_guide", SWAYING, SHIFTING, direction=d.FORWARD)
@@ -89,15 +77,10 @@ DAMPER = damper(3200.0)
 ACTUATOR = actuator()
 TYRE = tyre("axle", d.Wheel(BEAM, WHEEL_CENTER, SPIN_AXIS), 0.382, rate=230000.0)
 OF_A_SIDE = (
-    d.ForceElement(
-        "spring",
-        d.AlongLine((CHASSIS, SPRING_TOP), (BEAM, SPRING_SEAT)),
-        (SPRING, spring_table(), ACTUATOR),
-    ),
-    d.ForceElement(
-        "damper",
-        d.AlongLine((CHASSIS, DAMPER_TOP), (BEAM, DAMPER_SEAT)),
-        (DAMPER, *further_laws("damper", 1.0)),
+    *spring_and_damper(
+        ((CHASSIS, SPRING_TOP), (BEAM, SPRING_SEAT)),
+        ((CHASSIS, DAMPER_TOP), (BEAM, DAMPER_SEAT)),
+        (SPRING, ACTUATOR, DAMPER),
     ),
     of_rubber(TYRE),
 )
@@ -132,12 +115,7 @@ _SIDE = d.Mechanism(
     ),
 )
 _SHARED = tuple(body for body in _SIDE.bodies if body not in (CHASSIS, WHEEL))
-# what each side has its own values of: all that its wheel, spring, damper and tyre are made of
-_OWN = tuple(
-    part
-    for part in dict.fromkeys(parts((BEARING, OF_A_SIDE)))
-    if isinstance(part, Owner) and part not in parts(BEAM)
-)
+_OWN = own_values((BEARING, OF_A_SIDE), BEAM)
 
 RIGID_AXLE = d.combined(
     "rigid_axle",

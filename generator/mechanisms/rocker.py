@@ -16,7 +16,7 @@ from .suspension import RACK_FORCE, RACK_MOTION, further_laws, of_rubber, spring
 
 @dataclass(frozen=True)
 class Rocker:
-    """A rocker and its rod, and where they are.
+    """A rocker and its rod, with their points.
 
     Attributes
     ----------
@@ -46,7 +46,7 @@ def model(arm: d.Body, at: Rocker, spring: d.LinearSpring) -> d.Formulation:
     Parameters
     ----------
     arm
-        What the rod hangs on.
+        The body that moves the rod.
     at
         The rocker and its rod.
     spring

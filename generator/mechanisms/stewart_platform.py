@@ -1,9 +1,9 @@
-"""A Stewart platform: a body that six struts carry and move, for which there is no closed form.
+"""A Stewart platform: a body that six struts carry and move, without a closed form.
 
 Each strut hangs at a cross of the ground, lengthens along its guide and holds the platform with a
 ball joint; the slides of the six guides are the coordinates. ISO 8855 axes, the numbers are this
 project's own. The model is declared with ``allow_iteration=True``: one block finds the pose of the
-platform from six equations. It shows what can be closed like that, and what large equations cost
+platform from six equations. It is an example of the price of large equations
 (docs/theory/growth.md).
 """
 
@@ -42,12 +42,7 @@ def _strut(number: int) -> tuple[tuple[d.Joint, d.Prismatic, d.Joint], d.ForceEl
     line = d.Direction(f"{name}_line", between=(lower, upper))
     joints = (
         d.Universal(
-            f"{name}_cross",
-            GROUND,
-            tube,
-            at=lower,
-            shaft=d.Line(lower, upper),
-            first_axis=d.UP,
+            f"{name}_cross", GROUND, tube, at=lower, shaft=d.Line(lower, upper), first_axis=d.UP
         ),
         d.Prismatic(f"{name}_guide", tube, rod, direction=line),
         d.Spherical(f"{name}_ball", rod, PLATFORM, at=upper),

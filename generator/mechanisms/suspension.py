@@ -1,6 +1,6 @@
-"""What the declarations of suspensions share: inputs, and what cars have beyond plain springs.
+"""Common parts of suspensions: inputs, and further elements of cars than plain springs.
 
-The latter costs a third of an evaluation, so that it is in variants of its own: a spring and a
+The latter cost a third of an evaluation, so that they are in variants of their own: a spring and a
 damper with a curve, friction, stops, and a tyre that damps and lifts off. With the defaults of all
 these a variant is the plain suspension.
 """
@@ -8,9 +8,11 @@ these a variant is the plain suspension.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from .. import declare as d
+from ..declare.declared import parts
+from ..declare.parameters import Owner
 
 if TYPE_CHECKING:
     from ..declare.laws import Law
@@ -28,18 +30,11 @@ ROAD_VELOCITY = d.Input("road_velocity", "m/s", "rate of the road's height", ROA
 
 
 _SEGMENTS = 10
+_Ends = tuple[tuple[d.Body, d.Point], tuple[d.Body, d.Point]]
 
 
 def spring(rate: float, free_length: float, *, ends: str = "the seats") -> d.LinearSpring:
-    """Return a coil spring between two points.
-
-    Parameters
-    ----------
-    rate, free_length
-        [N/m] and [m].
-    ends
-        What the points are called.
-    """
+    """Return a coil spring of a rate [N/m] and a free length [m] between two ends."""
     return d.LinearSpring(
         rate=d.SpringRate("spring_rate", rate, "rate of the spring"),
         free_length=d.Length(
@@ -49,7 +44,7 @@ def spring(rate: float, free_length: float, *, ends: str = "the seats") -> d.Lin
 
 
 def damper(rate: float, *, along: str = "its axis") -> d.LinearDamper:
-    """Return a damper of a rate [N s/m] along an axis, with what that is called."""
+    """Return a damper of a rate [N s/m] along a named axis."""
     return d.LinearDamper(d.DamperRate("damper_rate", rate, f"rate of the damper along {along}"))
 
 
@@ -60,15 +55,7 @@ def actuator() -> d.Actuator:
 
 
 def tyre(name: str, wheel: d.Wheel, free_height: float, *, rate: float = 200000.0) -> d.LinearTyre:
-    """Return a tyre on a road whose height is an input.
-
-    Parameters
-    ----------
-    name, wheel
-        What it is called, and its wheel.
-    free_height, rate
-        [m] and [N/m].
-    """
+    """Return a tyre on a road whose height is an input, with free height [m] and rate [N/m]."""
     meaning = "height of the wheel centre at which the tyre is free of force"
     return d.LinearTyre(
         name=name,
@@ -80,17 +67,17 @@ def tyre(name: str, wheel: d.Wheel, free_height: float, *, rate: float = 200000.
 
 
 def spring_table() -> d.SpringTable:
-    """Return what acts along a spring besides its linear part: a curve."""
+    """Return the force along a spring besides its linear part: a curve."""
     return d.SpringTable(name="spring_table", segments=_SEGMENTS)
 
 
 def further_laws(damper: str, longest: float) -> tuple[Law, ...]:
-    """Return what acts along a damper besides its linear part: a curve, friction, two stops.
+    """Return the forces along a damper besides its linear part: a curve, friction, two stops.
 
     Parameters
     ----------
     damper
-        What the damper is called.
+        Name of the damper.
     longest
         A length that it does not exceed [m].
     """
@@ -102,6 +89,26 @@ def further_laws(damper: str, longest: float) -> tuple[Law, ...]:
         ),
     )
     return table, friction, _stop("bump", damper, 0.0), _stop("rebound", damper, longest)
+
+
+def spring_and_damper(
+    of_spring: _Ends, of_damper: _Ends, laws: tuple[d.LinearSpring, d.Actuator, d.LinearDamper]
+) -> tuple[d.ForceElement, d.ForceElement]:
+    """Return spring and damper elements between their ends, with further laws of both."""
+    spring, actuator, damper = laws
+    return (
+        d.ForceElement("spring", d.AlongLine(*of_spring), (spring, spring_table(), actuator)),
+        d.ForceElement("damper", d.AlongLine(*of_damper), (damper, *further_laws("damper", 1.0))),
+    )
+
+
+def own_values(side: tuple[Any, ...], carrier: d.Body) -> tuple[Owner, ...]:
+    """Return the owners of the parameters of one side's parts, without those of its carrier."""
+    return tuple(
+        part
+        for part in dict.fromkeys(parts(side))
+        if isinstance(part, Owner) and part not in parts(carrier)
+    )
 
 
 def _stop(side: Literal["bump", "rebound"], damper: str, touched: float) -> d.Stop:
@@ -132,13 +139,13 @@ _RADIUS = d.Length("tyre_radius", 0.3, "radius of the wheel, at whose lowest poi
 
 
 def with_wheel_loads(corner: d.Formulation) -> d.Formulation:
-    """Return the equations of a suspension, or a rigid axle, with what acts on wheels as inputs.
+    """Return the equations of a suspension, or a rigid axle, with the loads of wheels as inputs.
 
     Parameters
     ----------
     corner
         Those of one side, or of both wheels of a rigid axle; a wheel turns on its carrier by a
-        driven hinge. Of two wheels the inputs begin as the hinge does: ``left_``, ``right_``.
+        driven hinge. The inputs of two wheels begin like their hinges: ``left_``, ``right_``.
     """
     tyres = [force for force in corner.mechanism.forces if isinstance(force, d.LinearTyre)]
     loads = []
@@ -158,7 +165,7 @@ def with_wheel_loads(corner: d.Formulation) -> d.Formulation:
 
 
 def _loads(wheel: d.Wheel, bearing: d.Revolute, prefix: str) -> d.WheelLoads:
-    """Return what acts on a wheel, its inputs after a prefix."""
+    """Return the loads of a wheel, with a prefix of their inputs."""
     by_shaft = "from the chassis, by a drive shaft or an inboard brake"
     return d.WheelLoads(
         wheel=wheel,

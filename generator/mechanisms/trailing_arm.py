@@ -1,23 +1,15 @@
 """A trailing arm: one hinge on the chassis, and the arm is the wheel carrier.
 
-There is no loop, no tie rod and no rack, so that nothing steers the wheel. Askew, the axis of the
-hinge makes it a semi-trailing arm. Spring and damper act between the chassis and the arm, each with
-ends of its own. The default values are this project's own: a rear right corner, ISO 8855 axes,
+There is no loop, no tie rod and no rack, so that nothing steers the wheel. With an oblique axis of
+the hinge it is a semi-trailing arm. Spring and damper act between the chassis and the arm, each
+with ends of its own. The default values are this project's own: a rear right corner, ISO 8855 axes,
 ground at z = 0.
 """
 
 from __future__ import annotations
 
 from .. import declare as d
-from .suspension import (
-    actuator,
-    damper,
-    further_laws,
-    of_rubber,
-    spring,
-    spring_table,
-    tyre,
-)
+from .suspension import actuator, damper, of_rubber, spring, spring_and_damper, tyre
 
 ARM_INNER = d.Point("arm_inner", (0.40, -0.27, 0.28), "inner bearing of the arm on the chassis")
 ARM_OUTER = d.Point("arm_outer", (0.52, -0.63, 0.28), "outer bearing of the arm on the chassis")
@@ -40,15 +32,10 @@ BEARING = d.Revolute("bearing", ARM, WHEEL, axis=d.Line(WHEEL_CENTER, SPIN_AXIS)
 SPRING = spring(55000.0, 0.36)
 ACTUATOR = actuator()
 DAMPER = damper(2000.0)
-COIL = d.ForceElement(
-    "spring",
-    d.AlongLine((CHASSIS, SPRING_TOP), (ARM, SPRING_SEAT)),
-    (SPRING, spring_table(), ACTUATOR),
-)
-SHOCK = d.ForceElement(
-    "damper",
-    d.AlongLine((CHASSIS, DAMPER_TOP), (ARM, DAMPER_SEAT)),
-    (DAMPER, *further_laws("damper", 1.0)),
+COIL, SHOCK = spring_and_damper(
+    ((CHASSIS, SPRING_TOP), (ARM, SPRING_SEAT)),
+    ((CHASSIS, DAMPER_TOP), (ARM, DAMPER_SEAT)),
+    (SPRING, ACTUATOR, DAMPER),
 )
 TYRE = tyre("rear", d.Wheel(ARM, WHEEL_CENTER, SPIN_AXIS), 0.318)
 

@@ -6,14 +6,14 @@ the line through its shear centre. In parallel travel both arms turn about the l
 symmetry, and each arm turns about the line from its pivot to that point (*twist*): like a
 semi-trailing arm, whose hinge points there (J. Reimpell, H. Stoll, J. W. Betzler, The Automotive
 Chassis, 2nd ed., 2001, on the compound crank suspension; D. Lee, C. Yang, Finite Elements in
-Analysis and Design 63 (2013) 98-106). Both together are the two coordinates, and nothing has to be
-solved: a frame turns on the pivots and carries both pivots and the shear centre, and in it one arm
-turns as far one way as the other one the other way. So the halves of the beam have one point in
-common, and at every instant turn against each other about the direction of the pivots, which twists
-the beam; what it resists is a torsion spring.
+Analysis and Design 63 (2013) 98-106). Both together are the two coordinates, without a loop to
+close: a frame turns on the pivots and carries both pivots and the shear centre, and in it the arms
+turn by opposite angles. So the halves of the beam have one point in common, and at every instant
+turn against each other about the direction of the pivots, which twists the beam; its resistance is
+a torsion spring.
 
-Left out are the bending of beam and arms, and that the beam, twisted by large angles, would have to
-be longer. A half of the beam belongs to each arm. The default values are this project's own: the
+The bending of beam and arms is left out, and so is the lengthening of a beam that is twisted by
+large angles. A half of the beam belongs to each arm. The default values are this project's own: the
 rear axle of a compact car, ISO 8855 axes, ground at z = 0.
 """
 
@@ -22,18 +22,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from .. import declare as d
-from ..declare.declared import parts
-from ..declare.parameters import Owner
 from ..program.vectors import UNIT_Y
-from .suspension import (
-    actuator,
-    damper,
-    further_laws,
-    of_rubber,
-    spring,
-    spring_table,
-    tyre,
-)
+from .suspension import actuator, damper, of_rubber, own_values, spring, spring_and_damper, tyre
 
 PIVOT = d.Point("pivot", (0.42, -0.56, 0.315), "pivot of the arm on the chassis")
 SHEAR_CENTER = d.Point("shear_center", (0.22, 0.0, 0.345), "shear centre of the beam, its middle")
@@ -59,15 +49,10 @@ DAMPER = damper(1500.0)
 ACTUATOR = actuator()
 TYRE = tyre("axle", d.Wheel(ARM, WHEEL_CENTER, SPIN_AXIS), 0.315, rate=210000.0)
 OF_A_SIDE = (
-    d.ForceElement(
-        "spring",
-        d.AlongLine((CHASSIS, SPRING_TOP), (ARM, SPRING_SEAT)),
-        (SPRING, spring_table(), ACTUATOR),
-    ),
-    d.ForceElement(
-        "damper",
-        d.AlongLine((CHASSIS, DAMPER_TOP), (ARM, DAMPER_SEAT)),
-        (DAMPER, *further_laws("damper", 1.0)),
+    *spring_and_damper(
+        ((CHASSIS, SPRING_TOP), (ARM, SPRING_SEAT)),
+        ((CHASSIS, DAMPER_TOP), (ARM, DAMPER_SEAT)),
+        (SPRING, ACTUATOR, DAMPER),
     ),
     of_rubber(TYRE),
 )
@@ -84,12 +69,7 @@ _SIDE = d.Mechanism(
         ),
     ),
 )
-# what each side has its own values of: all that its wheel, spring, damper and tyre are made of
-_OWN = tuple(
-    part
-    for part in dict.fromkeys(parts((BEARING, OF_A_SIDE)))
-    if isinstance(part, Owner) and part not in parts(ARM)
-)
+_OWN = own_values((BEARING, OF_A_SIDE), ARM)
 _RIGHT = d.Copy(_SIDE, "right_", shared=(FRAME,))
 _LEFT = d.Copy(_SIDE, "left_", mirrored=True, shared=(FRAME,), own=_OWN)
 _DRIVING, _LED = _RIGHT.of(TURN), _LEFT.of(TURN)

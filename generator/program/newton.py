@@ -94,9 +94,7 @@ class IterationDerivation:
     """
 
     def __init__(
-        self,
-        around: Program,
-        driven: Iterable[tuple[sp.Symbol, sp.Expr, sp.Expr, bool]],
+        self, around: Program, driven: Iterable[tuple[sp.Symbol, sp.Expr, sp.Expr, bool]]
     ) -> None:
         self._around = around
         self.program = Program(around.constants)

@@ -247,10 +247,7 @@ def _transformers(derivation: Derivation, number: EquationNumbers) -> Iterator[B
         "unknown; a table lists the pairs of each loop. The inputs of a transformer "
         "are known from the transformers before it."
     )
-    yield Picture(
-        "transformers",
-        "Kinematic transformers, and the coordinates between them.",
-    )
+    yield Picture("transformers", "Kinematic transformers, and the coordinates between them.")
     yield from _turns(derivation, number)
     for transformer in derivation.plan.transformers:
         pairs = [

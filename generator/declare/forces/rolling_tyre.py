@@ -266,10 +266,7 @@ class RollingTyre(Force):
             "my": ("N m", "rolling resistance moment of the road on the tyre, positive forward"),
             "mz": ("N m", "aligning moment of the road on the tyre, positive to the left"),
             "slip": ("1", "longitudinal slip that acts, positive in driving"),
-            "slip_angle": (
-                "rad",
-                "slip angle that acts, positive moving to the left",
-            ),
+            "slip_angle": ("rad", "slip angle that acts, positive moving to the left"),
             "deflection": ("m", "how far the lowest point of the disc is below the road"),
         }
         for what, (unit, meaning) in described.items():
