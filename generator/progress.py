@@ -32,7 +32,7 @@ def counted(notify: Notify, what: str, items: Iterable[T]) -> Iterator[T]:
     notify
         Called with each report.
     what
-        The work on each item, in a few words.
+        Work on each item, in a few words.
     items
         To be processed.
     """

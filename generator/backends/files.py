@@ -39,7 +39,7 @@ def project_files(derivation: Derivation) -> dict[str, str]:
         f"c/{name}.h": Header(derivation).text(),
         **{f"c/{source.file_name(part)}": source.text(part) for part in source.parts},
         f"_{name}.pyx": cython.addresses(),
-        f"_{name}.pyi": cython.addresses_stub(),
+        f"_{name}.pyi": template("cython", "addresses.pyi").template,
         **_facts(derivation),
     }
 

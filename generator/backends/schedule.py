@@ -11,6 +11,7 @@ from __future__ import annotations
 import heapq
 from dataclasses import dataclass, field
 from itertools import count
+from operator import itemgetter
 from typing import TYPE_CHECKING, Any, TypeVar
 from weakref import WeakKeyDictionary
 
@@ -193,21 +194,19 @@ class _Scheduler:
             return self.operation(expression.args[0])
         if isinstance(expression, Component):
             results, place = expression.args
-            return Operation("component", (self.operation(results),), int(place), self._at(results))
+            ready = self.ready.get(results, 0)
+            return Operation("component", (self.operation(results),), int(place), ready)
         if isinstance(expression, Iterated):
             block, *given = expression.args
             return _after("iterate", *map(self.operation, given), of=block.name)
         kind = "selection" if isinstance(expression, SELECTIONS) else "function"
         return _after(kind, *map(self.operation, expression.args), of=type(expression))
 
-    def _at(self, symbol: sp.Symbol) -> int:
-        return self.ready.get(symbol, 0)
-
     def _sum(self, expression: sp.Expr) -> Operation:
         """Add the terms that are known first; subtract instead of putting a sign in front."""
         terms = [
-            (self.operation(magnitude), negative)
-            for negative, magnitude in _signed_terms(expression)
+            (self.operation(magnitude), negative)  # positive ones first
+            for negative, magnitude in sorted(map(_signed, expression.args), key=itemgetter(0))
         ]
         if all(negative for _, negative in terms):  # the first term has time for the sign
             first = min(range(len(terms)), key=lambda i: terms[i][0].ready)
@@ -294,11 +293,6 @@ def _add(one: tuple[Operation, bool], two: tuple[Operation, bool]) -> tuple[Oper
     (first, negative), (second, subtract) = one, two
     kind = "subtract" if subtract and not negative else "add"
     return _after(kind, first, second), negative
-
-
-def _signed_terms(expression: sp.Expr) -> list[tuple[bool, sp.Expr]]:
-    """Return the terms of a sum as (is negative, magnitude), positive ones first."""
-    return sorted((_signed(term) for term in expression.args), key=lambda term: term[0])
 
 
 def _signed(term: sp.Expr) -> tuple[bool, sp.Expr]:

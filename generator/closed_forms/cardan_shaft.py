@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 import sympy as sp
+from typing_extensions import override
 
 from ..declare.joints import Revolute, Universal
 from ..loops.forms import ClosedForm
@@ -126,9 +127,8 @@ class CardanShaft(ClosedForm):
             )
         yield from through_center(self.hinge, self.driven, norm(span))
 
+    @override
     def words(self, closing: Closing | None) -> tuple[str, str]:
-        """Return the closure equation and its solution."""
-        del closing
         return (
             f"{self.shaft.line} = length of {self.shaft.links}; {self.driven.name} at right angles",
             self._yoke.solution,

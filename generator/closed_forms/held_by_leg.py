@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
+from typing_extensions import override
+
 from ..kinematics.motion import Meeting
 from ..loops.forms import ClosedForm
 from .leg import held_on
@@ -47,9 +49,8 @@ class HeldByLeg(ClosedForm):
         """Yield the rod, along its line."""
         yield self.leg.rod, self.leg.anchor, self.leg.end
 
+    @override
     def words(self, closing: Closing | None) -> tuple[str, str]:
-        """Return the closure equation and its solution."""
-        del closing
         return f"{self.leg.ends} = length of {self.leg.measure}", self.solution
 
     @property

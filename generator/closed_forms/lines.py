@@ -34,7 +34,7 @@ def line_of_ends(kin: Kinematics, step: Spanning, name: str, ends: Ends, what: s
     ends
         Body and point at either end.
     what
-        The links between the ends, for the message that these coincide.
+        Links between the ends, for the message that these coincide.
     """
     (_, first), (_, second) = ends
     span, extent = _span(kin, name, ends), extent_squared(kin, step)
@@ -99,7 +99,7 @@ def require_length(
     kin, name
         The kinematics so far, and the beginning of the names of the constants.
     ends, what
-        The points, and the links between them, for the message.
+        Points, and the links between them, for the message.
     extent
         The square of the extent of the loop.
     """

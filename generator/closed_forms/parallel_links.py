@@ -15,6 +15,7 @@ from itertools import product
 from typing import TYPE_CHECKING, ClassVar
 
 import sympy as sp
+from typing_extensions import override
 
 from ..loops.forms import ClosedForm
 from ..loops.parallel import ends_of, is_along
@@ -114,9 +115,8 @@ class ParallelLinks(ClosedForm):
         """Its title in the derivation."""
         return f"{self.link.name}: parallel to {self.leader.name}"
 
+    @override
     def words(self, closing: Closing | None) -> tuple[str, str]:
-        """Return closure equation and solution."""
-        del closing
         if self.on_its_pins:
             return (
                 f"pins of {self.link.name} = pins of {self.leader.name}",

@@ -31,6 +31,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 import sympy as sp
+from typing_extensions import override
 
 from ..declare.joints import Revolute
 from ..kinematics.extent import extent_squared, require
@@ -100,9 +101,8 @@ class RPR(_OnPins, ClosedForm):
         """Its title in the derivation."""
         return f"transformer: telescope of {self.telescope.links}"
 
+    @override
     def words(self, closing: Closing | None) -> tuple[str, str]:
-        """Return the closure equation and its solution."""
-        del closing
         telescope = self.telescope
         return (
             f"{telescope.line} = length of {telescope.links} at {telescope.joint.name}.slide",

@@ -19,6 +19,7 @@ from functools import cache
 from typing import TYPE_CHECKING, ClassVar
 
 import sympy as sp
+from typing_extensions import override
 
 from ..declare.joints import Prismatic, Revolute
 from ..kinematics.extent import require
@@ -101,9 +102,8 @@ class ScotchYoke(ClosedForm):
         known.placed |= {self.block, self.yoke}
         return known.add_all([self.hinge, self.slot, self.guide])
 
+    @override
     def words(self, closing: Closing | None) -> tuple[str, str]:
-        """Return the closure equation and its solution."""
-        del closing
         return (
             f"way of {self.pin.name} = {self.slot.name}.slide and {self.guide.name}.slide",
             "explicit: the parts of the way along slot and guide",

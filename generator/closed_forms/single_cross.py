@@ -10,6 +10,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
+from typing_extensions import override
+
 from ..declare.joints import Revolute, Universal
 from ..kinematics.motion import from_axes, to_axes
 from ..loops.forms import ClosedForm
@@ -80,9 +82,8 @@ class SingleCross(ClosedForm):
             scale = norm(cross.at.position - hinge.axis.through.position)
             yield from through_center(hinge, cross, scale)
 
+    @override
     def words(self, closing: Closing | None) -> tuple[str, str]:
-        """Return the closure equation and its solution."""
-        del closing
         return f"the axes of {self.yoke.cross.name} at right angles", self.yoke.solution
 
     def carry_out(self, kin: Kinematics) -> None:

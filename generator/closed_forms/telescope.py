@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 import sympy as sp
+from typing_extensions import override
 
 from ..declare.joints import Cylindrical
 from ..kinematics.extent import extent_squared, require
@@ -96,9 +97,8 @@ class Telescope(ClosedForm):
         """Yield the link at the anchor, along the axis."""
         yield self.ends.anchor_link, self.ends.anchor, self.ends.axis_point
 
+    @override
     def words(self, closing: Closing | None) -> tuple[str, str]:
-        """Return the closure equation and its solution."""
-        del closing
         joint, end, anchor = self.ends.joint, self.ends.end, self.ends.anchor
         full = joint.length_at_zero_slide.name
         return (

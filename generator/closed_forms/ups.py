@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 import sympy as sp
+from typing_extensions import override
 
 from ..declare.joints import Spherical, Universal
 from ..loops.forms import ClosedForm, Follower
@@ -75,9 +76,8 @@ class UPS(ClosedForm):
         """Yield the first link, along the line of both ends."""
         yield self.strut.near, self.strut.anchor, self.strut.end
 
+    @override
     def words(self, closing: Closing | None) -> tuple[str, str]:
-        """Return the closure equation and its solution."""
-        del closing
         return (
             f"{self.strut.line} = length of {self.strut.links} at {self.strut.joint.name}.slide",
             "explicit: the length is the root of a sum of squares",

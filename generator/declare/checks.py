@@ -89,15 +89,15 @@ def _repeated_problems(mechanism: Parts) -> list[str]:
     problems = []
     identities = [force.identity for force in mechanism.forces]
     kinds = dict.fromkeys(kind for kind, _ in identities)
-    for kind, names in (
-        ("body", [b.name for b in mechanism.bodies]),
-        ("joint", [j.name for j in dict.fromkeys(mechanism.joints)]),
-        ("parameter", [p.name for p in mechanism.parameters]),
-        ("input", mechanism.input_names),
-        ("coordinate", [c.name for c in dict.fromkeys(mechanism.coordinates)]),
+    for several, names in (
+        ("bodies", [b.name for b in mechanism.bodies]),
+        ("joints", [j.name for j in dict.fromkeys(mechanism.joints)]),
+        ("parameters", [p.name for p in mechanism.parameters]),
+        ("inputs", mechanism.input_names),
+        ("coordinates", [c.name for c in dict.fromkeys(mechanism.coordinates)]),
     ):
         problems += [
-            f"{count} different {_plural(kind)} are named {name!r}; rename them, or declare one "
+            f"{count} different {several} are named {name!r}; rename them, or declare one "
             "and refer to it"
             for name, count in Counter(names).items()
             if count > 1
@@ -111,10 +111,6 @@ def _repeated_problems(mechanism: Parts) -> list[str]:
     ):
         problems += repeated(kind, listed)
     return problems
-
-
-def _plural(kind: str) -> str:
-    return "bodies" if kind == "body" else f"{kind}s"
 
 
 def _stranger_problems(mechanism: Parts) -> list[str]:

@@ -194,7 +194,6 @@ class LinearContact(AnyContactLaw):
 
     @override
     def rolling_radius(self, a: Arithmetic, load: sp.Expr) -> sp.Expr:
-        del a, load
         return self.symbol("effective_radius")
 
     @override
@@ -207,7 +206,6 @@ class LinearContact(AnyContactLaw):
     def relaxation(
         self, a: Arithmetic, load: sp.Expr, inclination: sp.Expr
     ) -> tuple[sp.Expr, sp.Expr]:
-        del a, load, inclination
         return self.symbol("relaxation_x"), self.symbol("relaxation_y")
 
     def describe(self) -> str:
@@ -400,7 +398,6 @@ class TMeasyContact(AnyContactLaw):
     def relaxation(
         self, a: Arithmetic, load: sp.Expr, inclination: sp.Expr
     ) -> tuple[sp.Expr, sp.Expr]:
-        del inclination
         p = self._coefficients
         load = at_most(a, load, p["greatest_load"])
         x, y = (

@@ -133,7 +133,8 @@ def _checked(function: Callable[..., Any], name: str, annotated: Any) -> Callabl
             return valid(*values, **keywords)
         except ValidationError as error:
             problems = _problems(error, names, arguments)
-            raise DeclarationError(_title(what, arguments.get("name")), problems) from None
+            title = f"{what} {own!r}" if isinstance(own := arguments.get("name"), str) else what
+            raise DeclarationError(title, problems) from None
 
     call.__annotations__ = known
     return call
@@ -146,10 +147,6 @@ def _with_tuples(value: Any) -> Any:
     if isinstance(value, Mapping):
         return {key: _with_tuples(item) for key, item in value.items()}
     return value
-
-
-def _title(what: str, name: object) -> str:
-    return f"{what} {name!r}" if isinstance(name, str) else what
 
 
 # -- messages -------------------------------------------------------------------------------------

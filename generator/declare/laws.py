@@ -456,9 +456,8 @@ class Actuator(AnyLaw):
     signal = "actuator_force"
     meaning = "actuator force"
 
+    @override
     def force(self, at: Stretch) -> sp.Expr:
-        """Return the force on the ends."""
-        del at
         return sp.Symbol(self.input.name)
 
 
@@ -492,9 +491,8 @@ class LaggingDamper(AnyLaw):
         """Return its name and its formula."""
         return f"{self.meaning} `{self.state.name}`, `-{self.rate.name}*velocity` with a lag"
 
+    @override
     def force(self, at: Stretch) -> sp.Expr:
-        """Return the force on the ends."""
-        del at
         return self.state.symbol
 
     def rates(self, at: Stretch) -> dict[str, sp.Expr]:

@@ -157,7 +157,6 @@ class AlongTelescope(AnyPath):
 
     @override
     def course(self, at: Surroundings, name: str) -> Course:
-        del name
         return Course(*at.telescope(self.joint.name))
 
 
@@ -241,7 +240,6 @@ class TwistOfHinges(AnyPath):
 
     @override
     def course(self, at: Surroundings, name: str) -> Course:
-        del name
         twist, motion = sp.Integer(0), dict.fromkeys(at.coordinates, sp.Integer(0))
         for sense, hinge in ((-1, self.first), (1, self.second)):
             angle, rates = at.hinge(hinge.name)
@@ -270,7 +268,6 @@ class AlongHinge(AnyPath):
 
     @override
     def course(self, at: Surroundings, name: str) -> Course:
-        del name
         return Course(*at.hinge(self.hinge.name))
 
 
@@ -294,7 +291,6 @@ class AlongGuide(AnyPath):
 
     @override
     def course(self, at: Surroundings, name: str) -> Course:
-        del name
         return Course(*at.guide(self.guide.name))
 
 

@@ -204,8 +204,9 @@ class Dynamics:
     # -- bodies ---------------------------------------------------------------------------------
 
     def _add_bodies(self) -> None:
+        apart = {*self._loaded, *(rotor.body.name for rotor in self.rotors)}
         for name, placed in self.placed.items():
-            if not placed.motion or self._is_rotor(name) or name in self._loaded:
+            if not placed.motion or name in apart:
                 continue
             self.program.section(f"dynamics: {name}")
             loaded = self._base_of(name)
@@ -224,9 +225,6 @@ class Dynamics:
         for name, loaded in self._loaded.items():
             self.program.section(f"dynamics: {name}")
             self._bias |= loaded.taken("_left", {})
-
-    def _is_rotor(self, name: str) -> bool:
-        return any(rotor.body.name == name for rotor in self.rotors)
 
     def _add_body(self, placed: BodyMotion, inertia: SpatialInertia) -> None:
         body = placed.body

@@ -29,7 +29,7 @@ from ..program.floors import DIRECTION
 from ..program.vectors import UNIT_X, UNIT_Y, UNIT_Z, ZERO, Vector
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
     from ..declare.joints import RelativeCoordinate
     from ..kinematics.kinematics import Kinematics
@@ -417,17 +417,10 @@ class _Closure:
     def _given(self, name: str) -> sp.Symbol:
         return sp.Symbol(f"given_{name}")
 
-    def _first(self, joint: str, kind: str) -> sp.Symbol:
-        """Return the first copy of a coordinate: the one of the transformer that finds it."""
-        return self._given(self._copies(joint, kind)[0])
-
-    def _last(self, joint: str, kind: str) -> sp.Symbol:
-        """Return the last copy of a coordinate: the one that the later transformers read."""
-        return self._given(self._copies(joint, kind)[-1])
-
-    def _copies(self, joint: str, kind: str) -> list[str]:
+    def _copies(self, joint: str, kind: str) -> list[sp.Symbol]:
+        """Return the copies of a coordinate: first that of the transformer that solves it."""
         entries = self.mechanism.coordinates
-        return [c.name for c in entries if (c.joint.name, c.kind) == (joint, kind)]
+        return [self._given(c.name) for c in entries if (c.joint.name, c.kind) == (joint, kind)]
 
     def _driven(self) -> dict[sp.Symbol, sp.Expr]:
         """Return the given copies of the driven coordinates, to replace these."""
@@ -476,26 +469,24 @@ class _Closure:
     def _rod_span(self, turn: RodEnds) -> Vector:
         """Return the vector from the rod's anchor to its end, by explicit rotations (Eq. 17)."""
         telescope = next(t for t in self.kin.spans.values() if t.end_link == turn.body)
-        end = self._by_chain(telescope, turn.end, self._last)
+        end = self._by_chain(telescope, turn.end, -1)
         anchor = self._from_driven(
             f"given_{turn.anchor.name}",
             self.kin.point_motion(turn.anchor_body, turn.anchor).position,
         )
         return self.program.vector(f"given_{turn.rod}", end - anchor)
 
-    def _by_chain(
-        self, telescope: TelescopeEnds, point: Point, copy: Callable[[str, str], sp.Symbol]
-    ) -> Vector:
-        """Return the position of a point of a telescope's second body, by the chain of joints."""
+    def _by_chain(self, telescope: TelescopeEnds, point: Point, copy: int) -> Vector:
+        """Return the position of a point of a telescope's second body, by copies of the chain."""
         joint = telescope.joint
         holder = self.relative.holder(joint)
-        length = joint.length_at_zero_slide.symbol - copy(joint.name, "slide")
+        length = joint.length_at_zero_slide.symbol - self._copies(joint.name, "slide")[copy]
         local = self._in_marker_axes(joint, point)
-        swung = rotate_y(-copy(joint.name, "angle"), local) + UNIT_Y * length
+        swung = rotate_y(-self._copies(joint.name, "angle")[copy], local) + UNIT_Y * length
         swung = self.program.vector(f"given_{point.name}_in_shaft", swung)
-        lifted = rotate_x(copy(holder.name, "elevation"), swung)
+        lifted = rotate_x(self._copies(holder.name, "elevation")[copy], swung)
         lifted = self.program.vector(f"given_{point.name}_lifted", lifted)
-        from_center = rotate_z(copy(holder.name, "azimuth"), lifted)
+        from_center = rotate_z(self._copies(holder.name, "azimuth")[copy], lifted)
         center = self._from_driven(
             f"given_{holder.at.name}", self.kin.point_motion(holder.first.name, holder.at).position
         )
@@ -514,7 +505,7 @@ class _Closure:
             f"given_{telescope.end.name}",
             self.kin.point_motion(telescope.end_body, telescope.end).position,
         )
-        opening = self._by_chain(telescope, telescope.end, self._first) - end
+        opening = self._by_chain(telescope, telescope.end, 0) - end
         return self.program.vector(f"given_opening_{telescope.end.name}", opening)
 
     def _in_marker_axes(self, joint: Cylindrical, point: Point) -> Vector:

@@ -143,7 +143,7 @@ class Coordinates:
             return sp.Symbol(self._motions[coordinate].rates[1])
         return sp.Integer(0)
 
-    # -- what they move ---------------------------------------------------------------------------
+    # -- moved bodies ----------------------------------------------------------------------------
 
     @cached_property
     def rotors(self) -> dict[str, Body]:

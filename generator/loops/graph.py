@@ -198,7 +198,9 @@ class JointGraph:
         found: dict[frozenset[str], Cycle] = {}
         for cycle in self.horton_candidates():
             found.setdefault(cycle.key, cycle)
-        return sorted(found.values(), key=lambda c: (c.length, self._cycle_numbers(c)))
+        return sorted(
+            found.values(), key=lambda c: (c.length, sorted(self._path_numbers(c.bodies)))
+        )
 
     def horton_candidates(self) -> list[Cycle]:
         """Return the simple cycles of all pairs of vertex and edge, with repetitions."""
@@ -251,9 +253,6 @@ class JointGraph:
     @cached_property
     def _planes(self) -> Planes:
         return Planes(self.mechanism)
-
-    def _cycle_numbers(self, cycle: Cycle) -> tuple[int, ...]:
-        return tuple(sorted(self._numbers[b] for b in cycle.bodies))
 
     def independent(self, cycles: Sequence[Cycle]) -> bool:
         """Return whether no cycle is a sum of others (edges modulo two)."""

@@ -77,7 +77,11 @@ def _frames(mechanism: Mechanism, pair: Collection[str], links: Sequence[str]) -
     """Return other bodies with hinges on two bodies that are parallel to their links by default."""
     one, other = sorted(pair)
     found = {b.name: ends_of(mechanism, b.name, pair) for b in mechanism.bodies}
-    ways = {b: _way(ends[one], ends[other]) for b, ends in found.items() if ends}
+    ways = {
+        b: ends[other].axis.through.position - ends[one].axis.through.position
+        for b, ends in found.items()
+        if ends
+    }
     hinges, model = found[links[0]], ways.pop(links[0])
     assert hinges
     return [
@@ -85,10 +89,6 @@ def _frames(mechanism: Mechanism, pair: Collection[str], links: Sequence[str]) -
         for body, way in ways.items()
         if body not in links and is_along(mechanism, hinges[one], way - model, model)
     ]
-
-
-def _way(start: Revolute, end: Revolute) -> Vector:
-    return end.axis.through.position - start.axis.through.position
 
 
 def _loop(pair: Collection[str], first: str, second: str) -> tuple[str, ...]:

@@ -28,33 +28,19 @@ class Steps:
     program: Program
     prefix: str
 
+    sqrt = staticmethod(sp.sqrt)
+    sin = staticmethod(sp.sin)
+    cos = staticmethod(sp.cos)
+    exp = staticmethod(sp.exp)
+    log = staticmethod(sp.log)
+
     def define(self, name: str, value: Any) -> sp.Expr:
         """Append a step, and return its symbol."""
         return self.program.define(f"{self.prefix}{name}", value)
 
-    def sqrt(self, x: Any) -> sp.Expr:
-        """Return the square root."""
-        return sp.sqrt(x)
-
-    def sin(self, x: Any) -> sp.Expr:
-        """Return the sine."""
-        return sp.sin(x)
-
-    def cos(self, x: Any) -> sp.Expr:
-        """Return the cosine."""
-        return sp.cos(x)
-
     def atan(self, x: Any) -> sp.Expr:
         """Return the arc tangent."""
         return sp.atan2(x, sp.Integer(1))
-
-    def exp(self, x: Any) -> sp.Expr:
-        """Return the exponential function."""
-        return sp.exp(x)
-
-    def log(self, x: Any) -> sp.Expr:
-        """Return the natural logarithm."""
-        return sp.log(x)
 
     def positive(self, x: Any) -> sp.Expr:
         """Return the number where it is positive, and zero elsewhere."""

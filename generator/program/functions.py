@@ -19,17 +19,6 @@ class Guarded(sp.Function):  # type: ignore[misc]  # SymPy has no types
         return sp.Integer(int(argindex == 1))
 
 
-class SignOf(sp.Function):  # type: ignore[misc]  # SymPy has no types
-    """Plus one or minus one, the sign of the argument. Used for constants only (branch choice)."""
-
-    nargs = 1
-
-    def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """Differentiate: zero, since no branch is left without passing a dead point."""
-        del argindex
-        return sp.Integer(0)
-
-
 class Positive(sp.Function):  # type: ignore[misc]
     """The argument where it is positive, zero elsewhere."""
 
@@ -41,18 +30,31 @@ class Positive(sp.Function):  # type: ignore[misc]
         return IsPositive(self.args[0])
 
 
-class IsPositive(sp.Function):  # type: ignore[misc]
-    """One where the argument is positive, zero elsewhere."""
-
-    nargs = 1
+class _Constant(sp.Function):  # type: ignore[misc]
+    """A function whose derivative is zero, or zero by definition."""
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """Differentiate: zero, but for the jump, which no derivative can show."""
+        """Differentiate: zero."""
         del argindex
         return sp.Integer(0)
 
 
-class Iterated(sp.Function):  # type: ignore[misc]
+class SignOf(_Constant):
+    """Plus one or minus one, the sign of the argument. Used for constants only (branch choice).
+
+    No branch is left without passing a dead point.
+    """
+
+    nargs = 1
+
+
+class IsPositive(_Constant):
+    """One where the argument is positive, zero elsewhere, with a jump between."""
+
+    nargs = 1
+
+
+class Iterated(_Constant):
     """All results of an iteration (`IterationBlock`) together, as one value.
 
     The first argument is the name of the block, the others are the arguments of the call. The
@@ -60,29 +62,14 @@ class Iterated(sp.Function):  # type: ignore[misc]
     once more, and the derivative of that correction is the exact one.
     """
 
-    def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """Differentiate: zero by definition."""
-        del argindex
-        return sp.Integer(0)
 
-
-class Component(sp.Function):  # type: ignore[misc]
+class Component(_Constant):
     """One result of an iteration, by its index; the derivative is zero by definition."""
 
     nargs = 2
 
-    def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """Differentiate: zero by definition."""
-        del argindex
-        return sp.Integer(0)
 
-
-class Frozen(sp.Function):  # type: ignore[misc]
+class Frozen(_Constant):
     """The argument itself, with a derivative of zero: an estimate that is corrected afterwards."""
 
     nargs = 1
-
-    def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """Differentiate: zero by definition."""
-        del argindex
-        return sp.Integer(0)

@@ -103,7 +103,7 @@ def test_every_public_name_is_documented():
 def test_functions_of_two_arguments_say_what_these_are(name):
     found = pydoc.locate(name)
     functions = [found] if inspect.isroutine(found) else []
-    if inspect.isclass(found) and "generator" not in name:  # whose methods are of one kind
+    if inspect.isclass(found):
         public = (member for key, member in vars(found).items() if not key.startswith("_"))
         functions = [each for each in public if inspect.isfunction(each)]
     for function in functions:

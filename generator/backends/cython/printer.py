@@ -37,10 +37,6 @@ class CythonPrinter:
             addresses="\n".join(f'    "{n}": <uintptr_t> &{self.name}_{n},' for n in self._names),
         )
 
-    def addresses_stub(self) -> str:
-        """Return the text of the ``.pyi`` file beside it."""
-        return template("cython", "addresses.pyi").template
-
     def _declaration(self, function: Function | Stage) -> str:
         given = ", const double *given" if reads_given(function) else ""
         return (

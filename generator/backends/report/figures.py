@@ -424,7 +424,8 @@ def transformers(plan: Plan, *, numbered: bool = False) -> Figure:
         axes.text(left + WIDE / 2, top - height / 2, words, ha="center", va="center", fontsize=12)
         for place, wire in enumerate(t.inputs):
             y = top - (place + 0.5) * height / max(len(t.inputs), 1)
-            channel = left - _room(t, wires) - 0.22 * channels[column]
+            room = max(0.9, 0.17 * max(len(wires.entering(w) or "") for w in t.inputs))
+            channel = left - room - 0.22 * channels[column]
             channels[column] += wire in sources
             _enter(axes, sources, wires, wire, (channel, left, y))
             used.add(wire)
@@ -457,11 +458,6 @@ def transformers(plan: Plan, *, numbered: bool = False) -> Figure:
 def _shown(transformer: Transformer, wires: _Wires) -> list[str]:
     """Return the coordinates that a transformer solves and the mechanism reports."""
     return [wire for wire in transformer.outputs if wire in wires.names]
-
-
-def _room(transformer: Transformer, wires: _Wires) -> float:
-    """Return the distance before a block at which wires may turn, beside the labels."""
-    return max(0.9, 0.17 * max(len(wires.entering(w) or "") for w in transformer.inputs))
 
 
 def _enter(

@@ -140,13 +140,10 @@ def _piece(kind: str, words: str) -> str:
     if kind == "strong":
         return rf"\textbf{{{escaped(words)}}}"
     if kind == "code":
-        return rf"\texttt{{{_breakable(escaped(words))}}}"
+        # with line breaks after each part of a name, and each operator
+        code = re.sub(r"(\\_|[.*+/,(-])", r"\1\\allowbreak{}", escaped(words))
+        return rf"\texttt{{{code}}}"
     return _typeset(words)
-
-
-def _breakable(code: str) -> str:
-    """Return code with line breaks allowed after each part of a name, and each operator."""
-    return re.sub(r"(\\_|[.*+/,(-])", r"\1\\allowbreak{}", code)
 
 
 @singledispatch

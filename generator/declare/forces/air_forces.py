@@ -110,7 +110,6 @@ class AirForces(Force):
 
     @override
     def signals(self, at: Surroundings, action: Action) -> Iterator[Shown]:
-        del at
         words = {"drag": "drag, against the velocity", "lift": "lift, positive upward"}
         for what, meaning in words.items():
             name = f"{self.name}_{what}"

@@ -126,6 +126,5 @@ class ShaftTorque(Force):
 
     @override
     def signals(self, at: Surroundings, action: Action) -> Iterator[Shown]:
-        del at
         meaning = "torque on the wheel about its spin axis, positive as it rolls forward"
         yield Shown(self.name, action.values[self.name], "N m", meaning)
