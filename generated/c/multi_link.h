@@ -9,10 +9,11 @@
  * All functions are pure: no allocation, no global state, safe to call from any thread.
  * They return 0, or status bits, which name the error; results are then finite, but meaningless.
  *
- * This model is not free of iteration. Newton's method finds the pose of knuckle, held by
- * sensor_rod, front_upper_link, rear_upper_link, front_lower_link, rear_lower_link, tie_rod: in
- * stages from the design position on, in at most 400 iterations, until a correction is below
- * 1e-13. A status bit says where that fails. Operations are counted for one iteration.
+ * Some loops of this model are solved by iteration. Newton's method finds the pose of knuckle,
+ * held by sensor_rod, front_upper_link, rear_upper_link, front_lower_link, rear_lower_link,
+ * tie_rod: in stages from the design position, in at most 400 iterations in total, until a
+ * correction is below 1e-13. A status bit reports a failure. Operation counts are those of one
+ * iteration.
  */
 
 #ifndef KINTRAFO_MULTI_LINK_H

@@ -81,34 +81,34 @@ static inline status_word first_not_finite(const double *values, int count)
 
 /*
  * Loops without a closed form are followed from the design position to the coordinates of a call.
- * A stage of the way is accepted where Newton's method converges and J, which is how the equations
- * change with the unknowns, keeps more than half of what it was a stage before: |J0^-1 J - 1| stays
- * within TURNED. No other solution comes near then. Else it is tried again, shorter.
+ * A stage of this path is accepted if Newton's method converges and J, the Jacobian of the equations
+ * with respect to the unknowns, has changed by less than half since the stage before: |J0^-1 J - 1|
+ * is at most TURNED. Then no other solution is near. Otherwise a shorter stage is tried.
  */
 #define ITERATIONS 400
-/* Length of a correction that ends the iterations: that of its rounding. */
+/* Length of a correction at which the iterations end: that of its rounding. */
 #define CONVERGED 1e-13
-/* Greatest length that rounding may have next to a dead point, where corrections end otherwise. */
+/* Greatest length of a correction that no longer decreases, as by rounding next to a dead point. */
 #define STALLED 1e-06
-/* Farthest that a coordinate, or all unknowns together, may go in a stage. */
+/* Greatest change of a coordinate, or of all unknowns together, in a stage. */
 #define LONGEST 0.5
-/* Most that J may change in a stage, of itself. */
+/* Greatest relative change of J in a stage. */
 #define TURNED 0.5
-/* Longest correction with which a stage ends, of the stage; the last one converges. */
+/* Longest correction at which a stage ends, as a fraction of the stage; the last one converges. */
 #define CLOSE 0.05
-/* Shortest stage, of the way: where it ends, so does the branch. */
+/* Shortest stage, as a fraction of the path: the branch ends where it would be shorter. */
 #define SHORTEST 1e-09
-/* How far from the design position a full turn ends that leads back to it. */
+/* Greatest distance from the design position at which a full turn counts as leading back to it. */
 #define CLOSED 1e-06
 #define FULL_TURN 6.28318530717958647693
 
 enum { UNKNOWNS = 6, ELEMENTS = 36, DRIVEN = 2 };
 
 /*
- * How many unknowns some loops have, elements the inverse of J, and coordinates that drive them;
- * which of those are angles; and one iteration. What comes out of it are the unknowns, the adjugate
- * of J, its determinant, the square of how far it is from the design position, the correction, and
- * the square of how much J has changed.
+ * Loops that are solved together: the numbers of unknowns, of elements of the inverse of J, and of
+ * driven coordinates; flags of those coordinates that are angles; and a function of one iteration.
+ * Its results are the unknowns, the adjugate of J, its determinant, the square of the distance from
+ * the design position, the correction, the tangent, and the square of the relative change of J.
  */
 struct loops {
     int unknowns, elements, driven;
@@ -129,7 +129,7 @@ static double square(const double *values, int count)
     return sum;
 }
 
-/* Follows loops straight from the design position to other coordinates; whether they arrive. */
+/* Follows loops straight from the design position to other coordinates; returns 1 if they close. */
 static int follow(const struct loops *loops, const double *given, const double *start,
                   const double *end, const double *unit, double *found)
 {
@@ -169,7 +169,7 @@ static int follow(const struct loops *loops, const double *given, const double *
         }
         const double bent = fmax(4.0 * square(ahead, n), square(tangent, n) / 4.0);
         const int even = !started || square(back, n) <= fmax(bent, STALLED * STALLED);
-        if (steady && even && (close || stalled)) { /* the stage is done */
+        if (steady && even && (close || stalled)) { /* the stage is accepted */
             side = started ? side : copysign(1.0, out[place]);
             started = 1;
             memcpy(found, out, (size_t)(place + 2) * sizeof *found);
@@ -190,7 +190,7 @@ static int follow(const struct loops *loops, const double *given, const double *
             size = passed > 0.0 ? fmin(size * fmin(room, 2.0), most) : size;
             size = fmin(size, 0.95 * LONGEST / sqrt(square(slope, n)));
             part = target;
-        } else if (steady && !close && !stalled && change <= before / 4.0) { /* on with the same stage */
+        } else if (steady && !close && !stalled && change <= before / 4.0) { /* continue the stage */
             memcpy(from, out, (size_t)n * sizeof *from);
             memcpy(step, correction, (size_t)n * sizeof *step);
             for (int k = 0; k < n; ++k) {
@@ -198,7 +198,7 @@ static int follow(const struct loops *loops, const double *given, const double *
             }
             before = change;
             continue;
-        } else if (started && size > SHORTEST) { /* again, shorter */
+        } else if (started && size > SHORTEST) { /* a shorter stage */
             size *= fmax(fmin(room, 0.5), 0.1);
         } else {
             return 0;
@@ -215,8 +215,8 @@ static int follow(const struct loops *loops, const double *given, const double *
 }
 
 /*
- * The same, but for whole turns of an angle: where a turn alone leads back to the design position,
- * they are left out. Returns 0, or 1 where the loops do not arrive.
+ * The same without whole turns of an angle, if one turn alone leads back to the design position.
+ * Returns 0, or 1 if the loops do not close.
  */
 static double follow_turns(const struct loops *loops, const double *given, const double *start,
                            double *end, const double *unit, double *found)
