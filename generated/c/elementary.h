@@ -63,7 +63,7 @@ INLINE real root(real x) { return sqrt(x); }
 /* Greatest angle of a sine or cosine [rad]: 2^20 quarter turns and products with them are exact. */
 #define GREATEST_ANGLE 1.0e6
 
-/* Added to a number, it leaves a whole one in the last digits; taken away again, it has rounded. */
+/* Rounds a number to a whole one when it is added and subtracted again. */
 #define ROUNDER 6755399441055744.0
 
 /* The rounding error of a difference. */
@@ -82,8 +82,8 @@ typedef struct {
  * Take away quarter turns. Each part of pi/2 but the last has 33 digits, so that its products with up to
  * 2^20 are exact; all four together have 151.
  *
- * The equations wait for a sine as for nothing else: so neither the angle nor the polynomials of it wait
- * for its low part, and their terms are summed in pairs.
+ * A sine has the longest latency in the equations: so neither the angle nor its polynomials depend on its
+ * low part, and their terms are summed in pairs.
  */
 INLINE turned reduced(real angle)
 {
@@ -94,7 +94,7 @@ INLINE turned reduced(real angle)
     real middle = first - second, last = middle - third;
     real rest = lost(first, second, middle) - count * 8.47842766036889956997e-32
         + lost(middle, third, last);
-    /* what is no angle, or too great, has a result that is NaN through its rest */
+    /* NaN, an infinity and an angle that is too great result in NaN through the low part */
     return (turned){last, choose(possible, rest, SPREAD(NAN)), BITS(moved)};
 }
 
@@ -117,7 +117,7 @@ INLINE real cosine_of_small(real x, real low)
     return most + (((1.0 - most) - half) + (w * (first + w * second + w * w * third) - x * low));
 }
 
-/* Sine or cosine, whichever a number of quarter turns asks for; two of them turn the sign. */
+/* Sine or cosine, by the number of quarter turns; two of them change the sign. */
 INLINE real of_quarters(turned t, bits quarters)
 {
     real small = choose(-(quarters & 1), cosine_of_small(t.high, t.low),
@@ -125,14 +125,14 @@ INLINE real of_quarters(turned t, bits quarters)
     return REAL(BITS(small) ^ (bits)((digits)(quarters & 2) << 62));
 }
 
-/* At most 1 unit of the last place from the truth; that of minus zero is zero. */
+/* Error of at most 1 unit in the last place; zero for minus zero. */
 INLINE real kt_sine(real angle)
 {
     turned t = reduced(angle);
     return of_quarters(t, t.quarters);
 }
 
-/* At most 1 unit of the last place from the truth. */
+/* Error of at most 1 unit in the last place. */
 INLINE real kt_cosine(real angle)
 {
     turned t = reduced(angle);
@@ -154,17 +154,17 @@ INLINE real arc_of_small(real x)
     return x * (odd - even);
 }
 
-/* At most 2 units of the last place from the truth where the sum of both is finite; of two zeros as C has it. */
+/* Error of at most 2 units in the last place where the sum of both is finite; of two zeros as in C. */
 INLINE real kt_arc_tangent(real y, real x)
 {
     real width = magnitude(x), height = magnitude(y);
     bits steep = height > width, left = BITS(x) < 0;
     real less = choose(steep, width, height), more = choose(steep, height, width);
-    /* over half of a right angle's half it is measured from the diagonal */
+    /* above a ratio of 7/16 it is measured from the diagonal */
     bits diagonal = less > 0.4375 * more;
     real above = choose(diagonal, less - more, less), below = choose(diagonal, less + more, more);
     real t = above / choose(below == 0.0, SPREAD(1.0), below);
-    /* high and low part of the quarters of a turn's half that are gone already */
+    /* high and low part of the preceding multiples of 45 degrees */
     real high = choose(diagonal, SPREAD(7.85398163397448278999e-01), SPREAD(0.0));
     real low = choose(diagonal, SPREAD(3.06161699786838301793e-17), SPREAD(0.0));
     real sense = choose(steep, SPREAD(-1.0), SPREAD(1.0));
@@ -176,10 +176,10 @@ INLINE real kt_arc_tangent(real y, real x)
     return with_sign_of(high + (sense * t - (sense * arc_of_small(t) - low)), y);
 }
 
-/* At most 3 units of the last place from the truth; NaN where there is none. */
+/* Error of at most 3 units in the last place; NaN outside -1 to 1. */
 INLINE real kt_arc_sine(real x) { return kt_arc_tangent(x, root((1.0 - x) * (1.0 + x))); }
 
-/* At most 1 unit of the last place from the truth; zero below -708 and infinite above 709. */
+/* Error of at most 1 unit in the last place; zero below -708 and infinite above 709. */
 INLINE real kt_exponential(real x)
 {
     bits within = (bits)(magnitude(x) <= 708.0);
@@ -196,7 +196,7 @@ INLINE real kt_exponential(real x)
     return choose(within, found, beyond);
 }
 
-/* At most 1 unit of the last place from the truth; of what is not positive and normal, NaN. */
+/* Error of at most 1 unit in the last place; NaN unless the argument is positive and normal. */
 INLINE real kt_logarithm(real x)
 {
     bits within = (bits)(x >= 2.2250738585072014e-308) & (bits)(x <= 1.7976931348623157e308);
@@ -217,7 +217,7 @@ INLINE real kt_logarithm(real x)
 }
 
 #ifndef KINTRAFO_LANES
-/* Farther than that, the bits are those of the C library. */
+/* Beyond it, the bits are those of the C library. */
 INLINE double kt_any_sine(double x) { return magnitude(x) <= GREATEST_ANGLE ? kt_sine(x) : sin(x); }
 
 INLINE double kt_any_cosine(double x) { return magnitude(x) <= GREATEST_ANGLE ? kt_cosine(x) : cos(x); }

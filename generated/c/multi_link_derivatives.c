@@ -359,7 +359,7 @@ static void pose_of_knuckle_once(const double *given, const double *now, const d
     const double held_65 = held[34];
     const double held_66 = held[35];
 
-    /* what is placed before, at this stage */
+    /* bodies placed before, at this stage */
     const double
         cos_sensor_angle = cos(sensor_angle_now),
         sin_sensor_angle = sin(sensor_angle_now),
@@ -434,7 +434,7 @@ static void pose_of_knuckle_once(const double *given, const double *now, const d
         moved_y = knuckle_size*shift_y,
         moved_z = knuckle_size*shift_z;
 
-    /* what the rods leave of their lengths */
+    /* residuals of the rods' lengths */
     const double
         sensor_rod_start_y_less_moved_y = sensor_rod_start_y - moved_y,
         sensor_rod_start_z_less_moved_z = sensor_rod_start_z - moved_z,
@@ -518,7 +518,7 @@ static void pose_of_knuckle_once(const double *given, const double *now, const d
         residual_6 = constant_6*(rod_vector_6_1*rod_vector_6_1 - tie_rod_length_squared +
             (rod_vector_6_2*rod_vector_6_2 + rod_vector_6_3*rod_vector_6_3));
 
-    /* how the equations change with the unknowns, and the correction */
+    /* Jacobian of the equations, and the correction */
     const double
         minus_row_14 = constant_7*minus_rod_vector_1_1,
         row_15 = constant_7*rod_vector_1_2,
@@ -744,7 +744,7 @@ static void pose_of_knuckle_once(const double *given, const double *now, const d
         adjugate_65 = row_62*upper_1345 - row_61*upper_2345 + (row_64*upper_1235 - row_65*upper_1234
             - row_63*upper_1245);
 
-    /* how much that has changed since the stage before */
+    /* change of the Jacobian since the stage before */
     const double
         minus_cos_sensor_angle__slope = sensor_angle_way*sin_sensor_angle,
         sin_sensor_angle__slope = sensor_angle_way*cos_sensor_angle,

@@ -401,7 +401,7 @@ static void loops_through_sway_frame_once(const double *given, const double *now
         rod_4_rod_vector_y = rod_4_end_y - rod_4_chassis_y,
         rod_4_rod_vector_z = rod_4_end_z - rod_4_chassis_z;
 
-    /* what is left of the equations */
+    /* residuals of the equations */
     const double
         residual_1 = constant_13*(rod_1_rod_vector_x*rod_1_rod_vector_x - rod_1_length_squared +
             (rod_1_rod_vector_y*rod_1_rod_vector_y + rod_1_rod_vector_z*rod_1_rod_vector_z)),
@@ -412,7 +412,7 @@ static void loops_through_sway_frame_once(const double *given, const double *now
         residual_4 = constant_16*(rod_4_rod_vector_x*rod_4_rod_vector_x - rod_4_length_squared +
             (rod_4_rod_vector_y*rod_4_rod_vector_y + rod_4_rod_vector_z*rod_4_rod_vector_z));
 
-    /* how the equations change with the unknowns, and the correction */
+    /* Jacobian of the equations, and the correction */
     const double
         row_11 = constant_17*rod_1_rod_vector_y,
         row_12 = constant_17*rod_1_rod_vector_x,
@@ -496,7 +496,7 @@ static void loops_through_sway_frame_once(const double *given, const double *now
         adjugate_33 = upper_12*row_44 + row_41*upper_24 - row_42*upper_14,
         adjugate_43 = row_42*upper_13 - row_43*upper_12 - row_41*upper_23;
 
-    /* how much that has changed since the stage before */
+    /* change of the Jacobian since the stage before */
     const double
         residual_1__slope = heave_way*rod_1_scale*rod_1_rod_vector_z,
         residual_2__slope = heave_way*rod_2_scale*rod_2_rod_vector_z,

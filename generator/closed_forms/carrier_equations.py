@@ -151,7 +151,7 @@ def block(
     pinned = all(rod.size is None for rod in rods.values())
 
     def derive(own: Program, estimate: Estimate) -> IterationResult:
-        own.section("what is placed before, at this stage")
+        own.section("bodies placed before, at this stage")
         equations = [
             replace(
                 rod,
@@ -167,7 +167,7 @@ def block(
         axes = rotation(own, "body", u)
         sigma = own.vector("shift", sigma + from_axes(before, way))
         pose = Pose(axes, own.vector("moved", sigma * size))
-        own.section("what the rods leave of their lengths")
+        own.section("residuals of the rods' lengths")
         rod_vectors = [
             own.vector(f"rod_vector_{i}", e.rod_vector(pose), "123")
             for i, e in enumerate(equations, 1)

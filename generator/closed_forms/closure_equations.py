@@ -295,7 +295,7 @@ def block(
     derivation = IterationDerivation(program, along)
 
     def derive(own: Program, estimate: Estimate) -> IterationResult:
-        own.section("what is placed before, at this stage")
+        own.section("bodies placed before, at this stage")
         components = [c for vector in geometry.values() for c in vector]
         staged = iter(derivation.repeated(components))
         here = {n: Vector(next(staged), next(staged), next(staged)) for n in geometry}
@@ -310,7 +310,7 @@ def block(
             for branch, base, step in zip(tree.unknowns, estimate.base, estimate.step, strict=True)
         ]
         now = position(own, "", tree, here, x)
-        own.section("what is left of the equations")
+        own.section("residuals of the equations")
         left = [
             own.define(f"residual_{i}", equation.constraint.residual())
             for i, equation in enumerate(now.equations, 1)

@@ -48,7 +48,7 @@ def find_assumptions(plan: Plan) -> list[Assumption]:
 
 def define_assumptions(program: Program, assumed: Iterable[Assumption]) -> tuple[Assumption, ...]:
     """Append assumed quantities as constants, and return the assumptions in their names."""
-    program.section("what must be zero")
+    program.section("quantities that must be zero")
     named: dict[sp.Expr, Assumption] = {}
     for assumption in assumed:
         quantity = program.define(assumption.name, assumption.quantity)

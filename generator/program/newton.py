@@ -151,11 +151,11 @@ class IterationDerivation:
             ),
         )
         found = derive(program, estimate)
-        program.section("how the equations change with the unknowns, and the correction")
+        program.section("Jacobian of the equations, and the correction")
         rows = named(program, "row", found.rows)
         inverse, scale = inverted(program, rows)
         correction = [-c / scale for c in times(inverse, found.misfits)]
-        program.section("how much that has changed since the stage before")
+        program.section("change of the Jacobian since the stage before")
         outputs = dict(zip(unknowns, found.unknowns, strict=True))
         places = [f"inverse_{i}{j}" for i in range(1, count + 1) for j in range(1, equations + 1)]
         outputs |= dict(zip(places, (e for line in inverse for e in line), strict=True))
