@@ -65,7 +65,7 @@ class Pivot(Revolute):
         "generator/declare/__init__.py": source(
             "generator/declare/__init__.py",
             ("    Revolute,\n", "    Pivot,\n    Revolute,\n"),
-            ('    "Revolute",\n', '    "Pivot",\n    "Revolute",\n'),
+            (' "Revolute",', ' "Pivot", "Revolute",'),
         ),
     },
     "A back end": {
