@@ -20,14 +20,9 @@ OPERATIONS = ("add", "multiply", "divide", "root", "trigonometric")
 # Class of each kind. A sign in front is an addition; guards, limits and the choice of a branch are
 # comparisons and do not count.
 _COUNTED = {
-    "add": "add",
-    "subtract": "add",
-    "negate": "add",
-    "multiply": "multiply",
-    "divide": "divide",
-    "root": "root",
-    "function": "trigonometric",
-}
+    "add": "add", "subtract": "add", "negate": "add", "multiply": "multiply", "divide": "divide",
+    "root": "root", "function": "trigonometric",
+}  # fmt: skip
 
 _counts: WeakKeyDictionary[Function | Stage, Counter[str]] = WeakKeyDictionary()
 

@@ -32,16 +32,9 @@ SELECTIONS = (Guarded, SignOf, Positive, IsPositive)
 # Approximate latency of the operations on present processors, in cycles. Only the order of
 # operations follows from these numbers, never their count.
 _LATENCY = {
-    "add": 4,
-    "subtract": 4,
-    "negate": 4,
-    "multiply": 4,
-    "divide": 14,
-    "root": 18,
-    "selection": 4,
-    "function": 45,
-    "iterate": 500,
-}
+    "add": 4, "subtract": 4, "negate": 4, "multiply": 4, "divide": 14, "root": 18, "selection": 4,
+    "function": 45, "iterate": 500,
+}  # fmt: skip
 
 
 # Compilers accept 256 nested brackets or more, and Python some 300 calls. A sum of which each term

@@ -31,13 +31,9 @@ _COMMUTATIVE = ("add", "multiply")
 _PART = "_part_"
 _LEAVES = ("symbol", "number")
 _SPOKEN = {
-    "add": "plus",
-    "subtract": "less",
-    "multiply": "times",
-    "divide": "over",
-    "negate": "minus",
+    "add": "plus", "subtract": "less", "multiply": "times", "divide": "over", "negate": "minus",
     "root": "root",
-}
+}  # fmt: skip
 # Longest name in the words of a formula; otherwise a value is named as a part of its reader.
 _LONGEST = 36
 

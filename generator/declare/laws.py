@@ -508,12 +508,6 @@ class LaggingDamper(AnyLaw):
 
 
 Law = (
-    LinearSpring
-    | SpringTable
-    | LinearDamper
-    | LaggingDamper
-    | DamperTable
-    | Friction
-    | Stop
+    LinearSpring | SpringTable | LinearDamper | LaggingDamper | DamperTable | Friction | Stop
     | Actuator
-)
+)  # fmt: skip

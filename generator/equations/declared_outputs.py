@@ -34,7 +34,9 @@ NONE = sp.Integer(0)
 def signals_of(dynamics: Dynamics, output: Output) -> Iterator[Shown]:
     """Yield the signals of a declared output."""
     if isinstance(output, PositionOf):
-        yield from _components(output, _position(dynamics, output), "m", "position of the ")
+        part = dynamics.part_of[output.body.name]
+        place = part.place_in_world(part.point_motion(output.body.name, output.point).position)
+        yield from _components(output, place, "m", "position of the ")
     elif isinstance(output, VelocityOf):
         yield from _components(output, _velocity(dynamics, output), "m/s", "velocity of the ")
     elif isinstance(output, AccelerationOf):
@@ -52,11 +54,6 @@ def signals_of(dynamics: Dynamics, output: Output) -> Iterator[Shown]:
 def _components(output: OfPoint, value: Vector, unit: str, what: str) -> Iterator[Shown]:
     for axis, component in zip("xyz", value, strict=True):
         yield Shown(f"{output.name}_{axis}", component, unit, f"{what}{output.meaning}, {axis}")
-
-
-def _position(dynamics: Dynamics, output: OfPoint) -> Vector:
-    part = dynamics.part_of[output.body.name]
-    return part.place_in_world(part.point_motion(output.body.name, output.point).position)
 
 
 def _velocity(dynamics: Dynamics, output: OfPoint) -> Vector:

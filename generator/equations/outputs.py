@@ -16,10 +16,10 @@ from ..memory import uncollected
 from ..planning.plan import CataloguePlan
 from ..program.constants import ConstantStage
 from ..program.function import Stage
-from ..program.narrow import narrowed
+from ..program.narrow import function_of
 from ..program.program import Program
 from ..program.together import share_together
-from ..program.vectors import ZERO, Vector
+from ..program.vectors import ZERO
 from ..progress import counted, silent
 from .assumptions import define_assumptions, find_assumptions
 from .declared_outputs import signals_of
@@ -149,10 +149,13 @@ class Derivation:
 
         They take far fewer operations than all signals.
         """
-        names = [shown.name for shown in self.signals if shown.ranges]
+        names = {shown.name for shown in self.signals if shown.ranges}
         if not names:
             return None
-        return narrowed(self.functions["signals"], BOUNDED, "Signals that have ranges.", names)
+        of = self.functions["signals"]
+        results = {n: r for n, r in zip(of.labels, of.results, strict=True) if n in names}
+        doc = "Signals that have ranges."
+        return function_of(BOUNDED, doc, results, of.steps, of.guards, of.blocks, part=of.part)
 
 
 @uncollected()
@@ -353,7 +356,9 @@ class _Builder:
         }
         yield from (entry for name, entry in self.formulation.inputs.items() if name in read)
 
-    def _add(self, name: str, doc: str, results: dict[str, sp.Expr], *shape: int) -> None:
+    def _add(
+        self, name: str, doc: str, results: dict[str, sp.Expr], shape: tuple[int, ...] = ()
+    ) -> None:
         doc = _cited(doc, self.formulation.cites.get(name))
         self.functions[name] = self.program.pruned(name, doc, results, shape or None)
 
@@ -372,8 +377,7 @@ class _Builder:
                 for i, k in enumerate(names)
                 for j, other in enumerate(names)
             },
-            n,
-            n,
+            (n, n),
         )
         self._add(
             "bias",
@@ -464,8 +468,7 @@ class _Builder:
                 for i, beta in enumerate(values)
                 for j, k in enumerate(names)
             },
-            len(values),
-            len(names),
+            (len(values), len(names)),
         )
         free = {name: sp.Symbol(f"given_{name}") - value for name, value in self._free().items()}
         residuals = self._in_order([free, *(r.residuals() for r in self.relative.values())])
@@ -507,8 +510,7 @@ class _Builder:
             "absolute_jacobian",
             "Absolute Jacobian, twists of the massive bodies per relative rate, row-major.",
             results,
-            6 * len(self.massive),
-            len(betas),
+            (6 * len(self.massive), len(betas)),
         )
 
     @staticmethod
@@ -519,7 +521,7 @@ class _Builder:
         names = self.motion.coordinates.independent
         results = {}
         for body in self.massive:
-            columns = {k: self._twist_along(body, k) for k in names}
+            columns = {k: self._twist(body, self.dynamics.along(k)) for k in names}
             for row, label in enumerate(self._twist_labels(body)):
                 for k in names:
                     results[f"{label} by {k}"] = columns[k][row]
@@ -527,16 +529,15 @@ class _Builder:
             "global_jacobian",
             "Global Jacobian, twists of the massive bodies per rate of q, row-major.",
             results,
-            6 * len(self.massive),
-            len(names),
+            (6 * len(self.massive), len(names)),
         )
 
-    def _twist_along(self, body: str, independent: str) -> list[sp.Expr]:
-        """Return the twist of a body per independent rate, eliminated speeds included."""
+    def _twist(self, body: str, rates: Mapping[str, sp.Expr]) -> list[sp.Expr]:
+        """Return (omega, velocity of the centre of mass) at rates of coordinates."""
         total: list[sp.Expr] = [sp.Integer(0)] * 6
-        for coordinate, share in self.dynamics.along(independent).items():
+        for coordinate, rate in rates.items():
             column = self._ground_twist(body, coordinate)
-            total = [t + share * c for t, c in zip(total, column, strict=True)]
+            total = [t + rate * c for t, c in zip(total, column, strict=True)]
         return total
 
     def _ground_twist(self, body: str, coordinate: str) -> list[sp.Expr]:
@@ -559,37 +560,31 @@ class _Builder:
         velocities: dict[str, sp.Expr] = {}
         for body in self.moving:
             placed = self.motion.placed[body]
-            for axis, value in zip(AXES, self._center(placed), strict=True):
+            part, point = self.motion.part_of[body], self.mechanism.body(body).center
+            center = placed.origin + from_axes(placed.axes, part.local(placed, point))
+            for axis, value in zip(AXES, part.place_in_world(center), strict=True):
                 positions[f"{body} {axis}"] = value
             for label, value in self._orientation(placed).items():
                 orientations[f"{body} {label}"] = value
+            rates = {k: self.motion.coordinates.true_rate(k) for k in placed.motion}
             labels = self._twist_labels(body)
-            velocities |= dict(zip(labels, self._velocity(body), strict=True))
+            velocities |= dict(zip(labels, self._twist(body, rates), strict=True))
         count, axes = len(self.moving), self.mechanism.axes
         self._add(
-            "positions", f"Centres of mass of the moving bodies, {axes}.", positions, count, 3
+            "positions", f"Centres of mass of the moving bodies, {axes}.", positions, (count, 3)
         )
         self._add(
             "orientations",
             f"Rotation matrices of the moving bodies from their design orientation, {axes}.",
             orientations,
-            count,
-            3,
-            3,
+            (count, 3, 3),
         )
         self._add(
             "velocities",
             f"Angular velocity, then velocity of the centre of mass, of the moving bodies, {axes}.",
             velocities,
-            count,
-            6,
+            (count, 6),
         )
-
-    def _center(self, placed: BodyMotion) -> Vector:
-        """Return the centre of mass in ground axes."""
-        part = self.motion.part_of[placed.body]
-        local = part.local(placed, self.mechanism.body(placed.body).center)
-        return part.place_in_world(placed.origin + from_axes(placed.axes, local))
 
     def _orientation(self, placed: BodyMotion) -> dict[str, sp.Expr]:
         part = self.motion.part_of[placed.body]
@@ -605,14 +600,6 @@ class _Builder:
             for a in AXES
             for b in AXES
         }
-
-    def _velocity(self, body: str) -> list[sp.Expr]:
-        total: list[sp.Expr] = [sp.Integer(0)] * 6
-        for coordinate in self.motion.placed[body].motion:
-            rate = self.motion.coordinates.true_rate(coordinate)
-            column = self._ground_twist(body, coordinate)
-            total = [t + rate * c for t, c in zip(total, column, strict=True)]
-        return total
 
     # -- signals --------------------------------------------------------------------------------
 

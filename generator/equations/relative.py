@@ -240,12 +240,8 @@ class RelativeCoordinates:
             return [self._on_cross(joint, screw) for screw in screws]
         return screws
 
-    def reported(self, joint: str, kind: str) -> str | None:
-        """Return the first name under which a kind of coordinate of a joint is reported."""
-        return reported(self.mechanism, joint, kind)
-
     def _screws(self, joint: Joint) -> list[_Screw]:
-        names = {c: self.reported(joint.name, c) or "" for c in joint.coordinates}
+        names = {c: reported(self.mechanism, joint.name, c) or "" for c in joint.coordinates}
         if isinstance(joint, Weld):
             return []
         if isinstance(joint, Revolute):
@@ -331,7 +327,7 @@ class _Closure:
 
     def residual(self, coordinate: RelativeCoordinate) -> sp.Expr:
         """Return the residual of the equation of a given coordinate."""
-        first = self.relative.reported(coordinate.joint.name, coordinate.kind)
+        first = reported(self.mechanism, coordinate.joint.name, coordinate.kind)
         given = self._given(coordinate.name)
         if first is not None and first != coordinate.name:
             return given - self._given(first)

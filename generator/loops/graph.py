@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 
 import networkx as nx
 
-from ..declare.evaluation import AtDefaults
 from .errors import TopologyError
 from .parallel import ENOUGH, families
 from .planes import Planes
@@ -243,12 +242,8 @@ class JointGraph:
         joints = tuple(self.joint_between(a, b) for a, b in pairwise([*turned, turned[0]]))
         length = sum(j.freedoms for j in joints)
         normal = self._planes.normal(joints)
-        center = common_center(joints, self._at_defaults)
+        center = common_center(joints, self._planes.at_defaults)
         return Cycle(joints, tuple(turned), length, normal, center)
-
-    @cached_property
-    def _at_defaults(self) -> AtDefaults:
-        return AtDefaults(self.mechanism)
 
     @cached_property
     def _planes(self) -> Planes:

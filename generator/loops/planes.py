@@ -33,7 +33,7 @@ class Planes:
     """Finds the plane of a loop of a mechanism."""
 
     def __init__(self, mechanism: Mechanism) -> None:
-        self._at_defaults = AtDefaults(mechanism)
+        self.at_defaults = AtDefaults(mechanism)
         self._units: dict[Vector, Array] = {}
 
     def normal(self, joints: Sequence[Joint]) -> Direction | None:
@@ -62,7 +62,7 @@ class Planes:
 
     def _unit(self, vector: Vector) -> Array:
         if vector not in self._units:
-            v = np.array([self._at_defaults(component) for component in vector])
+            v = np.array([self.at_defaults(component) for component in vector])
             size = np.linalg.norm(v)
             self._units[vector] = v / size if size > 0.0 else np.full(3, np.nan)
         return self._units[vector]

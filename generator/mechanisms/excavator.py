@@ -98,16 +98,9 @@ KNEE_HINGE = _pin("knee_hinge", ROCKER, LINK, "knee")
 LINK_HINGE = _pin("link_hinge", LINK, BUCKET, "link_pin")
 BUCKET_HINGE = _pin("bucket_hinge", ARM, BUCKET, "bucket_pin")
 JOINTS = (
-    BOOM_HINGE,
-    *CYLINDERS["boom"],
-    ARM_HINGE,
-    *CYLINDERS["arm"],
-    ROCKER_HINGE,
-    *CYLINDERS["bucket"],
-    KNEE_HINGE,
-    LINK_HINGE,
-    BUCKET_HINGE,
-)
+    BOOM_HINGE, *CYLINDERS["boom"], ARM_HINGE, *CYLINDERS["arm"], ROCKER_HINGE,
+    *CYLINDERS["bucket"], KNEE_HINGE, LINK_HINGE, BUCKET_HINGE,
+)  # fmt: skip
 
 
 def _angle(name: str, joint: d.Revolute, what: str) -> d.RelativeCoordinate:

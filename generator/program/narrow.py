@@ -56,12 +56,3 @@ def function_of(
         part,
         tuple(block for block in blocks if block.name in called),
     )
-
-
-def narrowed(function: Function, name: str, doc: str, labels: Sequence[str]) -> Function:
-    """Return a function of the results of another one that have given labels, under a new name."""
-    of_label = dict(zip(function.labels, function.results, strict=True))
-    results = {label: of_label[label] for label in labels}
-    return function_of(
-        name, doc, results, function.steps, function.guards, function.blocks, part=function.part
-    )

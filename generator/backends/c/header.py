@@ -25,6 +25,11 @@ class Header(CText):
     def text(self) -> str:
         """Return the text of the header file."""
         guard = f"KINTRAFO_{self.upper}_H"
+        state = "State: independent coordinates, then their rates."
+        if self.derivation.states.free:
+            state = (
+                "State: positions, then speeds; of free bodies the latter are in their own axes."
+            )
         blocks = [
             self.banner(self._conventions()),
             (
@@ -36,7 +41,7 @@ class Header(CText):
                 f"Parameters, SI units, at the design position, {self.formulation.mechanism.axes}.",
                 self.derivation.parameters,
             ),
-            self._enum("state", self._state_title(), self.derivation.state),
+            self._enum("state", state, self.derivation.state),
             self._enum("input", "Time-varying inputs.", self.derivation.inputs),
             self._enum("relative", "Relative joint coordinates.", self.derivation.relative),
             self._enum("signal", "Elements of the signals function.", self.derivation.signals),
@@ -58,28 +63,16 @@ class Header(CText):
         return "\n\n".join(blocks) + "\n"
 
     def _conventions(self) -> str:
+        gravity, note = "", iteration_note(self.derivation)
+        if any(entry.name == "gravity" for entry in self.derivation.parameters):
+            gravity = ", with gravity along -z; in a vehicle x is forward and y left (ISO 8855)"
         return (
-            f"\n\nUnits are SI. Axes are right-handed{self._gravity()}.\n"
+            f"\n\nUnits are SI. Axes are right-handed{gravity}.\n"
             "Arrays of several dimensions are row-major.\n"
             "All functions are pure: no allocation, no global state, safe to call from any thread."
             "\nThey return 0, or status bits, which name the error; results are then finite, but "
             "meaningless."
-            f"{self._iteration_note()}"
-        )
-
-    def _gravity(self) -> str:
-        if any(entry.name == "gravity" for entry in self.derivation.parameters):
-            return ", with gravity along -z; in a vehicle x is forward and y left (ISO 8855)"
-        return ""
-
-    def _state_title(self) -> str:
-        if self.derivation.states.free:
-            return "State: positions, then speeds; of free bodies the latter are in their own axes."
-        return "State: independent coordinates, then their rates."
-
-    def _iteration_note(self) -> str:
-        note = iteration_note(self.derivation)
-        return f"\n\n{textwrap.fill(note, WIDTH - 4)}" if note else ""
+        ) + (f"\n\n{textwrap.fill(note, WIDTH - 4)}" if note else "")
 
     def _enum(self, kind: str, title: str, entries: Sequence[Entry | Input | Shown]) -> str:
         described = [(e.name, f"[{e.unit}] {e.meaning}") for e in entries]

@@ -81,7 +81,7 @@ class Source(CText):
         text_functions = "\n#include <string.h>" if blocks_of(functions) else ""
         null = "\n#include <stddef.h>" if any(map(reads_given, functions)) else ""
         printed_functions = [
-            *([] if part else self._bodies_of_parameters()),
+            *([] if part else self._functions_of_parameters()),
             *self._functions(functions),
         ]
         cut_up = any("NOT_INLINED" in text for text in printed_functions)
@@ -104,16 +104,12 @@ class Source(CText):
         tangents = (f"{name}_{TANGENT}" for name in ("rhs", "signals"))
         return frozenset({"rhs", *variants, "signals", "margins", *tangents})
 
-    def _bodies_of_parameters(self) -> list[str]:
+    def _functions_of_parameters(self) -> list[str]:
         more = map(self._body_of_parameters, self.derivation.by_parameters.of_parameters)
         design = self._body_of_parameters(self.derivation.design, "state")
-        return [*self._rounding(), self._prepare_body(), design, *_only("ifndef", [*more])]
-
-    def _rounding(self) -> list[str]:
-        if not self.derivation.assumptions:
-            return []
         comment = "/* Limit of zero: of an angle in rad, of a distance relative to a length. */"
-        return [f"{comment}\n#define ROUNDING {ROUNDING}"]
+        limit = [f"{comment}\n#define ROUNDING {ROUNDING}"] if self.derivation.assumptions else []
+        return [*limit, self._prepare_body(), design, *_only("ifndef", [*more])]
 
     def _blocks(self, blocks: Sequence[IterationBlock]) -> list[str]:
         """Print the code that follows loops, and the equations of each."""

@@ -36,13 +36,9 @@ INK, GREY, PALE = "#222222", "#8a8a8a", "#d9d9d9"
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#7b5ea7", "#56a0d3", "#a6761d")
 HELD = "\N{NO-BREAK SPACE}"
 ELEMENTS = {
-    "revolute": "R",
-    "prismatic": "P",
-    "cylindrical": "PR",
-    "universal": "RR",
-    "spherical": "RRR",
+    "revolute": "R", "prismatic": "P", "cylindrical": "PR", "universal": "RR", "spherical": "RRR",
     "free": "PPPRRR",
-}
+}  # fmt: skip
 """The elementary joints that a joint is equivalent to: guides (P) and hinges (R), in a row."""
 
 
