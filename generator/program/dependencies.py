@@ -28,13 +28,7 @@ class Dependencies:
         self._behind = lru_cache(maxsize=_KEPT)(self._all_behind)
 
     def add(self, symbol: sp.Symbol, read: Iterable[sp.Symbol]) -> None:
-        """Add a step that reads some symbols.
-
-        Parameters
-        ----------
-        symbol, read
-            The step, and the symbols.
-        """
+        """Add a step that reads some symbols."""
         reads = [self._number(s) for s in read]
         number = self._number(symbol)
         self._reads[number] = reads
@@ -52,11 +46,11 @@ class Dependencies:
         Parameters
         ----------
         moving
-            The symbols. What they are computed from does not count.
+            The symbols, whose own steps do not count.
         targets
             The targets.
         instead
-            Of some steps, symbols that they depend on, in place of those that they read.
+            Symbols that some steps depend on, instead of those that they read.
         """
         given = self._known(moving)
         ends = self._known(targets)

@@ -1,4 +1,4 @@
-"""Sums and products regrouped so that what they have in common is one part of each."""
+"""Sums and products regrouped so that a common part is one operand of each."""
 
 from __future__ import annotations
 
@@ -13,19 +13,14 @@ if TYPE_CHECKING:
 
 
 def regrouped(expressions: Iterable[sp.Expr]) -> dict[sp.Expr, Unevaluated]:
-    """Return what SymPy's ``opt_cse`` returns, in half of its time.
+    """Return the result of SymPy's ``opt_cse``, in half of its time.
 
-    That builds the negative of each sum and product, to see which of both is the better one.
-
-    Parameters
-    ----------
-    expressions
-        In which parts are searched.
+    That builds the negative of each sum and product, to find the better one of both.
 
     Returns
     -------
     dict
-        For each sum, product and power that is regrouped, its new parts, not put together.
+        New operands of each sum, product and power that is regrouped, not yet combined.
     """
     found: dict[sp.Expr, Unevaluated] = {}
     seen: set[sp.Expr] = set()

@@ -1,4 +1,4 @@
-"""The symbols of expressions, and what is guarded in them."""
+"""The symbols and the guarded quantities of expressions."""
 
 from __future__ import annotations
 
