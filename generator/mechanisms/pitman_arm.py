@@ -32,7 +32,7 @@ _RELAY = d.Body("relay_rod", 0.0, (-0.14, 0.0, 0.265))
 _IDLER = d.Body("idler_arm", 0.0, (-0.265, -0.30, 0.265))
 
 LINKAGE = (_ARM, _RELAY, _IDLER)
-"""Bodies and motion that both sides of an axle share, besides the rack."""
+"""Bodies that both sides of an axle share, besides the rack."""
 
 
 def steered_by_pitman_arm(corner: d.Formulation) -> d.Formulation:
