@@ -16,6 +16,9 @@ if __name__ == "__main__":
     write_curves(
         turns.curves[""][shown], HERE.with_name("handling_circle.png"), title=title, force=True
     )
+    speeds = kintrafo.handling.drive(car, "speed_range")
+    title = f"driving_car: {speeds.metrics.attrs['title']}"
+    write_curves(speeds.curves[""], HERE.with_name("handling_speed.png"), title=title, force=True)
     lane = kintrafo.handling.drive(car, "double_lane_change")
     write_path(
         lane.curves[""], HERE.with_name("handling_lane_change.png"), cones=lane.curves["_cones"],

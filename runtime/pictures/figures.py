@@ -3,6 +3,7 @@
 from base64 import b64encode
 from io import BytesIO
 from pathlib import Path
+from textwrap import fill
 from typing import TYPE_CHECKING, Any, Literal
 
 from matplotlib import rc_context
@@ -105,3 +106,9 @@ def lay_out(figure: Figure) -> Figure:
         engine.execute(figure)
         figure.set_layout_engine(None)
     return figure
+
+
+def wrapped(label: str, width: int) -> str:
+    """Return a label in lines of some letters; a unit in brackets at its end is not broken."""
+    name, mark, unit = label.rpartition(" [")
+    return fill(f"{name}{mark}{unit.replace(' ', chr(0xA0))}", width, break_on_hyphens=False)

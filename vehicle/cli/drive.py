@@ -150,24 +150,32 @@ def _tables(found: "HandlingResult", title: str) -> "list[Table]":
 
     single = {n: data for n, data in found.metrics.data_vars.items() if not data.ndim}
     rows = [(heading_of(data), significant(float(displayed(data)))) for data in single.values()]
-    made = [table(title, ("metric", "value"), rows)]
+    made = [table(title, ("metric", "value"), rows)] if rows else []
     several = [data for name, data in found.metrics.data_vars.items() if name not in single]
     if several:
         made.append(_by_column(several, title))
     curves = found.curves[""]
-    if _TURNS in curves.dims:
-        count = curves.sizes[_TURNS]
-        some = curves.isel({_TURNS: slice(None, None, -(-count // _most_columns()))})
-        made.append(_by_column([some[name] for name in _OF_TURNS], title))
+    for along, names in _OVER.items():
+        if along in curves.dims:
+            count = curves.sizes[along]
+            some = curves.isel({along: slice(None, None, -(-count // _most_columns()))})
+            made.append(_by_column([some[name] for name in names], title))
     return made
 
 
-_TURNS = "lateral_acceleration"
+# Curves of which a table is printed, by their axis.
+_OVER = {
+    "lateral_acceleration": (
+        "steering_wheel_angle", "understeer_gradient", "roll_angle", "sideslip_angle",
+        "drive_torque",
+    ),
+    "speed": (
+        "yaw_rate_gain", "lateral_acceleration_gain", "understeer_gradient", "sideslip_gradient",
+        "roll_gradient",
+    ),
+}  # fmt: skip
 # Widths of the heads of rows, and of a column of numbers [characters].
 _HEADS, _COLUMN = 30, 10
-_OF_TURNS = (
-    "steering_wheel_angle", "understeer_gradient", "roll_angle", "sideslip_angle", "drive_torque",
-)  # fmt: skip
 
 
 # Smaller forces are rounding [N].

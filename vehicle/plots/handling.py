@@ -29,6 +29,10 @@ _SHOWN: Mapping[str, tuple[str, ...]] = {
     "steering_wheel_angle": (
         "steering_torque", "lifting_torque", "friction_torque", "mz", "steer", "fz",
     ),
+    "speed": (
+        "yaw_rate_gain", "lateral_acceleration_gain", "understeer_gradient", "sideslip_gradient",
+        "roll_gradient", "steering_torque_gradient", "drive_torque", "growth",
+    ),
     "frequency": (
         "yaw_rate_gain", "lateral_acceleration_gain", "sideslip_angle_gain", "yaw_rate_phase",
         "lateral_acceleration_phase", "sideslip_angle_phase",

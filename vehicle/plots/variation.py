@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from textwrap import fill
 from typing import Any, Unpack
 
 import numpy as np
@@ -11,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
 from ...core.quantities import bracketed, display_of, displayed, long_name
-from ...pictures.figures import BLUE, ORANGE
+from ...pictures.figures import BLUE, ORANGE, wrapped
 from ...pictures.turned import turn
 from ..assembly.of import assembly_of
 from ..studies.curves import Curves
@@ -196,7 +195,7 @@ def _around(axes: Axes, along: Mapping[str, Any], values: Mapping[str, Any]) -> 
     axes.axvline(0.0, color="#888888", linewidth=0.8, zorder=1)
     axes.margins(x=0.02)
     axes.set_xlabel(bracketed(str(along["long_name"]), along), fontsize=9)
-    axes.set_ylabel(fill(bracketed(str(values["long_name"]), values), _LETTERS), fontsize=9.5)
+    axes.set_ylabel(wrapped(bracketed(str(values["long_name"]), values), _LETTERS), fontsize=9.5)
     if str(along["long_name"]) == "wheel travel":
         turn(axes)
         axes.xaxis.set_major_locator(MaxNLocator(nbins=5))

@@ -155,6 +155,39 @@ def test_a_car_that_oversteers_is_unstable_above_its_critical_speed(car) -> None
     assert above > 1e-2
 
 
+def test_straight_running_by_speed_is_that_of_the_bicycle_model(car) -> None:
+    found = run(car, "speed_range", from_km_per_h=40.0, to_km_per_h=300.0, step_km_per_h=20.0)
+    _, _, front, rear = bicycle(car)
+    by_front, by_rear = (
+        car.mass * arm / car.wheelbase / CORNERING[end]
+        for end, arm in (("front", rear), ("rear", front))
+    )
+    gradient, ratio = by_front - by_rear, rail_car.Controls.RATIO / rail_car.TURN
+    curves = found.curves[""]
+    speed = curves["speed"].values
+    gain = speed / (car.wheelbase + gradient * speed**2) / ratio
+    np.testing.assert_allclose(curves["yaw_rate_gain"], gain, rtol=1e-6)
+    np.testing.assert_allclose(curves["lateral_acceleration_gain"], speed * gain, rtol=1e-6)
+    np.testing.assert_allclose(curves["understeer_gradient"], gradient, rtol=1e-5)
+    characteristic = float(found.metrics["characteristic_speed"])
+    assert characteristic == pytest.approx(np.sqrt(car.wheelbase / gradient), rel=1e-4)
+
+
+def test_the_critical_speed_is_that_of_the_bicycle_model(car) -> None:
+    swapped = {"front": CORNERING["rear"], "rear": CORNERING["front"]}
+    changed = {f"{end}_tyre_cornering_stiffness": 0.5 * c for end, c in swapped.items()}
+    loose = rail_car.car(**(car.model.parameters | changed))
+    _, _, front, rear = bicycle(loose)
+    gradient = loose.mass / loose.wheelbase * (rear / swapped["front"] - front / swapped["rear"])
+    critical = np.sqrt(-loose.wheelbase / gradient)
+    steps = {"from_km_per_h": 3.0 * critical, "to_km_per_h": 4.5 * critical}
+    found = run(loose, "speed_range", **steps, step_km_per_h=0.5 * critical)
+    assert float(found.metrics["critical_speed"]) == pytest.approx(critical, rel=1e-4)
+    growth = found.curves[""]["growth"].values
+    assert growth[0] < 1e-3
+    assert growth[-1] > 1e-2
+
+
 def test_slow_harmonic_steering_is_a_steady_turn(car) -> None:
     turns = Turns(car, SteadyCondition("speed", 20.0), 1)
     straight = turns.begin(0.0)

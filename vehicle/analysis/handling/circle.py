@@ -264,7 +264,7 @@ def steady_turns(
         found = {a: each for a, each in found.items() if (wanted == abs(a)).any()}
     if not found:
         raise InputError([_beyond(first, limit)], "circle")
-    return HandlingResult(*_described(turns, slowest, found, limit))
+    return HandlingResult(*described(turns, slowest, found, limit))
 
 
 def turns_at(car: DrivingCar, first: SteadyCondition, accelerations: Array) -> xr.Dataset:
@@ -312,7 +312,7 @@ def turns_at(car: DrivingCar, first: SteadyCondition, accelerations: Array) -> x
         found |= own
         turned = turns
     assert slowest is not None
-    _, curves = _described(turned, slowest, found, np.nan)
+    _, curves = described(turned, slowest, found, np.nan)
     order = [*found]
     places = [order.index(value) for value in (accelerations + 0.0).tolist()]
     return curves[""].isel(lateral_acceleration=places)
@@ -338,7 +338,7 @@ def _followed(
     return found, np.nan
 
 
-def _described(
+def described(
     turns: Turns, slowest: Steady, found: dict[float, Steady], limit: float
 ) -> tuple[xr.Dataset, dict[str, xr.Dataset]]:
     """Return the gradients of the first turn, and all curves; the ratio is of the slowest turn."""

@@ -27,12 +27,14 @@ from .path_following import PathFollowing
 from .sine_sweep import SineSweep
 from .sine_with_dwell import SineWithDwell
 from .slowly_increasing_steer import SlowlyIncreasingSteer
+from .speed_range import SpeedRange
 from .step_steer import StepSteer
 
 _KEY = "manoeuvre"
 _CLASSES: tuple[type[Manoeuvre], ...] = (
     StepSteer, SineSweep, SlowlyIncreasingSteer, SineWithDwell, DoubleLaneChange, PathFollowing,
-    StraightBraking, BrakingInTurn, Acceleration, CoastDown, Circle, Parking,
+    StraightBraking, BrakingInTurn, Acceleration, CoastDown, Circle, SpeedRange,
+    Parking,
 )  # fmt: skip
 
 MANOEUVRES: Mapping[str, type[Manoeuvre]] = {
