@@ -55,13 +55,13 @@ def read(
     from ..analysis.compliance.flexibility import HELD
     from ..studies.sweep_axes import name_of_axis, sweep_axis
 
+    looked_at = [over for over in ways or known if name_of_axis(over) in known or over in HELD]
+    if not looked_at:
+        problem = f"goals are about curves over {_or(known)}, and these are over {_or(ways or ())}."
+        raise InputError([problem], str(path))
     every = variation.goals(variation.read(path), known)
     if ways is None:
-        ways = list(dict.fromkeys([known[0], *(goal.over for goal in every)]))
-    looked_at = [over for over in ways if name_of_axis(over) in known or over in HELD]
-    if not looked_at:
-        problem = f"goals are about curves over {_or(known)}, and these are over {_or(ways)}."
-        raise InputError([problem], str(path))
+        ways = [goal.over for goal in every]
     found = [goal for goal in every if goal.over in ways]
     if not found:
         kinematic = {"travel": "toe", "heave": "camber_front_left"}.get(known[0], "camber_left")
