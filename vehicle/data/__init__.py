@@ -1,4 +1,4 @@
-"""Data sets that come with the project."""
+"""Packaged data sets."""
 
 from collections.abc import Mapping
 from importlib import resources
@@ -13,7 +13,7 @@ _ENDING = ".toml"
 
 
 def data_sets(package: str = __package__, ending: str = _ENDING) -> dict[str, Traversable]:
-    """Return the files of the data sets, by their names in order."""
+    """Return the files of the data sets of a package, sorted by name."""
     files = sorted(resources.files(package).iterdir(), key=lambda file: file.name)
     return {f.name.removesuffix(ending): f for f in files if f.name.endswith(ending)}
 
@@ -21,7 +21,7 @@ def data_sets(package: str = __package__, ending: str = _ENDING) -> dict[str, Tr
 def find(
     path_or_name: str | Path, packaged: Mapping[str, Traversable] | None = None
 ) -> Path | Traversable:
-    """Return the packaged file of this name, or else the file at this path."""
+    """Return the packaged file with this name, or the file at this path."""
     packaged = data_sets() if packaged is None else packaged
     if isinstance(path_or_name, str) and path_or_name in packaged:
         return packaged[path_or_name]

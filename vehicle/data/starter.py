@@ -1,4 +1,4 @@
-"""The first file of a new project: an annotated copy of a packaged data set."""
+"""Packaged data sets, and the annotated copy of one that begins a new project."""
 
 from collections.abc import Container
 from importlib import resources
@@ -12,33 +12,33 @@ from . import data_sets
 
 _ENDING = ".toml"
 AXLES = f"{__package__}.axles"
-"""Where the axles are that come with kintrafo."""
+"""Package of the axles."""
 
 WHOLE_AXLES = f"{__package__}.whole_axles"
-"""Where the axles are that come with kintrafo and have no sides, such as rigid ones."""
+"""Package of the axles without separate sides, such as rigid ones."""
 
 CARS = f"{__package__}.cars"
-"""Where the cars are that come with kintrafo."""
+"""Package of the cars."""
 
 MANOEUVRES = f"{__package__}.manoeuvres"
-"""Where the manoeuvres are that come with kintrafo."""
+"""Package of the manoeuvres."""
 
 AXLE = "axle"
-"""The top-level key that says that a file describes an axle."""
+"""Top-level key of the file of an axle."""
 
 CAR = "car"
-"""The top-level key that says that a file describes a car."""
+"""Top-level key of the file of a car."""
 
 DEFAULT = "macpherson"
-"""The kind of a file that does not say it."""
+"""Kind of a suspension file without the key ``suspension``."""
 
-# Sections and keys that a first file has, and that the data sets keep in a comment.
+# Sections and keys of a new file that are commented out in the data sets.
 _SECTIONS = ("# [bump_stop]", "# [rebound_stop]")
 _KEYS = ("# lifts_off = ", "# length_min_mm = ", "# length_max_mm = ")
 
 
 def kinds() -> tuple[str, ...]:
-    """Return the names of the kinds of suspension, without loading any; the default first.
+    """Return the kinds of suspension, the default first; their modules are not imported.
 
     Examples
     --------
@@ -51,7 +51,7 @@ def kinds() -> tuple[str, ...]:
 
 
 def packaged() -> tuple[str, ...]:
-    """Return the names of the data sets that come with kintrafo.
+    """Return the names of the packaged suspensions.
 
     Examples
     --------
@@ -62,7 +62,7 @@ def packaged() -> tuple[str, ...]:
 
 
 def packaged_axles() -> tuple[str, ...]:
-    """Return the names of the axles that come with kintrafo.
+    """Return the names of the packaged axles with two sides.
 
     Examples
     --------
@@ -73,7 +73,7 @@ def packaged_axles() -> tuple[str, ...]:
 
 
 def packaged_cars() -> tuple[str, ...]:
-    """Return the names of the cars that come with kintrafo.
+    """Return the names of the packaged cars.
 
     Examples
     --------
@@ -84,7 +84,7 @@ def packaged_cars() -> tuple[str, ...]:
 
 
 def manoeuvres() -> dict[str, Traversable]:
-    """Return the files of the manoeuvres that come with kintrafo, by their names.
+    """Return the files of the packaged manoeuvres by name.
 
     Examples
     --------
@@ -95,10 +95,10 @@ def manoeuvres() -> dict[str, Traversable]:
 
 
 def whole_axles() -> tuple[str, ...]:
-    """Return what axles there are that one file describes with both wheels, such as a rigid axle.
+    """Return the kinds of axles described in one file with both wheels, such as a rigid axle.
 
-    Each is the top-level key that says so in a file, the name of the data set that comes with
-    kintrafo, and that of the modules with its equations and its assembly.
+    A kind is the top-level key of its files, the name of its packaged data set, and the name of
+    the modules with its equations and its assembly.
 
     Examples
     --------
@@ -109,7 +109,7 @@ def whole_axles() -> tuple[str, ...]:
 
 
 def all_packaged() -> dict[str, Traversable]:
-    """Return the files of all that comes with kintrafo, suspensions, axles and cars, by names.
+    """Return the files of all packaged suspensions, axles and cars by name.
 
     Examples
     --------
@@ -120,12 +120,12 @@ def all_packaged() -> dict[str, Traversable]:
 
 
 def whole_axle_in(data: Container[str]) -> str | None:
-    """Return which of these axles the top-level keys of a file are of; None for other files."""
+    """Return the kind in `whole_axles` whose key the data of a file have, or None."""
     return next((key for key in whole_axles() if key in data), None)
 
 
 def words_of(key: str) -> str:
-    """Return what such an axle is called.
+    """Return the name of a kind in `whole_axles`, with its article.
 
     Examples
     --------
@@ -136,7 +136,7 @@ def words_of(key: str) -> str:
 
 
 def not_of_a_suspension(key: str) -> str:
-    """Return what is said of the file of such an axle where that of a suspension is needed."""
+    """Return the message for the file of such an axle in place of that of a suspension."""
     return (
         f"this is the file of {words_of(key)}, and that of a suspension is needed. The command "
         f"export --to points does not take {words_of(key)}; all others do. In Python: "
@@ -152,11 +152,11 @@ def write_starter(
     Parameters
     ----------
     path : str or pathlib.Path
-        A name that ends in ``.toml``.
+        File name that ends in ``.toml``.
     template : str, optional
-        Name of the packaged data set that is copied, of any of them.
+        Name of the packaged data set or manoeuvre to copy.
     force : bool, optional
-        Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
+        Whether to replace a file that kintrafo did not write; see `kintrafo.core.files`.
 
     Returns
     -------
@@ -165,7 +165,7 @@ def write_starter(
     Raises
     ------
     InputError
-        If there is a file already, or the name cannot be used.
+        If the file exists or cannot be written.
     """
     known = all_packaged() | manoeuvres()
     if not isinstance(template, str) or template not in known:
@@ -180,9 +180,9 @@ def write_starter(
 
 
 def _with_limits(text: str) -> str:
-    """Switch on what keeps a motion within what a suspension can do, where a data set has it.
+    """Return the text with the limits of the suspension, such as stops, no longer commented out.
 
-    The packaged data are those of the paper, without it.
+    The packaged data sets have them as comments.
     """
     lines, within = [], False
     for line in text.splitlines():

@@ -1,8 +1,8 @@
-"""Roads under the two tracks of a vehicle, by the distance along them.
+"""Roads: heights of two tracks over the distance along them.
 
-`iso8608` makes rough ones of a class, with a seed; `bump`, `kerb` and `sine` single obstacles and
-waves; `read` reads measured roads, from tables and OpenCRG files, and `Road` takes it from
-arrays. `enveloped` returns the effective profile of a road with edges under a tyre.
+`iso8608` returns rough roads of a class, with a seed; `bump`, `kerb` and `sine` single obstacles
+and waves; `read` measured roads of tables and OpenCRG files; `Road` is one of given arrays.
+`enveloped` returns the effective profile of a road under a tyre.
 """
 
 from .enveloping import enveloped, kerb

@@ -1,14 +1,14 @@
 """The effective profile of a road with short waves and edges: two elliptical cams in tandem.
 
 A tyre touches the road along a patch, deforms around short obstacles, and climbs an edge before
-its centre is there. In the model of Schmeitz (A Semi-Empirical Three-Dimensional Model of the
+its centre reaches it. In the model of Schmeitz (A Semi-Empirical Three-Dimensional Model of the
 Pneumatic Tyre Rolling over Arbitrarily Uneven Road Surfaces, TU Delft, 2004; Pacejka, Tire and
-Vehicle Dynamics, third edition, section 10.1.6) two cams with the contour ::
+Vehicle Dynamics, third edition, section 10.1.6) two rigid cams with the contour ::
 
     (|x| / a)^c + (|z| / b)^c = 1
 
-that are apart by the shift l_s roll over the road without being pressed in, and the effective
-height of the road under the wheel is the mean of the heights of both above those on a flat road.
+and the distance l_s slide over the road. The effective height of the road under the wheel is the
+mean of both cams' heights, relative to those on a flat road.
 """
 
 from dataclasses import replace
@@ -23,31 +23,30 @@ from .road import Road, both, check_points, points
 Array = NDArray[np.float64]
 
 LENGTH, HEIGHT, ORDER, SHIFT = 1.0, 1.0, 1.8, 0.8
-"""Usual cams: a and b by the radius of the tyre, c, and l_s by the length of the contact."""
+"""Default cams: a and b over the radius of the tyre, c, and l_s over the length of the contact."""
 
-# A cam has so many points to either side.
-_POINTS = 60
+_POINTS = 60  # of half a cam
 _AT_ONCE = 4096  # positions of a cam
 
 
 def enveloped(road: Road, *, radius: float, contact_length: float) -> Road:
     """Return the effective road of a tyre that envelopes short obstacles.
 
-    Long waves stay as they are, short ones are lowered, and an edge becomes a ramp that begins
-    before it. Effective inclinations and forces forward are not in it.
+    Long waves remain, short ones are lowered, and an edge becomes a ramp that begins before it.
+    Effective inclinations and longitudinal forces are not modelled.
 
     Parameters
     ----------
     road : Road
     radius : float
-        Of the tyre, without load [m].
+        Unloaded radius of the tyre [m].
     contact_length : float
-        Of the contact at the load on a flat road [m]; 100 to 150 mm for a passenger car.
+        Length of the loaded contact on a flat road [m]; 100 to 150 mm for a passenger car.
 
     Returns
     -------
     Road
-        With points near enough for the cams, as far as the road was.
+        Road of the same length, with a spacing that resolves the cams.
 
     Examples
     --------
@@ -86,18 +85,18 @@ def kerb(
     end: float = 50.0,
     sides: str = "both",
 ) -> Road:
-    """Return a road that rises at once, as a tyre envelopes it.
+    """Return the effective road of an edge under a tyre.
 
     Parameters
     ----------
     height : float
-        Behind the edge, negative for a drop [m].
+        Height behind the edge, negative for a drop [m].
     radius, contact_length : float
-        As of `enveloped`.
+        As in `enveloped`.
     at, end : float, optional
-        Where the edge is, and where the road ends [m].
+        Position of the edge, and length of the road [m].
     sides : {'both', 'left', 'right'}, optional
-        Under which wheels it is.
+        Wheels that meet the edge.
 
     Examples
     --------
@@ -123,12 +122,12 @@ def kerb(
 
 
 def _effective(heights: Array, spacing: float, radius: float, contact_length: float) -> Array:
-    """Return the mean of what lifts both cams."""
+    """Return the mean height of both cams above those on a flat road [m]."""
     from scipy.ndimage import shift  # noqa: PLC0415 (slow to import)
 
     half = int(LENGTH * radius / spacing)
     x = spacing * np.abs(np.arange(-half, half + 1))
-    # how much higher than its lowest point the contour of a cam is
+    # height of a cam's contour above its lowest point
     rise = HEIGHT * radius * (1.0 - (1.0 - (x / (LENGTH * radius)) ** ORDER) ** (1.0 / ORDER))
     windows = sliding_window_view(np.pad(heights, half, mode="edge"), rise.size)
     parts = (windows[i : i + _AT_ONCE] for i in range(0, len(windows), _AT_ONCE))

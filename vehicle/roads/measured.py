@@ -1,4 +1,4 @@
-"""Roads that were measured: two tracks of a table, or of an OpenCRG file."""
+"""Measured roads: two tracks of a table or of an OpenCRG file."""
 
 import warnings
 from pathlib import Path
@@ -27,21 +27,21 @@ _MOST_POINTS = 4_000_000
 
 
 def read(path: str | Path, *, track: float = 1.5, spacing: float | None = None) -> Road:
-    """Return a road that was measured.
+    """Return a measured road.
 
     A table (CSV) has the columns ``distance_m``, and ``left_height_mm`` with ``right_height_mm`` or
-    one ``road_height_mm`` for both tracks; other units and spellings are read as those of
-    `kintrafo.measurement.measured`. Between its rows the road is straight. An OpenCRG file (.crg)
-    has a surface along a reference line, of which the tracks are those to either side of the line;
-    it is read by PyOpenCRG, of the extra ``crg``. Its heights count from where the tracks begin.
+    one ``road_height_mm`` for both tracks; units and spellings are those of
+    `kintrafo.measurement.measured`. The road is linear between rows. An OpenCRG file (.crg) has a
+    surface along a reference line, with a track on either side of it; PyOpenCRG, in the extra
+    ``crg``, reads it. Its heights are relative to the mean of both tracks at their first points.
 
     Parameters
     ----------
     path : str or pathlib.Path
     track : float, optional
-        Distance of the two tracks in an OpenCRG file [m].
+        Distance between the two tracks in an OpenCRG file [m].
     spacing : float, optional
-        Distance of the points of the road [m]; by default the smallest one of the file.
+        Distance between points of the road [m]. Default: the smallest one of the file.
 
     Returns
     -------
@@ -50,7 +50,7 @@ def read(path: str | Path, *, track: float = 1.5, spacing: float | None = None) 
     Raises
     ------
     InputError
-        If the file cannot be read, has gaps, or its tracks are beyond the surface.
+        If the file cannot be read or has gaps, or the surface is narrower than the track.
     """
     with Validator("road") as given:
         given.path("path", path)
@@ -63,7 +63,7 @@ def read(path: str | Path, *, track: float = 1.5, spacing: float | None = None) 
 
 
 def _evenly(distance: Array, left: Array, right: Array, spacing: float | None, source: str) -> Road:
-    """Return a road of points at equal distances, straight between those that are given."""
+    """Return a road with equal spacing, by linear interpolation."""
     step = float(np.diff(distance).min()) if spacing is None else spacing
     length = float(distance[-1] - distance[0])
     count = round(length / step) + 1
@@ -119,7 +119,7 @@ def _surface(path: Path, track: float) -> tuple[Array, Array, Array]:
         raise InputError(["There is no such file."], str(path))
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of gaps, which are refused below where they matter
+            warnings.simplefilter("ignore")  # of gaps: those under the tracks are refused below
             surface: Any = crg.read(str(path))
     except Exception as error:
         problem = f"PyOpenCRG cannot read it: {legible(str(error))}"
@@ -143,7 +143,7 @@ def _surface(path: Path, track: float) -> tuple[Array, Array, Array]:
 
 
 def _refuse_gaps(surface: Any, aside: float, path: Path) -> None:
-    """Refuse points that were not measured beside the tracks, in whose place others would be."""
+    """Refuse gaps of the surface under the tracks."""
     v = np.asarray(surface.v, dtype=float)
     above = np.clip(np.searchsorted(v, (-aside, aside)), 1, v.size - 1)
     heights = np.asarray(surface.z, dtype=float)[:, np.concatenate([above - 1, above])]

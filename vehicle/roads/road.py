@@ -1,4 +1,4 @@
-"""A road: heights of two tracks at equal distances."""
+"""A road: heights of two tracks at equal spacing."""
 
 from dataclasses import dataclass
 
@@ -18,19 +18,19 @@ MOST_POINTS = 4_000_000
 class Road:
     """Heights of a road under the left and the right wheels.
 
-    Before its first and behind its last point a road goes on at the height that it has there.
+    Beyond its ends the road is level.
 
     Parameters
     ----------
     spacing : float
-        Distance of its points [m].
+        Distance between points [m].
     left, right : array_like, shape (n,)
         Heights, positive up [m]; four points or more.
     words : str, optional
-        What it is.
+        Description in titles.
     stationary : bool, optional
-        Whether it is rough in the same way all along, so that the start of a car on it is of no
-        importance: `kintrafo.ride.over` judges what follows.
+        Whether the roughness has the same statistics all along; `kintrafo.ride.over` then leaves
+        out the start of the motion.
 
     Examples
     --------
@@ -62,7 +62,7 @@ class Road:
 
     @property
     def length(self) -> float:
-        """How long it is [m]."""
+        """Distance between the first and the last point [m]."""
         return self.spacing * (self.left.size - 1)
 
     def over_time(self, side: str, speed: float, behind: float, end: float) -> CubicSpline:
@@ -74,14 +74,14 @@ class Road:
         speed : float
             [m/s]
         behind : float
-            How far the wheel is behind the front one, which is at the first point at time 0 [m].
+            Distance of the wheel behind the front one [m], which is at the first point at time 0.
         end : float
             Last time [s].
 
         Returns
         -------
         scipy.interpolate.CubicSpline
-            From time 0 to the last one [m].
+            Height [m] from time 0 to the last one.
         """
         with Validator("Road.over_time") as given:
             given.among("side", side, ("left", "right"))
@@ -98,7 +98,7 @@ class Road:
         return CubicSpline(times[inside], padded[inside], extrapolate=False)
 
     def __add__(self, other: "Road") -> "Road":
-        """Return the sum of two roads of equal points."""
+        """Return the sum of two roads with equal spacing and length."""
         with Validator("Road") as given:
             given.instance("other", other, Road, "a kintrafo.roads.Road is needed")
             if not given.failed and (other.spacing, other.left.size) != (
@@ -112,23 +112,13 @@ class Road:
 
 
 def points(length: float, spacing: float) -> Array:
-    """Return the distances of the points of a road [m], at most `MOST_POINTS` of them."""
+    """Return the positions of the points along a road [m], at most `MOST_POINTS` of them."""
     check_points(length, spacing)
     return np.asarray(spacing * np.arange(int(np.ceil(length / spacing)) + 1), dtype=float)
 
 
 def check_points(length: float, spacing: float) -> None:
-    """Refuse a road of more than `MOST_POINTS` points.
-
-    Parameters
-    ----------
-    length, spacing : float
-        [m]
-
-    Raises
-    ------
-    InputError
-    """
+    """Refuse a road of a length and spacing [m] with more than `MOST_POINTS` points."""
     longest = spacing * MOST_POINTS
     with Validator("road") as given:
         if not length <= longest:
@@ -140,7 +130,7 @@ def check_points(length: float, spacing: float) -> None:
 
 
 def both(spacing: float, heights: ArrayLike, sides: str, words: str) -> Road:
-    """Return a road of one profile under the wheels of both sides, or of one."""
+    """Return a road with one profile under the wheels of both sides or of one."""
     with Validator("road") as given:
         given.among("sides", sides, ("both", "left", "right"))
     profile = np.asarray(heights, dtype=float)

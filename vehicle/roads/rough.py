@@ -26,13 +26,13 @@ from .road import MOST_POINTS, Road
 Array = NDArray[np.float64]
 
 REFERENCE = 0.1
-"""The spatial frequency n0 at which a class is defined [1/m]."""
+"""Spatial frequency n0 of the definition of a class [1/m]."""
 
 CLASSES = {name: 4.0**k * 1e-6 for k, name in enumerate("ABCDEFGH", start=2)}
 """G(n0) of the classes [m^3]: geometric means."""
 
 WAVES = (0.01, 10.0)
-"""Spatial frequencies that a road has [1/m]: waves of 100 m to 0.1 m."""
+"""Range of spatial frequencies of a road [1/m]: waves of 100 m to 0.1 m."""
 
 
 def iso8608(
@@ -53,19 +53,19 @@ def iso8608(
     length : float
         [m]
     seed : int
-        The same seed gives the same road.
+        Equal seeds give equal roads.
     track : float, optional
-        Distance of the two tracks [m]; 0 for one profile under both.
+        Distance between the two tracks [m]; 0 for one profile under both.
     spacing : float, optional
-        Distance of its points, 0.05 m at most, which is half the shortest wave [m].
+        Distance between points [m], at most 0.05 m: half the shortest wave.
     fade : float, optional
-        Over this distance the heights grow from zero at the beginning [m].
+        Distance at the beginning over which the heights grow from zero [m].
 
     Returns
     -------
     Road
-        Its heights have all waves of 0.01 to 10 1/m that fit into its length, each with the
-        amplitude of the class and a random phase.
+        Sum of all waves of 0.01 to 10 1/m that fit into its length, each with the amplitude of the
+        class and a random phase.
 
     Examples
     --------
@@ -108,14 +108,14 @@ def iso8608(
 
 
 def _grown(x: NDArray[Any], fade: float) -> Array:
-    """Return how much of the heights there is at a distance."""
+    """Return the factor of the heights at a distance, from 0 to 1 over the fade."""
     part = np.ones_like(x) if fade == 0.0 else np.clip(x / fade, 0.0, 1.0)
     grown: Array = part * part * (3.0 - 2.0 * part)
     return grown
 
 
 def roughness_of(given: Validator, roughness: str | float) -> float:
-    """Return G(n0) of a class, or as it is given [m^3]."""
+    """Return the given G(n0), or that of a class [m^3]."""
     if isinstance(roughness, str):
         given.among("roughness", roughness, CLASSES)
         return CLASSES.get(roughness, math.nan)

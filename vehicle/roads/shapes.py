@@ -1,15 +1,13 @@
-"""Roads by formula: a single bump or pothole, and waves."""
+"""Analytic roads: a single bump or pothole, and waves."""
 
 import numpy as np
 
 from ...core.validator import Validator
 from .road import Road, both, points
 
-# A bump has so many points or more.
-_POINTS = 40
-_SPACING = 0.02  # [m]
-# No wheel climbs more [m].
-_HIGHEST = 1.0
+_POINTS = 40  # of a bump or a wave, at least
+_SPACING = 0.02  # greatest [m]
+_HIGHEST = 1.0  # greatest height that a wheel climbs [m]
 
 
 def bump(
@@ -20,15 +18,15 @@ def bump(
     Parameters
     ----------
     height : float
-        Of its middle, negative for a pothole; 1 m at most [m].
+        Height of its middle, negative for a pothole; 1 m at most [m].
     length : float
         [m]
     at : float, optional
-        Where it begins [m].
+        Beginning of the bump [m].
     end : float, optional
         Length of the road [m].
     sides : {'both', 'left', 'right'}, optional
-        Under which wheels it is.
+        Wheels that meet the bump.
 
     Examples
     --------
@@ -51,18 +49,18 @@ def bump(
 
 
 def sine(amplitude: float, wavelength: float, *, end: float = 200.0, sides: str = "both") -> Road:
-    """Return a road of waves, which begins in the middle of a rise.
+    """Return a sinusoidal road, which begins at zero height and rises.
 
     Parameters
     ----------
     amplitude : float
-        To either side of the mean [m].
+        [m]
     wavelength : float
         [m]
     end : float, optional
         Length of the road [m].
     sides : {'both', 'left', 'right'}, optional
-        Under which wheels it is.
+        Wheels that meet the waves.
     """
     with Validator("sine") as given:
         amplitude = given.number("amplitude", amplitude, "m")

@@ -1,13 +1,12 @@
-"""Tyres: read from files, evaluated on arrays.
+"""Tyres, read from files and evaluated on arrays.
 
-`tyre`            what every tyre answers
+`tyre`            interface of all tyres
 `magic_formula`   PAC2002, MF 6.1 and MF 6.2
 `tmeasy`          TMeasy, from files of Project Chrono
-`linear`          linear up to the friction
-`tir_file`        property files, and `coefficients`, what is in them;
-                  `tir_writer` writes them
-`figures`         key figures over load
-`fitting`         coefficients from what was measured (`measured`)
+`linear`          forces linear in slip, limited by friction
+`tir_file`        reads property files; `coefficients` lists their keys, `tir_writer` writes them
+`figures`         key figures over the load
+`fitting`         coefficients fitted to a measurement (`measured`)
 `loading`         tyres from any file
 """
 

@@ -1,4 +1,4 @@
-"""What property files (.tir) of the Magic Formula hold: keys, sections, defaults, signs."""
+"""Keys of property files (.tir) of the Magic Formula: sections, units, defaults, signs."""
 
 from collections.abc import Iterable, Mapping
 
@@ -11,7 +11,7 @@ NEEDED: Mapping[str, tuple[str, ...]] = {
     "LATERAL_COEFFICIENTS": ("PCY1", "PDY1", "PKY1", "PKY2"),
     "ALIGNING_COEFFICIENTS": ("QBZ1", "QCZ1", "QDZ1"),
 }
-"""Keys that every file has, by the section that they usually are in."""
+"""Keys that every file needs, by their usual section."""
 
 DIMENSIONS: Mapping[str, str] = {
     "UNLOADED_RADIUS": "m",
@@ -35,13 +35,13 @@ DIMENSIONS: Mapping[str, str] = {
     "KPUMIN": "1",
     "KPUMAX": "1",
 }
-"""Keys with a unit, and what it is here; coefficients have none, but angles in radians."""
+"""SI units of keys; coefficients have no unit except angles in radians."""
 
 DEFAULTS = NEUTRAL
-"""What a coefficient is that a file leaves out."""
+"""Values of coefficients that are missing in a file."""
 
 USED = frozenset((*DEFAULTS, *DIMENSIONS))
-"""Keys with numbers that do something."""
+"""Keys with numbers that are used."""
 
 ALIASES: Mapping[str, str] = {
     "QFZ1": "Q_FZ1",
@@ -59,7 +59,7 @@ ALIASES: Mapping[str, str] = {
     "IP": "INFLPRES",
     "IP_NOM": "NOMPRES",
 }
-"""Names that PAC2002 of Adams/Tire has for keys of the others."""
+"""Our keys by their names in PAC2002 of Adams/Tire."""
 
 LIMITS: Mapping[str, tuple[str, str]] = {
     "load": ("FZMIN", "FZMAX"),
@@ -68,7 +68,7 @@ LIMITS: Mapping[str, tuple[str, str]] = {
     "camber": ("CAMMIN", "CAMMAX"),
     "pressure": ("PRESMIN", "PRESMAX"),
 }
-"""Ranges within which a file holds, by the argument that they limit."""
+"""Keys of the range of validity of each argument of `Tyre.evaluate`."""
 
 OF_PRESSURE = keys("PPX1-4 PPY1-5 PPZ1-2 PPMX1 QSY8 PFZ1 PCFX3 PCFY3")
 OF_SPEED = keys("QSY3-4 Q_V1-2")
@@ -87,16 +87,16 @@ REASONS: Mapping[str, str] = {
     "DEFLECTION_LOAD_CURVE": "the vertical stiffness is a polynomial",
     "BOTTOMING_CURVE": "the rim does not touch",
 }
-"""Why keys of a section are not used."""
+"""Reasons why keys of a section are not used."""
 
 
 def mirrored(coefficients: Mapping[str, float]) -> dict[str, float]:
-    """Return the coefficients of the mirror image: a tyre on the other side of the vehicle."""
+    """Return the coefficients of the mirror image."""
     return {k: -v if k in ODD else v for k, v in coefficients.items()}
 
 
 def missing(given: Iterable[str]) -> dict[str, list[str]]:
-    """Return the keys that a file needs and does not have, by their sections."""
+    """Return the needed keys that are missing, by section."""
     there = set(given)
     found = {section: [k for k in keys if k not in there] for section, keys in NEEDED.items()}
     if "Q_FZ1" in there:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _POINTS = 1201
-_GREATEST = {"slip_angle": 0.5, "slip": 1.0}  # beyond, it is not searched
+_GREATEST = {"slip_angle": 0.5, "slip": 1.0}  # of the search [rad], [-]
 _SMALL = 1e-4  # inclination of the camber stiffness [rad]
 _SHARES = (0.5, 1.0, 1.5)
 _PER_DEGREE = np.pi / 180.0
@@ -28,24 +28,23 @@ def key_figures(tyre: Tyre, loads: Any = None) -> "xr.Dataset":
     ----------
     tyre : Tyre
     loads : array_like, optional
-        [N], in the range of the tyre; half, once and one and a half times the nominal load unless
-        given.
+        [N], in the range of the tyre. Default: 0.5, 1 and 1.5 times the nominal load.
 
     Returns
     -------
     xarray.Dataset
         Over ``load`` [N], at the speed and the pressure of the file: ``cornering_stiffness``
-        [N/rad], ``slip_stiffness`` [N], ``camber_stiffness`` [N/rad], ``friction_lateral``,
-        ``friction_driving`` and ``friction_braking``, greatest forces over the load, with
-        ``angle_of_friction`` [rad], ``slip_of_driving`` and ``slip_of_braking`` where they are;
-        ``load_sensitivity``, the change of the lateral friction for a unit of load [1/N];
+        [N/rad], ``slip_stiffness`` [N], ``camber_stiffness`` [N/rad]; ``friction_lateral``,
+        ``friction_driving`` and ``friction_braking``, greatest forces over the load, and
+        ``angle_of_friction`` [rad], ``slip_of_driving`` and ``slip_of_braking``, their positions;
+        ``load_sensitivity``, the change of the lateral friction per unit of load [1/N];
         ``trail`` [m], ``relaxation_x``, ``relaxation_y`` [m], ``loaded_radius``,
         ``effective_radius`` [m] and ``vertical_stiffness`` [N/m].
 
     Raises
     ------
     InputError
-        If a load is none, or outside the range of the tyre.
+        If a load is not a number, or outside the range of the tyre.
     """
     from xarray import Dataset  # noqa: PLC0415 (slow to import)
 
@@ -98,7 +97,7 @@ def key_figures(tyre: Tyre, loads: Any = None) -> "xr.Dataset":
 
 
 def _friction(tyre: Tyre, loads: Array, over: str, way: int) -> tuple[Array, Array]:
-    """Return the greatest force over the load, and where it is; of the lateral one both ways."""
+    """Return the greatest force over the load and its slip; `way` 0 searches both signs of slip."""
     most = _GREATEST[over]
     low, high = np.clip(tyre.ranges.get(over, (-most, most)), -most, most)
     start, end = (low, high) if way == 0 else (0.0, high if way > 0 else low)
@@ -113,14 +112,14 @@ def _friction(tyre: Tyre, loads: Array, over: str, way: int) -> tuple[Array, Arr
 
 
 def tabulated(found: "xr.Dataset", head: str = "") -> Tabulated:
-    """Return key figures as a table.
+    """Return key figures as a table in the units of engineers.
 
     Parameters
     ----------
     found : xarray.Dataset
-        From `key_figures`.
+        Result of `key_figures`.
     head : str, optional
-        Begins the title.
+        Beginning of the title.
 
     Returns
     -------
@@ -132,7 +131,7 @@ def tabulated(found: "xr.Dataset", head: str = "") -> Tabulated:
     loads = [f"{load:.0f} N" for load in found["load"].values]
     rows = []
     for name, data in found.data_vars.items():
-        unit, scale = _SHOWN.get(str(name), (str(data.attrs["units"]), _same))
+        unit, scale = _SHOWN.get(str(name), (str(data.attrs["units"]), float))
         cells = [significant(scale(float(value))) for value in data.values]
         rows.append((str(data.attrs["long_name"]), "-" if unit == "1" else unit, *cells))
     title = f"{head}{found.attrs.get('title', 'key figures')}"
@@ -140,26 +139,14 @@ def tabulated(found: "xr.Dataset", head: str = "") -> Tabulated:
     return Tabulated(title, columns, tuple(rows), frozenset({0, 1}))
 
 
-def _same(value: float) -> float:
-    return value
-
-
-def _thousand(value: float) -> float:
-    return 1e3 * value
-
-
-def _per_degree(value: float) -> float:
-    return value * _PER_DEGREE
-
-
 _SHOWN: dict[str, tuple[str, Callable[[float], float]]] = {
-    "cornering_stiffness": ("N/deg", _per_degree),
-    "camber_stiffness": ("N/deg", _per_degree),
+    "cornering_stiffness": ("N/deg", lambda value: value * _PER_DEGREE),
+    "camber_stiffness": ("N/deg", lambda value: value * _PER_DEGREE),
     "angle_of_friction": ("deg", lambda value: value / _PER_DEGREE),
-    "load_sensitivity": ("1/kN", _thousand),
+    "load_sensitivity": ("1/kN", lambda value: 1e3 * value),
     "vertical_stiffness": ("N/mm", lambda value: 1e-3 * value),
     **dict.fromkeys(
         ("trail", "relaxation_x", "relaxation_y", "loaded_radius", "effective_radius"),
-        ("mm", _thousand),
+        ("mm", lambda value: 1e3 * value),
     ),
 }

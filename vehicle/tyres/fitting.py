@@ -1,4 +1,4 @@
-"""Coefficients of the Magic Formula that explain what was measured."""
+"""Fit of coefficients of the Magic Formula to a measurement."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -25,7 +25,7 @@ _GROUPS: Mapping[str, tuple[str, ...]] = {
     "mx": keys("QSX1-3"),
     "my": keys("QSY1-2"),
 }
-"""Coefficients that are fitted to a force by default."""
+"""Coefficients that are fitted to each force by default."""
 _COMBINED = keys("RBX1-2 RCX1 REX1 RHX1 RBY1-3 RCY1 REY1 RHY1 RVY1 RVY4-6")
 _BOUNDS: Mapping[str, tuple[float, float]] = {
     "PCX1": (1.0, 2.5), "PCY1": (0.8, 2.5), "QCZ1": (0.8, 2.5), "RCX1": (0.5, 2.0),
@@ -35,36 +35,36 @@ _BOUNDS: Mapping[str, tuple[float, float]] = {
     "QBZ1": (0.5, 60.0), "QBZ9": (0.0, 100.0),
     "RBX1": (0.5, 100.0), "RBY1": (0.5, 100.0),
 }  # fmt: skip
-_WIDE = 20.0  # bounds of the others, in their typical sizes
+_WIDE = 20.0  # half-width of the bounds of the others, in typical sizes
 _SIZES: Mapping[str, float] = {
     "PH": 0.01, "PV": 0.1, "RH": 0.02, "QH": 0.01, "QD": 0.05, "PD": 0.3, "PE": 1.0, "PK": 1.0,
     "QB": 2.0, "QE": 1.0, "RB": 5.0, "RV": 1.0, "RE": 0.5, "SS": 0.05, "QS": 0.05, "PC": 0.3,
 }  # fmt: skip
-"""What coefficients are like, by the beginning of their names."""
-_STEP = 1e-5  # of a typical size, for differences
-_TELLS = 0.5  # of what is allowed, that an error of one standard deviation is less than
+"""Typical sizes of coefficients, by the first two letters of their names."""
+_STEP = 1e-5  # of finite differences, in typical sizes
+_TELLS = 0.5  # greatest standard error of a determined coefficient, in half-widths of the bounds
 
 
 @dataclass(frozen=True)
 class TyreFit:
-    """Coefficients that explain a measurement best, and their standard errors.
+    """Coefficients fitted to a measurement, and their standard errors.
 
     Attributes
     ----------
     tyre : MagicFormula
-        With the coefficients that were found.
+        Tyre with the fitted coefficients.
     table : xarray.Dataset
         Over ``coefficient``: ``value``, its ``start``, ``standard_error`` and the bounds ``least``
-        and ``most``; over two of them ``correlation`` of their errors.
+        and ``most``; over two coefficients the ``correlation`` of their errors.
     residuals : dict of str to ndarray
-        Residual of each force: measured less computed [N, N m].
+        Residual of each force: measured minus computed [N, N m].
     at_bounds : tuple of str
         Coefficients that ended at a bound.
     left_out : tuple of str
-        Coefficients that the data do not determine and that were not named.
+        Default coefficients that the data do not determine.
     success : bool
     message : str
-        Of the search.
+        End of the search.
     evaluations : int
     """
 
@@ -90,26 +90,24 @@ def fit(
     bounds: Mapping[str, tuple[float, float]] | None = None,
     accuracy: Mapping[str, float] | None = None,
 ) -> TyreFit:
-    """Return the tyre whose forces are nearest to those that were measured.
+    """Fit coefficients of a tyre to measured forces.
 
-    All forces are fitted together by least squares within bounds (SciPy's trust region), each over
-    its accuracy.
+    All forces are fitted together by least squares within bounds (SciPy's trust region), each
+    divided by its accuracy.
 
     Parameters
     ----------
     data : str, pathlib.Path or mapping
         A CSV file with columns such as ``load_N``, ``slip_angle_deg``, ``slip``, ``camber_deg``,
         ``pressure_bar``, ``fx_N``, ``fy_N``, ``mz_Nm``; or arrays of these names without units, in
-        SI units. Axes and signs are those of `Tyre.evaluate`; missing quantities of a state are
-        zero, or those of the tyre.
+        SI units. Axes and signs are those of `Tyre.evaluate`; missing states have its defaults.
     start : MagicFormula
         Tyre at the start of the search, with all data that are not fitted, such as dimensions and
         nominal load.
     coefficients : iterable of str, optional
-        Coefficients to fit. By default: those of the measured forces, as far as the data determine
-        them.
+        Coefficients to fit. Default: those of the measured forces that the data determine.
     bounds : mapping of str to (float, float), optional
-        Least and greatest value of coefficients; others have usual ones.
+        Least and greatest value of coefficients. Others have default bounds.
     accuracy : mapping of str to float, optional
         Standard deviation of each measured force [N, N m], by which residuals are divided and
         standard errors are computed. By default a tenth of the range of the force, with standard
@@ -123,7 +121,7 @@ def fit(
     ------
     InputError
         If the data cannot be read, or do not determine named coefficients; the message has their
-        names, and the coefficients that they cannot be distinguished from.
+        names, and those of the coefficients with equal effects.
 
     Examples
     --------
@@ -141,7 +139,7 @@ def fit(
     with Validator("fit") as given:
         given.instance("start", start, MagicFormula, "a tyre of the Magic Formula is needed")
     rows = measured(data)
-    _see_signs(rows, start)
+    _refuse_other_axes(rows, start)
     problem = _Problem(rows, start, _scales(rows, accuracy))
     chosen, left_out = _chosen(problem, coefficients)
     limits = _limits(chosen, start, bounds)
@@ -149,18 +147,18 @@ def fit(
 
 
 class _Problem:
-    """Residuals of some coefficients."""
+    """Residuals as functions of the coefficients."""
 
     def __init__(self, rows: Measured, start: MagicFormula, scales: Mapping[str, float]) -> None:
         self.rows, self.start, self._scales = rows, start, scales
         self.evaluations = 0
 
     def tyre(self, names: tuple[str, ...], values: Array) -> MagicFormula:
-        """Return the tyre with some coefficients."""
+        """Return the tyre with these values of coefficients."""
         return self.start.with_changes(dict(zip(names, map(float, values), strict=True)))
 
     def residuals(self, names: tuple[str, ...], values: Array) -> dict[str, Array]:
-        """Return measured less computed forces; those of an impossible tyre are great."""
+        """Return measured minus computed forces; for an impossible tyre 1000 times the scale."""
         self.evaluations += 1
         try:
             state = vars(self.tyre(names, values).evaluate(**self.rows.states, extrapolate=True))
@@ -169,16 +167,16 @@ class _Problem:
         return {k: v - state[k] for k, v in self.rows.forces.items()}
 
     def scaled(self, names: tuple[str, ...], values: Array) -> Array:
-        """Return residuals over their scales, of all forces one behind the other."""
+        """Return the residuals of all forces over their scales, in one vector."""
         found = self.residuals(names, values)
         return np.concatenate([v / self._scales[k] for k, v in found.items()])
 
     def sizes(self, names: tuple[str, ...]) -> Array:
-        """Return what coefficients are like: themselves, or what is typical where that is more."""
+        """Return the greater of start and typical size of each coefficient."""
         return np.array([max(_size(n), abs(self.start.coefficients[n])) for n in names])
 
     def effects(self, names: tuple[str, ...], values: Array) -> Array:
-        """Return the derivatives of `scaled` by coefficients over their sizes."""
+        """Return the derivatives of `scaled` with respect to coefficients over their sizes."""
         sizes, columns = self.sizes(names), []
         for i, size in enumerate(sizes):
             step = np.zeros(len(names))
@@ -188,8 +186,8 @@ class _Problem:
         return np.transpose(columns)
 
 
-def _see_signs(rows: Measured, start: MagicFormula) -> None:
-    """Refuse states that no tyre can be in, and forces in other axes than those of ISO 8855."""
+def _refuse_other_axes(rows: Measured, start: MagicFormula) -> None:
+    """Refuse impossible states, and forces in axes other than those of ISO 8855."""
     there = vars(start.evaluate(**rows.states, extrapolate=True))
     with Validator("fit") as given:
         for name in ("fx", "fy"):
@@ -206,7 +204,7 @@ def _size(name: str) -> float:
 
 
 def _scales(rows: Measured, accuracy: Mapping[str, float] | None) -> dict[str, float]:
-    """Return what residuals are divided by."""
+    """Return the divisors of the residuals of each force [N, N m]."""
     with Validator("fit") as given:
         for name in accuracy or {}:
             given.among("accuracy", name, rows.forces)
@@ -224,7 +222,7 @@ def _scales(rows: Measured, accuracy: Mapping[str, float] | None) -> dict[str, f
 def _chosen(
     problem: _Problem, coefficients: Iterable[str] | None
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return what is fitted, and what was left out since the data say nothing of it."""
+    """Return the fitted coefficients, and the default ones that the data do not determine."""
     start, forces = problem.start, problem.rows.forces
     if coefficients is not None:
         with Validator("fit") as given:
@@ -233,7 +231,7 @@ def _chosen(
                 given.fail("coefficients: a name is given twice.")
             if not names:
                 given.fail("coefficients: there is none; name one or more.")
-        _see_determined(problem, names)
+        _refuse_undetermined(problem, names)
         return names, ()
     states = problem.rows.states
     both = all(np.ptp(states.get(k, np.zeros(1))) > 0.0 for k in ("slip", "slip_angle"))
@@ -250,7 +248,7 @@ def _chosen(
     return tuple(kept), tuple(n for n in usual if n not in kept)
 
 
-def _see_determined(problem: _Problem, names: tuple[str, ...]) -> None:
+def _refuse_undetermined(problem: _Problem, names: tuple[str, ...]) -> None:
     doubtful = _doubtful(problem, names)
     if doubtful:
         words = "; ".join(
@@ -265,11 +263,10 @@ def _see_determined(problem: _Problem, names: tuple[str, ...]) -> None:
 
 
 def _doubtful(problem: _Problem, names: tuple[str, ...]) -> dict[str, list[str]]:
-    """Return coefficients that the data do not determine, with those that they resemble.
+    """Return coefficients that the data do not determine, with those of nearly equal effects.
 
-    A direction of coefficients over their sizes changes forces by its singular value. Where an
-    error of one scale in all forces moves a coefficient by more than it is allowed to, it is not
-    determined.
+    A step of one size along a singular direction changes the scaled forces by the singular value.
+    A coefficient is undetermined if an error of one scale moves it beyond a share of its bounds.
     """
     values = np.array([problem.start.coefficients[name] for name in names])
     effects = problem.effects(names, values)
@@ -292,7 +289,7 @@ def _limits(
     start: MagicFormula,
     bounds: Mapping[str, tuple[float, float]] | None,
 ) -> tuple[Array, Array]:
-    """Return least and greatest values, about the start where nothing is known of them."""
+    """Return least and greatest values; without known bounds, symmetric about the start."""
     least, most = [], []
     with Validator("fit") as given:
         for name in bounds or {}:

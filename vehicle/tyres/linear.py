@@ -1,4 +1,4 @@
-"""A tyre whose forces are linear in slip up to the friction."""
+"""A tyre with forces linear in slip and limited by friction."""
 
 from dataclasses import asdict, dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar, Self
@@ -8,7 +8,7 @@ import numpy as np
 from ...core.validator import Validator
 from ...formulas import linear_contact
 from ...formulas.arithmetic import ARRAYS
-from ...formulas.magic_formula import Contact
+from ...formulas.magic_formula import Forces
 from .tyre import States, Tyre
 
 if TYPE_CHECKING:
@@ -23,12 +23,12 @@ _OF_EQUATIONS = ("effective_radius", "vertical_stiffness", "relaxation_x", "rela
 
 @dataclass(frozen=True, kw_only=True)
 class LinearSlip(Tyre):
-    """A tyre whose forces are linear in slip, up to the friction, which they approach.
+    """A tyre with forces that are linear at small slip and approach the limit of friction.
 
     Attributes
     ----------
     radius, effective_radius
-        Without load; speed over rate of spin of a wheel that rolls freely [m].
+        Unloaded radius; speed over rate of spin of a freely rolling wheel [m].
     vertical_stiffness, vertical_damping
         [N/m] and [N s/m].
     slip_stiffness, cornering_stiffness, camber_stiffness
@@ -37,9 +37,9 @@ class LinearSlip(Tyre):
     friction
         Greatest horizontal force over the load.
     trail
-        How far behind the contact the lateral force is without sliding [m].
+        Pneumatic trail without sliding [m]: positive if the lateral force acts behind the contact.
     rolling_resistance
-        Longitudinal force that rolling takes, over the load.
+        Resistance force over the load.
     relaxation_x, relaxation_y
         Relaxation lengths [m].
     """
@@ -70,28 +70,28 @@ class LinearSlip(Tyre):
 
     @property
     def ranges(self) -> dict[str, tuple[float, float]]:  # type: ignore[override] # read only
-        """None: it is known everywhere."""
+        """Empty: the tyre is valid for all states."""
         return {}
 
     def mirrored(self) -> Self:
-        """Return the mirror image, which is the tyre itself."""
+        """Return the mirror image; a linear tyre is symmetric."""
         return replace(self)
 
     def contact_law(self, name: str = "tyre") -> "ContactLaw":
-        """Return the `kintrafo.generator.LinearContact` of a name."""
+        """Return the `kintrafo.generator.LinearContact` with this prefix of its parameters."""
         from ...generator import LinearContact  # noqa: PLC0415 (an extra)
 
         return LinearContact(name=name)
 
     def parameters(self, name: str = "tyre", *, relaxing: bool = False) -> dict[str, float]:
-        """Return the parameters of equations of motion that this tyre has.
+        """Return the values of the parameters of `contact_law`.
 
         Parameters
         ----------
         name : str, optional
-            Of the `kintrafo.generator.LinearContact` whose parameters they are.
+            Prefix of their names.
         relaxing : bool, optional
-            Whether relaxation lengths are needed, which this tyre always has.
+            Without effect: this tyre always has relaxation lengths.
 
         Returns
         -------
@@ -104,28 +104,8 @@ class LinearSlip(Tyre):
         found |= {"unloaded_radius": self.radius, "vxlow": self.lowest_speed}
         return {f"{name}_{key}": value for key, value in found.items()}
 
-    def _state(self, at: States) -> dict[str, Any]:
-        rolling = np.sign(at.speed)
-        contact = Contact(
-            load=at.load,
-            longitudinal=at.slip,
-            lateral=np.tan(at.slip_angle),
-            inclination=np.sin(at.camber),
-            direction=np.cos(at.slip_angle) * rolling,
-            rolling=rolling,
-            speed=at.speed,
-            pressure=0.0,
-        )
-        found = linear_contact.forces(ARRAYS, asdict(self), contact, self.radius)
-        return {
-            "fx": found.fx,
-            "fy": found.fy,
-            "mx": found.mx,
-            "my": found.my,
-            "mz": found.mz,
-            "slip_stiffness": found.slip_stiffness,
-            "cornering_stiffness": -found.cornering_stiffness,
-            "trail": found.trail,
+    def _state(self, at: States) -> tuple[Forces, dict[str, Any]]:
+        return linear_contact.forces(ARRAYS, asdict(self), at.contact(), self.radius), {
             "relaxation_x": self.relaxation_x,
             "relaxation_y": self.relaxation_y,
             "loaded_radius": self.radius - at.load / self.vertical_stiffness,

@@ -11,11 +11,10 @@ from .tmeasy import TMeasy
 from .tyre import Tyre
 
 _PACKAGED = f"{__package__.rpartition('.')[0]}.data.tyres"
-"""Where the tyres are that come with kintrafo."""
 
 
 def packaged_tyres() -> dict[str, Traversable]:
-    """Return the files of the tyres that come with kintrafo, by their names.
+    """Return the files of the packaged tyres by name.
 
     Examples
     --------
@@ -31,8 +30,8 @@ def load(path_or_name: str | Path) -> Tyre:
     Parameters
     ----------
     path_or_name : str or pathlib.Path
-        A property file (.tir), or a TMeasy tyre of Project Chrono (.json); or, as a string, the
-        name of a tyre that comes with kintrafo, such as ``"passenger_205_55"``.
+        A property file (.tir), a TMeasy tyre of Project Chrono (.json), or the name of a packaged
+        tyre, such as ``"passenger_205_55"``.
 
     Returns
     -------
@@ -41,7 +40,7 @@ def load(path_or_name: str | Path) -> Tyre:
     Raises
     ------
     InputError
-        If the file cannot be read, or no tyre can be like this; it lists everything that is wrong.
+        If the file cannot be read, or values are impossible; the message lists all problems.
     """
     with Validator("load") as given:
         given.path("path_or_name", path_or_name)

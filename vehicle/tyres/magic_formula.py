@@ -11,7 +11,7 @@ from ...core.errors import InputError
 from ...formulas import magic_formula, vertical
 from ...formulas.arithmetic import ARRAYS
 from ...formulas.coefficients import IN_EQUATIONS, NEUTRAL
-from ...formulas.magic_formula import Contact, Form
+from ...formulas.magic_formula import Contact, Forces, Form
 from . import coefficients as known
 from .tir_file import read
 from .tyre import LOWEST_SPEED, USUAL_SPEED, States, Tyre
@@ -19,7 +19,7 @@ from .tyre import LOWEST_SPEED, USUAL_SPEED, States, Tyre
 if TYPE_CHECKING:
     from ...generator.declare.contact_laws import ContactLaw
 
-# Scales that studies vary, from one on.
+# Scales that stay in the equations although they are 1, since studies vary them.
 _ALWAYS = ("LMUX", "LMUY")
 _OTHER_SIDE = {"left": "right", "right": "left", "": ""}
 
@@ -31,10 +31,9 @@ class MagicFormula(Tyre):
     Attributes
     ----------
     coefficients : dict of str to float
-        By their names in property files, in SI units; those that a file leaves out have the value
-        that does nothing.
+        By their names in property files, in SI units; missing ones have values without effect.
     form : Form
-        Which formulas they are of.
+        Version of the formulas.
     """
 
     law: ClassVar[str] = "magic_formula"
@@ -64,7 +63,7 @@ class MagicFormula(Tyre):
         Raises
         ------
         InputError
-            If the file cannot be read, something is missing, or no tyre can be like this.
+            If the file cannot be read, a key is missing, or values are impossible.
         """
         found = read(path)
         return cls(
@@ -77,21 +76,19 @@ class MagicFormula(Tyre):
             str(path),
         )
 
-    # -- what it is --
-
     @property
     def nominal_load(self) -> float:  # type: ignore[override] # read only
-        """Load at which the coefficients are the values of their curves [N]."""
+        """Reference load of the coefficients [N]."""
         return self.coefficients["FNOMIN"] * self.coefficients["LFZO"]
 
     @property
     def radius(self) -> float:  # type: ignore[override] # read only
-        """Radius without load [m]."""
+        """Unloaded radius [m]."""
         return self.coefficients["UNLOADED_RADIUS"]
 
     @property
     def ranges(self) -> dict[str, tuple[float, float]]:  # type: ignore[override] # read only
-        """Where the tyre is known, by argument of `evaluate`."""
+        """Ranges of validity by argument of `evaluate`."""
         return {
             name: (self.coefficients.get(low, -np.inf), self.coefficients.get(high, np.inf))
             for name, (low, high) in known.LIMITS.items()
@@ -115,7 +112,7 @@ class MagicFormula(Tyre):
 
     @property
     def usual_pressure(self) -> float:  # type: ignore[override] # read only
-        """Inflation pressure [Pa]; zero where the tyre does not depend on it."""
+        """Inflation pressure [Pa]; 0 if the tyre does not depend on it."""
         return self.coefficients.get("INFLPRES", self._nominal_pressure)
 
     @property
@@ -133,7 +130,7 @@ class MagicFormula(Tyre):
         Raises
         ------
         InputError
-            If a name is not known, or no tyre can be like this.
+            If a name is not known, or values are impossible.
         """
         unknown = [k for k in changes if k not in known.USED]
         if unknown:
@@ -142,7 +139,7 @@ class MagicFormula(Tyre):
 
     @property
     def free_radius(self) -> float:
-        """The radius in equations of motion at no load [m]: that of the file times ``Q_RE0``."""
+        """Unloaded radius in equations of motion [m]: that of the file times ``Q_RE0``."""
         return float(vertical.free_radius(self.coefficients, 0.0))
 
     def mirrored(self) -> Self:
@@ -152,10 +149,9 @@ class MagicFormula(Tyre):
         )
 
     def contact_law(self, name: str = "tyre") -> "ContactLaw":
-        """Return the `kintrafo.generator.MagicFormulaContact` of a name.
+        """Return the `kintrafo.generator.MagicFormulaContact` with this prefix of its parameters.
 
-        Terms whose coefficients do nothing in this tyre are left out, but for those that scale the
-        friction.
+        Terms that have no effect in this tyre are left out, except the scales of the friction.
         """
         from ...generator import MagicFormulaContact  # noqa: PLC0415 (an extra)
 
@@ -172,16 +168,16 @@ class MagicFormula(Tyre):
     def parameters(
         self, name: str = "tyre", *, relaxing: bool = False, without: Iterable[str] = ()
     ) -> dict[str, float]:
-        """Return the parameters of equations of motion that this tyre has.
+        """Return the values of the parameters of `contact_law`.
 
         Parameters
         ----------
         name : str, optional
-            Of the `kintrafo.generator.MagicFormulaContact` whose parameters they are.
+            Prefix of their names.
         relaxing : bool, optional
             Whether the equations have deflections as states, so that relaxation lengths are needed.
         without : iterable of str, optional
-            Coefficients that the equations leave out, as `MagicFormulaContact.without`.
+            Coefficients left out of the equations, as in `MagicFormulaContact.without`.
 
         Returns
         -------
@@ -191,8 +187,8 @@ class MagicFormula(Tyre):
         Raises
         ------
         InputError
-            If relaxation lengths are needed, and the file does not say them; or if the tyre has
-            what the equations leave out.
+            If relaxation lengths are needed and the file does not give them; or if a coefficient in
+            ``without`` has an effect in this tyre.
         """
         lengths = self.evaluate(self.nominal_load)
         if relaxing and not np.isfinite([lengths.relaxation_x, lengths.relaxation_y]).all():
@@ -222,25 +218,17 @@ class MagicFormula(Tyre):
             raise InputError(sorted(problems), self.source or self.name)
         return {f"{name}_{k.lower()}": value for k, value in found.items() if k not in left}
 
-    # -- what it does --
-
     def _contact(self, at: States) -> Contact:
-        tangent = np.tan(at.slip_angle)
-        nominal = self._nominal_pressure
-        pressure = at.pressure / nominal - 1.0 if nominal else np.zeros(())
-        rolling = np.sign(at.speed)
-        return Contact(
-            load=at.load,
-            longitudinal=at.slip,
-            lateral=at.slip_angle if self.form.angle else tangent,
-            inclination=np.sin(at.camber),
-            direction=np.cos(at.slip_angle) * rolling,
-            rolling=rolling,
+        """Return the contact, with speed and pressure relative to those of the measurement."""
+        contact, nominal = at.contact(), self._nominal_pressure
+        return replace(
+            contact,
+            lateral=at.slip_angle if self.form.angle else contact.lateral,
             speed=at.speed / self.usual_speed,
-            pressure=pressure,
+            pressure=at.pressure / nominal - 1.0 if nominal else np.zeros(()),
         )
 
-    def _state(self, at: States) -> dict[str, Any]:
+    def _state(self, at: States) -> tuple[Forces, dict[str, Any]]:
         p, c = self.coefficients, self._contact(at)
         found = magic_formula.forces(ARRAYS, p, c, self.form)
         spin = (at.speed + at.slip * np.abs(at.speed)) / self.usual_speed
@@ -250,15 +238,7 @@ class MagicFormula(Tyre):
         _, at_nominal = vertical.deflection(ARRAYS, p, p["FNOMIN"], 0.0, nominal)
         free = vertical.free_radius(p, spin)
         along, across = self._relaxation(at, c, found)
-        return {
-            "fx": found.fx,
-            "fy": found.fy,
-            "mx": found.mx,
-            "my": found.my,
-            "mz": found.mz,
-            "slip_stiffness": found.slip_stiffness,
-            "cornering_stiffness": -found.cornering_stiffness,
-            "trail": found.trail,
+        return found, {
             "relaxation_x": along,
             "relaxation_y": across,
             "loaded_radius": free - deflection,
@@ -266,8 +246,8 @@ class MagicFormula(Tyre):
             "vertical_stiffness": stiffness,
         }
 
-    def _relaxation(self, at: States, c: Contact, found: magic_formula.Forces) -> tuple[Any, Any]:
-        """Return both relaxation lengths [m]; NaN where the file does not say them."""
+    def _relaxation(self, at: States, c: Contact, found: Forces) -> tuple[Any, Any]:
+        """Return both relaxation lengths [m]; NaN if the file does not give them."""
         p, dfz = self.coefficients, at.load / self.nominal_load - 1.0
         unknown = np.full(at.load.shape, np.nan)
         along = across = unknown
@@ -285,10 +265,8 @@ class MagicFormula(Tyre):
             across = by_stiffness[1]
         return along, across
 
-    # -- whether it can be --
-
     def _impossible(self) -> list[str]:
-        """Say which numbers no tyre has."""
+        """Return a problem for each impossible value."""
         p = self.coefficients
         positive = ("UNLOADED_RADIUS", "FNOMIN", "LFZO", "PCX1", "PCY1", "LCX", "LCY", "LMUX",
                     "LMUY", "LCZ", "PKY2", "Q_RE0", "LONGVL", "VXLOW", "NOMPRES", "INFLPRES",
@@ -307,7 +285,7 @@ class MagicFormula(Tyre):
         return problems
 
     def _implausible(self) -> list[str]:
-        """Say what is wrong with the curves within the range of load, without slip and camber."""
+        """Return problems of the curves within the range of load, at zero slip and camber."""
         p = self.coefficients
         low, high = self.ranges.get("load", (0.0, np.inf))
         ends = (max(low, 0.0), self.nominal_load, min(high, 2.0 * self.nominal_load))

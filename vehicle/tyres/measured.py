@@ -1,4 +1,4 @@
-"""Measurements of a tyre: states and forces, from a table or from arrays."""
+"""Measurements of a tyre: states and forces from a table or from arrays."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -19,9 +19,9 @@ STATES: Mapping[str, str] = {
     "load": "N", "slip_angle": "rad", "slip": "1", "camber": "rad", "speed": "m/s",
     "pressure": "Pa",
 }  # fmt: skip
-"""What a tyre is measured at, as arguments of `Tyre.evaluate`, with units."""
+"""SI units of the states, which are arguments of `Tyre.evaluate`."""
 FORCES: Mapping[str, str] = {"fx": "N", "fy": "N", "mx": "N m", "my": "N m", "mz": "N m"}
-"""What is measured, as attributes of a `TyreState`."""
+"""SI units of the measured forces, which are attributes of `TyreState`."""
 _ALL = {**STATES, **FORCES}
 
 
@@ -32,7 +32,7 @@ class Measured:
     Attributes
     ----------
     states, forces : dict of str to ndarray, shape (n,)
-        What is given of `STATES` and `FORCES`, in SI units and the axes of ISO 8855.
+        The measured ones of `STATES` and `FORCES`, in SI units and the axes of ISO 8855.
     source : str
     left_out : tuple of str
         Columns that were not read.
@@ -50,7 +50,7 @@ class Measured:
 
 
 def measured(data: "str | Path | Mapping[str, Any]") -> Measured:
-    """Return a measurement: a load, states, and one force or more.
+    """Return a measurement with the load, other states, and at least one force.
 
     Parameters
     ----------

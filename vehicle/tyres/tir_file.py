@@ -1,4 +1,4 @@
-"""Property files of tyres (.tir): sections, units, keys that are used and keys that are not."""
+"""Reader of property files of tyres (.tir): sections, units, used and unused keys."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -40,30 +40,31 @@ _UNITS: Mapping[str, Mapping[str, float]] = {
     },
 }
 _COMMENTS = ("$", "!")
-_OPTIONAL = "PRESSURE"  # in pascal where the file does not say
+_OPTIONAL = "PRESSURE"  # pascal by default
 _OLDER, _NEWER = (5, 6, 21), (61, 62)
 _OF_TEXT = frozenset(("UNITS", "MODEL", "MDI_HEADER"))
 _OF_TABLES = frozenset(("SHAPE", "DEFLECTION_LOAD_CURVE", "BOTTOMING_CURVE"))
-_SIMILAR = 0.9  # of two keys of which one is a slip of the hand, as `difflib` has it
+_READ_OF_MODEL = frozenset(("FITTYP", "PROPERTY_FILE_FORMAT", "TYRESIDE", "FE_METHOD"))
+_SIMILAR = 0.9  # ratio of `difflib` above which an unknown key is a misspelt one
 _LONGEST = 60
 
 
 @dataclass(frozen=True)
 class TirFile:
-    """What a property file says.
+    """The contents of a property file.
 
     Attributes
     ----------
     numbers : dict of str to float
-        In SI units, by the names of the keys.
+        By key, in SI units.
     form : Form
-        Which formulas it needs.
+        Version of the formulas.
     name : str
-        What it calls its formulas, such as ``"PAC2002"`` or ``"MF 6.1"``.
+        Name of the formulas, such as ``"PAC2002"`` or ``"MF 6.1"``.
     side : str
-        ``"left"``, ``"right"`` or empty: the side of the vehicle that it was measured for.
+        Side of the vehicle for which it was measured: ``"left"``, ``"right"`` or empty.
     left_out, assumed : tuple of str
-        Keys that are not used, and what it leaves open: a sentence each.
+        Unused keys, and assumptions in place of missing ones: a sentence each.
     """
 
     numbers: dict[str, float]
@@ -75,7 +76,7 @@ class TirFile:
 
 
 def read(path: str | Path) -> TirFile:
-    """Return what a property file says.
+    """Return the contents of a property file.
 
     Parameters
     ----------
@@ -85,7 +86,8 @@ def read(path: str | Path) -> TirFile:
     Raises
     ------
     InputError
-        If it is another file, or something is missing, twice or no number; with all problems.
+        If the format is another one, or keys are missing, given twice or not numbers; the message
+        lists all problems.
     """
     return _Reader(read_blocks(path), str(path)).read()
 
@@ -97,14 +99,14 @@ class _Reader:
         self._blocks = [(block.name.strip().upper(), block) for block in blocks]
 
     def read(self) -> TirFile:
-        newer, name = self._version()  # of another kind of file nothing else matters
+        newer, name = self._version()  # first: it refuses other formats
         scales = self._scales()
         texts, unused = self._found()
         numbers = {key: self._number(key, text) for key, text in texts.items()}
-        self._see_sliding(unused)
-        self._see_slips(texts, unused)
-        self._see_missing(numbers)
-        numbers = {key: value * scales(key) for key, value in numbers.items()}
+        self._refuse_sliding(unused)
+        self._refuse_misspelt(texts, unused)
+        self._refuse_missing(numbers)
+        numbers = {k: v * scales.get(known.DIMENSIONS.get(k, ""), 1.0) for k, v in numbers.items()}
         if self._problems:
             raise InputError(self._problems, self._source)
         asked = self._text("MODEL", "FE_METHOD").upper() == "YES"
@@ -118,7 +120,7 @@ class _Reader:
         return TirFile(numbers, form, name, self._side(), tuple(_listed(unused)), assumed)
 
     def _assumed_of_side(self, numbers: Mapping[str, float]) -> Iterator[str]:
-        """Yield that a tyre which is not symmetric is not mirrored, where no side is given."""
+        """Yield that an asymmetric tyre without a side is not mirrored."""
         if not self._side() and any(numbers.get(key) for key in ODD):
             given = self._text("MODEL", "TYRESIDE")
             why = f"= '{_shown(given)}' is neither LEFT nor RIGHT" if given else "is missing"
@@ -127,10 +129,8 @@ class _Reader:
                 f"TYRESIDE {why}"
             )
 
-    # -- what it is --
-
     def _text(self, section: str, key: str) -> str:
-        """Return the value of a key as it was written; empty if there is none."""
+        """Return the text of a key's value; empty if it is missing."""
         for name, block in self._blocks:
             if name == section:
                 found = dict(block.values()).get(key.lower(), "")
@@ -139,7 +139,7 @@ class _Reader:
         return ""
 
     def _version(self) -> tuple[bool, str]:
-        """Return whether the formulas are those of MF 6, and what they are called."""
+        """Return whether the formulas are those of MF 6, and their name."""
         kind, fit = self._text("MODEL", "PROPERTY_FILE_FORMAT"), self._text("MODEL", "FITTYP")
         version = number(fit) if fit else math.nan
         if kind.upper() == "PAC2002" and (not fit or version in _OLDER):
@@ -164,17 +164,15 @@ class _Reader:
         given = self._text("MODEL", "TYRESIDE").lower()
         return given if given in {"left", "right"} else ""
 
-    # -- units --
-
-    def _scales(self) -> "_Scales":
-        """Return what numbers are multiplied with to be in SI units."""
+    def _scales(self) -> dict[str, float]:
+        """Return the factors to SI units by dimension."""
         found = {}
         if not any(name == "UNITS" for name, _ in self._blocks):
             self._problems.append(
                 "[UNITS] is missing. Write it with LENGTH = 'meter', FORCE = 'newton', "
                 "ANGLE = 'radians', TIME = 'second'."
             )
-            return _Scales(dict.fromkeys(_UNITS, 1.0))
+            return {}
         for quantity, units in _UNITS.items():
             given = self._text("UNITS", quantity)
             if quantity == _OPTIONAL and not given:
@@ -186,12 +184,19 @@ class _Reader:
                     f"[UNITS] {quantity} {text}. Write one of: {', '.join(units)}."
                 )
             found[quantity] = units.get(given.lower(), 1.0)
-        return _Scales(found)
-
-    # -- keys --
+        length, force, time = found["LENGTH"], found["FORCE"], found["TIME"]
+        return {
+            "m": length,
+            "N": force,
+            "N/m": force / length,
+            "N s/m": force * time / length,
+            "m/s": length / time,
+            "Pa": found["PRESSURE"],
+            "rad": found["ANGLE"],
+        }
 
     def _found(self) -> tuple[dict[str, str], dict[str, dict[str, str]]]:
-        """Return keys that are used, and by section those that are not."""
+        """Return the used keys, and the unused ones by section."""
         used: dict[str, str] = {}
         unused: dict[str, dict[str, str]] = {}
         for section, block in self._blocks:
@@ -201,7 +206,8 @@ class _Reader:
                 key, text = given.upper(), "" if written[:1] in _COMMENTS else written
                 key = known.ALIASES.get(key, key)
                 if key not in known.USED or section in _OF_TABLES:
-                    self._see_text(section, key, text, unused)
+                    if section != "MODEL" or key not in _READ_OF_MODEL:
+                        unused.setdefault(section, {})[key] = text
                 elif text and used.setdefault(key, text) != text:
                     self._problems.append(
                         f"[{section}] {key} is {_shown(used[key])} and {_shown(text)}. "
@@ -211,24 +217,14 @@ class _Reader:
                 unused.setdefault(section, {})["a table"] = ""
         return used, unused
 
-    @staticmethod
-    def _see_text(section: str, key: str, text: str, unused: dict[str, dict[str, str]]) -> None:
-        if (section, key) not in {
-            ("MODEL", "FITTYP"),
-            ("MODEL", "PROPERTY_FILE_FORMAT"),
-            ("MODEL", "TYRESIDE"),
-            ("MODEL", "FE_METHOD"),
-        }:
-            unused.setdefault(section, {})[key] = text
-
     def _number(self, key: str, text: str) -> float:
         value = number(text)
         if not math.isfinite(value):
             self._problems.append(f"{key} = {_shown(text)}: a finite number is needed.")
         return value
 
-    def _see_sliding(self, unused: Mapping[str, Mapping[str, str]]) -> None:
-        """Refuse friction that depends on the speed of sliding, which is left out."""
+    def _refuse_sliding(self, unused: Mapping[str, Mapping[str, str]]) -> None:
+        """Refuse friction that depends on the sliding speed."""
         for section, keys in unused.items():
             if keys.get("LMUV") and number(keys["LMUV"]) != 0.0:
                 self._problems.append(
@@ -236,8 +232,8 @@ class _Reader:
                     "speed of sliding is left out. Set it to 0."
                 )
 
-    def _see_slips(self, used: Mapping[str, str], unused: dict[str, dict[str, str]]) -> None:
-        """Refuse keys that seem to be others: their values would be lost."""
+    def _refuse_misspelt(self, used: Mapping[str, str], unused: dict[str, dict[str, str]]) -> None:
+        """Refuse keys that look like misspelt ones: their values would be ignored."""
         open_keys = sorted(known.USED - set(used))
         for section, keys in unused.items():
             if section in _OF_TEXT or section in _OF_TABLES:
@@ -253,8 +249,8 @@ class _Reader:
                         "remove it."
                     )
 
-    def _see_missing(self, numbers: Mapping[str, float]) -> None:
-        """Refuse a file without what every tyre has."""
+    def _refuse_missing(self, numbers: Mapping[str, float]) -> None:
+        """Refuse a file without the keys that every tyre needs."""
         sections = {name for name, _ in self._blocks}
         for section, keys in known.missing(numbers).items():
             there = "" if section in sections else f"The section [{section}] is missing; "
@@ -269,7 +265,7 @@ class _Reader:
 
     @staticmethod
     def _assumed(numbers: Mapping[str, float], form: Form) -> Iterator[str]:
-        """Yield what the file leaves open."""
+        """Yield assumptions in place of missing keys."""
         if not form.weighted:
             yield (
                 "combined slip: by the friction ellipse, since RBX1 and RBY1 are missing or zero, "
@@ -291,36 +287,16 @@ class _Reader:
 
 
 def _is_turned(numbers: Mapping[str, float], form: Form) -> bool:
-    """Return whether the lateral peak is negative where no force depends on its sign.
+    """Return whether the lateral peak D is negative and no force depends on its sign.
 
-    D sin(C arctan(K x / (C D) ...)) does not; what slip induces does.
+    D sin(C arctan(K x / (C D) ...)) is even in D; the force induced by longitudinal slip is not.
     """
     induces = form.weighted and any(numbers.get(f"RVY{i}") for i in (1, 2, 3))
     return numbers.get("PDY1", 1.0) < 0.0 and not induces
 
 
-@dataclass(frozen=True)
-class _Scales:
-    """SI units of one unit of a file."""
-
-    of: Mapping[str, float]
-
-    def __call__(self, key: str) -> float:
-        """Return what the number of a key is multiplied with."""
-        length, force, time = self.of["LENGTH"], self.of["FORCE"], self.of["TIME"]
-        return {
-            "m": length,
-            "N": force,
-            "N/m": force / length,
-            "N s/m": force * time / length,
-            "m/s": length / time,
-            "Pa": self.of["PRESSURE"],
-            "rad": self.of["ANGLE"],
-        }.get(known.DIMENSIONS.get(key, "1"), 1.0)
-
-
 def _listed(unused: Mapping[str, Mapping[str, str]]) -> Iterator[str]:
-    """Yield a line for each section with keys that are not used, and why."""
+    """Yield a line for each section with unused keys, and the reason."""
     for section, keys in unused.items():
         reason = known.REASONS.get(section, "not known")
         names = ", ".join(_shown(key) for key in keys)

@@ -37,7 +37,7 @@ _SECTIONS = (
     ("ROLLING_COEFFICIENTS", ("QSY",)),
     ("ALIGNING_COEFFICIENTS", ("QBZ", "QCZ", "QDZ", "QEZ", "QHZ", "PPZ", "SSZ")),
 )
-"""Sections, and how the names of their keys begin."""
+"""Sections, with the prefixes of their keys."""
 _UNITS = ("LENGTH = 'meter'", "FORCE = 'newton'", "ANGLE = 'radians'", "MASS = 'kg'",
           "TIME = 'second'")  # fmt: skip
 
@@ -52,17 +52,17 @@ def write_tir(
 ) -> Path:
     """Write a tyre of the Magic Formula as a property file, in SI units.
 
-    Coefficients that do nothing are left out.
+    Coefficients without effect are left out.
 
     Parameters
     ----------
     tyre : MagicFormula
     path : str or pathlib.Path
-        Ends in ``.tir``.
+        File name that ends in ``.tir``.
     head : str, optional
-        Comment at the head of the file.
+        Comment at the top of the file.
     force : bool, optional
-        Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
+        Whether to replace a file that kintrafo did not write; see `kintrafo.core.files`.
     inputs : iterable of str or pathlib.Path, optional
         Files that are never replaced.
 
@@ -73,7 +73,7 @@ def write_tir(
     Raises
     ------
     InputError
-        If the file must not or cannot be written.
+        If the file cannot be written or must not be replaced.
     """
     with Validator("write_tir") as given:
         given.path("path", path)
@@ -105,6 +105,6 @@ _NEEDED = frozenset(key for keys in known.NEEDED.values() for key in keys)
 def _model(tyre: "MagicFormula") -> list[str]:
     older = {"PAC2002": "PROPERTY_FILE_FORMAT = 'PAC2002'", "MF 5": "FITTYP = 5"}
     version = older.get(tyre.name, f"FITTYP = 6{tyre.name[-1]}")
-    # weights of combined slip may be there and yet not be used
+    # a file may have weights of combined slip that FE_METHOD switches off
     combined = [] if tyre.form.weighted else ["FE_METHOD = 'YES'"]
     return [version, *combined, *([f"TYRESIDE = '{tyre.side.upper()}'"] if tyre.side else [])]

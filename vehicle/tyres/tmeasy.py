@@ -13,7 +13,7 @@ from ...core.legible import legible, short
 from ...core.validator import Validator
 from ...formulas import tmeasy
 from ...formulas.arithmetic import ARRAYS
-from ...formulas.magic_formula import Contact
+from ...formulas.magic_formula import Forces
 from ..input.commented_json import content
 from .tyre import States, Tyre
 
@@ -64,18 +64,18 @@ _NEWER = tuple(
         "Tire Spring Curve Data",
     )
 )
-_UNKNOWN = 1e-30  # stiffness of a carcass of which the file says nothing [N/m]
+_UNKNOWN = 1e-30  # stiffness of the carcass if the file has none [N/m]
 _FORMAL = {("Name",), ("Type",), ("Template",)}
 
 
 @dataclass(frozen=True)
 class TMeasy(Tyre):
-    """A tyre of TMeasy: curves by slope, maximum and sliding at two loads.
+    """A tyre of TMeasy: curves given by slope, maximum and sliding force at two loads.
 
     Attributes
     ----------
     values : dict of str to float
-        In SI units; of two loads with ``_1`` and ``_2`` behind the name.
+        In SI units; names of values at the two loads end in ``_1`` and ``_2``.
     """
 
     law: ClassVar[str] = "tmeasy"
@@ -94,7 +94,7 @@ class TMeasy(Tyre):
         Raises
         ------
         InputError
-            If the file cannot be read, something is missing, or no tyre can be like this.
+            If the file cannot be read, a key is missing, or values are impossible.
         """
         data = content(path)
         if data.get("Template") != "TMeasyTire":
@@ -119,38 +119,38 @@ class TMeasy(Tyre):
 
     @property
     def nominal_load(self) -> float:  # type: ignore[override] # read only
-        """Load of the first of each two values [N]."""
+        """Load of the values with ``_1`` in their names [N]; those with ``_2`` have twice it."""
         return self.values["nominal_load"]
 
     @property
     def radius(self) -> float:  # type: ignore[override] # read only
-        """Radius without load [m]."""
+        """Unloaded radius [m]."""
         return self.values["radius"]
 
     @property
     def ranges(self) -> dict[str, tuple[float, float]]:  # type: ignore[override] # read only
-        """Up to which load curves are known."""
+        """Range of the load, up to the greatest one of the file [N]."""
         return {"load": (0.0, self.values["greatest_load"])}
 
     def mirrored(self) -> Self:
-        """Return the mirror image, which is the tyre itself."""
+        """Return the mirror image; a TMeasy tyre is symmetric."""
         return replace(self)
 
     def contact_law(self, name: str = "tyre") -> "ContactLaw":
-        """Return the `kintrafo.generator.TMeasyContact` of a name."""
+        """Return the `kintrafo.generator.TMeasyContact` with this prefix of its parameters."""
         from ...generator import TMeasyContact  # noqa: PLC0415 (an extra)
 
         return TMeasyContact(name=name)
 
     def parameters(self, name: str = "tyre", *, relaxing: bool = False) -> dict[str, float]:
-        """Return the parameters of equations of motion that this tyre has.
+        """Return the values of the parameters of `contact_law`.
 
         Parameters
         ----------
         name : str, optional
-            Of the `kintrafo.generator.TMeasyContact` whose parameters they are.
+            Prefix of their names.
         relaxing : bool, optional
-            Whether relaxation lengths are needed, which follow from the stiffnesses.
+            Without effect: relaxation lengths follow from the stiffnesses.
 
         Returns
         -------
@@ -163,45 +163,27 @@ class TMeasy(Tyre):
         return {f"{name}_{key}": value for key, value in found.items()}
 
     def with_friction(self, friction: float) -> Self:
-        """Return the tyre on a road of another friction.
+        """Return the tyre on a road with another coefficient of friction.
 
         Parameters
         ----------
         friction : float
-            More than zero; that of the file is the one of its measurement.
+            More than zero; the file has the coefficient of the measurement.
         """
         with Validator(self.name) as given:
             friction = given.number("friction", friction, above=0.0)
         return replace(self, values={**self.values, "friction": friction})
 
-    def _state(self, at: States) -> dict[str, Any]:
-        p, rolling = self.values, np.sign(at.speed)
+    def _state(self, at: States) -> tuple[Forces, dict[str, Any]]:
+        p = self.values
         deflection, stiffness = tmeasy.deflection_of(ARRAYS, p, at.load)
         length = 2.0 * np.sqrt(self.radius * deflection)
-        contact = Contact(
-            load=at.load,
-            longitudinal=at.slip,
-            lateral=np.tan(at.slip_angle),
-            inclination=np.sin(at.camber),
-            direction=np.cos(at.slip_angle) * rolling,
-            rolling=rolling,
-            speed=at.speed,
-            pressure=0.0,
-        )
-        found = tmeasy.forces(ARRAYS, p, contact, length)
+        found = tmeasy.forces(ARRAYS, p, at.contact(), length)
         weight = tmeasy.by_load(
             at.load, self.nominal_load, p["rolling_1"], p["rolling_2"], quadratic=False
         )
         static = self.radius - deflection
-        return {
-            "fx": found.fx,
-            "fy": found.fy,
-            "mx": found.mx,
-            "my": found.my,
-            "mz": found.mz,
-            "slip_stiffness": found.slip_stiffness,
-            "cornering_stiffness": -found.cornering_stiffness,
-            "trail": found.trail,
+        return found, {
             "relaxation_x": _length(found.slip_stiffness, p["stiffness_x"]),
             "relaxation_y": _length(-found.cornering_stiffness, p["stiffness_y"]),
             "loaded_radius": static,
@@ -211,24 +193,24 @@ class TMeasy(Tyre):
 
 
 def _length(stiffness: Any, carcass: float) -> Any:
-    """Return a relaxation length [m]; NaN where the stiffness of the carcass is not known."""
+    """Return a relaxation length [m]; NaN if the stiffness of the carcass is unknown."""
     return stiffness / carcass if carcass > _UNKNOWN else np.full_like(stiffness, np.nan)
 
 
 def _polynomial(p: Mapping[str, float]) -> tuple[float, float]:
-    """Return both coefficients of the load over deflection, from the stiffness at two loads."""
+    """Return the linear and the quadratic coefficient of the load over the deflection."""
     once, twice = p["stiffness_1"] ** 2, p["stiffness_2"] ** 2
     return math.sqrt(2.0 * once - twice), (twice - once) / (4.0 * p["nominal_load"])
 
 
 class _Reader:
-    """Numbers of a file, by their places."""
+    """The numbers of a file and the problems found in it."""
 
     def __init__(self, data: Mapping[str, Any]) -> None:
         self._data, self.problems = data, list[str]()
 
     def values(self) -> Iterator[tuple[str, float]]:
-        """Yield names and numbers; zero where there is none."""
+        """Yield names and numbers; 0 for each number that is missing or wrong."""
         for name, place in _DESIGN.items():
             yield name, self._number(place, self._at(place))
         for name, place in _PAIRS.items():
@@ -265,7 +247,7 @@ class _Reader:
 def _unread(
     data: Mapping[str, Any], used: frozenset[tuple[str, ...]], above: tuple[str, ...] = ()
 ) -> Iterator[str]:
-    """Yield the places of keys that are not used."""
+    """Yield the places of unused keys."""
     for key, value in data.items():
         place = (*above, key)
         if place in used:
@@ -277,10 +259,10 @@ def _unread(
 
 
 def _as_older(data: Mapping[str, Any]) -> tuple[dict[str, Any], frozenset[tuple[str, ...]]]:
-    """Return a file in the older form of the template, and the places of what is used of it.
+    """Return the data in the older form of the template, and the places of the used keys.
 
-    The newer one has its vertical stiffness as one number or as a curve, one coefficient of
-    rolling resistance, and no carcass; a third of the deflection is in its rolling radius.
+    The newer form has its vertical stiffness as one number or as a curve, one coefficient of
+    rolling resistance, and no carcass; its rolling radius includes a third of the deflection.
     """
     used = frozenset((*_FORMAL, *_DESIGN.values(), *_PAIRS.values()))
     given = data["Parameters"].get("Vertical")
@@ -314,7 +296,7 @@ def _as_older(data: Mapping[str, Any]) -> tuple[dict[str, Any], frozenset[tuple[
 
 
 def _of_curve(curve: Any, nominal: float) -> list[float] | None:
-    """Return the stiffness at both loads of the parabola nearest to a curve of force [N/m]."""
+    """Return the stiffness [N/m] at both loads of a parabola fitted to a curve of the force."""
     try:
         points = np.asarray(curve, dtype=np.float64)
     except (TypeError, ValueError):
@@ -329,7 +311,7 @@ def _of_curve(curve: Any, nominal: float) -> list[float] | None:
 
 
 def _impossible(p: Mapping[str, float]) -> Iterator[str]:
-    """Say which numbers no tyre has."""
+    """Yield a problem for each impossible value."""
     places = _DESIGN | _PAIRS
     may_be_zero = ("trail_", "resistance_", "rolling_")
     for name, value in p.items():

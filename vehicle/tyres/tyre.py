@@ -1,4 +1,4 @@
-"""What every tyre answers: forces, moments, stiffnesses and lengths, of arrays."""
+"""The interface of all tyres: forces, moments, stiffnesses and lengths, over arrays."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.validator import Validator
+from ...formulas.magic_formula import Contact, Forces
 
 if TYPE_CHECKING:
     from ...generator.declare.contact_laws import ContactLaw
@@ -16,9 +17,9 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 USUAL_SPEED = 16.7
-"""Speed of a tyre's measurement where no file has one [m/s]."""
+"""Speed of a tyre's measurement if its file has none [m/s]."""
 LOWEST_SPEED = 1.0
-"""Speed below which slips are smoothed where no file has one [m/s]."""
+"""Speed below which slips are smoothed if the file of the tyre has none [m/s]."""
 _UNITS = {
     "load": "N", "slip_angle": "rad", "slip": "", "camber": "rad", "speed": "m/s", "pressure": "Pa",
 }  # fmt: skip
@@ -26,7 +27,7 @@ _UNITS = {
 
 @dataclass(frozen=True)
 class TyreState:
-    """Forces of a tyre in some states, in the axes of ISO 8855 at its contact.
+    """Forces and properties of a tyre, in the axes of ISO 8855 at its contact.
 
     All arrays have the shape to which the arguments broadcast. x is forward, y left, z up.
 
@@ -41,15 +42,15 @@ class TyreState:
     trail
         Pneumatic trail [m].
     relaxation_x, relaxation_y
-        Relaxation lengths [m]; NaN where nothing says them.
+        Relaxation lengths [m]; NaN if the file does not give them.
     loaded_radius, effective_radius
-        From the axis to the road in the plane of the wheel; speed over rate of spin of a wheel
-        that rolls freely [m].
+        Distance from the axis to the road in the plane of the wheel; speed over rate of spin of
+        a freely rolling wheel [m].
     vertical_stiffness
         Load over deflection, at the load [N/m].
     outside : dict of str to ndarray of bool
-        By argument, where it was outside the range for which the tyre is known, and was replaced by
-        the end of that range. Empty where none was.
+        By argument: elements outside the range of the tyre, which were replaced by the end of that
+        range. Only arguments with such elements are present.
     """
 
     fx: Array
@@ -80,6 +81,20 @@ class States:
     speed: Array
     pressure: Array
 
+    def contact(self) -> Contact:
+        """Return the state of the contact, with the speed in m/s and nominal pressure."""
+        rolling = np.sign(self.speed)
+        return Contact(
+            load=self.load,
+            longitudinal=self.slip,
+            lateral=np.tan(self.slip_angle),
+            inclination=np.sin(self.camber),
+            direction=np.cos(self.slip_angle) * rolling,
+            rolling=rolling,
+            speed=self.speed,
+            pressure=0.0,
+        )
+
 
 class Tyre(ABC):
     """A tyre: forces and moments by load and slip.
@@ -87,23 +102,23 @@ class Tyre(ABC):
     Attributes
     ----------
     name : str
-        Which formulas it has.
+        Name of its formulas, such as ``"MF 6.1"``.
     nominal_load : float
         [N].
     radius : float
-        Of its file, without load [m].
+        Unloaded radius in the file [m].
     ranges : dict of str to (float, float)
-        By argument of `evaluate`, where the tyre is known.
+        Ranges of validity by argument of `evaluate`.
     side : str
-        ``"left"``, ``"right"`` or empty: the side of the vehicle that it is for.
+        Side of the vehicle for which it was measured: ``"left"``, ``"right"`` or empty.
     lowest_speed : float
-        Below which slips are smoothed in equations of motion [m/s].
+        Speed below which slips are smoothed in equations of motion [m/s].
     vertical_damping : float
-        Along the normal [N s/m].
+        Damping along the normal [N s/m].
     left_out, assumed : tuple of str
-        Keys of its file that are not used, and what that leaves open.
+        Unused keys of the file, and assumptions in place of missing ones.
     law : str
-        What its equations are called in names.
+        Name of its contact law in names of generated equations.
     """
 
     law: ClassVar[str]
@@ -121,7 +136,7 @@ class Tyre(ABC):
 
     @property
     def free_radius(self) -> float:
-        """The radius in equations of motion at no load [m]."""
+        """Unloaded radius in equations of motion [m]."""
         return self.radius
 
     @abstractmethod
@@ -130,32 +145,32 @@ class Tyre(ABC):
 
     @abstractmethod
     def contact_law(self, name: str = "tyre") -> "ContactLaw":
-        """Return the law of a rolling tyre in equations of motion, without its numbers.
+        """Return the contact law of the equations of motion, with symbolic parameters.
 
         Parameters
         ----------
         name : str, optional
-            Begins the names of its parameters, which `parameters` returns.
+            Prefix of the parameters' names; their values are those of `parameters`.
         """
 
     @abstractmethod
     def parameters(self, name: str = "tyre", *, relaxing: bool = False) -> dict[str, float]:
-        """Return the parameters that equations of motion have of this tyre, in SI units.
+        """Return the values of the parameters of `contact_law`, in SI units.
 
         Parameters
         ----------
         name : str, optional
-            Begins their names.
+            Prefix of their names.
         relaxing : bool, optional
             Whether relaxation lengths are needed.
         """
 
     @abstractmethod
-    def _state(self, at: States) -> dict[str, Any]:
-        """Return the fields of a `TyreState` but the load and what is outside."""
+    def _state(self, at: States) -> tuple[Forces, dict[str, Any]]:
+        """Return the forces, and lengths and the vertical stiffness by the names in `TyreState`."""
 
     def on(self, side: str) -> Self:
-        """Return the tyre as it is on a side of the vehicle.
+        """Return the tyre mounted on a side of the vehicle.
 
         Parameters
         ----------
@@ -164,7 +179,7 @@ class Tyre(ABC):
         Returns
         -------
         Tyre
-            Itself, or its mirror image where it was measured for the other side.
+            Itself, or its mirror image if it was measured for the other side.
         """
         with Validator("on") as given:
             given.among("side", side, ("left", "right"))
@@ -188,20 +203,20 @@ class Tyre(ABC):
         load : array_like
             Force of the road on the tyre along its normal [N], zero or more.
         slip_angle : array_like, optional
-            arctan(Vy / abs(Vx)) of the contact [rad], positive where it moves to the left: the
-            lateral force is to the right then.
+            arctan(Vy / abs(Vx)) of the contact [rad], positive if it moves to the left: the
+            lateral force then acts to the right.
         slip : array_like, optional
-            kappa = -Vsx / abs(Vx): positive in driving, -1 of a wheel that is locked.
+            kappa = -Vsx / abs(Vx): positive in driving, -1 for a locked wheel.
         camber : array_like, optional
             Inclination about x [rad], positive with the top to the right (ISO 8855), on both sides
             of the vehicle.
         speed : array_like, optional
-            Vx [m/s], negative rolling backward; that of the measurement unless given.
+            Vx [m/s], negative rolling backward. Default: the speed of the measurement.
         pressure : array_like, optional
-            Inflation pressure [Pa]; that of the file unless given.
+            Inflation pressure [Pa]. Default: that of the file.
         extrapolate : bool, optional
-            Whether arguments outside the ranges are used as they are; else the end of the range is
-            taken for them, and `TyreState.outside` says where.
+            Whether arguments outside the ranges are used unchanged. By default they are replaced by
+            the end of the range, and `TyreState.outside` marks them.
 
         Returns
         -------
@@ -210,7 +225,7 @@ class Tyre(ABC):
         Raises
         ------
         InputError
-            If an argument is no number, or the shapes do not broadcast.
+            If an argument is not a number, or the shapes do not broadcast.
 
         Examples
         --------
@@ -232,22 +247,23 @@ class Tyre(ABC):
             }
             arrays = {k: given.array(k, v, _UNITS[k], empty=True) for k, v in wanted.items()}
             given.flag("extrapolate", extrapolate)
-            self._see(given, arrays, pressure is not None)
+            self._check(given, arrays, pressure is not None)
             try:
                 found = dict(zip(arrays, np.broadcast_arrays(*arrays.values()), strict=True))
             except ValueError:
                 shapes = ", ".join(f"{k} {v.shape}" for k, v in arrays.items())
                 given.fail(f"the shapes do not broadcast: {shapes}.")
-        load_there = found["load"]
-        outside = {} if extrapolate else self._cut(found)
+        given_load = found["load"]
+        outside = {} if extrapolate else self._clip(found)
         with np.errstate(over="ignore", under="ignore"):
-            state = self._state(States(**found))
-        shape = load_there.shape
+            forces, others = self._state(States(**found))
+        state = vars(forces) | others | {"cornering_stiffness": -forces.cornering_stiffness}
+        shape = given_load.shape
         fields = {k: np.array(np.broadcast_to(v, shape)) for k, v in state.items()}
-        return TyreState(**fields, fz=np.array(load_there), outside=outside)
+        return TyreState(**fields, fz=np.array(given_load), outside=outside)
 
-    def _see(self, given: Validator, arrays: Mapping[str, Array], with_pressure: bool) -> None:
-        """Refuse what no tyre does."""
+    def _check(self, given: Validator, arrays: Mapping[str, Array], with_pressure: bool) -> None:
+        """Refuse negative loads, angles beyond a right angle, and a pressure without effect."""
         if np.any(arrays["load"] < 0.0):
             given.fail(f"load = {arrays['load'].min():g} N: zero or more is needed.")
         for name in ("slip_angle", "camber"):
@@ -261,12 +277,12 @@ class Tyre(ABC):
         if np.any(arrays["pressure"] <= 0.0) and with_pressure:
             given.fail(f"pressure = {arrays['pressure'].min():g} Pa: more than zero is needed.")
 
-    def _cut(self, found: dict[str, Array]) -> dict[str, NDArray[np.bool_]]:
-        """Bring arguments into their ranges; return where they were outside."""
+    def _clip(self, found: dict[str, Array]) -> dict[str, NDArray[np.bool_]]:
+        """Clip arguments to their ranges; return the elements that were outside."""
         outside = {}
         for name, (low, high) in self.ranges.items():
             values = found[name]
-            # a load below the least one is that load: forces vanish with it
+            # small loads are kept: the forces vanish with the load
             beyond = (values > high) | ((values < low) & (name != "load"))
             if beyond.any():
                 outside[name] = beyond

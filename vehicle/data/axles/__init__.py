@@ -1,1 +1,1 @@
-"""Axles that come with the project."""
+"""Packaged axles."""

@@ -1,1 +1,1 @@
-"""Cars that come with the project."""
+"""Packaged cars."""

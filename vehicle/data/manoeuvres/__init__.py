@@ -1,1 +1,1 @@
-"""Manoeuvres that come with the project."""
+"""Packaged manoeuvres."""

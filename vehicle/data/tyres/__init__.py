@@ -1,1 +1,1 @@
-"""Tyres that come with the project: made up for it, none of them was measured."""
+"""Packaged tyres; their coefficients are invented, not measured."""

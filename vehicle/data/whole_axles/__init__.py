@@ -1,1 +1,1 @@
-"""Axles that come with the project whose file is of both wheels: one a sort, with its name."""
+"""Packaged axles described in one file with both wheels; each is named after its kind."""
