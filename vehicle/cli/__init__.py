@@ -1,4 +1,4 @@
-"""The command line: ``kintrafo``. One file a command; each is a thin door to a Python function."""
+"""The command line ``kintrafo``: one module for each command, which calls a Python function."""
 
 from collections.abc import Mapping
 from types import ModuleType
@@ -49,7 +49,7 @@ _EXIT_CODES = (
 
 
 class _Commands(CommandGroup):
-    """All commands, with other names by which users look for them."""
+    """The commands, with suggestions for names of commands that do not exist."""
 
     instead: ClassVar[Mapping[str, str]] = {
         "animate": "kintrafo mechanism animate",
@@ -77,27 +77,27 @@ app = typer.Typer(
 
 
 def _flowing(docstring: str) -> str:
-    """Return the paragraphs of a docstring in a line each; what is in brackets is no markup."""
+    """Return a docstring with one line for each paragraph, and brackets escaped as no markup."""
     paragraphs = (" ".join(paragraph.split()) for paragraph in docstring.split("\n\n"))
     return escape("\n\n".join(paragraphs))
 
 
-# In the order in which an engineer needs them.
+# In the order of an engineer's work.
 _PANELS = {
     "Begin": (new, import_, check),
     "Compute": (characteristics, simulate, ride, drive, loads, compliance, sheet, compare, tyre),
     "Design": (sensitivity, tolerance, optimise, pareto, fit, sweep),
     "Hand over": (report, export),
 }
-# Not in the list of commands that `kintrafo --help` prints.
+# Not listed by `kintrafo --help`.
 _HIDDEN = (schema, paper)
 
 COMMANDS: dict[str, ModuleType] = {}
-"""The module of each command, by what is between ``kintrafo`` and its arguments."""
+"""Modules by command, such as ``"mechanism animate"``."""
 
 
 def _add(to: typer.Typer, module: ModuleType, group: str = "", **options: Any) -> None:
-    """Add the command of a module, whose name is that of the module."""
+    """Add the command of a module, named after the module."""
     name = module.__name__.rpartition(".")[2].strip("_")
     examples = "\n\n".join(("Examples:", *module.EXAMPLES))
     words = _flowing(module.command.__doc__ or "")

@@ -30,9 +30,9 @@ EXAMPLES = (
     "kintrafo characteristics my_car.toml --positions --bump 60 --rebound 90 -o path.csv",
     "kintrafo characteristics my_car.toml --positions --over both --step 10 -o map.nc",
 )
-# Those of an assembly, where nothing is chosen, are these; what an axle has besides is asked for.
+# Default motions, where an assembly has them.
 _USUAL = ("travel", "rack", "bump", "heave", "pitch", "roll", "left", "steer")
-# Curves that stand in tables of motions of an axle; over parallel travel all are shown at design.
+# Curves in the tables of an axle; over parallel travel a table has all of them at design.
 _SHOWN = {
     "roll": (
         "roll_moment",
@@ -155,7 +155,7 @@ def _characteristics(
     goals: "Path | None",
     json: bool,
 ) -> None:
-    """Write and print characteristics over some motions."""
+    """Write and print characteristics over motions."""
     from ...datasets import export
     from ..analysis.characteristics import datasets
 
@@ -206,7 +206,7 @@ def _positions(
     *,
     json: bool,
 ) -> None:
-    """Write and print where the wheels and the joints are over travel, the rack, or both."""
+    """Write and print positions of wheels and joints over travel, the rack, or both."""
     from ...datasets import export
     from ..analysis import sweep
     from ..assembly.by_wheel import flat
@@ -243,7 +243,7 @@ def _positions(
 
 
 def _aims(path: "Path | None", chosen: list[str], assembly: "Assembly") -> "list[Goal]":
-    """Return the targets and limits of a file that are about the motions."""
+    """Return the targets and limits of a file that are over the chosen motions."""
     if path is None:
         return []
     from ..studies.sweep_axes import sweep_axes_of
@@ -252,7 +252,7 @@ def _aims(path: "Path | None", chosen: list[str], assembly: "Assembly") -> "list
 
 
 def _motions(assembly: "Assembly", wanted: list[str] | None, *, positions: bool) -> list[str]:
-    """Return the motions that are asked for, or the usual ones."""
+    """Return the wanted motions, or the default ones."""
     if positions:
         usual = assembly.usual_motion
         if not assembly.steered and not {"rack", _BOTH}.isdisjoint(wanted or ()):
@@ -276,7 +276,7 @@ def _refuse_options(
     travel: float,
     rack: float,
 ) -> None:
-    """Refuse options that a file does not have."""
+    """Refuse options without effect on this file."""
     if roll is not None and "roll" not in assembly.motions:
         raise typer.BadParameter("--roll is only for the file of an axle")
     if assembly.steered:
@@ -286,7 +286,6 @@ def _refuse_options(
 
 
 def _title(assembly: "Assembly", file: str, motion: str) -> str:
-    """Return the title of curves."""
     if len(assembly.wheels) == 1:
         return title_of(file)
     return f"{title_of(file)}: {assembly.motions[motion].words}"
@@ -295,7 +294,7 @@ def _title(assembly: "Assembly", file: str, motion: str) -> str:
 def _print(
     assembly: "Assembly", file: str, curves: "Mapping[str, Dataset]", of: list[str] | None
 ) -> None:
-    """Print what is known at design, and of further motions of an axle curves."""
+    """Print characteristics at design, and curves over further motions of an axle."""
     from ..analysis.characteristics.at_design import at_design
     from ..assembly.by_wheel import flat
 

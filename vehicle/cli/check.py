@@ -1,4 +1,4 @@
-"""``kintrafo check``: what is wrong with a hardpoint file, or what the suspension is like."""
+"""``kintrafo check``: errors of a file, or a summary of its suspension, axle or car."""
 
 import math
 from pathlib import Path
@@ -61,12 +61,12 @@ def command(file: File, *, json: Json = False) -> None:
 
 
 def _refuse_missing(file: str) -> None:
-    """Refuse a file that is not there, so that what a check says is about its content."""
+    """Refuse a missing file, so that problems of a check are about its content."""
     from ..data.starter import all_packaged
     from ..files.loading import load
 
     if file not in all_packaged() and not Path(file).is_file():
-        load(file)  # says so, and what was probably meant
+        load(file)  # raises, and suggests a name
 
 
 def _print(found: "Checkup", file: str) -> None:

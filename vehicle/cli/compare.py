@@ -1,4 +1,4 @@
-"""``kintrafo compare``: curves of several suspensions over each other, and what differs."""
+"""``kintrafo compare``: curves of several suspensions in one figure, and their differences."""
 
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from ..assembly.assembly import Assembly
     from ..studies.evaluation import Subject
 
-# Curves of two data sets cover each other in a picture if they differ by less than this part of the
-# span of the axis: less than the width of a line.
+# Two curves cover each other in a figure if they differ by less than a line's width, which is this
+# part of the span of the axis.
 _WIDTH_OF_A_LINE = 0.01
 
 EXAMPLES = (
@@ -111,7 +111,9 @@ def command(
         dataset, title=title, names=shown if of else _differing(table), drawn=drawn, goals=aims
     )
     if output.json:
-        rows = [vars(difference) | {"units": _units(table, difference)} for difference in found]
+        rows = [
+            vars(each) | {"units": str(table[each.name].attrs.get("units", ""))} for each in found
+        ]
         print_json({"differences": rows, "goals": judged} if aims else rows)
         return
     for name in others:
@@ -125,7 +127,7 @@ def command(
 
 
 def _differing(table: "Dataset") -> list[str]:
-    """Return the curves in which the difference of two data sets can be seen."""
+    """Return the curves with visible differences of two data sets; all if there are none."""
     from ...core.quantities import display_of
     from ...pictures.curves import LEAST_SPANS
     from ..plots.curves import without_copies
@@ -142,15 +144,15 @@ def _differing(table: "Dataset") -> list[str]:
 
 
 class _Compared(NamedTuple):
-    """Curves beside each other.
+    """Curves of several data sets.
 
     Attributes
     ----------
     dataset : xarray.Dataset
     way : str
-        What they are over, as goals have it.
-    subjects : dict of str to Suspension, Axle or RigidAxle
-        What has them, but for a measurement.
+        Axis of the curves, such as ``"travel"``.
+    subjects : dict of str to Suspension, Axle, RigidAxle or Car
+        By data set, without the measured one.
     """
 
     dataset: "Dataset"
@@ -183,7 +185,7 @@ def _compared(files: list[str], over: str | None, held: Held | None) -> _Compare
 
 
 def _over_axis(assemblies: "Mapping[str, Assembly]", over: str) -> _Compared:
-    """Return what cars have over speed or in steady turns, beside each other."""
+    """Return curves of cars over speed or in steady turns."""
     from ...core.validator import Validator
     from ..analysis.compare import beside_each_other
     from ..studies.evaluation import common_positions, curves_over
@@ -199,7 +201,7 @@ def _over_axis(assemblies: "Mapping[str, Assembly]", over: str) -> _Compared:
 
 
 def _assemblies(files: list[str]) -> "dict[str, Assembly]":
-    """Return what files describe; refuse suspensions beside axles."""
+    """Return the assemblies of files; refuse suspensions beside axles."""
     from ...core.quantities import distinct
 
     found = dict(zip(distinct(files), map(assembly_of_file, files), strict=True))
@@ -216,7 +218,7 @@ def _assemblies(files: list[str]) -> "dict[str, Assembly]":
 def _beside(
     assemblies: "dict[str, Assembly]", measured: list[str], over: str | None, held: Held
 ) -> "tuple[Dataset, str]":
-    """Return curves beside those of a measurement, and the motion that they are over."""
+    """Return measured and computed curves, and their motion."""
     from ..analysis import rig
 
     if len(measured) > 1:
@@ -234,14 +236,10 @@ def _beside(
 
 
 def _titles(files: "Iterable[Any]") -> list[str]:
-    """Return what the figures call some files: their names alone, where these differ."""
+    """Return the titles of files in figures: names without folders if these differ."""
     given = [str(file) for file in files]
     titles = [title_of(file) for file in given]
     return titles if len(set(titles)) == len(titles) else given
-
-
-def _units(dataset: "Dataset", difference: "Difference") -> str:
-    return str(dataset[difference.name].attrs.get("units", ""))
 
 
 def _table(dataset: "Dataset", found: list["Difference"], first: str, other: str) -> "Table":

@@ -1,4 +1,4 @@
-"""``kintrafo compliance``: what bushes do to the wheels, to first order or by any amount."""
+"""``kintrafo compliance``: deflections of the wheels on their bushes, linear or nonlinear."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -33,9 +33,8 @@ EXAMPLES = (
     "kintrafo compliance reference_axle --bushes bushes.toml --nonlinear --under braking",
 )
 
-# Loads that a suspension meets, N and N m.
-_USUAL, _USUAL_TORQUE = 5000.0, 250.0
-_STEPS = 41
+_USUAL, _USUAL_TORQUE = 5000.0, 250.0  # greatest loads [N], [N m]
+_STEPS = 41  # of the load
 
 
 def command(
@@ -134,7 +133,7 @@ class _Rig(NamedTuple):
         where: tuple[float, float],
         ends: tuple[float | None, float | None],
     ) -> "_Rig":
-        """Return the rig of a file at a travel and a rack position, from ends of travel [mm]."""
+        """Return the rig of a file, from travel and rack position, and ends of travel [mm]."""
         from ..assembly.rig import SweepRange
 
         assembly = assembly_of_file(file, "compliance")
@@ -146,13 +145,13 @@ class _Rig(NamedTuple):
         return cls(file, assembly, bushes_of(file, bushes), at / 1e3, rack / 1e3, extent)
 
     def on_bushes(self) -> Any:
-        """Return what the file describes, on these bushes."""
+        """Return the subject of the file on these bushes."""
         if self.bushings is None:
             return self.assembly.subject
         return self.assembly.with_bushings(self.bushings)
 
     def travels(self) -> "NDArray[np.float64]":
-        """Return the wheel travels of curves, with that of the table [m]."""
+        """Return the wheel travels of curves, including that of the table [m]."""
         usual = self.assembly.usual(self.assembly.usual_motion, self.extent, rack=self.rack)
         return with_position(usual, 1e3 * self.at)
 
@@ -160,7 +159,7 @@ class _Rig(NamedTuple):
 def _linear(
     rig: _Rig, held: Held, outputs: Outputs, *, of: list[str] | None, goals: Path | None, json: bool
 ) -> None:
-    """Write and print compliance to first order."""
+    """Write and print linear compliance."""
     from ...datasets import export
     from ..analysis import compliance
     from ..analysis.compliance.tables import compliances, compliances_of_beam
@@ -197,7 +196,7 @@ def _linear(
 
 
 def _over_motion(rig: _Rig, motion: str | None, hardpoints: Any) -> "Dataset":
-    """Return what bushes do over a motion."""
+    """Return elastokinematic curves over a motion."""
     from ..analysis import compliance
 
     if motion in ("roll", "steer"):
@@ -215,7 +214,7 @@ def _over_motion(rig: _Rig, motion: str | None, hardpoints: Any) -> "Dataset":
 
 
 def _under(rig: _Rig, under: str, most: float | None, how: Mapping[str, Any]) -> "Dataset":
-    """Return how far loads move the wheels."""
+    """Return displacements of the wheels under loads."""
     import numpy as np
 
     from ...core.errors import InputError
@@ -231,7 +230,7 @@ def _under(rig: _Rig, under: str, most: float | None, how: Mapping[str, Any]) ->
 
 
 def _show_nonlinear(rig: _Rig, found: "Dataset", outputs: Outputs, *, json: bool) -> None:
-    """Write and print what bushes do by any amount."""
+    """Write and print the results of --nonlinear."""
     from ...datasets import export
     from ..analysis.compliance.tables import deflections
     from ..assembly.by_wheel import flat

@@ -119,14 +119,13 @@ def command(
 
 
 def _drawn(chosen: "Manoeuvre") -> tuple[str, ...]:
-    """Return the endings of the names of figures: cones are in the figure of the path."""
+    """Return the suffixes of figures: cones are in the figure of the path."""
     return tuple(suffix for suffix in chosen.CURVES if suffix != "_cones")
 
 
 def _write(
     outputs: Outputs, found: "HandlingResult", chosen: "Manoeuvre", title: str
 ) -> "list[Path]":
-    """Write data files and figures, and return them."""
     written = []
     for suffix, curves in found.curves.items():
         written += outputs.write_data(curves, suffix)
@@ -145,7 +144,7 @@ def _write(
 
 
 def _tables(found: "HandlingResult", title: str) -> "list[Table]":
-    """Return a table of single metrics, and one of the metrics of each run or turn."""
+    """Return a table of scalar metrics, and tables of metrics by run or turn."""
     from ...core.quantities import displayed, heading_of
 
     single = {n: data for n, data in found.metrics.data_vars.items() if not data.ndim}
@@ -163,7 +162,7 @@ def _tables(found: "HandlingResult", title: str) -> "list[Table]":
     return made
 
 
-# Curves of which a table is printed, by their axis.
+# Curves in a printed table, by axis.
 _OVER = {
     "lateral_acceleration": (
         "steering_wheel_angle", "understeer_gradient", "roll_angle", "sideslip_angle",
@@ -174,7 +173,7 @@ _OVER = {
         "roll_gradient",
     ),
 }  # fmt: skip
-# Widths of the heads of rows, and of a column of numbers [characters].
+# Widths of the headings of rows, and of a column of numbers [characters].
 _HEADS, _COLUMN = 30, 10
 
 
@@ -203,12 +202,12 @@ def _greatest(on_every: "Dataset", title: str) -> "Table":
 
 
 def _most_columns() -> int:
-    """Return how many columns of numbers are as wide as the terminal at most."""
+    """Return the number of columns that fit into the terminal, at least 3."""
     return max(3, (console.width - _HEADS) // _COLUMN)
 
 
 def _by_column(several: "list[DataArray]", title: str) -> "Table":
-    """Return a table with a column for each run or turn; with a row, where these are many."""
+    """Return a table with a column for each run or turn; with a row for each if too wide."""
     from ...core.quantities import displayed, heading_of
 
     along = several[0][str(several[0].dims[0])]

@@ -90,7 +90,7 @@ def command(
         suspension = subject_of(file, kind, _NOT_A_TABLE)
         facts = {"path": str(write_points(suspension, path, force=force, inputs=[file])), "to": to}
     else:
-        # these derive the equations again, which takes minutes for a car
+        # casadi and jax derive the equations again, which takes minutes for a car
         text = "deriving the equations, and writing them" if to in ("casadi", "jax") else "export"
         chosen: Any = {name: value for name, value in options.items() if value is not None}
         chosen |= {"force": force, "read": [file]}
@@ -105,7 +105,7 @@ def command(
 
 
 def _described_by(file: str, model: str | None) -> "System":
-    """Return the equations of what a file describes, or a name."""
+    """Return the equations of a file or of a packaged model."""
     from importlib import import_module
 
     from ...core.validator import Validator
@@ -130,7 +130,7 @@ def _is_equations(file: str) -> bool:
 
 
 def _shipped() -> list[str]:
-    """Return the names of the equations that come with kintrafo."""
+    """Return the names of the packaged equations."""
     from importlib.resources import files
 
     entries = files("kintrafo.generated").iterdir()

@@ -1,4 +1,4 @@
-"""``kintrafo fit``: errors of a file that explain curves which were measured on a rig."""
+"""``kintrafo fit``: errors of the values of a file that explain curves measured on a rig."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any

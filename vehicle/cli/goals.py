@@ -1,4 +1,4 @@
-"""Targets and limits of a file beside curves: the option, and the table that says which are met."""
+"""Targets and limits of curves: the option ``--goals``, and the table of those met."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -20,10 +20,8 @@ if TYPE_CHECKING:
 
 ELSEWHERE = "--goals are about the rack in its middle and the wheel at design"
 
-# Positions that are nearer to the end of a curve are at its end [m] or [rad].
-_ROUNDING = 1e-9
-# What stands still on a rig is held so well [m].
-_HELD = 1e-4
+_ROUNDING = 1e-9  # of the ends of curves [m], [rad]
+_HELD = 1e-4  # tolerance of positions held on a rig [m]
 
 Goals = Annotated[
     Path | None,
@@ -38,15 +36,15 @@ Goals = Annotated[
 def read(
     path: Path | None, ways: Sequence[str] | None, known: Sequence[str] = ("travel", "rack")
 ) -> "list[Goal]":
-    """Return the goals of a file about curves over some ways, or compliance; none without a file.
+    """Return the goals of a file for the axes of some curves; none without a file.
 
     Parameters
     ----------
     path : Path or None
     ways : sequence of str or None
-        Axes of the curves, and supports of the wheels under loads; None for all that the file has.
+        Axes of the curves, or supports of the wheels for compliance; None for all in the file.
     known : sequence of str, optional
-        Those that the file may have, the usual first.
+        Axes that the file may have, the default first.
     """
     if path is None:
         return []
@@ -73,15 +71,10 @@ def read(
             f"{sweep_axis(looked_at[0]).key}, least and most."
         )
         raise InputError([problem], str(path))
-    others = dict.fromkeys(_said(goal) for goal in every if goal.over not in ways)
+    others = dict.fromkeys(f"{g.name} {_over(g.over)}" for g in every if g.over not in ways)
     if others:
         note(f"{path}: not about these curves: {', '.join(others)}.")
     return found
-
-
-def _said(goal: "Goal") -> str:
-    """Return what a goal is about, in the words of its file."""
-    return f"{goal.name} {_over(goal.over)}"
 
 
 def _over(over: str) -> str:
@@ -95,20 +88,20 @@ def _or(names: Sequence[str]) -> str:
 
 
 def refuse_elsewhere(curves: "Dataset") -> None:
-    """Refuse goals for curves with the rack, or the wheel, held elsewhere than at design."""
+    """Refuse goals for curves with the rack or the wheel held off design."""
     held = [curve for curve in curves.coords.values() if not curve.ndim and curve.dtype.kind == "f"]
     if any(abs(float(curve)) > _HELD for curve in held):
         raise typer.BadParameter(ELSEWHERE)
 
 
 def refuse_beyond(goals: "Sequence[Goal]", curves: "Mapping[str, Dataset]") -> None:
-    """Refuse goals beyond the ends of the curves into which they are to be drawn.
+    """Refuse goals beyond the ends of the curves with which they are drawn.
 
     Parameters
     ----------
     goals : sequence of Goal
     curves : mapping of str to Dataset
-        By what they are over.
+        By axis.
     """
     from ...core.validator import Validator
     from ..studies.sweep_axes import sweep_axis
@@ -131,7 +124,7 @@ def refuse_beyond(goals: "Sequence[Goal]", curves: "Mapping[str, Dataset]") -> N
 
 
 def judged(subjects: "Mapping[str, Subject]", goals: "Sequence[Goal]") -> list[dict[str, Any]]:
-    """Return what comes of each goal with each suspension or axle, as printed and as JSON."""
+    """Return the verdict on each goal for each subject, for tables and JSON."""
     from .. import studies as variation
 
     return [
@@ -142,7 +135,7 @@ def judged(subjects: "Mapping[str, Subject]", goals: "Sequence[Goal]") -> list[d
 
 
 def table(found: Sequence[Mapping[str, Any]], title: str) -> "Table":
-    """Return the table of what `judged` returns."""
+    """Return the table of verdicts of `judged`."""
     from ...core.quantities import display_of
     from ..studies.goals import words_of
     from ..studies.sweep_axes import sweep_axis

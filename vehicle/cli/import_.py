@@ -1,6 +1,7 @@
 """``kintrafo import``: a suspension or a car of another program, or hardpoints of a table."""
 
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 from textwrap import wrap
 from typing import TYPE_CHECKING, Annotated, Any, Literal
@@ -29,7 +30,7 @@ EXAMPLES = (
 _WIDTH = 98  # of a comment's text
 _TABLES, _ADAMS, _CHRONO = "Of tables", "Of Adams/Car", "Of Project Chrono"
 
-# the choices that are shown are the files that there are
+# the choices are read from the files of the kinds
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
@@ -43,7 +44,7 @@ Side = Literal["left", "right"]
 
 @dataclass(frozen=True)
 class _Options:
-    """The properties that a source may have."""
+    """The options of formats; each format has some of them."""
 
     base: Annotated[
         str | None,
@@ -218,10 +219,11 @@ def _chrono_vehicle(source: Path, path: Path, rule: Any, given: _Options) -> Non
 
 
 def _head(files: str, found: Any) -> list[str]:
-    """Return the comment that a file begins with."""
+    """Return the comment at the top of a file."""
     head = [_from(files)]
     for title, lines in (("Assumed:", found.assumptions), ("Left out:", found.left_out)):
-        head += [title, *(part for line in lines for part in _indented(line))] if lines else []
+        parts = (wrap(x, _WIDTH, initial_indent="  ", subsequent_indent="    ") for x in lines)
+        head += [title, *chain.from_iterable(parts)] if lines else []
     return head
 
 
@@ -236,7 +238,7 @@ def _lists(found: Any) -> None:
         say(f"  left out  {line}")
 
 
-# What reads each format, and what may be said of it.
+# The reader of each format, and its options.
 _READERS: "Mapping[Format, tuple[Callable[..., None], frozenset[str]]]" = {
     "table": (
         _table,
@@ -245,8 +247,3 @@ _READERS: "Mapping[Format, tuple[Callable[..., None], frozenset[str]]]" = {
     "adams": (_adams, frozenset({"base", "name", "side", "kind"})),
     "chrono": (_chrono, frozenset({"side", "tire", "points_only"})),
 }
-
-
-def _indented(text: str) -> list[str]:
-    """Return a sentence as lines of a comment."""
-    return wrap(text, _WIDTH, initial_indent="  ", subsequent_indent="    ")

@@ -26,18 +26,17 @@ def assembly_of_file(file: str, held: str | None = None) -> "Assembly":
     ----------
     file : str
     held : str, optional
-        The command, where it needs a body that is held: it refuses a car.
+        Name of a command that needs a held body: cars are refused.
     """
     from ..assembly.of import assembly_of
 
     subject = variable_subject(file, held)
-    # its equations may have to be derived first
     with problems.status("preparing the equations"):
         return assembly_of(subject)
 
 
 def _refuse_car(car: "Car", file: str, command: str) -> NoReturn:
-    """Refuse a car where a suspension or an axle is needed, and name the files of its parts."""
+    """Refuse a car, and name the files of its suspensions and axles."""
     from ...core.errors import InputError
 
     folder = Path(file).parent
@@ -57,7 +56,7 @@ def model_of(file: str, *, wheel_loads: bool = False) -> "AnyModel":
     ----------
     file : str
         Path of a TOML file, or name of a packaged data set.
-    wheel_loads
+    wheel_loads : bool, optional
         Whether loads on the wheels are inputs.
     """
     from ..assembly.of import model_of as of_subject
@@ -73,14 +72,14 @@ def model_of(file: str, *, wheel_loads: bool = False) -> "AnyModel":
 
 
 def note_unused(car: "Car", file: str) -> None:
-    """Name how many values of the files of a car are not used; `kintrafo check` lists them."""
+    """Print the number of unused entries in the files of a car."""
     if car.unused:
         many = f"{len(car.unused)} entries" if len(car.unused) > 1 else "1 entry"
         note(f"not used: {many} of the files of this car, listed by kintrafo check {file}")
 
 
 def variable_subject(file: str, held: str | None = None) -> "Subject":
-    """Return the subject of a study from its file; `held` as of `assembly_of_file`."""
+    """Return the suspension, axle or car in a file; `held` as in `assembly_of_file`."""
     from ..files.loading import load
     from ..models.car import Car
 
@@ -91,20 +90,19 @@ def variable_subject(file: str, held: str | None = None) -> "Subject":
 
 
 def subject_of(file: str, kind: type[_Kind], needed: str) -> _Kind:
-    """Return the suspension, axle or car in a file, of one class; others are refused.
+    """Return the subject of a file that must be of a class, such as `Suspension` or `Car`.
 
     Parameters
     ----------
     file : str
     kind : type
-        `Suspension`, `Car`, ...
     needed : str
-        End of the message behind the kind of the file: why it is refused, and what to do.
+        End of the message for other classes: the reason, and a way out.
 
     Raises
     ------
     InputError
-        If the file describes something else.
+        If the subject is of another class.
     """
     from ...core.errors import InputError
     from ..files.loading import load
@@ -116,12 +114,12 @@ def subject_of(file: str, kind: type[_Kind], needed: str) -> _Kind:
 
 
 def car_of(file: str) -> "CarAssembly":
-    """Return the car that a file describes, its equations not yet derived; others are refused.
+    """Return the car in a file, its equations not yet derived.
 
     Raises
     ------
     InputError
-        If it is the file of a suspension or an axle; the message names which.
+        If it is the file of a suspension or an axle.
     """
     from ..assembly.car import CarAssembly
     from ..data import data_sets, find
@@ -129,7 +127,7 @@ def car_of(file: str) -> "CarAssembly":
     from ..models.car import Car
 
     if file not in all_packaged():
-        find(file, data_sets(CARS))  # says which cars there are
+        find(file, data_sets(CARS))  # raises for a missing file, and lists the packaged cars
     needed = (
         "whose body is held. A car's file is needed: quarter_car, or what kintrafo new FILE --car "
         "writes."
@@ -139,7 +137,7 @@ def car_of(file: str) -> "CarAssembly":
 
 @contextmanager
 def naming(file: str) -> Iterator[None]:
-    """Let a problem of a car name its file."""
+    """Add the file to problems of its car."""
     from ...core.errors import InputError
 
     try:
@@ -149,7 +147,7 @@ def naming(file: str) -> Iterator[None]:
 
 
 def derived(assembly: "CarAssembly") -> "CarAssembly":
-    """Return a car with its equations, which are derived where they are not known."""
+    """Return a car with its equations, derived at first use."""
     from ..models.car.equations import CarModel
 
     with problems.status("preparing the equations") as status:
@@ -159,7 +157,7 @@ def derived(assembly: "CarAssembly") -> "CarAssembly":
 
 
 def system_of(file: str, name: str | None = None) -> "System":
-    """Return the equations of a mechanism of one's own, derived when they are first needed."""
+    """Return the equations of the mechanism in a Python file, derived at first use."""
     from ...systems.compile import compile_mechanism
     from ...systems.system import System
 
@@ -167,7 +165,7 @@ def system_of(file: str, name: str | None = None) -> "System":
 
 
 def bushes_of(file: str, bushes: Path | None) -> dict[str, Any] | None:
-    """Return the bushes of a file of their own, where one is given in place of those of the car."""
+    """Return the bushes of a separate file, or None."""
     from ..analysis.compliance import read_bushes
 
     if bushes is None:

@@ -32,7 +32,7 @@ EXAMPLES = (
 
 @dataclass(frozen=True)
 class LoadOptions(SingleFigureOptions):
-    """The options of files, which may be load cards."""
+    """The options of data files and load cards."""
 
     out: Annotated[
         list[Path] | None,
@@ -60,7 +60,7 @@ class LoadOptions(SingleFigureOptions):
     ] = None
 
     def split(self) -> "tuple[LoadOptions, list[Path]]":
-        """Return the same for data alone, and the files of cards; refuse what has no file."""
+        """Return the options of data alone, and the files of cards; refuse unused options."""
         from ..analysis.loads.cards import ENDINGS
         from ..analysis.loads.cards.sheet import LENGTHS
         from ..analysis.loads.dataset import AXES
@@ -174,14 +174,14 @@ def command(
 
 
 def _did_what_was_asked(found: "Dataset", asked: list[str]) -> bool:
-    """Return whether all cases that were asked for are carried; of the usual ones, any."""
+    """Return whether all wanted cases have an equilibrium; or any of the standard ones."""
     if asked:
         return not found["reason"].sel(case=asked).values.any()
     return not all(found["reason"].values)
 
 
 def _print_rest(found: "Dataset") -> None:
-    """Say what decided, and what could not be carried."""
+    """Print cases without equilibrium, and the rules of the others."""
     for name, reason in zip(found["case"].values, found["reason"].values, strict=True):
         if reason:
             say(f"{name}: {reason}")
@@ -189,7 +189,7 @@ def _print_rest(found: "Dataset") -> None:
 
 
 def _components(found: "Dataset", case: str, parts: list[str], file: str) -> "Table":
-    """Return forces and moments of one case."""
+    """Return the table of forces and moments in one case."""
     from ..analysis.loads.sheets import shown_rows
 
     here = found.sel(case=case)
@@ -205,7 +205,7 @@ def _components(found: "Dataset", case: str, parts: list[str], file: str) -> "Ta
 
 
 def _extremes(found: "Dataset", ends: "Dataset", parts: list[str], file: str) -> "Table":
-    """Return the least and the greatest of each component, with the cases in which they are."""
+    """Return the table of least and greatest components, with their cases."""
     from ..analysis.loads.sheets import shown_rows
 
     def cell(row: int, axis: int) -> str:

@@ -1,4 +1,4 @@
-"""The table of values of a file that a search has moved."""
+"""The table of design variables that a search has changed."""
 
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 def moved_table(
     places: "Iterable[DesignVariable]", moved: Mapping[str, float], title: str
 ) -> "Table":
-    """Return a table of what values were, what they are, and by how much they have moved."""
+    """Return a table of design variables: old values, new ones, and changes."""
     rows = []
     for place in places:
         by = moved[place.name]

@@ -19,7 +19,7 @@ EXAMPLES = (
 )
 
 
-# the choices that are shown are the files that there are
+# the choices are read from the files of the kinds
 if TYPE_CHECKING:
     Kind = str
 else:

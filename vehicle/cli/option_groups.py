@@ -8,13 +8,13 @@ from typing import Any, get_type_hints
 
 
 def with_groups(command: Callable[..., None]) -> Callable[..., None]:
-    """Return a command whose parameters that are dataclasses are an option for each field.
+    """Return a command with one option for each field of its parameters that are dataclasses.
 
     Parameters
     ----------
     command : callable
-        Annotated for Typer. A group is a keyword whose type is a dataclass, with fields that are
-        annotated for Typer, too, and have defaults; the keyword itself has none.
+        Annotated for Typer. A group is a keyword without default whose type is a dataclass; its
+        fields are annotated for Typer and have defaults.
     """
     hints = get_type_hints(command, include_extras=True)
     groups: dict[str, Any] = {name: hint for name, hint in hints.items() if is_dataclass(hint)}
@@ -38,6 +38,6 @@ def with_groups(command: Callable[..., None]) -> Callable[..., None]:
         command(*arguments, **options)
 
     expanded.__annotations__ = {each.name: each.annotation for each in parameters}
-    # inspect reads this attribute, which the type of functions does not declare
+    # read by inspect, not declared in the type of functions
     expanded.__signature__ = signature(command).replace(parameters=parameters)  # type: ignore[attr-defined]
     return expanded

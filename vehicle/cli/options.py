@@ -1,4 +1,4 @@
-"""Arguments that several commands share, and how arguments are declared and checked."""
+"""Arguments shared by commands, and functions to declare and check arguments."""
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -9,14 +9,14 @@ import typer
 from .values import existing_file
 
 OUTPUT = "Output"
-"""The panel of the help that names files, and how a result is printed."""
+"""Panel of the help for files to write and the form of printed results."""
 
 FILE: Mapping[str, Any] = {"parser": existing_file}
-"""What `argument` and `option` take where a path must be a file that is there."""
+"""Keywords of `argument` and `option` for the path of an existing file."""
 
 
 def by_comma(given: list[str] | None) -> list[str] | None:
-    """Return the names of an option that is repeated, or whose value is a list with commas."""
+    """Return the names in a repeated option, whose values may be lists with commas."""
     return given and [name.strip() for text in given for name in text.split(",")]
 
 
@@ -30,14 +30,14 @@ def option(
     words : str
         Its help.
     value : str, optional
-        Placeholder of its value: a unit in capitals; ``NAME,...`` for a list, which is
-        repeated or has commas.
+        Placeholder of its value: a unit in capitals; ``NAME,...`` for a list, given repeatedly or
+        with commas.
     *names : str
-        Its names, where they are not that of the parameter.
+        Its names. Default: the name of the parameter.
     panel : str, optional
-        Where in the help it is.
+        Panel of the help.
     **how
-        As of `typer.Option`.
+        As in `typer.Option`.
     """
     if value is not None and value.endswith(",..."):
         how["callback"] = by_comma
@@ -52,9 +52,9 @@ def argument(words: str, value: str | None = None, **how: Any) -> Any:
     words : str
         Its help.
     value : str, optional
-        Placeholder of it; FILE for one whose names are completed.
+        Placeholder; FILE for one with completion of names.
     **how
-        As of `typer.Argument`.
+        As in `typer.Argument`.
     """
     if value is not None and value.startswith("FILE") and not how:
         how["autocompletion"] = complete_file
@@ -62,7 +62,7 @@ def argument(words: str, value: str | None = None, **how: Any) -> Any:
 
 
 def complete_file(incomplete: str) -> list[str]:
-    """Return packaged names and TOML files that begin like this."""
+    """Return TOML files and packaged names with this beginning."""
     from ..data.starter import all_packaged
 
     parent = Path(incomplete).parent if "/" in incomplete else Path()
@@ -106,20 +106,20 @@ Bushes = Annotated[
 
 
 def refuse_which(file: str | None, model: str | None) -> None:
-    """Refuse to choose a model where there is but one."""
+    """Refuse --model for files with one model."""
     if model is not None and not (file or "").endswith(".py"):
         raise typer.BadParameter("--model is for Python files, which may have several")
 
 
 def refuse_options(sort: str, given: Mapping[str, Any]) -> None:
-    """Refuse options that the files of one sort do not have."""
+    """Refuse given options that are only for `sort`; None is an option that is not given."""
     for name, value in given.items():
         if value is not None:
             raise typer.BadParameter(f"{name} is only for {sort}")
 
 
 def among(wanted: list[str], known: Iterable[str], name: str = "--of") -> list[str]:
-    """Return what an option names, each once, or refuse what there is not."""
+    """Return the names in an option, each once; unknown ones are refused."""
     from ...core.validator import Validator
 
     with Validator(name) as given:
@@ -128,5 +128,5 @@ def among(wanted: list[str], known: Iterable[str], name: str = "--of") -> list[s
 
 
 def metres(millimetres: float | None) -> float | None:
-    """Return a length from the command line in metres."""
+    """Return a length in millimetres, or None, in metres."""
     return None if millimetres is None else millimetres / 1e3

@@ -1,4 +1,4 @@
-"""Data files, figures and hardpoint files: the options for them, and writing them."""
+"""Data files, figures and hardpoint files: their options, and functions to write them."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -65,7 +65,7 @@ CarFile = Annotated[
 
 
 class _Files:
-    """What groups of options of files have in common."""
+    """The base of groups of options for files."""
 
     force: bool
     json: bool
@@ -77,16 +77,16 @@ class _Files:
         drawn: Sequence[str] | None = None,
         car: Path | None = None,
     ) -> "Outputs":
-        """Return the files to write, having refused what cannot be written, before computing.
+        """Return the files to write; those that cannot be written are refused before computing.
 
         Parameters
         ----------
         *inputs : str, pathlib.Path or None
             Files that the command reads: they are never replaced.
         suffixes : sequence of str, optional
-            What goes behind the names, where a command has several datasets.
+            Ends of the names, one for each dataset.
         drawn : sequence of str, optional
-            The same of figures, where these are others.
+            Ends of the names of figures. Default: `suffixes`.
         car : pathlib.Path, optional
             Hardpoint file to write.
         """
@@ -133,7 +133,7 @@ class PlotOptions(_Files):
 
 @dataclass(frozen=True)
 class CurveOptions(_Files):
-    """The options of a command that writes data, curves, and a figure of each curve."""
+    """The options of a command that writes data, pages of curves, and a figure of each curve."""
 
     out: Out = None
     plot: Plot = None
@@ -145,7 +145,7 @@ class CurveOptions(_Files):
 
 @dataclass(frozen=True)
 class SingleFigureOptions(_Files):
-    """The options of a command that writes data and a figure of its own."""
+    """The options of a command that writes data and a figure."""
 
     out: Out = None
     plot: Figure = None
@@ -155,7 +155,7 @@ class SingleFigureOptions(_Files):
 
 @dataclass(frozen=True)
 class CarOptions(_Files):
-    """The options of a command that finds a car: its hardpoint file, and a figure."""
+    """The options of a command that writes a new hardpoint file and a figure."""
 
     car: CarFile = None
     plot: Figure = None
@@ -164,7 +164,7 @@ class CarOptions(_Files):
 
 
 class Rule(TypedDict):
-    """What may be replaced, see `kintrafo.core.files`."""
+    """The files that may be replaced; see `kintrafo.core.files`."""
 
     force: bool
     inputs: Sequence[str | Path]
@@ -172,7 +172,7 @@ class Rule(TypedDict):
 
 @dataclass(frozen=True)
 class Outputs:
-    """The files that a command was asked for."""
+    """The files that a command writes."""
 
     rule: Rule
     data: Sequence[Path] = ()
@@ -197,7 +197,7 @@ class Outputs:
         drawn: "Dataset | None" = None,
         goals: "Sequence[Goal]" = (),
     ) -> list[Path]:
-        """Write the files and return them; nothing has been printed that could go wrong before.
+        """Write the data and figures, and return the files.
 
         Parameters
         ----------
@@ -205,15 +205,15 @@ class Outputs:
         title : str
             Title of the figures.
         names : sequence of str, optional
-            The curves of the page; all of them by default.
+            Curves of the page. Default: all.
         suffix : str, optional
-            Goes behind the name of each file, where a command has several datasets.
+            End of the name of each file, for commands with several datasets.
         rows : xarray.Dataset, optional
-            The data as tables have them, where that is another form.
+            Form of the data for tables. Default: `dataset`.
         drawn : xarray.Dataset, optional
-            The data as they are drawn, where that is another form of them.
+            Form of the data for figures. Default: `dataset`.
         goals : sequence of Goal, optional
-            Targets and limits that are drawn into the curves.
+            Targets and limits drawn into the curves.
         """
         written = self.write_data(dataset, suffix, rows=rows)
         if not self.drawn:
@@ -243,7 +243,7 @@ class Outputs:
     ) -> list[Path]:
         """Write the data files alone and return them.
 
-        Formats of rows may have less, and workbooks sheets of their own.
+        Tables have `rows`, workbooks `sheets`; netCDF has the whole dataset.
         """
         from ...datasets import export
 
@@ -266,12 +266,12 @@ class Outputs:
         suffix: str = "",
         **options: Any,
     ) -> list[Path]:
-        """Write the pages by a function of what is shown and of a path, and return them."""
+        """Write the pages by a function of the data and a path, and return them."""
         paths = [_named(path, suffix) for path in self.pages]
         return [write(shown, path, *rest, **options, **self.rule) for path in paths]
 
     def write_car(self, subject: "Subject", head: str) -> list[Path]:
-        """Write the hardpoint file that was found, with a comment at its head, and return it."""
+        """Write the new hardpoint file with a comment at its top, and return it."""
         from ..input.toml_writer import write_toml
 
         if self.car is None:
@@ -280,25 +280,25 @@ class Outputs:
 
 
 def named(of: list[str] | None, drawn: "Mapping[str, Dataset]") -> dict[str, list[str]]:
-    """Return which curves of several datasets are drawn: those that are named, where they are.
+    """Return the wanted curves of each dataset; an empty list selects all curves.
 
-    An empty list says all of them. One that none of the datasets has is refused.
+    Names that are in none of the datasets are refused.
     """
     if not of:
         return {key: [] for key in drawn}
     known = dict.fromkeys(str(name) for dataset in drawn.values() for name in dataset)
     wanted = among(of, known)
-    # a page has a curve at least: where there is none of these, it has all
+    # a page has at least one curve: without any of these it has all
     return {key: [n for n in wanted if n in dataset] for key, dataset in drawn.items()}
 
 
 def of_both(of: list[str] | None) -> list[str]:
-    """Return what curves of one wheel are called where both wheels are drawn together."""
+    """Return names without sides, for curves of both wheels in one figure."""
     return [name.removesuffix("_left").removesuffix("_right") for name in of or ()]
 
 
 def only(of: list[str] | None, dataset: "Dataset") -> "Dataset":
-    """Return what of a dataset is shown: the curves that are named, of both wheels; else all."""
+    """Return the wanted curves of a dataset, of both wheels; all if none are named."""
     if not of:
         return dataset
     stems = {*of, *of_both(of)}
@@ -307,18 +307,18 @@ def only(of: list[str] | None, dataset: "Dataset") -> "Dataset":
 
 
 def title_of(file: str) -> str:
-    """Return what a figure calls a file: its name, without folder and ending."""
+    """Return the title of a file in figures: its name without folder and ending."""
     return Path(file).stem if Path(file).suffix else file
 
 
 def name_files(files: Sequence[Path]) -> None:
-    """Name the files that were written, below the results."""
+    """Print the written files."""
     for path in files:
         say(f"  {path}")
 
 
 def end_if_not_valid(reasons: Sequence[str]) -> None:
-    """Print the reasons why a result is not valid, and end the command with `Exit.REFUSED`."""
+    """Print the reasons of an invalid result, and end the command with `Exit.REFUSED`."""
     for text in reasons:
         problems.print(f"not valid: {text}", style="red", highlight=False, markup=False)
     if reasons:

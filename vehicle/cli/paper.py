@@ -50,7 +50,7 @@ def command(
 
 
 def summary(model: "Model", rest: "paper.PaperRest", dynamics: "paper.PaperDynamics") -> Table:
-    """Return the table of what was found."""
+    """Return the table of results."""
     from ..analysis.paper import PAPER_GEAR_S, PAPER_RUNGE_KUTTA_S
 
     equations, result = model.equations, dynamics.result
@@ -77,7 +77,7 @@ def summary(model: "Model", rest: "paper.PaperRest", dynamics: "paper.PaperDynam
 
 
 def _operations(equations: ModuleType) -> str:
-    """Return how many operations one evaluation takes; a car that nothing steers has no rack."""
+    """Return the number of operations in one evaluation, with the rack held and moving."""
     total = f"{equations.rhs.operations['total']}"
     held = getattr(equations, "rhs_rack_held", None)
     if held is None:
@@ -86,7 +86,7 @@ def _operations(equations: ModuleType) -> str:
 
 
 def _hop(model: "Model", rest: "paper.PaperRest") -> str:
-    """Return the wheel-hop mode in words; smoothed friction is no damper of it."""
+    """Return the wheel-hop mode in words; without friction, whose smoothing would damp it."""
     from ..analysis.checkup import without_friction
     from ..analysis.paper import rest as at_rest
 

@@ -1,4 +1,4 @@
-"""``kintrafo pareto``: values of a file that are as good as can be in several objectives."""
+"""``kintrafo pareto``: the Pareto front of several objectives over values of a file."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -24,8 +24,7 @@ EXAMPLES = (
     "kintrafo pareto my_car.toml objectives.toml --member 7 --car chosen_car.toml",
 )
 
-# So many members are a table that is read; the data file has all.
-_ROWS = 20
+_ROWS = 20  # of the table; data files have all members
 
 
 def command(
@@ -98,7 +97,7 @@ def command(
 
 
 def _refuse_member(member: int | None, population: int) -> None:
-    """Refuse a number that no front can have before it is computed."""
+    """Refuse a member beyond the population before computing."""
     from ...core.validator import Validator
 
     with Validator("pareto") as given:
@@ -107,7 +106,7 @@ def _refuse_member(member: int | None, population: int) -> None:
 
 
 def _write(found: "Front", chosen: int, outputs: Outputs, *, title: str) -> list[Path]:
-    """Write what was asked for, once the chosen member is known to be there."""
+    """Write the data, the figure, and the hardpoint file of the chosen member."""
     suspension = found.suspension(chosen)
     written = outputs.write_data(found.dataset)
     if outputs.pages:
@@ -133,7 +132,7 @@ def _print(found: "Front", chosen: int, file: str) -> None:
 
 
 def _table(found: "Front", chosen: int, file: str) -> "Table":
-    """Return a row for the suspension as it is and for each member, or for some of many."""
+    """Return the table of the original suspension and of the members, or some of many."""
     from ...core.quantities import bracketed, display_of
 
     count = len(found.moved)
@@ -149,16 +148,13 @@ def _table(found: "Front", chosen: int, file: str) -> "Table":
 
     members = _rows(count, chosen, found.compromise)
     values = [found.dataset[objective.name].values for objective in found.objectives]
-    rows = [row("", [*found.before.values()], _of_start(found))]
+    remark = "file" if found.keeps_limits else "file, beyond limits"
+    rows = [row("", [*found.before.values()], remark)]
     rows += [row(str(m), [float(v[m - 1]) for v in values], _remark(found, m, chosen))
              for m in members]  # fmt: skip
     columns = ("member", *headings, "")
     caption = "some of them; data files have all" if len(members) < count else None
     return table(f"{file}: {count} on the front", columns, rows, (len(columns) - 1,), caption)
-
-
-def _of_start(found: "Front") -> str:
-    return "file" if found.keeps_limits else "file, beyond limits"
 
 
 def _remark(found: "Front", member: int, chosen: int) -> str:
@@ -167,7 +163,7 @@ def _remark(found: "Front", member: int, chosen: int) -> str:
 
 
 def _rows(count: int, *always: int) -> list[int]:
-    """Return the numbers of the members that are shown, the first and the last among them."""
+    """Return the members in the table: at most `_ROWS` evenly spaced ones, and `always`."""
     some = {round(1 + step * (count - 1) / (_ROWS - 1)) for step in range(_ROWS)}
     shown = some | {*always} if count > _ROWS else {*range(1, count + 1)}
     return sorted(shown - {0}) if count else []

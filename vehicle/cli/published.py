@@ -11,7 +11,7 @@ from ..files.schema import page_text, schema_text
 
 
 def published() -> tuple[str, str]:
-    """Return the schema, and the page."""
+    """Return the texts of the schema and of the page."""
     return schema_text(MANOEUVRES), page_text(MANOEUVRES)
 
 

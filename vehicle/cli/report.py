@@ -1,4 +1,4 @@
-"""``kintrafo report``: one file to send to a colleague."""
+"""``kintrafo report``: an interactive page with drawings, tables and curves."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from ..report import Chapter
     from ..studies.goals import Goal
 
-# What holds the wheels where the chapter of compliance has curves.
+# Support of the wheels in the chapter of compliance.
 _HELD: "WheelSupport" = "height"
 
 EXAMPLES = (
@@ -113,7 +113,7 @@ def _page(
     chapters: "Sequence[Chapter]",
     goals: "Sequence[Goal]",
 ) -> "tuple[System | None, dict[str, Any]]":
-    """Return the equations that are moved by hand, if there are some, and the page's arguments."""
+    """Return the equations of the interactive view, if any, and the page's other arguments."""
     from ..report.marks import of_shown_side
 
     page: dict[str, Any] = {"title": title, "chapters": chapters}
@@ -122,7 +122,7 @@ def _page(
     heading = title or f"{assembly.heading[:1].upper()}{assembly.heading[1:]}"
     if not assembly.corners:
         return None, page | {"title": heading, "data": assembly.input_sections}
-    # of two that differ the right one
+    # the right side, if both differ
     side, model = [*assembly.corners.items()][-1]
     return model, page | {
         "title": title or f"{heading}, {side} side",
@@ -132,17 +132,16 @@ def _page(
 
 
 def _of_one_side(axle: "Axle") -> frozenset[str]:
-    """Return what the page of one side of an axle leaves out."""
+    """Return the measures left out of the page of one side of an axle."""
     from ..assembly.measures.corner import BOTH
 
-    # what both wheels decide: the page knows but one side, and takes the other for its image
+    # measures of both wheels: the page mirrors one side, so they are wrong if the sides differ
     both = frozenset(measure.name for measure in BOTH)
     without = frozenset() if axle.symmetric else both
     return without if axle.end == "front" else both | {"anti_dive", "anti_lift_braked"}
 
 
 def _aims(assembly: "Assembly", path: Path | None) -> "list[Goal]":
-    """Return the targets and limits of a file."""
     from ..analysis.compliance.flexibility import HELD
     from ..studies.sweep_axes import sweep_axes_of
 
@@ -162,7 +161,7 @@ def _chapters(
     loads: bool,
     progress: "Callable[[str], None]",
 ) -> "Iterator[Chapter]":
-    """Yield the chapters that an assembly has, then those of its parts on a held body."""
+    """Yield the chapters of an assembly, then those of its parts on a held body."""
     from ..report import (
         axle_chapter,
         goals_chapter,
@@ -245,7 +244,7 @@ def _of_bushes(
 def _as_far_as(
     assembly: "Assembly", over: str, goals: "Sequence[Goal]"
 ) -> "NDArray[np.float64] | None":
-    """Return positions that reach what goals are about; None where the usual ones do."""
+    """Return positions that reach all goals; None if the default ones do."""
     from ..report.chapters.curves import positions_of
     from ..studies.evaluation import usual_positions
 

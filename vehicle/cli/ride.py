@@ -107,7 +107,7 @@ def command(
 
 
 def _rest(found: "Dataset", file: str) -> "list[Table]":
-    """Return a table of the wheels, a column for each, and one of the body."""
+    """Return a table with a column for each wheel, and one of the body."""
     from ...core.quantities import displayed, heading_of
     from ..analysis.ride.rest import wheels_and_body
     from ..assembly.by_wheel import WHEEL
@@ -138,7 +138,7 @@ def _modes(found: "Dataset", file: str) -> "Table":
 
 
 def _ride(motion: "Dataset", linear: "Dataset | None", title: str) -> "list[Table]":
-    """Return a table of the body, and one of the wheels, a column for each."""
+    """Return a table of the body, and one with a column for each wheel."""
     from ...core.quantities import heading_of
     from ..analysis.ride.rest import wheels_and_body
     from ..assembly.by_wheel import WHEEL
@@ -163,7 +163,7 @@ def _ride(motion: "Dataset", linear: "Dataset | None", title: str) -> "list[Tabl
 
 
 def _figures(data: "DataArray", linear: "Dataset | None") -> dict[str, list[str]]:
-    """Return the texts of the RMS and the extreme values of a variable, by wheel."""
+    """Return the RMS and extreme values of a variable as texts, one for each wheel."""
     import numpy as np
 
     from ...core.quantities import display_of

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from ..roads import Road
 
 DURATION = 30.0
-"""Duration of a simulation without a given one [s]; a measured road has its own."""
+"""Default duration of a simulation, except on a measured road [s]."""
 
 _BUMP_LENGTH = 0.5  # [m]
 
@@ -91,24 +91,24 @@ class RoadOptions:
 
     @property
     def sides(self) -> Literal["both", "left", "right"]:
-        """Which wheels meet an obstacle."""
+        """Wheels that meet an obstacle."""
         return self.under or "both"
 
     @property
     def is_obstacle(self) -> bool:
-        """Whether it is one obstacle, a bump or a kerb, on a level road."""
+        """Whether the road is level with a bump or a kerb."""
         return self.bump is not None or self.kerb is not None
 
     @property
     def is_rough(self) -> bool:
-        """Whether it is a class of ISO 8608."""
+        """Whether the road is a class of ISO 8608."""
         from ..roads import CLASSES
 
         return not self.is_obstacle and self.name in CLASSES
 
     @property
     def is_measured(self) -> bool:
-        """Whether it is a file."""
+        """Whether the road is a file."""
         return not self.is_obstacle and not self.is_rough
 
     def for_time(
@@ -122,7 +122,7 @@ class RoadOptions:
         speed : float
             [m/s]
         duration : float, optional
-            [s]; by default until the last wheel reaches the end of a measured road, or `DURATION`.
+            [s]. Default: until the last wheel reaches the end of a measured road, else `DURATION`.
         """
         found = self._road(assembly, speed * (duration or DURATION))
         if duration is None and self.is_measured:
@@ -130,7 +130,7 @@ class RoadOptions:
         return found, duration or DURATION
 
     def _road(self, assembly: "CarAssembly", distance: float) -> "Road":
-        """Return the road, for a distance of travel [m]."""
+        """Return a road for a travelled distance [m]."""
         from .. import roads
 
         sides = {wheel.rpartition("_")[2] for wheel in assembly.wheels}
@@ -177,7 +177,7 @@ class RoadOptions:
         return found
 
     def _tyre(self, assembly: "CarAssembly") -> dict[str, float]:
-        """Return the mean radius of the tyres and the length of their contact [m], to envelope."""
+        """Return the mean radius and the contact length of the tyres [m], for `roads.enveloped`."""
         from ...core.errors import InputError
 
         radii = [radius for radius in assembly.tyre_radii if radius]

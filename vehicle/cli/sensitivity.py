@@ -1,4 +1,4 @@
-"""``kintrafo sensitivity``: by how much each value of a file moves each characteristic."""
+"""``kintrafo sensitivity``: the change of each characteristic per unit of each value of a file."""
 
 from math import isfinite
 from typing import TYPE_CHECKING, Annotated
@@ -16,8 +16,7 @@ if TYPE_CHECKING:
 
     from ..studies.sensitivity import Effect
 
-# So many values are named in the table of several characteristics.
-_GREATEST = 4
+_GREATEST = 4  # effects in a row of the table of several characteristics
 
 EXAMPLES = (
     "kintrafo sensitivity reference_car",
@@ -75,7 +74,7 @@ def command(
 
 
 def _table(dataset: "Dataset", look: StudyCurves, file: str) -> "Table":
-    """Return the effects: of one characteristic all of them, of several the greatest of each."""
+    """Return the table of all effects on one characteristic, or of the greatest on several."""
     from ..studies import effects
 
     names = look.names
@@ -95,9 +94,9 @@ def _table(dataset: "Dataset", look: StudyCurves, file: str) -> "Table":
 
 
 def _greatest(effects: "list[Effect]") -> str:
-    """Name the values with the largest effects on a characteristic, the largest first."""
+    """Return the values with the largest effects on a characteristic, the largest first."""
     moved = [effect for effect in effects if isfinite(effect.size) and effect.size]
-    words = [f"{_short(effect.place)} {effect.size:+.3g}" for effect in moved[:_GREATEST]]
+    words = [f"{e.place.removeprefix('hardpoints.')} {e.size:+.3g}" for e in moved[:_GREATEST]]
     return ", ".join(words) or "none"
 
 
@@ -105,7 +104,3 @@ def _words(dataset: "Dataset", name: str) -> str:
     from ...core.quantities import long_name
 
     return long_name(dataset[name]).removeprefix("sensitivity of ")
-
-
-def _short(place: str) -> str:
-    return place.removeprefix("hardpoints.")

@@ -1,4 +1,4 @@
-"""``kintrafo simulate``: the motion over a road."""
+"""``kintrafo simulate``: the motion of a suspension, an axle or a car over a road."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
@@ -30,8 +30,7 @@ EXAMPLES = (
     "kintrafo simulate rigid_axle --road-step 20 --wheels left",
 )
 
-# On the page of curves, of each wheel and of what couples them, in this order; what stands still is
-# left out.
+# Order of the page of curves, for each wheel and for coupling elements; constant ones are left out.
 _DRAWN = (
     "road_height",
     "rack_position",
@@ -105,7 +104,7 @@ def command(
 
 
 class _Run:
-    """What is simulated, checked against the options that not every file has."""
+    """A model and its scenario, checked against options that are not for its file."""
 
     def __init__(self, model: Any, file: str, scenario: "Scenario", wheels: str | None) -> None:
         from ..assembly.of import assembly_of
@@ -121,20 +120,14 @@ class _Run:
             _note_free_rack(file, scenario.inputs)
 
     def curves(self, motion: "Dataset") -> list[str]:
-        """Return the names of what is shown of a motion, in order."""
+        """Return the names of the shown curves of a motion, in order."""
         starts = ("", *(s for n in self.names.values() for s in (n.prefix, n.signals)))
         names = dict.fromkeys(f"{start}{stem}" for stem in _DRAWN for start in starts)
         return [name for name in names if name in motion]
 
-    def drawn(self, motion: "Dataset") -> "Dataset":
-        """Return a motion as it is drawn: both wheels beside each other."""
-        from ..analysis.scenario import by_wheel
-
-        return by_wheel(self.model, motion)
-
 
 def _note_free_rack(file: str, inputs: dict[str, Any]) -> None:
-    """Say that nothing holds the rack; refuse to prescribe its motion."""
+    """Print that the rack moves freely; refuse to prescribe its motion."""
     from ...core.errors import InputError
 
     reason = "tie rod, rack or upper strut have mass, so the rack moves freely"
@@ -147,7 +140,7 @@ def _note_free_rack(file: str, inputs: dict[str, Any]) -> None:
 def _played(
     run: _Run, options: dict[str, Any], outputs: Outputs, *, silent: bool
 ) -> "tuple[Simulation, Dataset]":
-    """Simulate; where that cannot be finished, write the motion up to there."""
+    """Simulate; if the integration stops early, write the motion up to there and raise."""
     from ...simulation.result import SimulationError
     from ..analysis import scenario
 
@@ -165,7 +158,9 @@ def _played(
 
 def _written(run: _Run, motion: "Dataset", outputs: Outputs, title: str) -> list[Path]:
     """Write the motion; its page has the curves that are not constant."""
-    drawn, first = run.drawn(motion), f"{next(iter(run.names))}_"
+    from ..analysis.scenario import by_wheel
+
+    drawn, first = by_wheel(run.model, motion), f"{next(iter(run.names))}_"
     names = dict.fromkeys(n for c in run.curves(motion) for n in (c, c.removeprefix(first)))
     known = [name for name in names if name in drawn]
     varying = [n for n in known if float(drawn[n].max() - drawn[n].min()) > 0.0]
@@ -173,7 +168,7 @@ def _written(run: _Run, motion: "Dataset", outputs: Outputs, title: str) -> list
 
 
 def _crossings(result: "Simulation", run: _Run) -> dict[str, list[float]]:
-    """Return the times at which each wheel left the ground, and at which it came back."""
+    """Return the times [s] at which each wheel left and touched the ground."""
     names = [
         f"{own.prefix}wheel_{what}_ground"
         for own in run.names.values()
@@ -223,7 +218,7 @@ def _table(motion: "Dataset", run: _Run) -> "Table":
 
 
 def _in_words(result: "Simulation", run: _Run) -> list[str]:
-    """Return what happened, and what it took."""
+    """Return sentences on the solver, the body, and wheels that left the ground."""
     crossings, counts = _crossings(result, run), _counts(result)
     lines = [f"{result.solver}: " + ", ".join(f"{v} {_WORDS[n]}" for n, v in counts.items())]
     if not run.moves:

@@ -1,4 +1,4 @@
-"""The motion that options of a command describe, in their units."""
+"""The options of a simulated motion and of the solver, in display units."""
 
 import math
 from dataclasses import dataclass
@@ -66,7 +66,7 @@ class ScenarioOptions:
     output_step: Annotated[float, option("Time between outputs.", "MS", panel="Time")] = 1.0
 
     def scenario(self) -> "Scenario":
-        """Return the scenario that the options describe."""
+        """Return the scenario of the options."""
         from ..analysis.excitation import TimeProfile, excitation
         from ..analysis.measurement import measured
         from ..analysis.scenario import Scenario
@@ -106,7 +106,7 @@ class ScenarioOptions:
         )
 
     def _refuse_details(self) -> None:
-        """Refuse details of a motion that is not asked for: nothing would use them."""
+        """Refuse details of a step or sine that is not given."""
         details = {
             "--road-step": (self.road_step, {"--road-step-at": self.road_step_at}),
             "--road-sine": (self.road_sine, {"--road-frequency": self.road_frequency}),
@@ -144,7 +144,7 @@ class SolverOptions:
     max_steps: Annotated[int, option("Largest number of steps.", panel="Solver")] = 10_000_000
 
     def of_simulate(self) -> dict[str, Any]:
-        """Return them as `kintrafo.simulate` takes them."""
+        """Return the options as keywords of `kintrafo.simulate`."""
         longest = math.inf if self.max_step is None else self.max_step / 1e3
         step = None if self.step is None else self.step / 1e3
         return {**vars(self), "step": step, "max_step": longest}

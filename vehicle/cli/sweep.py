@@ -21,8 +21,7 @@ if TYPE_CHECKING:
     from ...systems.system import System
     from ..studies.evaluation import Subject
 
-# Most values of one place.
-_MOST_VALUES = 100_000
+_MOST_VALUES = 100_000  # of one place
 
 EXAMPLES = (
     "kintrafo sweep my_car.toml strut.damper_rate_N_s_per_m=500:3000:11 --road-step 20",
@@ -31,8 +30,7 @@ EXAMPLES = (
 )
 
 _USUAL = ("wheel_acceleration:rms", "tyre_force:min", "tyre_force:rms")
-# So many combinations are a table that is read.
-_ROWS = 40
+_ROWS = 40  # of the table; data files have all combinations
 
 
 def command(
@@ -93,7 +91,7 @@ def command(
 def _refuse_other_options(
     keep: list[str] | None, asked: StudyOptions, driven: ScenarioOptions, *, of_car: bool
 ) -> None:
-    """Refuse options of motions for a car, and those of cars for a suspension."""
+    """Refuse options of motions for a car, and options of cars for a suspension."""
     if of_car and (keep or driven != ScenarioOptions()):
         raise typer.BadParameter(
             "a sweep of a car simulates nothing: leave out --keep and the options of road, rack, "
@@ -106,7 +104,7 @@ def _refuse_other_options(
 def _of_cars(
     subject: "Subject", grid: dict[str, list[float]], asked: StudyOptions
 ) -> "tuple[Dataset, list[str]]":
-    """Return numbers of cars over a grid of values at one position, and their names."""
+    """Return the results of cars over a grid of values at one position, and their names."""
     import xarray as xr
 
     from ...core.validator import Validator
@@ -159,7 +157,7 @@ def _motions(
 
 
 def _numbers(text: str) -> tuple[str, list[float]]:
-    """Read values: ``place=from:to:count``, or ``place=a,b,c``."""
+    """Return the place and values of ``place=from:to:count`` or ``place=a,b,c``."""
     import numpy as np
 
     place, mark, given = text.partition("=")
@@ -178,14 +176,14 @@ def _numbers(text: str) -> tuple[str, list[float]]:
 
 
 def _usual(model: "System") -> tuple[str, ...]:
-    """Return the default results: of a rigid axle those of both wheels."""
+    """Return the default results; a rigid axle has them for both wheels."""
     if _USUAL[0].partition(":")[0] in model.signal_names:
         return _USUAL
     return tuple(f"{side}_axle_{kept}" for kept in _USUAL for side in SIDES)
 
 
 def _reductions(model: "System", kept: tuple[str, ...] | list[str]) -> dict[str, list[Any]]:
-    """Read what is kept of each motion; levels are in display units."""
+    """Return the reductions of each signal; levels in the texts are in display units."""
     from ...core.quantities import attributes, display_of
 
     found: dict[str, list[Any]] = {}
@@ -209,7 +207,7 @@ def _reductions(model: "System", kept: tuple[str, ...] | list[str]) -> dict[str,
 
 
 def _table(dataset: "Dataset", names: list[str], file: str) -> "Table":
-    """Return a row for each combination, or of many the extremes."""
+    """Return the table of all combinations, or of the extremes of many."""
     from ...core.quantities import display_of, heading_of
 
     rows, caption = dataset[names].to_dataframe().reset_index(), None

@@ -1,4 +1,4 @@
-"""``kintrafo tolerance``: what tolerances of a file make of the characteristics."""
+"""``kintrafo tolerance``: bands of the characteristics within tolerances of a file."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from rich.table import Table
     from xarray import Dataset
 
-# Where the cars deviate by more or less than that much of what they do to first order, shares say
-# nothing. Twenty cars give their deviation to 1 / sqrt(40) = 0.16, so that this is three of it.
+# Shares of the variance are meaningless if the deviation of the cars differs from the one to first
+# order by more than this part: three standard errors, 1 / sqrt(40) = 0.16, of twenty cars.
 _NOT_OF_FIRST_ORDER = 0.5
 
 EXAMPLES = (
@@ -63,7 +63,7 @@ def command(
             names=None if outputs.data else look.names,
             progress=progress,
         )
-    # cars and values would multiply the rows of a table: they are in netCDF
+    # cars and values would multiply the rows of a table: only netCDF has them
     written = outputs.write_data(dataset, rows=dataset.drop_dims(["car", "place"]))
     if outputs.pages:
         from ..plots.variation import write_bands
@@ -98,7 +98,7 @@ def _table(dataset: "Dataset", names: list[str], title: str, at: float) -> "Tabl
 
 
 def _causes(here: "Dataset", name: str) -> str:
-    """Name the two values that cause most of the variance at a position."""
+    """Return the two values that cause most of the variance at a position."""
     if abs(float(here[f"{name}_first_order"]) - 1.0) > _NOT_OF_FIRST_ORDER:
         return "not to first order"
     shares = here[f"{name}_share"].dropna("place")

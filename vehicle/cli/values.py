@@ -1,4 +1,4 @@
-"""Values on the command line: numbers and choices, with the allowed ones in messages."""
+"""Parsers of numbers and choices on the command line, with allowed values in messages."""
 
 import math
 import re
@@ -20,12 +20,12 @@ _NAMES = {float: "NUMBER", int: "COUNT"}
 
 
 def explained(command: Callable[..., None]) -> Callable[..., None]:
-    """Let the options and arguments of a command that are numbers or choices be read here.
+    """Add the parsers of this module to a command's numbers and choices, and return it.
 
     Parameters
     ----------
     command : callable
-        Whose parameters are annotated for Typer; what it says of numbers and choices is completed.
+        Annotated for Typer; its annotations are completed in place.
     """
     for hint in get_type_hints(command, include_extras=True).values():
         if get_origin(hint) is not Annotated:
@@ -41,13 +41,13 @@ def explained(command: Callable[..., None]) -> Callable[..., None]:
                 info.parser = _number(kind, _UNITS.get(info.metavar, ""))
             elif choices is not None:
                 info.metavar = info.metavar or f"<{'|'.join(choices)}>"
-                info.autocompletion = info.autocompletion or _completed(choices)
+                info.autocompletion = info.autocompletion or completion_of(choices)
                 info.parser = _choice(choices)
     return command
 
 
 def existing_file(text: str) -> Path:
-    """Return the path of a file that is there."""
+    """Return the path of an existing file."""
     path = Path(text)
     if path.is_dir():
         raise typer.BadParameter(f"{text}: this is a folder, and a file is needed.")
@@ -57,14 +57,14 @@ def existing_file(text: str) -> Path:
 
 
 def _kinds(hint: Any) -> tuple[Any, ...]:
-    """Return what a value may be, also in a list and where it may be left out."""
+    """Return the types in a union or list, at any depth."""
     if get_origin(hint) in (Union, UnionType, list, tuple):
         return tuple(kind for part in get_args(hint) for kind in _kinds(part))
     return (hint,)
 
 
 def _choice(choices: tuple[str, ...]) -> Callable[[Any], str]:
-    """Return what reads one of some words."""
+    """Return the parser of one of some words."""
 
     def read(text: Any) -> str:
         if text not in choices:
@@ -77,7 +77,9 @@ def _choice(choices: tuple[str, ...]) -> Callable[[Any], str]:
     return read
 
 
-def _completed(choices: tuple[str, ...]) -> Callable[[str], list[str]]:
+def completion_of(choices: tuple[str, ...]) -> Callable[[str], list[str]]:
+    """Return the completion of one of some words."""
+
     def completed(incomplete: str) -> list[str]:
         return [choice for choice in choices if choice.startswith(incomplete)]
 
@@ -85,10 +87,10 @@ def _completed(choices: tuple[str, ...]) -> Callable[[str], list[str]]:
 
 
 def _number(kind: type[float], unit: str) -> Callable[[Any], float]:
-    """Return what reads a number of a kind in a unit."""
+    """Return the parser of a number in a unit."""
 
     def read(text: Any) -> float:
-        # Python's own way to group digits is a slip of the pen here
+        # grouped digits as in Python, 1_000, are refused
         try:
             number = None if "_" in str(text) else kind(text)
         except ValueError:
@@ -97,7 +99,7 @@ def _number(kind: type[float], unit: str) -> Callable[[Any], float]:
             raise typer.BadParameter(_problem(str(text), unit, whole=kind is int))
         return number
 
-    read.__name__ = _NAMES[kind]  # what some versions of Typer show
+    read.__name__ = _NAMES[kind]  # shown by some versions of Typer
     return read
 
 

@@ -1,9 +1,10 @@
-"""The curves of the commands that vary values."""
+"""The options and curves of commands that vary values of a file."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from .options import Held, Of, among, option
+from .values import completion_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -12,13 +13,9 @@ if TYPE_CHECKING:
     from ..studies.evaluation import Subject
 
 AXES_OF_CARS = ("lateral_acceleration", "speed")
-"""What curves of cars may be over, beside motions of the body."""
+"""Axes of curves of cars besides motions of the body."""
 
 _AXES = ("travel", "rack", "bump", "roll", "left", "right", "heave", "pitch", *AXES_OF_CARS)
-
-
-def _completed_axis(incomplete: str) -> list[str]:
-    return [name for name in _AXES if name.startswith(incomplete)]
 
 
 Over = Annotated[
@@ -31,7 +28,7 @@ Over = Annotated[
         "lateral_acceleration:radius_m=60). Default: travel, bump of an axle, heave of a car.",
         "NAME[:OPTION=VALUE]",
         show_default=False,
-        autocompletion=_completed_axis,
+        autocompletion=completion_of(_AXES),
     ),
 ]
 At = Annotated[
@@ -51,7 +48,7 @@ AtOfAxis = Annotated[
 
 @dataclass(frozen=True)
 class StudyOptions:
-    """What a study of values looks at."""
+    """The options of the curves of a study."""
 
     of: Of = None
     over: Over = None
@@ -66,7 +63,7 @@ class StudyOptions:
     at: AtOfAxis = None
 
 
-# The default characteristics, where the file has the data for them.
+# Default characteristics by axis; those without data in the file are left out.
 _USUAL = {
     "travel": (
         "bump_steer",
@@ -101,7 +98,7 @@ _USUAL = {
         "roll_frequency",
     ),
 }
-# Of cars these are of each axle.
+# Default characteristics of cars, for each axle.
 _OF_ENDS = (
     "bump_steer_front_left",
     "bump_steer_rear_left",
@@ -129,20 +126,20 @@ _USUAL_OF_AXLES = (
 
 @dataclass(frozen=True)
 class StudyCurves:
-    """The curves that a study is about.
+    """The curves of a study.
 
     Attributes
     ----------
     over : str
-        What they are over, or what holds the wheels.
+        Axis of the curves, or support of the wheels.
     names : list of str
-        Those that are shown.
+        Shown curves.
     at : float
-        The position that a table is about [m] or [rad].
+        Position of the table [m] or [rad].
     where : str
-        The same in words: 'at 20 mm of wheel travel'.
+        The position in words: 'at 20 mm of wheel travel'.
     how : dict
-        The axis and the positions, as arguments of studies.
+        Axis and positions as arguments of studies.
     """
 
     over: str
@@ -153,7 +150,7 @@ class StudyCurves:
 
     @classmethod
     def of(cls, subject: "Subject", asked: StudyOptions) -> "StudyCurves":
-        """Return the curves that the options choose; unknown ones are refused."""
+        """Return the curves of the options; unknown ones are refused."""
         from ...core.validator import Validator
         from ..assembly.of import assembly_of
         from ..studies.evaluation import usual_positions
@@ -175,7 +172,7 @@ class StudyCurves:
 
 
 def _chosen(assembly: "Assembly", wanted: list[str] | None, over: str) -> list[str]:
-    """Return the characteristics that are shown: those of the option, or the default ones."""
+    """Return the wanted characteristics, or the default ones."""
     from ..studies.evaluation import available
     from ..studies.sweep_axes import UNDER_LOADS, name_of_axis
 
@@ -189,7 +186,7 @@ def _chosen(assembly: "Assembly", wanted: list[str] | None, over: str) -> list[s
 
 
 def with_position(usual: "NDArray[Any]", at: float, over: str = "travel") -> "NDArray[Any]":
-    """Return positions and the one that a table is about [m] or [rad]."""
+    """Return positions including that of the table [m] or [rad]; `at` is in display units."""
     import numpy as np
 
     from ...core.errors import InputError

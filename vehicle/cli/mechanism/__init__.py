@@ -1,4 +1,4 @@
-"""``kintrafo mechanism``: commands of any mechanism, one of your own or that of a suspension."""
+"""``kintrafo mechanism``: commands for any mechanism, a user's own or that of a suspension."""
 
 from . import animate, derivation, generate, topology
 

@@ -52,7 +52,7 @@ def command(
 
 
 def _see_duration(duration: float) -> None:
-    """Refuse a duration that no motion is shown for [s]."""
+    """Refuse durations that are not positive, and those of an hour and more [s]."""
     from ....core.validator import Validator
 
     with Validator("animate") as given:

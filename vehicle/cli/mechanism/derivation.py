@@ -1,4 +1,4 @@
-"""``kintrafo mechanism derivation``: how the equations were derived, as a chapter to print."""
+"""``kintrafo mechanism derivation``: the derivation of the equations as a chapter to print."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -50,7 +50,7 @@ def command(
 
 
 def _shipped(file: str) -> "Formulation":
-    """Return the model of a name, or that of what a file describes."""
+    """Return the declaration of a packaged model, or of the subject of a file."""
     from ....core.errors import InputError
     from ....core.suggestions import suggestion
     from ....generator.mechanisms import MODELS

@@ -79,7 +79,7 @@ def _facts(module: ModuleType) -> dict[str, object]:
 
 
 def _show(module: ModuleType, file: Path, chosen: str | None, seconds: float) -> None:
-    """Print what was found, and how to go on; the model is named where the file has several."""
+    """Print a summary of the equations, and Python to use them; `chosen` is the model's name."""
     loops = [" - ".join(loop) for loop in module.LOOPS]
     how = "C" if module.ADDRESSES else "NumPy"
     rows = {
@@ -105,7 +105,7 @@ def _show(module: ModuleType, file: Path, chosen: str | None, seconds: float) ->
 
 
 def _copy(module: ModuleType, folder: Path, *, force: bool, declaration: Path) -> None:
-    """Copy the sources of a compiled mechanism to where a person reads them."""
+    """Copy the sources of a compiled mechanism from the cache to a folder."""
     from ....core.files import refuse, replacing
 
     source = Path(str(module.__file__)).parent

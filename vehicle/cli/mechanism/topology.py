@@ -1,4 +1,4 @@
-"""``kintrafo mechanism topology``: bodies, joints, mobility, loops and how they were solved."""
+"""``kintrafo mechanism topology``: bodies, joints, mobility, loops and their solutions."""
 
 from itertools import islice
 from types import ModuleType
@@ -19,7 +19,7 @@ EXAMPLES = (
     "kintrafo mechanism topology my_mechanism.py",
 )
 
-# Headings of the table of joints, where the keys of the result are other words.
+# Headings of the table of joints that differ from the keys of the result.
 _HEADINGS = {"leaves in common": "in common"}
 _SECONDS = 3.0  # of search for joints that can be independent
 _MOST_CHOICES = 6
@@ -105,7 +105,7 @@ def _show_loops(found: "Topology") -> None:
 
 
 def _equations(file: str, model: str | None) -> ModuleType:
-    """Return the compiled equations that a file leads to."""
+    """Return the compiled equations of a file."""
     if not file.endswith(".py"):
         return model_of(file).equations
     from ....systems.compile.build import compile_mechanism
@@ -114,7 +114,7 @@ def _equations(file: str, model: str | None) -> ModuleType:
 
 
 def _choices(file: str, model: str | None) -> list[dict[str, Any]]:
-    """Return the first sets of joints that can be independent."""
+    """Return some sets of joints that can be independent."""
     from ....systems.compile.choices import proposals
 
     first = islice(proposals(file, name=model, seconds=_SECONDS), _MOST_CHOICES)
