@@ -213,6 +213,8 @@ class Assembly(ABC):
     ) -> RigPosition:
         """Return the positions of wheels and rack along a motion.
 
+        Raises `PositionError` if a position is out of reach.
+
         Parameters
         ----------
         motion : str
@@ -222,11 +224,6 @@ class Assembly(ABC):
             Height of the wheels above design in a motion of the steering [m].
         rack : float, optional
             Displacement of the rack in other motions [m].
-
-        Raises
-        ------
-        PositionError
-            If a position is out of reach.
         """
 
     def at_travel(self, travels: Array, rack: Array | float = 0.0) -> RigPosition:
@@ -334,20 +331,14 @@ class Assembly(ABC):
     def coordinates_at(self, position: RigPosition) -> Array:
         """Return the coordinates with rigid joints at positions of a rig, (n, coordinates).
 
-        Raises
-        ------
-        PositionError
-            If a position is out of reach; the message states the range.
+        Raises `PositionError` if a position is out of reach; the message states the range.
         """
 
     @abstractmethod
     def coordinates_at_rest(self, held: RestConditions) -> Array:
         """Return the coordinates of the stable state of rest, shape (coordinates,).
 
-        Raises
-        ------
-        PositionError
-            If there is none.
+        Raises `PositionError` if there is none.
         """
 
     def refuse_unsteered(self, what: str) -> None:
@@ -391,10 +382,7 @@ class Assembly(ABC):
     def without_friction(self) -> "Assembly":
         """Return the assembly without friction.
 
-        Raises
-        ------
-        InputError
-            If it moves only on its bushes.
+        Raises `InputError` if it moves only on its bushes.
         """
 
 
@@ -449,10 +437,7 @@ class HeldAssembly(Assembly):
     def soft_lines(self, poses: Mapping[str, PartPoses]) -> dict[str, SoftLines]:
         """Return the deflections of springs and stops for a unit force along each.
 
-        Raises
-        ------
-        InputError
-            If the springs have no positive rate at the wheel there.
+        Raises `InputError` if the springs have no positive rate at the wheel there.
         """
 
     # -- its equilibrium ---------------------------------------------------------------------------
@@ -474,6 +459,8 @@ class HeldAssembly(Assembly):
     def wheel_coordinates(self, travels: Sequence[float | None], rack: float) -> Array:
         """Return the coordinates for heights of some wheels above design.
 
+        Raises `PositionError` if a wheel cannot be there.
+
         Parameters
         ----------
         travels : sequence of float or None
@@ -484,11 +471,6 @@ class HeldAssembly(Assembly):
         Returns
         -------
         ndarray, shape (wheels,)
-
-        Raises
-        ------
-        PositionError
-            If a wheel cannot be there.
         """
 
     @abstractmethod
@@ -497,10 +479,7 @@ class HeldAssembly(Assembly):
 
         Wheels with a range each belong to different groups of `poses`, which only the bar joins.
 
-        Raises
-        ------
-        PositionError
-            If the rack [m] cannot be there.
+        Raises `PositionError` if the rack [m] cannot be there.
         """
 
     @abstractmethod

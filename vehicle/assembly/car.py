@@ -264,10 +264,8 @@ class CarAssembly(Assembly):
     def coordinates_at_rest(self, held: RestConditions) -> Array:
         """Return the coordinates of the state of rest that is nearest to design.
 
-        Raises
-        ------
-        PositionError
-            If there is none: if the car falls, tips over, or a wheel does not reach the road.
+        Raises `PositionError` if there is none: if the car falls, tips over, or a wheel does not
+        reach the road.
         """
         from .rest import at  # noqa: PLC0415 (both know assemblies)
 
@@ -369,10 +367,7 @@ class CarAssembly(Assembly):
     def controls(self) -> Controls:
         """Inputs of its equations from steering wheel and pedals.
 
-        Raises
-        ------
-        InputError
-            If it does not drive.
+        Raises `InputError` if it does not drive.
         """
         self.require_driving()
         return Controls(self.car)

@@ -259,10 +259,7 @@ class CornerAssembly(HeldAssembly):
 def corner_at(model: Model, travels: Array, rack: Array) -> Corner:
     """Return the corner at wheel travels and displacements of the rack [m].
 
-    Raises
-    ------
-    PositionError
-        If the wheel cannot be there.
+    Raises `PositionError` if the wheel cannot be there.
     """
     return corner(model, arm_angles(model, design_height(model) + travels, rack), rack)
 
@@ -270,10 +267,7 @@ def corner_at(model: Model, travels: Array, rack: Array) -> Corner:
 def poses_of(model: Model, travels: Array, rack: Array) -> CornerParts:
     """Return the parts of a corner with rigid joints, from wheel travels and rack positions [m].
 
-    Raises
-    ------
-    PositionError
-        If the wheel cannot be there.
+    Raises `PositionError` if the wheel cannot be there.
     """
     angles = arm_angles(model, design_height(model) + travels, rack)
     return CornerParts.of(model, *at_rest(model, angles, rack))

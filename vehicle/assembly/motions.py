@@ -112,6 +112,8 @@ def opposite(axle: Axle, angles: Array, rack: float = 0.0) -> tuple[Array, Array
 
     The wheel centres move oppositely, so that the line through them turns by the angle.
 
+    Raises `PositionError` if this is out of reach.
+
     Parameters
     ----------
     axle : Axle
@@ -119,11 +121,6 @@ def opposite(axle: Axle, angles: Array, rack: float = 0.0) -> tuple[Array, Array
         [rad].
     rack : float, optional
         Displacement of the rack [m].
-
-    Raises
-    ------
-    PositionError
-        If this is out of reach.
     """
     if np.abs(angles).max(initial=0.0) >= MOST_ROLL:
         worst = np.degrees(np.abs(angles).max())

@@ -29,10 +29,7 @@ if TYPE_CHECKING:
 def assembly_of(subject: Any) -> Assembly:
     """Return a suspension, an axle, a car or their equations as an assembly.
 
-    Raises
-    ------
-    InputError
-        If it is none of these.
+    Raises `InputError` if it is none of these.
     """
     with Validator("assembly") as given:
         return given_assembly(given, subject, cars=True)
@@ -171,6 +168,8 @@ def given_assemblies(given: Validator, name: str, subjects: Any, *, cars: bool =
 def car_assembly_of(source: str, subject: Any, needed: str) -> CarAssembly:
     """Return a car, or its equations, as an assembly.
 
+    Raises `InputError` if it is none of these.
+
     Parameters
     ----------
     source : str
@@ -178,11 +177,6 @@ def car_assembly_of(source: str, subject: Any, needed: str) -> CarAssembly:
     subject : Car, CarModel or CarAssembly
     needed : str
         The end of the message about any other subject.
-
-    Raises
-    ------
-    InputError
-        If it is none of these.
     """
     with Validator(source) as given:
         given.instance("subject", subject, (Car, CarModel, CarAssembly), needed)

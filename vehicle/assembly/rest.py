@@ -73,6 +73,8 @@ def forces_of(assembly: Assembly, held: RestConditions) -> Forces:
 def settled(assembly: Assembly, held: RestConditions, near: Array, message: str) -> Array:
     """Return the coordinates of a stable state of rest, searched from some others.
 
+    Raises `PositionError` if there is none, or if a length is beyond its limits in the file there.
+
     Parameters
     ----------
     assembly : Assembly
@@ -80,11 +82,6 @@ def settled(assembly: Assembly, held: RestConditions, near: Array, message: str)
     near : ndarray, shape (coordinates,)
     message : str
         Message of the error if there is none.
-
-    Raises
-    ------
-    PositionError
-        If there is none, or if a length is beyond its limits in the file there.
     """
     from scipy.optimize import root  # noqa: PLC0415 (slow to import)
 
@@ -113,6 +110,8 @@ def _slopes(forces: Forces, coordinates: Array, step: float = 1e-6) -> Array:
 def nearest(moment: Callable[[ArrayLike], Array], reach: AngleRange, design: float) -> float:
     """Return the arm angle nearest to design at which a moment is zero and restoring [rad].
 
+    Raises `PositionError` if there is none; the message has the moments at the ends.
+
     Parameters
     ----------
     moment : callable
@@ -121,11 +120,6 @@ def nearest(moment: Callable[[ArrayLike], Array], reach: AngleRange, design: flo
         The searched range.
     design : float
         Angle at the design position [rad].
-
-    Raises
-    ------
-    PositionError
-        If there is none; the message has the moments at the ends.
     """
     from scipy.optimize import brentq  # noqa: PLC0415 (slow to import)
 

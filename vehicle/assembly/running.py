@@ -29,6 +29,8 @@ def straight(
     The drive torque keeps the speed, and the rack keeps a car with unequal sides straight; the
     state contains both as its inputs.
 
+    Raises `InputError` if no such state is found.
+
     Parameters
     ----------
     model : CarModel
@@ -39,11 +41,6 @@ def straight(
         State and inputs at rest.
     speed : float
         Speed of the body's centre of mass [m/s].
-
-    Raises
-    ------
-    InputError
-        If no such state is found.
 
     Notes
     -----

@@ -44,10 +44,7 @@ class WheelCentreLine:
     ) -> "WheelCentreLine":
         """Return the line at travels of both wheels and a displacement of the rack [m].
 
-        Raises
-        ------
-        PositionError
-            If a wheel cannot be there.
+        Raises `PositionError` if a wheel cannot be there.
         """
         (one, fast), (other, also) = (
             _center(axle.models[side], np.asarray(travel, float), rack)

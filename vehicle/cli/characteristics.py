@@ -35,26 +35,15 @@ _USUAL = ("travel", "rack", "bump", "heave", "pitch", "roll", "left", "steer")
 # Curves in the tables of an axle; over parallel travel a table has all of them at design.
 _SHOWN = {
     "roll": (
-        "roll_moment",
-        "roll_moment_gradient",
-        "roll_stiffness",
-        "roll_center_height",
-        "roll_center_lateral",
-        "inclination",
-        "axle_steer",
-        "axle_lateral",
+        "roll_moment", "roll_moment_gradient", "roll_stiffness", "roll_center_height",
+        "roll_center_lateral", "inclination", "axle_steer", "axle_lateral",
     ),
     "steer": ("steer", "ackermann", "turning_circle", "steering_ratio"),
     "rack": ("steer", "ackermann", "turning_circle"),
-}
+}  # fmt: skip
 _OF_ONE_WHEEL = (
-    "wheel_force",
-    "bar_torque",
-    "track",
-    "roll_center_height",
-    "axle_steer",
-    "axle_lateral",
-)
+    "wheel_force", "bar_torque", "track", "roll_center_height", "axle_steer", "axle_lateral",
+)  # fmt: skip
 
 
 _POSITIONS = ("wheel_center_x", "wheel_center_y", "wheel_center_z", "camber", "toe", "steer")

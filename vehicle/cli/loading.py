@@ -92,17 +92,14 @@ def variable_subject(file: str, held: str | None = None) -> "Subject":
 def subject_of(file: str, kind: type[_Kind], needed: str) -> _Kind:
     """Return the subject of a file that must be of a class, such as `Suspension` or `Car`.
 
+    Raises `InputError` if the subject is of another class.
+
     Parameters
     ----------
     file : str
     kind : type
     needed : str
         End of the message for other classes: the reason, and a way out.
-
-    Raises
-    ------
-    InputError
-        If the subject is of another class.
     """
     from ...core.errors import InputError
     from ..files.loading import load
@@ -116,10 +113,7 @@ def subject_of(file: str, kind: type[_Kind], needed: str) -> _Kind:
 def car_of(file: str) -> "CarAssembly":
     """Return the car in a file, its equations not yet derived.
 
-    Raises
-    ------
-    InputError
-        If it is the file of a suspension or an axle.
+    Raises `InputError` if it is the file of a suspension or an axle.
     """
     from ..assembly.car import CarAssembly
     from ..data import data_sets, find

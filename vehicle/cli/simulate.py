@@ -32,26 +32,11 @@ EXAMPLES = (
 
 # Order of the page of curves, for each wheel and for coupling elements; constant ones are left out.
 _DRAWN = (
-    "road_height",
-    "rack_position",
-    "wheel_center_z",
-    "wheel_acceleration",
-    "tyre_force",
-    "fz",
-    "spring_force",
-    "spring_spring_force",
-    "damper_force",
-    "damper_damper_force",
-    "strut_length",
-    "spring_length",
-    "camber",
-    "toe",
-    "axle_steer",
-    "heave",
-    "roll",
-    "bar_angle",
+    "road_height", "rack_position", "wheel_center_z", "wheel_acceleration", "tyre_force", "fz",
+    "spring_force", "spring_spring_force", "damper_force", "damper_damper_force", "strut_length",
+    "spring_length", "camber", "toe", "axle_steer", "heave", "roll", "bar_angle",
     "bar_spring_moment",
-)
+)  # fmt: skip
 
 
 def command(
@@ -238,10 +223,6 @@ def _in_words(result: "Simulation", run: _Run) -> list[str]:
 
 
 _WORDS = {
-    "steps": "steps",
-    "nfev": "evaluations",
-    "njev": "Jacobians",
-    "nlu": "factorisations",
-    "error_test_failures": "failed error tests",
-    "order": "the last order",
-}
+    "steps": "steps", "nfev": "evaluations", "njev": "Jacobians", "nlu": "factorisations",
+    "error_test_failures": "failed error tests", "order": "the last order",
+}  # fmt: skip

@@ -66,62 +66,31 @@ class StudyOptions:
 # Default characteristics by axis; those without data in the file are left out.
 _USUAL = {
     "travel": (
-        "bump_steer",
-        "camber_gradient",
-        "caster",
-        "kingpin_inclination",
-        "scrub_radius",
-        "trail",
-        "roll_center_height_kinematic",
-        "motion_ratio",
+        "bump_steer", "camber_gradient", "caster", "kingpin_inclination", "scrub_radius", "trail",
+        "roll_center_height_kinematic", "motion_ratio",
     ),
     "rack": ("camber", "caster", "scrub_radius", "trail", "steer_gradient", "steering_ratio"),
     "lateral_acceleration": (
-        "understeer_gradient",
-        "steering_wheel_gradient",
-        "roll_gradient",
-        "sideslip_gradient",
+        "understeer_gradient", "steering_wheel_gradient", "roll_gradient", "sideslip_gradient",
         "steering_wheel_angle",
     ),
     "speed": (
-        "acceleration_rms",
-        "weighted_rms",
-        "load_variation",
-        "load_variation_front_left",
-        "load_variation_rear_left",
-        "travel_rms",
-        "travel_rms_front_left",
-        "travel_rms_rear_left",
-        "heave_frequency",
-        "heave_damping_ratio",
-        "pitch_frequency",
-        "roll_frequency",
+        "acceleration_rms", "weighted_rms", "load_variation", "load_variation_front_left",
+        "load_variation_rear_left", "travel_rms", "travel_rms_front_left", "travel_rms_rear_left",
+        "heave_frequency", "heave_damping_ratio", "pitch_frequency", "roll_frequency",
     ),
-}
+}  # fmt: skip
 # Default characteristics of cars, for each axle.
 _OF_ENDS = (
-    "bump_steer_front_left",
-    "bump_steer_rear_left",
-    "camber_gradient_front_left",
-    "camber_gradient_rear_left",
-    "roll_center_height_front",
-    "roll_center_height_rear",
-    "roll_stiffness_front",
-    "roll_stiffness_rear",
-)
+    "bump_steer_front_left", "bump_steer_rear_left", "camber_gradient_front_left",
+    "camber_gradient_rear_left", "roll_center_height_front", "roll_center_height_rear",
+    "roll_stiffness_front", "roll_stiffness_rear",
+)  # fmt: skip
 _USUAL_OF_AXLES = (
-    "bump_steer_left",
-    "camber_gradient_left",
-    "axle_steer",
-    "roll_steer",
-    "heave_steer",
-    "axle_lateral",
-    "roll_center_height",
-    "anti_lift_braked",
-    "anti_squat",
-    "roll_stiffness",
+    "bump_steer_left", "camber_gradient_left", "axle_steer", "roll_steer", "heave_steer",
+    "axle_lateral", "roll_center_height", "anti_lift_braked", "anti_squat", "roll_stiffness",
     "wheel_rate_left",
-)
+)  # fmt: skip
 
 
 @dataclass(frozen=True)

@@ -507,11 +507,8 @@ def known_kinds() -> dict[str, type[Suspension]]:
 def _kind_of(data: Mapping[str, Any], wanted: type[SuspensionT]) -> type[SuspensionT]:
     """Return the class of the suspension in the unchecked content of a file.
 
-    Raises
-    ------
-    InputError
-        If the kind is unknown, or is not `wanted`, or is missing although the hardpoints are not
-        those of a MacPherson suspension.
+    Raises `InputError` if the kind is unknown, or is not `wanted`, or is missing although the
+    hardpoints are not those of a MacPherson suspension.
     """
     for key, problem in _OTHERS.items():
         if key in data and "hardpoints" not in data:

@@ -52,18 +52,8 @@ _ROD_INNER = "prod_to_bellcrank", "prod_inboard", "ROCK_RodPnt"
 NAMES: Mapping[str, Mapping[str, tuple[str, ...]]] = {
     "macpherson": _STRUT,
     "double_wishbone": {**_ARMS, **_COIL},
-    "push_rod": {
-        **_ARMS,
-        **_ROCKER,
-        "push_rod_outer": _ROD_OUTER,
-        "push_rod_inner": _ROD_INNER,
-    },
-    "pull_rod": {
-        **_ARMS,
-        **_ROCKER,
-        "pull_rod_outer": _ROD_OUTER,
-        "pull_rod_inner": _ROD_INNER,
-    },
+    "push_rod": {**_ARMS, **_ROCKER, "push_rod_outer": _ROD_OUTER, "push_rod_inner": _ROD_INNER},
+    "pull_rod": {**_ARMS, **_ROCKER, "pull_rod_outer": _ROD_OUTER, "pull_rod_inner": _ROD_INNER},
 }
 """By kind and hardpoint. Templates of multi-link suspensions have no names in common."""
 
@@ -138,6 +128,9 @@ def matched(
 ) -> dict[str, str]:
     """Return the names of hardpoints in a file, by our names; missing ones are left out.
 
+    Raises `InputError` if a name from the user does not exist, or the file has two names for one
+    hardpoint.
+
     Parameters
     ----------
     there : collection of str
@@ -147,11 +140,6 @@ def matched(
         Names from the user, see `read_names`, which precede those of templates.
     source : str
         The file, for messages.
-
-    Raises
-    ------
-    InputError
-        If a name from the user does not exist, or the file has two names for one hardpoint.
     """
     by_key = {key(name): name for name in there}
     problems = [

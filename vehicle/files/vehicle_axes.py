@@ -46,6 +46,8 @@ class Axes(NamedTuple):
 def axes_of(words: str, *, left_handed: bool = False) -> Axes:
     """Return axes from the directions of x, y and z.
 
+    Raises `InputError` if they are not three axes, or have the other handedness.
+
     Parameters
     ----------
     words : str
@@ -53,11 +55,6 @@ def axes_of(words: str, *, left_handed: bool = False) -> Axes:
     left_handed : bool, optional
         Whether they are left-handed, as in some games. By default such axes are refused as a
         mistake, because they would make a mirror image of the car.
-
-    Raises
-    ------
-    InputError
-        If they are not three axes, or have the other handedness.
 
     Examples
     --------

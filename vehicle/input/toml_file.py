@@ -26,10 +26,7 @@ _TOO_DEEP = re.compile(r"""(?<![\w"'.-])(?:[\w"'-]++\s*+\.\s*+){100}""")
 def read_toml(file: Path | Traversable) -> dict[str, Any]:
     """Return the content of a TOML file on disk or in a package.
 
-    Raises
-    ------
-    InputError
-        If the file cannot be read, is not UTF-8 or is not valid TOML.
+    Raises `InputError` if the file cannot be read, is not UTF-8 or is not valid TOML.
     """
     if file.name.endswith(".py"):
         raise InputError([_PYTHON], str(file))
@@ -53,6 +50,8 @@ def read_toml(file: Path | Traversable) -> dict[str, Any]:
 def read_sections(path: str | Path, known: Sequence[str], needed: str = "") -> dict[str, Any]:
     """Return the content of a TOML file that has only known sections.
 
+    Raises `InputError` if it cannot be read, has other sections, or lacks the required one.
+
     Parameters
     ----------
     path : str or pathlib.Path
@@ -60,11 +59,6 @@ def read_sections(path: str | Path, known: Sequence[str], needed: str = "") -> d
         The allowed sections and keys.
     needed : str, optional
         A required section: ``cases.NAME`` is one of several in ``cases``.
-
-    Raises
-    ------
-    InputError
-        If it cannot be read, has other sections, or lacks the required one.
     """
     with Validator("file") as given:
         given.path("path", path)

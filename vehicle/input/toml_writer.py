@@ -58,6 +58,8 @@ def write_toml(
 ) -> Path:
     """Write an input file.
 
+    Raises `InputError` if the file exists already, or the name cannot be used.
+
     Parameters
     ----------
     suspension : Suspension, Axle or RigidAxle
@@ -69,11 +71,6 @@ def write_toml(
         Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
     inputs : iterable of str or Path, optional
         Files that are never replaced.
-
-    Raises
-    ------
-    InputError
-        If the file exists already, or the name cannot be used.
     """
     write_several({path: (suspension, head)}, force=force, inputs=inputs)
     return Path(path)
@@ -87,17 +84,14 @@ def write_several(
 ) -> list[Path]:
     """Write several input files: all of them, or none.
 
+    Raises `InputError` if one of the files cannot be written.
+
     Parameters
     ----------
     files : mapping
         The object and the lines of the comment of each file, by its path, which ends in ``.toml``.
     force, inputs
         As of `write_toml`.
-
-    Raises
-    ------
-    InputError
-        If one of the files cannot be written.
     """
     read = inputs if isinstance(inputs, str) else list(inputs)  # a text is refused below
     rule: dict[str, Any] = {"force": force, "inputs": read}

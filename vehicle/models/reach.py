@@ -153,6 +153,8 @@ def branch(
 ) -> Branch:
     """Return the table of the range for each rack position.
 
+    Raises `PositionError` if the rack cannot be there with the arm in its design position.
+
     Parameters
     ----------
     model : Model
@@ -164,11 +166,6 @@ def branch(
     to_the_end : bool, optional
         Whether to locate the ends of the range, as `travel_range` does. Otherwise the table ends a
         few degrees before them, where the height gets steep, and is computed much faster.
-
-    Raises
-    ------
-    PositionError
-        If the rack cannot be there with the arm in its design position.
     """
     racks = np.asarray(rack_positions, dtype=np.float64)
     steps = ARM_STEPS, ARM_STEPS

@@ -14,27 +14,12 @@ NEEDED: Mapping[str, tuple[str, ...]] = {
 """Keys that every file needs, by their usual section."""
 
 DIMENSIONS: Mapping[str, str] = {
-    "UNLOADED_RADIUS": "m",
-    "FNOMIN": "N",
-    "VERTICAL_STIFFNESS": "N/m",
-    "VERTICAL_DAMPING": "N s/m",
-    "LONGITUDINAL_STIFFNESS": "N/m",
-    "LATERAL_STIFFNESS": "N/m",
-    "LONGVL": "m/s",
-    "VXLOW": "m/s",
-    "INFLPRES": "Pa",
-    "NOMPRES": "Pa",
-    "FZMIN": "N",
-    "FZMAX": "N",
-    "ALPMIN": "rad",
-    "ALPMAX": "rad",
-    "CAMMIN": "rad",
-    "CAMMAX": "rad",
-    "PRESMIN": "Pa",
-    "PRESMAX": "Pa",
-    "KPUMIN": "1",
-    "KPUMAX": "1",
-}
+    "UNLOADED_RADIUS": "m", "FNOMIN": "N", "VERTICAL_STIFFNESS": "N/m",
+    "VERTICAL_DAMPING": "N s/m", "LONGITUDINAL_STIFFNESS": "N/m", "LATERAL_STIFFNESS": "N/m",
+    "LONGVL": "m/s", "VXLOW": "m/s", "INFLPRES": "Pa", "NOMPRES": "Pa", "FZMIN": "N", "FZMAX": "N",
+    "ALPMIN": "rad", "ALPMAX": "rad", "CAMMIN": "rad", "CAMMAX": "rad", "PRESMIN": "Pa",
+    "PRESMAX": "Pa", "KPUMIN": "1", "KPUMAX": "1",
+}  # fmt: skip
 """SI units of keys; coefficients have no unit except angles in radians."""
 
 DEFAULTS = NEUTRAL
@@ -44,21 +29,10 @@ USED = frozenset((*DEFAULTS, *DIMENSIONS))
 """Keys with numbers that are used."""
 
 ALIASES: Mapping[str, str] = {
-    "QFZ1": "Q_FZ1",
-    "QFZ2": "Q_FZ2",
-    "QFZ3": "Q_FZ3",
-    "QV1": "Q_V1",
-    "QV2": "Q_V2",
-    "QRE0": "Q_RE0",
-    "QFCX1": "Q_FCX",
-    "QFCY1": "Q_FCY",
-    "QPFZ1": "PFZ1",
-    "QPZ1": "PPZ1",
-    "QPZ2": "PPZ2",
-    "QPX1": "PPMX1",
-    "IP": "INFLPRES",
-    "IP_NOM": "NOMPRES",
-}
+    "QFZ1": "Q_FZ1", "QFZ2": "Q_FZ2", "QFZ3": "Q_FZ3", "QV1": "Q_V1", "QV2": "Q_V2",
+    "QRE0": "Q_RE0", "QFCX1": "Q_FCX", "QFCY1": "Q_FCY", "QPFZ1": "PFZ1", "QPZ1": "PPZ1",
+    "QPZ2": "PPZ2", "QPX1": "PPMX1", "IP": "INFLPRES", "IP_NOM": "NOMPRES",
+}  # fmt: skip
 """Our keys by their names in PAC2002 of Adams/Tire."""
 
 LIMITS: Mapping[str, tuple[str, str]] = {

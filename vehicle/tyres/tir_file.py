@@ -78,16 +78,13 @@ class TirFile:
 def read(path: str | Path) -> TirFile:
     """Return the contents of a property file.
 
+    Raises `InputError` if the format is another one, or keys are missing, given twice or not
+    numbers; the message lists all problems.
+
     Parameters
     ----------
     path : str or pathlib.Path
         PAC2002 (also MF 5.2), MF 6.1 or MF 6.2.
-
-    Raises
-    ------
-    InputError
-        If the format is another one, or keys are missing, given twice or not numbers; the message
-        lists all problems.
     """
     return _Reader(read_blocks(path), str(path)).read()
 

@@ -12,13 +12,9 @@ from typing import Any, NamedTuple
 from .parts import millimetres
 
 _CURVE = (
-    (0.01, 1000.0),
-    (0.02, 2500.0),
-    (0.03, 4500.0),
-    (0.04, 7500.0),
-    (0.05, 12500.0),
+    (0.01, 1000.0), (0.02, 2500.0), (0.03, 4500.0), (0.04, 7500.0), (0.05, 12500.0),
     (0.06, 125000.0),
-)
+)  # fmt: skip
 """Compressions [m] and forces [N] of Chrono's ``SpringForce``, except zero."""
 
 _RATE = _CURVE[0][1] / _CURVE[0][0]
