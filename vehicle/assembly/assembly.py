@@ -198,13 +198,8 @@ class Assembly(ABC):
     ) -> Array:
         """Return the default positions of a motion, zero included, in SI units.
 
-        Parameters
-        ----------
-        motion : str
-        ends : SweepRange, optional
-            Ends of the motion that differ from the default.
-        travel, rack : float, optional
-            Constant wheel travel or displacement of the rack [m].
+        `ends` replaces default ends of the motion; `travel` and `rack` [m] are held in motions of
+        the steering and of the wheels.
         """
 
     @abstractmethod
@@ -213,17 +208,8 @@ class Assembly(ABC):
     ) -> RigPosition:
         """Return the positions of wheels and rack along a motion.
 
-        Raises `PositionError` if a position is out of reach.
-
-        Parameters
-        ----------
-        motion : str
-        along : ndarray, shape (n,)
-            Values of `RigMotion.along`.
-        travel : float, optional
-            Height of the wheels above design in a motion of the steering [m].
-        rack : float, optional
-            Displacement of the rack in other motions [m].
+        `along` are values of `RigMotion.along`. `travel` [m] is held in a motion of the steering,
+        `rack` [m] in others. Raises `PositionError` if a position is out of reach.
         """
 
     def at_travel(self, travels: Array, rack: Array | float = 0.0) -> RigPosition:
@@ -310,11 +296,7 @@ class Assembly(ABC):
     def at_rest(self, coordinates: Array, rack: float) -> tuple[Array, Array]:
         """Return states and inputs with zero rates, (..., states) and (..., inputs).
 
-        Parameters
-        ----------
-        coordinates : ndarray, shape (..., coordinates)
-        rack : float
-            Displacement of the rack, if any [m].
+        `coordinates` has the shape (..., coordinates); `rack` is the displacement of a rack [m].
         """
         model, lead = self.model, coordinates.shape[:-1]
         states = np.broadcast_to(model.design_state, (*lead, model.design_state.size)).copy()
@@ -410,15 +392,10 @@ class HeldAssembly(Assembly):
 
     @abstractmethod
     def wheel_equations(self, wheel: str) -> tuple[Any, str, Mapping[str, str]]:
-        """Return equations in which a wheel moves and the body is held.
+        """Return equations in which a wheel moves and the body is held, with their names for it.
 
-        Returns
-        -------
-        model : Model or WholeAxleModel
-        signals : str
-            Prefix of the names of the wheel's signals there.
-        names : mapping of str to str
-            The coordinates that move it there, and their names in `coordinates`.
+        These are the model, the prefix of the names of the wheel's signals there, and the
+        coordinates that move it there with their names in `coordinates`.
         """
 
     @abstractmethod
@@ -486,12 +463,8 @@ class HeldAssembly(Assembly):
     def at_wheel_coordinates(self, coordinates: Array, racks: Array) -> dict[str, PartPoses]:
         """Return the parts at rest, by the suffixes of their names.
 
-        Parameters
-        ----------
-        coordinates : ndarray, shape (n, wheels)
-            A coordinate of each wheel, which increases as the wheel rises.
-        racks : ndarray, shape (n,)
-            Displacements of the rack [m].
+        `coordinates`, (n, wheels), has one for each wheel, which increases as the wheel rises;
+        `racks` are displacements of the rack, (n,) [m].
         """
 
     @abstractmethod
@@ -549,13 +522,7 @@ class HeldAssembly(Assembly):
     ) -> "dict[str, xr.Variable]":
         """Return further results: forces of rack and rods, torque of the bar.
 
-        Parameters
-        ----------
-        over : str
-            Dimension of the positions.
-        poses : mapping
-        found : xarray.Dataset
-            The loads.
+        `over` is the dimension of the positions, and `found` has the loads.
         """
         del found
         if self.bar is None:
@@ -571,28 +538,18 @@ class HeldAssembly(Assembly):
 
     @abstractmethod
     def parts_with(self, values: Mapping[str, Array], count: int) -> dict[str, PartPoses]:
-        """Return the parts in chassis axes, by suffix.
+        """Return the parts in chassis axes, by suffix, at `count` positions.
 
-        Parameters
-        ----------
-        values : mapping of str to ndarray
-            States and inputs by their names in the equations, (count,); others are zero.
-        count : int
-            Number of positions.
+        `values` are states and inputs by their names in the equations, (count,); others are zero.
         """
 
     # -- bushes ------------------------------------------------------------------------------------
 
     @abstractmethod
     def bushes(self, given: Validator, bushings: Mapping[str, Any] | None) -> Bushings:
-        """Return the bushes that a caller describes, or those of the file.
+        """Return the bushes described by hardpoint in `bushings`, or those of the file.
 
-        Parameters
-        ----------
-        given : Validator
-            Collects problems.
-        bushings : mapping or None
-            Descriptions by hardpoint; of an axle those of one side, mirrored for the other one.
+        Those of an axle describe one side, and are mirrored for the other one.
         """
 
     # -- the coupling of the wheels ----------------------------------------------------------------

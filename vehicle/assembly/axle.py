@@ -50,14 +50,7 @@ _STEERING = ("steer", "rack")
 
 
 class AxleAssembly(HeldAssembly):
-    """An axle of two corners.
-
-    Parameters
-    ----------
-    axle : Axle
-    model : AxleModel, optional
-        Its equations, if they exist already.
-    """
+    """An axle of two corners; `model` has its equations, if they exist already."""
 
     wheels = SIDES
     ENDS = "the linkage or a drop link reaches no farther"

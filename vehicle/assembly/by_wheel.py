@@ -37,15 +37,9 @@ def axle_coordinate(axles: Sequence[str]) -> xr.Variable:
 def of_wheels(
     quantity: Quantity, dims: str | Sequence[str], values: Sequence[Array]
 ) -> xr.Variable:
-    """Return the values of all wheels as one variable.
+    """Return the values of all wheels, in the order of `Assembly.wheels`, as one variable.
 
-    Parameters
-    ----------
-    quantity : Quantity
-    dims : str or sequence of str
-        Further dimensions.
-    values : sequence of ndarray
-        By wheel, in the order of `Assembly.wheels`.
+    `dims` are its further dimensions.
     """
     return stacked(dims, values, quantity.attributes())
 
@@ -93,16 +87,8 @@ def wheel_that_begins(name: str, wheels: Sequence[str]) -> str:
 def together(dataset: xr.Dataset, wheels: Sequence[str]) -> xr.Dataset:
     """Return a dataset in which the variables of all wheels are one variable over the wheels.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        With names that begin with that of a wheel, ``left_road_height``, as in equations of motion.
-    wheels : sequence of str
-
-    Returns
-    -------
-    xarray.Dataset
-        With ``road_height`` over ``wheel`` if each wheel has one.
+    Names begin with that of a wheel, as in equations of motion: with ``left_road_height`` and so on
+    for every wheel, the result has ``road_height`` over ``wheel``.
     """
     found: dict[str, xr.DataArray | xr.Variable] = {}
     for name, data in dataset.items():
@@ -122,16 +108,8 @@ def together(dataset: xr.Dataset, wheels: Sequence[str]) -> xr.Dataset:
 def by_ending(dataset: xr.Dataset, wheels: Sequence[str]) -> xr.Dataset:
     """Return a flat dataset with the dimension of the wheels: the inverse of `flat`.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        With names that end in that of a wheel, ``camber_left``.
-    wheels : sequence of str
-
-    Returns
-    -------
-    xarray.Dataset
-        With ``camber`` over ``wheel`` if each wheel has one.
+    Names end in that of a wheel: with ``camber_left`` and so on for every wheel, the result has
+    ``camber`` over ``wheel``.
     """
     begun = {
         str(name): f"{wheel}_{str(name).removesuffix(f'_{wheel}')}"

@@ -52,14 +52,7 @@ _FREE = ("body_x", "body_y", "body_z", "body_e0", "body_e1", "body_e2", "body_e3
 
 
 class CarAssembly(Assembly):
-    """A car.
-
-    Parameters
-    ----------
-    car : Car
-    model : CarModel, optional
-        Its equations, if they exist already.
-    """
+    """A car; `model` has its equations, if they exist already."""
 
     def __init__(self, car: Car, model: CarModel | None = None) -> None:
         self.subject = self.car = car
@@ -463,10 +456,7 @@ class CarAssembly(Assembly):
     def travels(self, states: Array) -> dict[str, Array]:
         """Return the heights of the wheel centres on the body above design, (n,) each [m].
 
-        Parameters
-        ----------
-        states : ndarray, shape (n, states)
-            States of the equations; the rack is assumed in its middle.
+        The rack is assumed in its middle.
         """
         return {
             wheel: one.travel(states, self.model.state_names)
@@ -504,12 +494,7 @@ class CarAssembly(Assembly):
 
         They are the motions of the body, and the heights of the wheel centres above the road, in
         phase and opposite. The mass of an axle is that of all its parts; of a pitch and a roll of
-        the body it is a moment of inertia.
-
-        Parameters
-        ----------
-        state : ndarray
-            State of rest.
+        the body it is a moment of inertia. `state` is the state of rest.
         """
         body, inertia = self.car.described.body, self.car.described.body.elements()
         of_body = {"heave": body.mass_kg, "pitch": inertia["yy"], "roll": inertia["xx"]}

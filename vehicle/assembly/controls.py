@@ -50,15 +50,10 @@ class Controls:
     def rack(
         self, angle: ArrayLike, rate: ArrayLike = 0.0, acceleration: ArrayLike = 0.0
     ) -> dict[str, Any]:
-        """Return the motion of the rack.
+        """Return the motion of the rack for angles of the steering wheel, positive to the left.
 
-        Raises `InputError` if the car has no rack, its files have no rack travel per turn of the
-        steering wheel, or the angle is beyond a curve of the file.
-
-        Parameters
-        ----------
-        angle, rate, acceleration : array_like
-            Of the steering wheel, positive to the left [rad, rad/s, rad/s^2].
+        Units are rad, rad/s and rad/s^2. Raises `InputError` if the car has no rack, its files have
+        no rack travel per turn of the steering wheel, or the angle is beyond a curve of the file.
         """
         with Validator("rack") as given:
             values = [
@@ -88,12 +83,8 @@ class Controls:
     def brakes(self, pedal: ArrayLike) -> dict[str, Any]:
         """Return the torques of the brakes [N m], half of an axle's at each of its wheels.
 
-        Raises `InputError` if the pedal is outside this range, or the file has no brakes.
-
-        Parameters
-        ----------
-        pedal : array_like
-            From 0 (released) to 1 (down).
+        The pedal is from 0 (released) to 1 (down). Raises `InputError` if it is outside this range,
+        or the file has no brakes.
         """
         with Validator("brakes") as given:
             pressed = given.array("pedal", pedal, empty=True)
@@ -117,12 +108,8 @@ class Controls:
     def drive(self, torque: ArrayLike) -> dict[str, Any]:
         """Return the torques of the drive [N m], by the axles' shares, equal left and right.
 
-        Raises `InputError` if no axle is driven.
-
-        Parameters
-        ----------
-        torque : array_like
-            Sum at all wheels, positive forward [N m].
+        `torque` is the sum at all wheels, positive forward [N m]. Raises `InputError` if no axle is
+        driven.
         """
         with Validator("drive") as given:
             whole = given.array("torque", torque, "N m", empty=True)

@@ -37,12 +37,7 @@ _RACK = {"rack": RigMotion(RACK, "the rack moves, the wheel at one height", "the
 
 
 class CornerAssembly(HeldAssembly):
-    """A corner.
-
-    Parameters
-    ----------
-    model : Model
-    """
+    """A corner."""
 
     def __init__(self, model: Model) -> None:
         self.model: Model = model

@@ -27,15 +27,7 @@ _LEAST_RATIO = 0.05
 
 
 def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -> Corner:
-    """Return the corner at arm angles and rack positions.
-
-    Parameters
-    ----------
-    model : Model
-    arm_angle, rack_position : array_like
-        Angle of the lower arm as in the state [rad], and displacement of the rack [m]; they are
-        broadcast.
-    """
+    """Return the corner at arm angles [rad] and rack positions [m], which broadcast."""
     kind = model.suspension
     states, inputs = at_rest(model, arm_angle, rack_position)
     pose = _Pose(model, states, inputs)
@@ -63,11 +55,8 @@ def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -
 def gaps(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -> tuple[Array, ...]:
     """Return the gap of each stop at arm angles and rack positions, see `corner`.
 
-    Returns
-    -------
-    tuple of ndarray
-        For each stop of the model: positive if it is free, negative if it is compressed [m]. The
-        measures `AT_STOPS` jump where a gap closes.
+    A gap is positive if the stop is free, negative if it is compressed [m]. The measures `AT_STOPS`
+    jump where a gap closes.
     """
     return model.suspension.gaps_at(_strokes(model, *at_rest(model, arm_angle, rack_position)))
 
@@ -75,13 +64,7 @@ def gaps(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -> 
 def vehicle(described: WheeledSection, side: float, end: str | None) -> Vehicle:
     """Return the data of the vehicle for one of the wheels of a file, in SI units.
 
-    Parameters
-    ----------
-    described : WheeledSection
-    side : float
-        +1 left, -1 right.
-    end : str or None
-        'front' or 'rear'; None if the file does not have this.
+    `side` is +1 left, -1 right; `end` is 'front' or 'rear', None if the file does not have this.
     """
     given, tyre, steered = described.vehicle, described.tyre, described.steered()
     rear = end == "rear"

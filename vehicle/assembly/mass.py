@@ -31,17 +31,10 @@ class PartMass:
     def of(
         cls, parameters: Mapping[str, float], name: str, body: str, spin_axis: Array | None = None
     ) -> "PartMass":
-        """Return mass and inertia of a part.
+        """Return mass and inertia of a body.
 
-        Parameters
-        ----------
-        parameters : mapping
-            Of the equations.
-        name : str
-            The prefix of the names of its parameters.
-        body : str
-        spin_axis : ndarray, shape (3,), optional
-            Of a wheel, at design: its parameters are the inertia about this axis and across it.
+        `name` is the prefix of its parameters in the equations. `spin_axis`, (3,), is that of a
+        wheel at design: its parameters are the inertia about this axis and across it.
         """
         tensor = (
             _tensor(parameters, name)

@@ -108,19 +108,10 @@ def travel_per_turn(axle: Axle) -> float | None:
 
 
 def opposite(axle: Axle, angles: Array, rack: float = 0.0) -> tuple[Array, Array]:
-    """Return the travels of the left and the right wheel for roll angles of the body [m].
+    """Return the travels of the left and the right wheel for roll angles [rad] of the body [m].
 
-    The wheel centres move oppositely, so that the line through them turns by the angle.
-
-    Raises `PositionError` if this is out of reach.
-
-    Parameters
-    ----------
-    axle : Axle
-    angles : ndarray, shape (n,)
-        [rad].
-    rack : float, optional
-        Displacement of the rack [m].
+    The wheel centres move oppositely, so that the line through them turns by the angle. Raises
+    `PositionError` if this is out of reach.
     """
     if np.abs(angles).max(initial=0.0) >= MOST_ROLL:
         worst = np.degrees(np.abs(angles).max())

@@ -125,13 +125,7 @@ _MODEL_NEEDED = (
 
 
 def given_model(given: Validator, model: Any) -> Assembly:
-    """Return the assembly of the equations of motion of one, or refuse any other object.
-
-    Parameters
-    ----------
-    given : Validator
-    model : Model, AxleModel, RigidAxleModel or CarModel
-    """
+    """Return the assembly of equations of motion, or refuse any other object."""
     given.instance("model", model, MODELS, _MODEL_NEEDED)
     # a result of refused arguments is not used, see `Validator`
     return assembly_of(model) if isinstance(model, MODELS) else None  # type: ignore[return-value]
@@ -168,15 +162,8 @@ def given_assemblies(given: Validator, name: str, subjects: Any, *, cars: bool =
 def car_assembly_of(source: str, subject: Any, needed: str) -> CarAssembly:
     """Return a car, or its equations, as an assembly.
 
-    Raises `InputError` if it is none of these.
-
-    Parameters
-    ----------
-    source : str
-        The function, for messages.
-    subject : Car, CarModel or CarAssembly
-    needed : str
-        The end of the message about any other subject.
+    `source` is the function that a message names, `needed` the end of the message. Raises
+    `InputError` for any other subject.
     """
     with Validator(source) as given:
         given.instance("subject", subject, (Car, CarModel, CarAssembly), needed)

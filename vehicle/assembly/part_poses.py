@@ -111,10 +111,8 @@ class PartPoses(ABC):
     def twists(self) -> Mapping[str, Array]:
         """Return the velocities of each part at rest for a unit rate of each coordinate alone.
 
-        Returns
-        -------
-        dict of str to ndarray, shape (n, coordinates, 6)
-            Angular velocity, and velocity of `centers`, with the brakes closed and the rack held.
+        The shape is (n, coordinates, 6): angular velocity, and velocity of `centers`, with the
+        brakes closed and the rack held.
         """
 
     @abstractmethod
@@ -265,14 +263,7 @@ def states_with(
 ) -> tuple[Array, Array]:
     """Return arrays of states and inputs, (count, names) each; missing values are zero.
 
-    Parameters
-    ----------
-    model : System
-    values : mapping of str to ndarray
-        By name, (count,) each.
-    count : int
-    prefix : str, optional
-        Prefix of the names in the mapping; a shared value has none.
+    `prefix` begins the names in `values`, (count,) each; a shared value has none.
     """
     states, inputs = (np.zeros((count, len(own))) for own in (model.state_names, model.input_names))
     for array, names in ((states, model.state_names), (inputs, model.input_names)):
@@ -298,10 +289,7 @@ def touching(wheel: RoadWheel) -> Array:
 def road_axes(left: Array) -> Array:
     """Return the axes of wheels on the road, see `wheel_axes`.
 
-    Parameters
-    ----------
-    left : ndarray, shape (n, 3)
-        Spin axes that point left.
+    `left` are spin axes that point left, (n, 3).
     """
     forward = cross(left, UP)
     forward /= np.linalg.norm(forward, axis=-1, keepdims=True)

@@ -35,12 +35,7 @@ _AT_REST = 1e-9
 def at(assembly: Assembly, held: RestConditions, coordinates: ArrayLike) -> tuple[Array, Array]:
     """Return states and inputs at rest, (..., states) and (..., inputs).
 
-    Parameters
-    ----------
-    assembly : Assembly
-    held : RestConditions
-    coordinates : array_like, shape (..., coordinates)
-        Values of `Assembly.coordinates`.
+    `coordinates` are values of `Assembly.coordinates`.
     """
     model = assembly.model
     states, inputs = assembly.at_rest(np.asarray(coordinates, dtype=float), held.rack)
@@ -71,17 +66,10 @@ def forces_of(assembly: Assembly, held: RestConditions) -> Forces:
 
 
 def settled(assembly: Assembly, held: RestConditions, near: Array, message: str) -> Array:
-    """Return the coordinates of a stable state of rest, searched from some others.
+    """Return the coordinates of a stable state of rest, searched from those in `near`.
 
-    Raises `PositionError` if there is none, or if a length is beyond its limits in the file there.
-
-    Parameters
-    ----------
-    assembly : Assembly
-    held : RestConditions
-    near : ndarray, shape (coordinates,)
-    message : str
-        Message of the error if there is none.
+    Raises `PositionError` with `message` if there is none, or if a length is beyond its limits in
+    the file there.
     """
     from scipy.optimize import root  # noqa: PLC0415 (slow to import)
 
@@ -110,16 +98,9 @@ def _slopes(forces: Forces, coordinates: Array, step: float = 1e-6) -> Array:
 def nearest(moment: Callable[[ArrayLike], Array], reach: AngleRange, design: float) -> float:
     """Return the arm angle nearest to design at which a moment is zero and restoring [rad].
 
-    Raises `PositionError` if there is none; the message has the moments at the ends.
-
-    Parameters
-    ----------
-    moment : callable
-        Moment about the arm's hinge as a function of the arm angle.
-    reach : AngleRange
-        The searched range.
-    design : float
-        Angle at the design position [rad].
+    `moment` is the moment about the arm's hinge as a function of the arm angle, `reach` the
+    searched range. Raises `PositionError` if there is none; the message has the moments at the
+    ends.
     """
     from scipy.optimize import brentq  # noqa: PLC0415 (slow to import)
 

@@ -21,14 +21,7 @@ if TYPE_CHECKING:
 
 
 class RigidAxleAssembly(WholeAxleAssembly):
-    """A rigid axle.
-
-    Parameters
-    ----------
-    axle : RigidAxle
-    model : RigidAxleModel, optional
-        Its equations, if they exist already.
-    """
+    """A rigid axle; `model` has its equations, if they exist already."""
 
     AXLE, MODEL, PARTS = RigidAxle, RigidAxleModel, RigidAxleParts
     KINEMATICS, MEASURES = RigidAxleKinematics, MEASURES

@@ -42,12 +42,8 @@ class AxisOfPoints:
 class AxisOfTheScrew:
     """The screw axis of a motion; only requested values are computed.
 
-    Parameters
-    ----------
-    ends : callable
-        Takes a further rotation of the arm [rad], returns the lower and the upper point.
-    rise : ndarray
-        Derivative of wheel travel with respect to the arm's angle [m/rad].
+    `ends` takes a further rotation of the arm [rad] and returns the lower and the upper point;
+    `rise` is the derivative of wheel travel with respect to the arm's angle [m/rad].
     """
 
     def __init__(self, ends: Callable[[float], tuple[Array, Array]], rise: Array) -> None:
@@ -78,19 +74,10 @@ class AxisOfTheScrew:
 
 
 def of_the_screw(center: Array, steering: CarrierMotion) -> tuple[Array, Array]:
-    """Return two points on the axis of a motion.
+    """Return two points on the axis of a motion, the lower and the upper one, (..., 3) [m].
 
-    Parameters
-    ----------
-    center : ndarray, shape (..., 3)
-        The wheel centre [m].
-    steering : CarrierMotion
-        Motion of the wheel carrier with the spring's length fixed.
-
-    Returns
-    -------
-    lower, upper : ndarray, shape (..., 3)
-        [m].
+    `center` is the wheel centre [m], `steering` the motion of the wheel carrier with the spring's
+    length fixed.
     """
     nearest = steering.axis_nearest(center)
     along = steering.turning / np.linalg.norm(steering.turning, axis=-1, keepdims=True)

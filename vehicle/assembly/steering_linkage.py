@@ -25,14 +25,8 @@ def on_the_steering(
 ) -> tuple[list[Load], dict[str, BodyPose]]:
     """Return the loads on a rack, or on a Pitman arm and its linkage; none where nothing steers.
 
-    Parameters
-    ----------
-    poses : PartPoses
-        Of one side.
-    loads : sequence of Load
-        All others; those of tie rods on what steers them are among them.
-    point : str
-        Of a rack the name of the middle between the tie rods.
+    `poses` are those of one side, `loads` all others, among them those of tie rods; `point` is the
+    name of the middle of a rack between the tie rods.
     """
     if poses.rack_axis is not None:
         return on_the_rack(poses.rack_axis, loads, point)
@@ -42,14 +36,8 @@ def on_the_steering(
 def steering_force(poses: PartPoses, loads: Sequence[Load]) -> Array:
     """Return the force of the steering along the position of the rack, (n,) [N].
 
-    That on a rack along its axis, or the moment of the Pitman arm over its length.
-
-    Parameters
-    ----------
-    poses : PartPoses
-        Of one side.
-    loads : sequence of Load
-        Those of both tie rods are among them.
+    It is the force on a rack along its axis, or the moment of the Pitman arm over its length.
+    `poses` are those of one side; `loads` have those of both tie rods.
     """
     if poses.rack_axis is None:
         gear = _gear(poses)
@@ -66,13 +54,7 @@ def steering_of(
 ) -> "dict[str, xr.Variable]":
     """Return the force of the steering on a rack, or the moment of a Pitman arm besides.
 
-    Parameters
-    ----------
-    gear : Steering or PitmanLinkage
-    over : str
-        Dimension of the positions.
-    found : xarray.Dataset
-        The loads.
+    `over` is the dimension of the positions, and `found` has the loads.
     """
     (row,) = np.flatnonzero(found["part"].isin((RACK, ARM)) & (found["by"] == STEERING))
     if not isinstance(gear, PitmanLinkage):

@@ -13,13 +13,8 @@ from .wheel import steer_gradient
 def rack_of(axle: Axle, angles: Array, sense: float | None = None) -> tuple[Array, Array]:
     """Return rack displacements at angles, and the signed rack travel per turn there [m].
 
-    Parameters
-    ----------
-    axle : Axle
-    angles : ndarray
-        Of the steering wheel, positive to the left [rad].
-    sense : float, optional
-        The result of `sense_of_rack`, if it is known already.
+    `angles` of the steering wheel are positive to the left [rad]; `sense` is the result of
+    `sense_of_rack`, if known already.
     """
     sense = sense_of_rack(axle) if sense is None else sense
     if axle.steering is not None:
@@ -61,13 +56,8 @@ def rack_motion(
 ) -> tuple[Array, Array, Array]:
     """Return displacement, velocity and acceleration of the rack [m, m/s, m/s^2].
 
-    Parameters
-    ----------
-    axle : Axle
-    angle, rate, acceleration : ndarray
-        Of the steering wheel, positive to the left [rad, rad/s, rad/s^2].
-    sense : float, optional
-        The result of `sense_of_rack`, if it is known already.
+    Those of the steering wheel are positive to the left [rad, rad/s, rad/s^2]; `sense` is the
+    result of `sense_of_rack`, if known already.
     """
     position, per_turn = rack_of(axle, angle, sense)
     slope = per_turn / (2.0 * np.pi)

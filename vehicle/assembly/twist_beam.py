@@ -114,14 +114,7 @@ class TwistBeamParts(WholeAxleParts):
 
 
 class TwistBeamAssembly(WholeAxleAssembly):
-    """A twist-beam axle.
-
-    Parameters
-    ----------
-    axle : TwistBeamAxle
-    model : TwistBeamModel, optional
-        Its equations, if they exist already.
-    """
+    """A twist-beam axle; `model` has its equations, if they exist already."""
 
     AXLE, MODEL, PARTS = TwistBeamAxle, TwistBeamModel, TwistBeamParts
     MEASURES = MEASURES

@@ -285,13 +285,8 @@ def upward_across(axis: Array) -> Array:
 def lowest_point_rate(velocity: Array, axis: Array, turning: Array, radius: float) -> Array:
     """Return the velocity of the lowest point of a thin disc, which is not fixed to it.
 
-    Parameters
-    ----------
-    velocity : ndarray, shape (..., 3)
-        Velocity of its centre.
-    axis, turning : ndarray, shape (..., 3)
-        Its axis, and its angular velocity.
-    radius : float
+    `velocity` is that of its centre, `axis` its axis, `turning` its angular velocity, (..., 3)
+    each.
     """
     turned, up = cross(turning, axis), upward_across(axis)
     across, rate = axis[..., 2:], turned[..., 2:]
@@ -337,10 +332,7 @@ def _heading(corner: Corner) -> Array:
 def _instant_center(corner: Corner) -> tuple[Array, Array, Array]:
     """Return the intersection of the links' planes in the transverse plane of the wheel centre.
 
-    Returns
-    -------
-    y, z, scale : ndarray
-        Homogeneous coordinates: the centre is at (y, z) / scale, at infinity if scale is zero.
+    It has homogeneous coordinates: the centre is at (y, z) / scale, at infinity if scale is zero.
     """
     (first_y, first_z, first), (second_y, second_z, second) = (
         _trace(plane.point, plane.normal, corner.center[..., 0]) for plane in corner.links

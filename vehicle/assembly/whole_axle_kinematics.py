@@ -110,13 +110,7 @@ class WholeAxleKinematics:
     def velocity(self, side: str, place: Array, by: str) -> Array:
         """Return the velocity of a point of a wheel's carrier per unit of a coordinate, (n, 3).
 
-        Parameters
-        ----------
-        side : str
-        place : ndarray, shape (n, 3)
-            [m].
-        by : str
-            The coordinate.
+        `place` is its position, (n, 3) [m], `by` the coordinate.
         """
         part = self.parts.carrier(side)
         twist = self._twists[part][:, self.model.COORDINATES.index(by)]
@@ -172,12 +166,7 @@ class WholeAxleKinematics:
     def carried_in(self, side: str, place: Array, how: str) -> Array:
         """Return the velocity of a point of a wheel's carrier per metre of a motion, (n, 3) [1].
 
-        Parameters
-        ----------
-        side : str
-        place : ndarray, shape (n, 3)
-            [m].
-        how : {'heave', 'roll', 'left', 'right'}
+        `place` is its position, (n, 3) [m]; `how` is 'heave', 'roll', 'left' or 'right'.
         """
         motion = self.motion(side, how)
         velocity: Array = motion.velocity + cross(motion.turning, place - self.wheel_center(side))
@@ -204,13 +193,7 @@ class WholeAxleKinematics:
         """Return the slope v_x / v_z of the path of the point of a longitudinal force [1].
 
         Both wheels rise. The point is the contact, fixed to the carrier of the wheel; it is the
-        wheel centre if the body reacts the torque.
-
-        Parameters
-        ----------
-        torque_on : {'body', 'carrier'}
-        side : str, optional
-            By default the middle of both sides.
+        wheel centre if `torque_on` is 'body'. Without `side` it is the middle of both sides.
         """
         place = self.wheel_center if torque_on == "body" else self.contact
         sides = (side,) if side else SIDES

@@ -79,11 +79,7 @@ class WholeAxleParts(PartPoses):
     ) -> dict[str, Array]:
         """Return all points for positions and rotations of the parts, (n, 3) [m].
 
-        Parameters
-        ----------
-        axle : WholeAxle
-        centers, turned : mapping of str to ndarray
-            Centres of mass, (n, 3) [m], and rotations from design, (n, 3, 3), by part.
+        These are centres of mass, (n, 3) [m], and rotations from design, (n, 3, 3), by part.
         """
 
     @staticmethod
@@ -92,11 +88,7 @@ class WholeAxleParts(PartPoses):
     ) -> dict[str, Array]:
         """Return the lowest points of both wheels, if their radius is known, (n, 3) [m].
 
-        Parameters
-        ----------
-        axle : WholeAxle
-        centers, turned : mapping of str to ndarray
-            Wheel centres [m], and rotations of the carriers from design, by side.
+        `centers` are wheel centres [m], `turned` rotations of the carriers from design, by side.
         """
         radius = axle.tyre_radius()
         if radius is None:

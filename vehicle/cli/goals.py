@@ -95,14 +95,7 @@ def refuse_elsewhere(curves: "Dataset") -> None:
 
 
 def refuse_beyond(goals: "Sequence[Goal]", curves: "Mapping[str, Dataset]") -> None:
-    """Refuse goals beyond the ends of the curves with which they are drawn.
-
-    Parameters
-    ----------
-    goals : sequence of Goal
-    curves : mapping of str to Dataset
-        By axis.
-    """
+    """Refuse goals beyond the ends of the curves, by axis, with which they are drawn."""
     from ...core.validator import Validator
     from ..studies.sweep_axes import sweep_axis
 

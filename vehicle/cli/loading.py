@@ -22,11 +22,7 @@ _Kind = TypeVar("_Kind")
 def assembly_of_file(file: str, held: str | None = None) -> "Assembly":
     """Return the assembly of a file or of a packaged data set.
 
-    Parameters
-    ----------
-    file : str
-    held : str, optional
-        Name of a command that needs a held body: cars are refused.
+    `held` is the name of a command that needs a held body: cars are refused.
     """
     from ..assembly.of import assembly_of
 
@@ -52,12 +48,7 @@ def _refuse_car(car: "Car", file: str, command: str) -> NoReturn:
 def model_of(file: str, *, wheel_loads: bool = False) -> "AnyModel":
     """Return the equations of motion of the suspension, axle or car in a file.
 
-    Parameters
-    ----------
-    file : str
-        Path of a TOML file, or name of a packaged data set.
-    wheel_loads : bool, optional
-        Whether loads on the wheels are inputs.
+    Loads on the wheels are inputs if `wheel_loads`.
     """
     from ..assembly.of import model_of as of_subject
     from ..files.loading import load
@@ -92,14 +83,7 @@ def variable_subject(file: str, held: str | None = None) -> "Subject":
 def subject_of(file: str, kind: type[_Kind], needed: str) -> _Kind:
     """Return the subject of a file that must be of a class, such as `Suspension` or `Car`.
 
-    Raises `InputError` if the subject is of another class.
-
-    Parameters
-    ----------
-    file : str
-    kind : type
-    needed : str
-        End of the message for other classes: the reason, and a way out.
+    Raises `InputError` for other classes; `needed` ends its message with the reason and a way out.
     """
     from ...core.errors import InputError
     from ..files.loading import load

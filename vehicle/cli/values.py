@@ -22,10 +22,7 @@ _NAMES = {float: "NUMBER", int: "COUNT"}
 def explained(command: Callable[..., None]) -> Callable[..., None]:
     """Add the parsers of this module to a command's numbers and choices, and return it.
 
-    Parameters
-    ----------
-    command : callable
-        Annotated for Typer; its annotations are completed in place.
+    The annotations of the command are completed in place.
     """
     for hint in get_type_hints(command, include_extras=True).values():
         if get_origin(hint) is not Annotated:

@@ -107,19 +107,10 @@ class Bush:
         return whole
 
     def give(self, wrench: Array) -> tuple[Array, Array]:
-        """Return its large deflection in chassis axes at design.
+        """Return its large deflection in chassis axes at design, under a wrench on the second part.
 
-        Parameters
-        ----------
-        wrench : ndarray, shape (6,)
-            Force and moment on the joint's second part.
-
-        Returns
-        -------
-        moved : ndarray, shape (6,)
-            Displacement and rotation.
-        slopes : ndarray, shape (6, 6)
-            Their derivatives with respect to force and moment.
+        `wrench` is force and moment, (6,). The result is displacement and rotation, (6,), and their
+        derivatives with respect to force and moment, (6, 6).
         """
         slopes = self.compliance
         moved: Array = slopes @ wrench

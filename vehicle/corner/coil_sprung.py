@@ -195,12 +195,9 @@ class CoilSprung(Suspension):
     def parameters(self) -> dict[str, float]:
         """Return the parameters of the equations of motion, in SI units.
 
-        Returns
-        -------
-        dict of str to float
-            `shared_parameters`, ``spring_rate`` in N/m, ``spring_free_length`` in m and
-            ``damper_rate`` in N s/m; with anything of `beyond_the_plain` the further ones of
-            ``generated.double_wishbone_general``.
+        They are `shared_parameters`, ``spring_rate`` in N/m, ``spring_free_length`` in m and
+        ``damper_rate`` in N s/m; with anything of `beyond_the_plain` the further ones of
+        ``generated.double_wishbone_general``.
         """
         damper, points = self.damper, self.hardpoints
         general = bool(self.beyond_the_plain())

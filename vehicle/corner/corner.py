@@ -44,17 +44,9 @@ class CarrierMotion:
         return CarrierMotion(self.velocity / unit[..., None], self.turning / unit[..., None])
 
     def axis_nearest(self, center: Array) -> Array:
-        """Return the point on the screw axis of this motion nearest to the wheel centre.
+        """Return the point on the screw axis nearest to the wheel centre, (..., 3) [m].
 
-        Parameters
-        ----------
-        center : ndarray, shape (..., 3)
-            The wheel centre [m].
-
-        Returns
-        -------
-        ndarray, shape (..., 3)
-            [m]; infinite or NaN without rotation.
+        It is infinite or NaN without rotation.
         """
         square = np.einsum("...i,...i->...", self.turning, self.turning)[..., None]
         with np.errstate(divide="ignore", invalid="ignore"):

@@ -39,16 +39,9 @@ def geometry_problems(
     data: Mapping[str, Any],
     further: Callable[[Mapping[str, Any]], list[str]],
 ) -> list[str]:
-    """Return the problems of the geometry, from the sections that are valid alone.
+    """Return the problems of the geometry, from the sections of `data` that are valid alone.
 
-    Parameters
-    ----------
-    kind : type of Section
-        The kind of suspension.
-    data : mapping
-        The file's content.
-    further : callable
-        Returns further problems of the kind from these sections.
+    `further` returns further problems of the kind from these sections.
     """
     return problems_of_sections(_valid(kind, data), further)
 

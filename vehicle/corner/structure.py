@@ -80,16 +80,7 @@ class PartJoint(ABC):
     ) -> list[tuple[Array, Array]]:
         """Return directions of the first and of the second part that remain normal to each other.
 
-        Parameters
-        ----------
-        points, turned, design
-            As of `unit_loads`.
-        spin : ndarray, shape (3,)
-            The spin axis of the wheel at design.
-
-        Returns
-        -------
-        list of tuple of ndarray, each of shape (..., 3)
+        Arguments are as in `unit_loads`; `spin` is the spin axis of the wheel at design, (3,).
         """
         del points, turned, design, spin
         return []
@@ -324,12 +315,7 @@ class Structure:
 def steered(*joints: PartJoint, by: str) -> tuple[PartJoint, ...]:
     """Return joints with those of every steered wheel: tie rod and wheel bearing.
 
-    Parameters
-    ----------
-    *joints : PartJoint
-        Of the suspension.
-    by : str
-        The part that the tie rod is joined to.
+    `by` is the part that the tie rod is joined to.
     """
     return (
         *joints,

@@ -159,13 +159,7 @@ def differences(old: Suspension, new: Suspension) -> set[Place]:
 def fresh(text: str, suspension: Suspension, changed: Collection[Place] | None = None) -> str:
     """Return the text of a file in which the meaning of keys replaces comments on old values.
 
-    Parameters
-    ----------
-    text : str
-    suspension : Suspension
-        The suspension of the file.
-    changed : collection of tuple of str, optional
-        The places of changed values, by default of all.
+    `changed` are the places of changed values, by default of all.
     """
     lines, section, stale = [], "", False
     for line in text.splitlines():

@@ -19,16 +19,8 @@ _MOST_MM, _MOST_N = 1e3, 1e9
 def curve_of(given: Validator, title: str, described: Any, *, odd: bool) -> Curve | None:
     """Return the curve of ``{mm = [...], N = [...]}``; None if it is not valid.
 
-    It rises, and continues with the slope of its last two points, so that it carries any force.
-
-    Parameters
-    ----------
-    given : Validator
-        Collects problems.
-    title : str
-    described : mapping
-    odd : bool
-        Whether it begins at zero and is the same to both sides, as normal to an axis.
+    It rises, and continues with the slope of its last two points, so that it carries any force. An
+    `odd` curve begins at zero and is the same to both sides, as normal to an axis.
     """
     if not isinstance(described, Mapping) or {*described} - {_WAY} != {*_KEYS}:
         given.fail(

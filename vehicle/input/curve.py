@@ -43,13 +43,7 @@ def point_problems(
 ) -> list[str]:
     """Return the problem of number, order or size of the points of a curve.
 
-    Parameters
-    ----------
-    key : str
-        The key of the places in the file; the forces are ``force_N``.
-    unit : str
-        The unit of the places.
-    places, forces : tuple of float
+    `key` and `unit` are those of the places in the file; the forces are ``force_N``.
     """
     if len(places) != len(forces):
         problem = (

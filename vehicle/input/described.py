@@ -41,15 +41,8 @@ def described_by(path_or_name: str | Path) -> str:
 def check_keys(source: str, name: str, given: Any, words: str) -> None:
     """Refuse any object but a mapping with texts as keys.
 
-    Parameters
-    ----------
-    source : str
-        The source of the error.
-    name : str
-        Name of the argument.
-    given : Any
-    words : str
-        The expected content: 'places and values'.
+    `source` and `name`, of the argument, begin the message; `words` is the expected content:
+    'places and values'.
     """
     with Validator(source) as checked:
         for key in checked.mapping(name, given, words):

@@ -191,16 +191,7 @@ class Hardpoints(Section):
     def cross_problems(self, ends: Pair, link: str, axis: Vector, name: str) -> list[str]:
         """Return the problem of a link along the fixed axis of its universal joint.
 
-        Parameters
-        ----------
-        ends : tuple of str
-            The joint and the other end of the link.
-        link : str
-            The name of the link.
-        axis : numpy.ndarray
-            Direction of the joint's axis.
-        name : str
-            The name of this direction.
+        `ends` are the joint and the other end of the link; `name` is the name of the axis.
         """
         first, second = (self.metres(end) for end in ends)
         angle = angle_between_lines(second - first, axis)

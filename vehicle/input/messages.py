@@ -26,14 +26,7 @@ _EXPECTATIONS = {
 def messages_of(error: ValidationError, model: type[Section], data: Mapping[str, Any]) -> list[str]:
     """Return a message for each problem of a validation, beginning with section and key.
 
-    Parameters
-    ----------
-    error : pydantic.ValidationError
-        The error of the validation of `data`.
-    model : type of Section
-        The model of the whole file.
-    data : mapping
-        The file's content.
+    `model` is the model of the whole file, `data` its content.
     """
     details = error.errors(include_url=False)[:_MOST_LOOKED_AT]
     # a misspelt key is reported once, not a second time as missing

@@ -154,12 +154,7 @@ class SpringSection(Section):
     def parameters(self, at_design: float, *, general: bool) -> dict[str, Any]:
         """Return rate, free length and curve by the names in the equations, in SI units.
 
-        Parameters
-        ----------
-        at_design : float
-            Length at the design position [m].
-        general : bool
-            Whether the equations have a curve.
+        `at_design` is the length at the design position [m]; `general` equations have a curve.
         """
         values = {
             "spring_rate": self.rate_N_per_m or 0.0,

@@ -14,12 +14,7 @@ Array = NDArray[np.float64]
 def force_and_rate(parameters: Mapping[str, float], length: Array) -> tuple[Array, Array]:
     """Return the force [N] of a spring's curve and its rate [N/m]; zero without a curve.
 
-    Parameters
-    ----------
-    parameters : mapping
-        Of the equations.
-    length : ndarray, shape (...)
-        Distance of the spring's ends [m].
+    `parameters` are those of the equations, `length` the distance of the spring's ends [m].
     """
     if ends_of_table(parameters) is None:
         return np.zeros_like(length), np.zeros_like(length)

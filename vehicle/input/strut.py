@@ -104,12 +104,7 @@ class StrutSection(Section):
     def spring_problems(self, *, own_seats: bool, described: bool) -> list[str]:
         """Return the problem of a spring that is described twice, or not, or not by its own seats.
 
-        Parameters
-        ----------
-        own_seats : bool
-            Whether it has seats of its own.
-        described : bool
-            Whether another section describes it.
+        It has seats of its own if `own_seats`; if `described`, another section describes it.
         """
         keys = [key for key in (_RATE, *_FREE) if getattr(self, key) is not None]
         if described and keys:

@@ -48,17 +48,10 @@ def read_toml(file: Path | Traversable) -> dict[str, Any]:
 
 
 def read_sections(path: str | Path, known: Sequence[str], needed: str = "") -> dict[str, Any]:
-    """Return the content of a TOML file that has only known sections.
+    """Return the content of a TOML file that has only the sections and keys in `known`.
 
-    Raises `InputError` if it cannot be read, has other sections, or lacks the required one.
-
-    Parameters
-    ----------
-    path : str or pathlib.Path
-    known : sequence of str
-        The allowed sections and keys.
-    needed : str, optional
-        A required section: ``cases.NAME`` is one of several in ``cases``.
+    `needed` is a required section: ``cases.NAME`` is one of several in ``cases``. Raises
+    `InputError` if it is missing, there are others, or the file cannot be read.
     """
     with Validator("file") as given:
         given.path("path", path)

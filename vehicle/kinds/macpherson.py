@@ -253,13 +253,10 @@ spring a rate in `[strut]` or a curve in `[spring]`."""
     def parameters(self) -> dict[str, float]:
         """Return the parameters of the equations of motion, in SI units.
 
-        Returns
-        -------
-        dict of str to float
-            `shared_parameters`, ``strut_length_max`` and ``spring_free_slide`` in m,
-            ``spring_rate`` in N/m, ``damper_rate`` in N s/m; with anything of `beyond_the_paper`
-            ``spring_free_length`` instead of the slide, and the further ones of
-            ``generated.macpherson_general``.
+        They are `shared_parameters`, ``strut_length_max`` and ``spring_free_slide`` in m,
+        ``spring_rate`` in N/m, ``damper_rate`` in N s/m; with anything of `beyond_the_paper`
+        ``spring_free_length`` instead of the slide, and the further ones of
+        ``generated.macpherson_general``.
         """
         general = bool(self.beyond_the_paper())
         values = self.shared_parameters(optional_points=general)

@@ -38,13 +38,7 @@ def attitudes(
 ) -> Attitudes:
     """Return the attitudes of states whose rates are those along a coordinate.
 
-    Parameters
-    ----------
-    model : System
-    states : ndarray, shape (..., elements)
-    inputs : ndarray, shape (..., inputs), or None
-    closes : ndarray of bool, shape (...)
-        Whether the loops close; the attitudes of other states are NaN.
+    `closes` are the states whose loops close; the attitudes of others are NaN.
     """
     held = None if inputs is None else inputs[closes]
     closing = attitudes_at(model, states[closes], held)

@@ -182,12 +182,7 @@ def _stray(suspension: Suspension) -> Iterator[str]:
 def stray_points(points: Mapping[str, Array], unit: str) -> Iterator[str]:
     """Yield problems of points that are in metres in a file in millimetres.
 
-    Parameters
-    ----------
-    points : mapping of str to ndarray
-        Their positions [m], by their text in the file.
-    unit : str
-        The unit of the file.
+    `points` are positions [m] by their text in the file, `unit` is its unit.
     """
     for text, place in points.items():
         distance = float(np.linalg.norm(place))
@@ -223,16 +218,9 @@ def unlikely_rates(
 ) -> Iterator[str]:
     """Yield problems of tyre and masses, of tyre and spring, and of the damper.
 
-    Parameters
-    ----------
-    values : mapping
-        Rates by their names in the equations.
-    length : float
-        Length of the spring at design [m].
-    mass : float
-        Mass of all bodies of a wheel [kg].
-    key : callable
-        Returns the key of the rate of a part, "spring" or "damper", in the file.
+    `values` are rates by their names in the equations, `length` that of the spring at design [m],
+    `mass` that of all bodies of a wheel [kg]; `key` returns the key of the rate of a part, "spring"
+    or "damper", in the file.
     """
     tyre, damper = (values[f"{part}_rate"] for part in ("tyre", "damper"))
     spring = float(rate_at(values, np.array(length)))

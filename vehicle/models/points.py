@@ -72,13 +72,8 @@ def carried(
 ) -> dict[str, Array]:
     """Return the positions of points on moving bodies, (..., 3) [m].
 
-    Parameters
-    ----------
-    model : Model
-    points : mapping
-        By any names: the body, and the position at design, chassis axes [m].
-    state, inputs, poses
-        As of `hardpoints`.
+    `points` have any names: the body, and the position at design, chassis axes [m]. Other arguments
+    are as in `hardpoints`.
     """
     bodies, at_design = model.equations.BODIES, _centers_of_mass(model)
     if poses is None:
@@ -98,17 +93,10 @@ def carried(
 def carried_velocity(
     model: Model, body: str, place: Array, states: Array, inputs: Array | None = None
 ) -> Array:
-    """Return the velocity of the point of a body at a position, (..., 3) [m/s].
+    """Return the velocity of the point of a body at a position `place`, (..., 3) [m/s].
 
-    Parameters
-    ----------
-    model : Model
-    body : str
-    place : ndarray, shape (..., 3)
-        Position of the point [m].
-    states, inputs : ndarray
-        As in the compiled module. Velocities are linear in the rates: those at a unit rate are
-        derivatives.
+    `states` and `inputs` are as in the compiled module. Velocities are linear in the rates: those
+    at a unit rate are derivatives.
     """
     which = model.equations.BODIES.index(body)
     twist = model.evaluate("velocities", states, inputs)[..., which, :]

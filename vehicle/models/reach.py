@@ -231,15 +231,9 @@ def _connected(grid: Array, seen: PlacesAlong, design: int) -> Branch:
 def at_rest(
     model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0, *, arm_rate: float = 0.0
 ) -> tuple[Array, Array]:
-    """Return states and inputs with zero rates, except that of the arm.
+    """Return states and inputs with zero rates, except that of the arm [rad/s].
 
-    Parameters
-    ----------
-    model : Model
-    arm_angle, rack_position : array_like
-        [rad] and [m]; they are broadcast.
-    arm_rate : float, optional
-        Rate of the arm angle [rad/s].
+    Arm angles [rad] and rack positions [m] broadcast.
     """
     angles, racks = np.broadcast_arrays(np.asarray(arm_angle, float), rack_position)
     names = model.state_names
@@ -262,11 +256,7 @@ def height_and_slope(
 ) -> tuple[Array, Array]:
     """Return height [m] of the wheel centre and its exact derivative by the arm angle [m/rad].
 
-    Parameters
-    ----------
-    model : Model
-    arm_angle, rack_position : array_like
-        [rad] and [m]; they are broadcast.
+    Arm angles [rad] and rack positions [m] broadcast.
     """
     # velocities are linear in the rates: that at unit rate is the derivative
     states, inputs = at_rest(model, arm_angle, rack_position, arm_rate=1.0)

@@ -71,16 +71,9 @@ class PlacesAlong(NamedTuple):
 def resolved(width: Array, seen: PlacesAlong) -> NDArray[np.bool_]:
     """Return between which neighbours every position is usable.
 
-    Parameters
-    ----------
-    width : ndarray
-        Signed distance of two neighbours, equal along the last axis; broadcast with it.
-    seen : PlacesAlong
-
-    Returns
-    -------
-    ndarray of bool
-        One element less along the last axis; false if one of the two is not usable.
+    `width` is the signed distance of two neighbours, equal along the last axis, and broadcasts with
+    it. The result has one element less along the last axis; it is false if one of the two is not
+    usable.
     """
     both = seen.usable[..., :-1] & seen.usable[..., 1:]
     low, high = np.abs(seen.slope[..., :-1]), np.abs(seen.slope[..., 1:])
@@ -109,16 +102,9 @@ def _on_one_branch(width: Array, attitudes: Attitudes) -> NDArray[np.bool_]:
 
 
 def margins_stay(margins: Array) -> NDArray[np.bool_]:
-    """Return between which neighbours all margins stay positive.
+    """Return between which neighbours all margins stay positive, (..., places - 1).
 
-    Parameters
-    ----------
-    margins : ndarray, shape (..., places, margins)
-        At equal distances; three places or more.
-
-    Returns
-    -------
-    ndarray of bool, shape (..., places - 1)
+    `margins`, (..., places, margins), are at equal distances; three places or more.
     """
     bend = np.maximum(np.diff(margins, 2, axis=-2), 0.0)
     first, last = bend[..., :1, :], bend[..., -1:, :]

@@ -125,12 +125,7 @@ def roughness_of(given: Validator, roughness: str | float) -> float:
 def spectrum(at_reference: float, n: ArrayLike) -> Array:
     """Return the one-sided power spectral density of the heights [m^3].
 
-    Parameters
-    ----------
-    at_reference : float
-        G(n0) [m^3].
-    n : array_like
-        Spatial frequencies [1/m].
+    `at_reference` is G(n0) [m^3], `n` are spatial frequencies [1/m].
     """
     with np.errstate(divide="ignore"):
         found: Array = at_reference * (np.asarray(n, float) / REFERENCE) ** -2.0

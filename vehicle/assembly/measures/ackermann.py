@@ -123,17 +123,9 @@ def steering_ratio(
 ) -> Array:
     """Return the derivative of the steering wheel's angle with respect to the mean steer angle [1].
 
-    Parameters
-    ----------
-    left_gradient, right_gradient : ndarray
-        Derivatives of the steer angles with respect to rack travel [rad/m].
-    travel_per_turn : float or ndarray
-        Rack travel for one turn of the steering wheel [m].
-
-    Returns
-    -------
-    ndarray
-        Without sign; infinite if the rack does not steer.
+    Gradients are derivatives of the steer angles with respect to rack travel [rad/m];
+    `travel_per_turn` is the rack travel for one turn of the steering wheel [m]. The ratio has no
+    sign, and is infinite if the rack does not steer.
     """
     mean = 0.5 * (left_gradient + right_gradient)
     with np.errstate(divide="ignore"):

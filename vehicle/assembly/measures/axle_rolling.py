@@ -33,11 +33,8 @@ def inclination(pair: AxleKinematics, side: str) -> Array:
 def roll_center(pair: AxleKinematics) -> tuple[Array, Array]:
     """Return the intersection of the normals to the contacts' paths, in front view.
 
-    Returns
-    -------
-    lateral, height : ndarray
-        From the middle between the contacts, along the line through them to the left, and
-        perpendicular to it upward [m]; infinite if the normals are parallel.
+    It is measured from the middle between the contacts, along the line through them to the left,
+    and perpendicular to it upward [m]; infinite if the normals are parallel.
     """
     left, right = _contacts(pair)
     (a, b, c), (d, e, f) = (

@@ -67,18 +67,10 @@ def of_wheel(
     known_to: Callable[[Any], bool] = lambda _: True,
     definition: str = "",
 ) -> Measure:
-    """Return a measure of each wheel.
+    """Return a measure of each wheel; `formula` takes the kinematics and the name of a wheel.
 
-    Parameters
-    ----------
-    name : str
-        A name of `QUANTITIES`.
-    formula : callable
-        Takes the kinematics and the name of a wheel.
-    needs, known_to : optional
-        As in `Measure`.
-    definition : str, optional
-        By default that of the quantity.
+    `name` is one of `QUANTITIES`, whose definition is the default; `needs` and `known_to` are as in
+    `Measure`.
     """
     return Measure(_quantity(name, definition), formula, "wheel", needs, known_to)
 

@@ -36,11 +36,7 @@ class Pitching(Protocol):
 def braking(of: Pitching, side: str = "") -> Array:
     """Return anti-dive of a front axle, anti-lift of a rear axle, under braking [1].
 
-    Parameters
-    ----------
-    of : AxleKinematics or WholeAxleKinematics
-    side : str, optional
-        The wheel, of an `AxleKinematics`.
+    `side` is the wheel of an `AxleKinematics`.
     """
     front = of.vehicles[0].front_brake_share
     assert front is not None

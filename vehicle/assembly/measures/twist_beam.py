@@ -59,12 +59,7 @@ def jacking(of: WholeAxleKinematics, side: str) -> Array:
 def in_roll(of: WholeAxleKinematics, side: str, rate: Callable[..., Array]) -> Array:
     """Return the derivative of a quantity with respect to the roll of the body on the wheels.
 
-    Parameters
-    ----------
-    of : WholeAxleKinematics
-    side : str
-    rate : callable
-        Takes a wheel and the motion of its carrier, returns the rate of the quantity.
+    `rate` takes a wheel and the motion of its carrier, and returns the rate of the quantity.
     """
     # roll is positive with the right side of the body down, that is, with the right wheel up
     found: Array = -rate(of.corners[side], of.motion(side, "roll")) / of.inclination_rate

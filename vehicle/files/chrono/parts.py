@@ -80,10 +80,7 @@ class ChronoBody(Centre):
     def rigid(self, axes: Array) -> dict[str, Any]:
         """Return the section of a hardpoint file.
 
-        Parameters
-        ----------
-        axes : ndarray, shape (3, 3)
-            Axes of the inertia in the file, in columns.
+        `axes` are those of the inertia in the file, (3, 3), in columns.
         """
         named = elements(axes @ self._tensor() @ axes.T)
         return {

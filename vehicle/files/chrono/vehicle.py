@@ -344,11 +344,7 @@ class _Reader:
     def _steering(self, vehicle: VehicleFile, origin: Array) -> dict[str, Any]:
         """Return the section of the steering of the front axle; empty without steering.
 
-        Parameters
-        ----------
-        vehicle : VehicleFile
-        origin : ndarray, shape (3,)
-            Of the axes of the axle [m].
+        `origin` is that of the axes of the axle, (3,) [m].
         """
         index = vehicle.axles[0].steering
         for i, unused in enumerate(vehicle.steerings):

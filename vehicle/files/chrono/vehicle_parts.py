@@ -170,11 +170,7 @@ class RackPinion(_File):
     def steering(self, turned: Array, at: Array) -> tuple[dict[str, Any], str]:
         """Return the section of a rack in a rotated frame, and its assumptions.
 
-        Parameters
-        ----------
-        turned : ndarray, shape (3, 3)
-        at : ndarray, shape (3,)
-            Origin of the frame, which moves nothing.
+        Its origin `at` has no effect.
         """
         del at
         most = np.deg2rad(self.pinion.greatest) * self.pinion.radius
@@ -235,11 +231,7 @@ class PitmanArm(_File):
     def steering(self, turned: Array, at: Array) -> tuple[dict[str, Any], str]:
         """Return the section of a Pitman arm in a rotated frame, and its assumptions.
 
-        Parameters
-        ----------
-        turned : ndarray, shape (3, 3)
-        at : ndarray, shape (3,)
-            Origin of the frame [m].
+        `at` is the origin of the frame, (3,) [m].
         """
 
         def place(own: Point) -> list[float]:

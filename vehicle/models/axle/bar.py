@@ -337,15 +337,8 @@ class HalfBar:
     def turn(self, foot: Array) -> Array:
         """Return the angle of the half from design, right-handed about its axis [rad].
 
-        Parameters
-        ----------
-        foot : ndarray, shape (..., 3)
-            Position of the foot of the drop link [m].
-
-        Returns
-        -------
-        ndarray
-            NaN if the link does not reach.
+        `foot` is the position of the foot of the drop link, (..., 3) [m]. The angle is NaN if the
+        link does not reach.
         """
         cosine, sine, reach = self._equation(foot)
         amplitude = np.hypot(cosine, sine)
@@ -368,12 +361,8 @@ class HalfBar:
     def lever(self, foot: Array, turn: Array) -> tuple[Array, Array]:
         """Return direction and lever of the drop link.
 
-        Returns
-        -------
-        direction : ndarray, shape (..., 3)
-            Unit vector along the link from the foot to the bar.
-        lever : ndarray
-            Lever of a force in this direction about the bar's axis [m]; signed.
+        The direction is the unit vector along the link from the foot to the bar, (..., 3); the
+        lever of a force in this direction about the bar's axis is signed [m].
         """
         top = self.top_at(turn)
         link = top - foot
