@@ -41,6 +41,7 @@ _AROUND = np.array([0.9, 0.7])
 # Height of the first and of each further row of names below the panels [in].
 _BELOW, _FURTHER = 0.4, 0.2
 _IN_A_ROW = 4  # names below the panels
+_LETTERS_PER_INCH = 12  # of the title
 # Round values.
 _TICK_STEPS = [1, 2, 2.5, 5, 10]
 # A smaller variation, relative to the values, is rounding: the curve is constant.
@@ -140,7 +141,9 @@ def draw(
     shape = np.array(size) / (columns, rows) - _AROUND
     page = _Page(panels, free, curves, shape, alone, dense=width == _THIN)
     _name_lines(result, page, vertical=vertical)
-    result.suptitle("\n".join(line for line in (title, _held(dataset)) if line), fontsize=11)
+    lines = [line for line in (*title.split("\n"), _held(dataset)) if line]
+    most = int(_LETTERS_PER_INCH * result.get_figwidth())
+    result.suptitle("\n".join(fill(line, most) for line in lines), fontsize=11)
     return written_plainly(result)
 
 

@@ -8,7 +8,8 @@ from ...core.validator import Validator
 from ..assembly.by_wheel import WHEEL
 from ..models.sides import SIDES
 
-_SIDE = "side"
+SIDE = "side"
+"""The dimension of both wheels of an axle of a car."""
 
 
 def by_axle(dataset: xr.Dataset) -> xr.Dataset:
@@ -35,8 +36,8 @@ def by_axle(dataset: xr.Dataset) -> xr.Dataset:
             continue
         found = found.drop_vars(str(name))
         for end in ends:
-            own = data.sel({WHEEL: [f"{end}_{side}" for side in SIDES]}).rename({WHEEL: _SIDE})
-            own = own.assign_coords({_SIDE: list(SIDES)})
+            own = data.sel({WHEEL: [f"{end}_{side}" for side in SIDES]}).rename({WHEEL: SIDE})
+            own = own.assign_coords({SIDE: list(SIDES)})
             own.attrs |= {"long_name": f"{end}: {data.attrs.get('long_name', name)}"}
             found[f"{name}_{end}"] = own
     return found

@@ -13,6 +13,7 @@ from ..assembly.by_wheel import WHEEL
 from ..models.sides import SIDES
 from ..studies.goals import Goal, Limit, TargetValue
 from ..studies.sweep_axes import sweep_axis
+from .by_axle import SIDE
 
 _RED = "#aa0000"
 
@@ -30,7 +31,7 @@ def about(goals: Iterable[Goal], data: xr.DataArray, along: str) -> dict[str, li
     goals : iterable of Goal
         Those of other curves are left out.
     data : xarray.DataArray
-        The curves; those of both wheels of an axle are over ``wheel``.
+        The curves; those of both wheels of an axle are over ``wheel``, or of a car over ``side``.
     along : str
         The dimension along the axis.
 
@@ -48,7 +49,7 @@ def about(goals: Iterable[Goal], data: xr.DataArray, along: str) -> dict[str, li
     own = [goal for goal in goals if sweep_axis(goal.over).along.name == along]
     name = str(data.name)
     found = {"": [goal for goal in own if goal.name == name]}
-    if WHEEL in data.dims:
+    if WHEEL in data.dims or SIDE in data.dims:
         both = [[goal for goal in own if goal.name == f"{name}_{side}"] for side in SIDES]
         found[""] += [goal for goal in both[0] if _has_like(both[1], goal)]
         for side, some, others in zip(SIDES, both, reversed(both), strict=True):

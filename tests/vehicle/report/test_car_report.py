@@ -7,7 +7,9 @@ import kintrafo
 import numpy as np
 import pytest
 from browser import CHROMIUM, running
+from kintrafo import characteristics
 from kintrafo.vehicle.plots.by_axle import by_axle, names_by_axle
+from kintrafo.vehicle.plots.goals import about
 from kintrafo.vehicle.plots.ride import response_figures
 from kintrafo.vehicle.report.chapters import axle, handling
 from kintrafo.vehicle.report.chapters.goals import goals_chapter
@@ -89,6 +91,12 @@ def test_goals_of_wheels_are_in_the_curves_of_their_axles() -> None:
     (table,), (picture,) = chapter.tables, chapter.pictures
     assert table.rows[0][:2] == ("limit: camber, rear_left [deg]", "met")
     assert picture.words == "Curves over heave of the body with targets and limits"
+    curves = by_axle(characteristics.over(kintrafo.load("reference_vehicle"), "heave", [0.0]))
+    front, rear = (
+        about(wanted, curves[f"camber_{end}"], "body_heave") for end in ("front", "rear")
+    )
+    assert not any(front.values())
+    assert [*map(len, rear.values())] == [0, 1, 0]
 
 
 def test_one_wheel_has_no_motions_of_a_rig() -> None:

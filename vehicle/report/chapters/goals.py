@@ -3,6 +3,8 @@
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
+
 from ....core.quantities import display_of
 from ....core.tabulated import Tabulated, significant
 from ....core.validator import Validator
@@ -16,6 +18,8 @@ from ...studies.sweep_axes import sweep_axis
 from .chapter import Chapter, ChapterPicture
 from .curves import pictures, positions_of, with_wanted
 
+# With fewer positions curves have corners.
+_SMOOTH = 21
 _MEANING = (
     "A target is met if its deviation is at most its tolerance (within) at all of its positions. "
     "The column beyond has the further deviation of the worst position."
@@ -56,7 +60,10 @@ def goals_chapter(subject: Any, goals: Sequence[Goal]) -> Chapter:
 def _drawn(assembly: Assembly, goals: Sequence[Goal], over: str) -> tuple[ChapterPicture, ...]:
     """Return the curves that goals over something are about, with these."""
     own = [goal for goal in goals if goal.over == over]
-    dataset = curves_over(assembly, over, positions_of(assembly, over, own))
+    at = positions_of(assembly, over, own)
+    if at.size < _SMOOTH:  # turns and rides have few usual ones
+        at = np.unique(np.concatenate([at, np.linspace(at[0], at[-1], _SMOOTH)]))
+    dataset = curves_over(assembly, over, at)
     dataset = by_axle(dataset) if assembly.axles else dataset
     kind = "Compliance" if over in HELD else "Curves"
     words = f"{kind} over {sweep_axis(over).words} with targets and limits"
