@@ -1,17 +1,17 @@
-"""The application: what a vehicle engineer asks of a suspension, an axle, a car.
+"""The application for vehicle engineers: suspensions, axles and cars from input files.
 
-`data`      data sets that come with the project, and the file that a new project begins with
+`data`      data sets of the project, and the file that a new project begins with
 `tyres`     tyres from files, evaluated on arrays
 `roads`     roads under both tracks, by the distance along them
 `input`     the sections of an input file, each with its checks
-`corner`    what every kind of suspension has
+`corner`    base of all kinds of suspension
 `kinds`     a file for each kind of suspension
 `models`    suspensions, axles and rigid axles with compiled equations, and their positions
-`assembly`  what has wheels: one protocol for corner, axle and rigid axle
+`assembly`  one protocol for all assemblies with wheels: corner, axle and rigid axle
 `files`     input files of any assembly, their schema, tables of points, files of other programs
-`analysis`  what is asked of an assembly
-`studies`   what becomes of the answers where values of the file change
-`plots`, `report`, `notebook`, `cli`    what a person sees
+`analysis`  characteristics, motions and linearizations of an assembly
+`studies`   variation, tolerances, fits and optimization of values of the file
+`plots`, `report`, `notebook`, `cli`    figures, pages, displays in notebooks, and commands
 """
 
 from ..notebook import show

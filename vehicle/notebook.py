@@ -1,4 +1,4 @@
-"""What a notebook shows of suspensions, axles, models and their motions, as HTML."""
+"""HTML displays of suspensions, axles, models and their motions in notebooks."""
 
 from collections.abc import Iterable
 
@@ -16,7 +16,7 @@ from .plots.curves import figure, grouped
 from .plots.overview import from_behind
 from .plots.whole_axle import views
 
-# Of a motion so many groups of curves are drawn, those that are looked at first.
+# Number of groups of curves drawn of a motion: those looked at first.
 _GROUPS = 2
 
 
