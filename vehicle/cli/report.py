@@ -35,7 +35,6 @@ EXAMPLES = (
     "kintrafo report reference_axle",
     "kintrafo report rigid_axle --loads",
     "kintrafo report quarter_car",
-    "kintrafo report driving_car --goals understeer.toml",
     "kintrafo report my_mechanism.py",
 )
 
