@@ -1,13 +1,13 @@
-"""What happens to the characteristics where values of the input file change.
+"""Studies that change values of the input file.
 
-`cars`           the curves of many cars, each with values of its own
-`sensitivity`    by how much each value moves each characteristic
-`tolerance`      bands and yield of many cars that differ as drawings allow
+`cars`           characteristics of many cars with different values
+`sensitivity`    derivatives of characteristics with respect to values
+`tolerance`      bands and yield of many cars with random values within tolerances
 `optimise`       values that bring characteristics to targets, within limits
-`pareto`         values that no others beat in several objectives
-`fit`            errors of the file that explain curves which were measured
-`sweep`          the motion over a grid of values
-`read`, `limits` a file of tolerances or of targets, and its limits
+`pareto`         the Pareto front of several objectives
+`fit`            errors of the file that explain measured curves
+`sweep`          simulations over a grid of values
+`read`, `limits` a file of tolerances, targets and limits, and its limits
 `goals`, `judge` its targets and limits, and which of them a suspension meets
 """
 
@@ -21,22 +21,6 @@ from .sweep import sweep
 from .tolerance import tolerance
 
 __all__ = [
-    "Effect",
-    "Fit",
-    "Fitted",
-    "Front",
-    "Optimum",
-    "Verdict",
-    "cars",
-    "effects",
-    "fit",
-    "goals",
-    "judge",
-    "limits",
-    "optimise",
-    "pareto",
-    "read",
-    "sensitivity",
-    "sweep",
-    "tolerance",
-]
+    "Effect", "Fit", "Fitted", "Front", "Optimum", "Verdict", "cars", "effects", "fit", "goals",
+    "judge", "limits", "optimise", "pareto", "read", "sensitivity", "sweep", "tolerance",
+]  # fmt: skip

@@ -22,9 +22,10 @@ class SweepAxis:
     known : mapping of str to Quantity
         The curves over it, by the names of their columns.
     words : str
-        'wheel travel'.
+        Name in titles and messages, such as 'wheel travel'.
     curves : callable, optional
-        Returns the curves of an assembly at some positions, if they are not those of a motion.
+        A function that returns the curves of an assembly at some positions, if they are not those
+        of a motion.
     usual : tuple of float, optional
         The usual positions of such curves, SI units.
     at : float, optional
@@ -55,7 +56,7 @@ class SweepAxis:
 
 
 def number_of(value: Any) -> Any:
-    """Return the number that a text is; all other values as they are, to be checked."""
+    """Return a text that is a number as a number, and other values unchanged."""
     if not isinstance(value, str):
         return value
     try:

@@ -1,10 +1,10 @@
-"""Characteristics of many suspensions that differ in values of their files, all together.
+"""Characteristics of many suspensions that differ in values of their files.
 
-They go through one evaluation of the equations with constants of their own, some hundred at a time,
-on all cores. The results agree with those of single suspensions to rounding: both ways find the
-arm's angle for a height to its last digits, by different steps. Suspensions that cannot be built
-like the others, or may not reach all positions, are evaluated one by one; so are all of them if an
-equation refuses a position, so that the reasons are those of single suspensions.
+Some hundred suspensions are evaluated together, on all cores, each with its own constants. The
+results agree with those of single suspensions to rounding: the arm's angles are found to their last
+digits in both cases, by different steps. Suspensions that cannot be built like the others, or may
+not reach all positions, are evaluated one by one; so are all of them if the equations have no
+solution at a position, so that the reasons are those of single suspensions.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -32,25 +32,24 @@ from .curves import Curves, changed
 from .design_variables import DesignVariable, is_factor, names_bushes
 from .evaluation import Subject
 
-# Cars of a batch: enough that work done once for all is negligible, and few enough that their
-# results stay in the cache.
+# Cars of a batch: many enough to make common work negligible, few enough for the cache.
 _TOGETHER = 256
-# Fewer cars are quicker one by one.
+# Fewer cars are evaluated faster one by one.
 _FEWEST = 3
-# How often those who are in the way are left out before all go one by one.
+# Attempts to evaluate a batch without those that fail, before all are evaluated one by one.
 _MOST_TRIES = 8
 
 Finish = Callable[[slice, list[Array], list[str]], None]
 
 
 def moved_by(places: Sequence[DesignVariable], off: Array) -> dict[str, Array]:
-    """Return the values of many files, by place and in its unit there.
+    """Return the values of many files by place, in the unit of the file.
 
     Parameters
     ----------
     places : sequence of DesignVariable
     off : ndarray, shape (count, places)
-        By how much they are off, SI units.
+        Deviations from the values of the file, SI units.
     """
     return {
         name: column
@@ -68,21 +67,21 @@ def curves_of_many(
     threads: int | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> None:
-    """Evaluate some curves of many suspensions.
+    """Evaluate curves of many suspensions.
 
     Parameters
     ----------
     suspension : Suspension, Axle or RigidAxle
-        What they are otherwise; axles and rigid axles are evaluated one by one.
+        The nominal subject; axles and rigid axles are evaluated one by one.
     values : mapping of str to ndarray, shape (count,)
-        What they have of their own, by place, in the unit of the file.
+        Values of each suspension by place, in the unit of the file.
     looks : sequence of Curves
     finish : callable
-        Called for some suspensions at a time, from the thread of the caller: which they are, the
-        values of each look, (some, names, positions), and a reason for each, empty where it has
-        curves; without they are NaN.
+        Called for some suspensions at a time, from the thread of the caller, with their slice, the
+        values of each of `looks`, (some, names, positions), and a reason for each suspension
+        without curves, whose values are NaN; other reasons are empty.
     threads : int, optional
-        By default as many as there are cores.
+        By default the number of cores.
     progress : callable, optional
         Called with the part that is done, up to 1.
     """
@@ -111,14 +110,13 @@ def _some(
     looks: Sequence[Curves],
     unwanted: Callable[[], bool],
 ) -> tuple[list[Array], list[str]]:
-    """Return the values of each look and the reasons, of some suspensions."""
+    """Return the curves of some suspensions, and reasons for those without."""
     count = next(iter(values.values())).size
     found = [np.full((count, len(look.names), look.positions.size), np.nan) for look in looks]
     reasons = [""] * count
     together = np.zeros(count, dtype=bool)
     alone = any(look.over in HELD for look in looks)
-    alone = alone or any(map(is_factor, values))
-    alone = alone or any(map(names_bushes, values))
+    alone = alone or any(is_factor(place) or names_bushes(place) for place in values)
     if isinstance(suspension, Suspension) and count >= _FEWEST and not alone:
         together = _together(suspension, values, looks, found)
     for car in np.flatnonzero(~together).tolist():
@@ -142,7 +140,7 @@ def _together(
     looks: Sequence[Curves],
     found: Sequence[Array],
 ) -> NDArray[np.bool_]:
-    """Fill what can be found of all together, and return for whom."""
+    """Evaluate suspensions together into `found`, and return for which this was possible."""
     nominal = _in_file(suspension, values)
     valid = np.ones(next(iter(values.values())).size, dtype=bool)
     for _ in range(_MOST_TRIES):
@@ -153,7 +151,7 @@ def _together(
         try:
             curves, fit = _of_batch(suspension, whole, looks)
         except ClosureError as error:
-            # of one that is at a position which the equations refuse
+            # the first suspension at a position without a solution
             which = error.index[0] - 1 if error.index else -1
             if which < 0:
                 break
@@ -172,28 +170,22 @@ def _together(
 def _of_batch(
     suspension: Suspension, whole: Mapping[str, Array], looks: Sequence[Curves]
 ) -> tuple[list[Array], NDArray[np.bool_]]:
-    """Return the curves of all behind the first, if all of them can be, and who can be."""
+    """Return the curves of all but the first, if all are valid, and which of them are."""
     batch = ModelBatch(suspension, whole, free_rack=bool(suspension.neglected_masses()))
     corners = [list(_corners(batch, look)) for look in looks if batch.valid.all()]
     if not batch.valid.all():
         return [], batch.valid[1:]
-    every = [_values(look, own) for look, own in zip(looks, corners, strict=True)]
-    shape = batch.valid.size
-    curves = [
-        np.stack(
-            [np.broadcast_to(by[n], (shape, look.positions.size))[1:] for n in look.names], axis=1
-        )
-        for look, by in zip(looks, every, strict=True)
-    ]
+    curves = []
+    for look, own in zip(looks, corners, strict=True):
+        by, shape = _values(look, own), (batch.valid.size, look.positions.size)
+        curves.append(np.stack([np.broadcast_to(by[n], shape)[1:] for n in look.names], axis=1))
     return curves, batch.valid[1:]
 
 
 def _corners(batch: ModelBatch, look: Curves) -> Iterator[Corner]:
-    """Yield the corner at the positions of a look, and those of both sides if they are needed.
+    """Yield the corner at the positions of curves; if needed also the other side, and the centre.
 
-    These are that of the other side, and the own one with the rack in its middle.
-
-    Suspensions that do not reach the positions are taken out, and no more corners follow then.
+    Suspensions that do not reach the positions become invalid, and the corners end there.
     """
     at = look.positions
     still = np.zeros(at.size)
@@ -218,7 +210,7 @@ def _values(look: Curves, corners: Sequence[Corner]) -> dict[str, Array]:
 
 
 def _in_file(suspension: Suspension, places: Mapping[str, Array]) -> dict[str, float]:
-    """Return the numbers that a file has in some places."""
+    """Return the numbers of a file in some places."""
     data = suspension.to_dict()
     found = {}
     for place in places:

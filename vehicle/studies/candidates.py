@@ -1,4 +1,4 @@
-"""Suspensions of which some values are free, and what they do where there are goals."""
+"""Suspensions with some free values, and their characteristics at the positions of goals."""
 
 from collections.abc import Iterable, Mapping, Sequence
 
@@ -13,7 +13,7 @@ from .design_variables import DesignVariable
 from .evaluation import Subject
 from .goals import Goal
 
-# Nearer to the end of its range than this part of it, a value is at the end.
+# A value this close to the end of its range, as a part of it, is at the end.
 _AT_THE_END = 1e-6
 
 
@@ -24,7 +24,7 @@ class Candidates:
     ----------
     suspension : Suspension, Axle or RigidAxle
     reach : mapping of DesignVariable to float
-        How far values may move to either side [SI].
+        Largest change of each value to either side [SI].
     goals : sequence of Goal
     """
 
@@ -45,7 +45,7 @@ class Candidates:
         return changed(self.suspension, changes)
 
     def values(self, x: Array) -> list[Array] | None:
-        """Return the values of the characteristic of each goal; None where there are none."""
+        """Return the values of the characteristic of each goal; None if one has no value."""
         key = x.tobytes()
         if key not in self._values:
             try:
@@ -57,7 +57,7 @@ class Candidates:
         return self._values[key]
 
     def look_at(self, several: Iterable[Array]) -> None:
-        """Look at several suspensions together, so that `values` has them."""
+        """Evaluate several suspensions together for later calls of `values`."""
         new = {x.tobytes(): x for x in several if x.tobytes() not in self._values}
         if not new:
             return
@@ -74,7 +74,7 @@ class Candidates:
         curves_of_many(self.suspension, moved_by(self.places, off), looks, seen)
 
     def ends(self, x: Array, which: int) -> tuple[list[Array] | None, list[Array] | None]:
-        """Return what `values` returns at the two ends of the range of one value."""
+        """Return `values` at both ends of the range of one free value."""
         ends = np.array([x, x])
         ends[:, which] = -1.0, 1.0
         low, high = (self.values(end) for end in ends)
@@ -87,17 +87,15 @@ class Candidates:
 
     @property
     def impossible(self) -> int:
-        """How many of them cannot be, or do not reach a position."""
+        """Number of evaluated suspensions that cannot be built, or do not reach a position."""
         return sum(values is None for values in self._values.values())
 
-    # -- words ------------------------------------------------------------------------------------
-
     def at_the_end(self, x: Array) -> list[str]:
-        """Name the values that are at an end of their range."""
+        """Return the names of values at an end of their range."""
         pairs = zip(self.places, x, strict=True)
         return [place.name for place, part in pairs if abs(part) > 1.0 - _AT_THE_END]
 
     def moved(self, x: Array) -> dict[str, float]:
-        """Return by how much values have moved, in the display units, by name."""
+        """Return the changes of values in display units, by name."""
         pairs = zip(self.places, x * self.reach, strict=True)
         return {place.name: float(by / place.to_si) for place, by in pairs}

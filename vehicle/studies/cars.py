@@ -1,4 +1,4 @@
-"""The curves of many cars that differ in values of the input file, labelled once."""
+"""Characteristics of many cars that differ in values of the input file."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -17,9 +17,9 @@ from .design_variables import DesignVariable, places_of
 from .evaluation import Subject, check_subject
 
 CAR = "car"
-"""The dimension of values that are given as rows of numbers."""
+"""Dimension of values that are rows of numbers."""
 
-# So many numbers take 0.8 GB.
+# They take 0.8 GB.
 _MOST_NUMBERS = 100_000_000
 
 _REDUCTIONS: dict[str, tuple[str, Callable[[Array], Array]]] = {
@@ -28,7 +28,7 @@ _REDUCTIONS: dict[str, tuple[str, Callable[[Array], Array]]] = {
     "mean": ("mean of", lambda rows: rows.mean(axis=-1)),
     "range": ("range of", lambda rows: np.ptp(rows, axis=-1)),
 }
-"""What may be kept of the curves of a car instead: over its positions, each counted alike."""
+"""Reductions of the curves of a car over its positions, with equal weights."""
 
 
 def cars(
@@ -54,18 +54,18 @@ def cars(
         ``hardpoints.ball_joint.z``, in the display unit (mm, deg, N/m). Rows of numbers are over
         the dimension ``car``; of a dataset, all combinations along its dimensions are cars.
     over, positions, names, held, progress
-        As of `sensitivity`. Travel counts from each car's own design position.
+        As in `sensitivity`. Travel is measured from each car's own design position.
     reductions : sequence of str, optional
-        Keep 'min', 'max', 'mean' or 'range' of the curves instead of them, over the positions.
+        'min', 'max', 'mean' or 'range' of the curves over the positions, instead of the curves.
     threads : int, optional
-        By default as many as there are cores.
+        By default the number of cores.
 
     Returns
     -------
     xarray.Dataset
         Over the dimensions of the cars and the positions: the characteristics, or instead of each
-        ``..._min`` and so on; and ``reason``, empty for a car with curves. Cars that cannot be
-        built, or do not reach all positions, have NaN and a reason.
+        ``..._min`` and so on; and ``reason``, empty for a car with curves. Curves of cars that
+        cannot be built, or do not reach all positions, are NaN.
 
     Raises
     ------
@@ -74,9 +74,9 @@ def cars(
 
     Notes
     -----
-    Cars are evaluated together, some hundred at a time. The results agree with those of single cars
-    to rounding, some 1e-12 of a curve. Cars at the end of their reach, or beyond, are evaluated one
-    by one.
+    Some hundred cars are evaluated together. The results agree with those of single cars to
+    rounding, some 1e-12 of a curve. Cars at the end of their reach, or beyond, are evaluated one by
+    one.
 
     Examples
     --------
@@ -110,15 +110,7 @@ def cars(
 
 
 class _Collected:
-    """The results of the cars.
-
-    Parameters
-    ----------
-    curves : Curves
-    kept : tuple of str
-        Reductions; without any, the curves.
-    count : int
-    """
+    """The curves of a number of cars, or their reductions if there are some."""
 
     def __init__(self, curves: Curves, kept: tuple[str, ...], count: int) -> None:
         self.curves, self.kept = curves, kept
@@ -127,7 +119,7 @@ class _Collected:
         self.reasons = np.full(count, "", dtype=object)
 
     def take(self, some: slice, found: list[Array], reasons: list[str]) -> None:
-        """Keep what was found of some of them."""
+        """Store the curves and reasons of some cars."""
         self.reasons[some] = reasons
         rows = found[0]
         if not self.kept:
@@ -141,7 +133,7 @@ class _Collected:
 def _columns(
     given: Validator, suspension: Subject, values: Any, over: str
 ) -> tuple[dict[str, Array], xr.DataArray]:
-    """Return the values of each car by place, in the unit of the file, and their dimensions."""
+    """Return the values of each car by place, in the unit of the file, and a frame of zeros."""
     if not isinstance(values, xr.Dataset):
         rows = {}
         for name, row in given.mapping("values", values, "places and rows of numbers").items():

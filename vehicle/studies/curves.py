@@ -1,4 +1,4 @@
-"""The characteristics of a study, for a suspension whose values change."""
+"""The characteristics of a study and their positions."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -24,7 +24,7 @@ class Curves:
     Attributes
     ----------
     over : str
-        Of `sweep_axes.ALL_AXES`, with its options; or the support of the wheel under loads.
+        One of `sweep_axes.ALL_AXES`, with its options; or the support of the wheel under loads.
     positions : ndarray
         [m]; over roll [rad].
     names : tuple of str
@@ -37,11 +37,11 @@ class Curves:
 
     @property
     def along(self) -> Quantity:
-        """What varies along them."""
+        """The quantity of the positions."""
         return sweep_axis(self.over).along
 
     def quantity(self, name: str) -> Quantity:
-        """Return what a name represents."""
+        """Return the quantity of a characteristic."""
         return sweep_axis(self.over).known[name]
 
     def of(self, assembly: Assembly) -> Array:
@@ -57,7 +57,7 @@ class Curves:
 
 
 class CurveBundle:
-    """Curves that are evaluated together: at once over each way."""
+    """Curves of which those over one axis are evaluated together."""
 
     def __init__(self, curves: Sequence[Curves]) -> None:
         self._curves = tuple(curves)
@@ -84,10 +84,10 @@ S = TypeVar("S", bound=Subject)
 
 
 def changed(suspension: S, changes: Mapping[str, float]) -> S:
-    """Return a suspension or an axle with other values, or the same; of lists by a factor."""
-    return (
-        cast("S", suspension.with_changes(scaled(suspension, changes))) if changes else suspension
-    )
+    """Return a subject with other values, in the units of the file; lists change by a factor."""
+    if not changes:
+        return suspension
+    return cast("S", suspension.with_changes(scaled(suspension, changes)))
 
 
 def curves_of(
@@ -124,7 +124,7 @@ def curves_of(
 
 
 def _held(given: Validator, suspension: Subject, over: Any, held: Any) -> Any:
-    """Check what holds the wheels under loads, and return it."""
+    """Return the checked support of the wheels under loads."""
     usual = sweep_axes_of(suspension)[0]
     if over != usual:
         given.fail(
@@ -138,7 +138,7 @@ def _held(given: Validator, suspension: Subject, over: Any, held: Any) -> Any:
 
 
 def refuse_bushes(given: Validator, places: Iterable[DesignVariable], overs: Iterable[str]) -> None:
-    """Refuse bushes where no result is one of compliance, so that joints are rigid."""
+    """Add an error for values of bushes in a study without compliance."""
     soft = [place.name for place in places if place.of_bushes]
     if soft and not any(over in HELD for over in overs):
         given.fail(

@@ -1,4 +1,4 @@
-"""The numbers of an input file that may vary, and how they are called."""
+"""The numbers of an input file that may vary, and their names."""
 
 import math
 import re
@@ -20,21 +20,21 @@ from .evaluation import Subject
 
 _SPACES = str.maketrans("._", "  ")
 _DEG = math.pi / 180.0
-# of an amount by which a value of a file may move, in the unit of the file
+# limits of the change of a value, in the unit of the file
 _LEAST, _GREATEST = 1e-12, 1e12
 _TO_SI = {"mm": 1e-3, "deg": _DEG, "N/mm^3": 1e9, "N/mm": 1e3, "N m/deg": 1.0 / _DEG}
 _SI = {"mm": "m", "deg": "rad", "N/mm^3": "N/m^3", "N/mm": "N/m", "N m/deg": "N m/rad", "": "1"}
 
 
-# What begins the values of one side of an axle whose image the other one is, and of a side apart;
-# before them is the end of a car at which the axle is.
+# Beginnings of the names of values of mirrored sides and of a single side, the latter after the end
+# of a car.
 _SIDE, _APART = "side.", re.compile(r"(front\.|rear\.|)(right|left)\.")
 # Sections of points in the unit of the hardpoints: of a file, and of each rod of a rigid axle.
 _POINTS, _RODS = ("hardpoints.", "left_hardpoints."), "rods."
 _OF_A_BAR = ("bush", "link_top", "link_foot")
-# Ends of other keys that have three numbers, and directions.
+# Ends of other keys of three numbers, and keys of directions.
 _PLACES, _AXES = ("com_mm", "pivot_mm", "ball_mm"), ("axis", "idler_axis")
-# The list of a file that varies by a factor on all of it: the forces of a spring's curve.
+# The list that varies by a common factor: the forces of a spring's curve.
 _SCALED = "spring.force_N"
 
 
@@ -46,13 +46,13 @@ class DesignVariable:
     ----------
     name : str
         Section and key with dots between them, and the component of a point:
-        ``hardpoints.ball_joint.z``. That of a list represents a factor on all of it.
+        ``hardpoints.ball_joint.z``. The name of a list is that of a factor on all of it.
     unit : str
-        In which a person reads it: ``mm``, ``deg``, ``N/m``; empty for a pure number.
+        Display unit: ``mm``, ``deg``, ``N/m``; empty for a pure number.
     value : float
-        In this unit; of a factor 1.
+        In this unit; 1 for a factor.
     in_file : float
-        What a value in this unit is multiplied with in the file: 0.001 for hardpoints in metres.
+        Factor from this unit to that of the file: 0.001 for hardpoints in metres.
     """
 
     name: str
@@ -62,12 +62,12 @@ class DesignVariable:
 
     @property
     def of_bushes(self) -> bool:
-        """Whether it is one of a bush."""
+        """Whether it is a value of a bush."""
         return names_bushes(self.name)
 
     @property
     def words(self) -> str:
-        """What it is called for a person: ``ball joint z``, ``strut spring rate``."""
+        """The name in words: ``ball joint z``, ``strut spring rate``."""
         words = f".{without_unit(self.name)}".replace(f".{_SIDE}", ".", 1)[1:]
         words = words.replace("hardpoints.", "", 1)
         return words.translate(_SPACES) + (" factor" if is_factor(self.name) else "")
@@ -91,16 +91,16 @@ class DesignVariable:
         }
 
     def moved(self, by: float) -> dict[str, float]:
-        """Return the change of the file that moves the value by an amount in SI units."""
+        """Return the value of the file after a change in SI units, by its name."""
         return {self.name: (self.value + by / self.to_si) * self.in_file}
 
     def moved_all(self, by: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
-        """Return the changes of many files, as `moved` of each."""
+        """Return the values of many files, as `moved` for each."""
         return {self.name: (self.value + by / self.to_si) * self.in_file}
 
 
 def names_bushes(pattern: str) -> bool:
-    """Return whether a place, or a pattern of places, is in the section of the bushes."""
+    """Return whether a place, or a pattern of places, is in a section of bushes."""
     return "bushings" in pattern.split(".")[:3]
 
 
@@ -108,17 +108,13 @@ def places_of(suspension: Subject) -> dict[str, DesignVariable]:
     """Return every number of the files of a suspension or an axle, by name."""
     return {
         f"{begin}{place.name}": replace(place, name=f"{begin}{place.name}")
-        for begin, sections in _sections(suspension).items()
+        for begin, sections in assembly_of(suspension).design_sections.items()
         for place in _places(sections, "", _units_of_points(sections))
     }
 
 
-def _sections(subject: Subject) -> dict[str, dict[str, Any]]:
-    return assembly_of(subject).design_sections
-
-
 def _units_of_points(sections: dict[str, Any]) -> dict[str, float]:
-    """Return what millimetres are multiplied with in sections of points; takes their units out."""
+    """Return the factors from mm to the units of sections of points, and remove these units."""
     factors = {
         section: 1e-3 if sections[section].pop("unit") == "m" else 1.0
         for section in ("hardpoints", "anti_roll_bar")
@@ -129,16 +125,15 @@ def _units_of_points(sections: dict[str, Any]) -> dict[str, float]:
 
 
 def matching(given: Validator, suspension: Subject, patterns: Any) -> dict[str, DesignVariable]:
-    """Return the numbers that some patterns name, in the order of the file.
+    """Return the numbers whose names match patterns, in the order of the file.
 
     Parameters
     ----------
     given : Validator
-        Gets what is wrong.
+        Collects the errors.
     suspension : Suspension
     patterns : sequence of str
-        A number, or all within a section or a point; ``*`` represents anything:
-        ``hardpoints.*.z``.
+        Names of numbers, sections or points; ``*`` matches any text: ``hardpoints.*.z``.
     """
     known = places_of(suspension)
     lists = _lists_of(suspension)
@@ -148,7 +143,11 @@ def matching(given: Validator, suspension: Subject, patterns: Any) -> dict[str, 
     if not (texts and patterns):
         given.fail(f"places = {shown(patterns)}: a list of places is needed.")
         return {}
-    for pattern in (_of_both(pattern, known) for pattern in patterns):
+    for given_pattern in patterns:
+        # a name without side or end is that of both sides, or of both axles of a car
+        tried = (given_pattern, f"{_SIDE}{given_pattern}", f"*.{given_pattern}")
+        fitting = (p for p in tried if any(_fits(name, p) for name in known))
+        pattern = next(fitting, given_pattern)
         found = {name for name in known if _fits(name, pattern) and _is_meant(name, pattern, known)}
         if not found and pattern in lists:
             given.fail(f"{pattern} is a list, as of a curve; single numbers vary. Leave it out.")
@@ -169,19 +168,10 @@ def matching(given: Validator, suspension: Subject, patterns: Any) -> dict[str, 
     return {name: place for name, place in known.items() if name in wanted}
 
 
-def _of_both(pattern: str, known: Mapping[str, DesignVariable]) -> str:
-    """Return a pattern that names a value of a side, of an axle: that of one and its image.
-
-    Of a car it is that of both of its axles.
-    """
-    tried = (pattern, f"{_SIDE}{pattern}", f"*.{pattern}")
-    return next((p for p in tried if any(_fits(name, p) for name in known)), pattern)
-
-
 def _is_meant(name: str, pattern: str, known: Mapping[str, DesignVariable]) -> bool:
-    """Return whether a pattern means a value: of sides that are images, each only by its name."""
+    """Return whether a fitting pattern includes a value: one of mirrored sides only by its name."""
     if is_factor(name) and pattern.rpartition(".")[2] != name.rpartition(".")[2]:
-        return False  # an amount is meant for numbers of other units
+        return False  # amounts of a section are in units of its numbers
     found = _APART.match(name)
     if found is None or not any(other.startswith(f"{found[1]}{_SIDE}") for other in known):
         return True
@@ -189,7 +179,7 @@ def _is_meant(name: str, pattern: str, known: Mapping[str, DesignVariable]) -> b
 
 
 def _hint(pattern: str, known: Mapping[str, DesignVariable]) -> str:
-    """Return what a pattern may have meant that names nothing of a file."""
+    """Return a suggestion for a pattern without a match."""
     has_bushes = any(place.of_bushes for place in known.values())
     if names_bushes(pattern) and not has_bushes:
         return "The file has no [bushings]. Add them."
@@ -203,10 +193,9 @@ def _hint(pattern: str, known: Mapping[str, DesignVariable]) -> str:
 def amounts(
     given: Validator, suspension: Subject, by_pattern: Mapping[str, Any], what: str
 ) -> dict[DesignVariable, float]:
-    """Return an amount in SI units for every number that a pattern names; later patterns count.
+    """Return an amount in SI units for every number that a pattern matches, the last one if many.
 
-    They are in the order of the file, for any order of the patterns. A text such as "20 %" is a
-    part of each value.
+    They are in the order of the file. An amount such as "20 %" is a part of each value.
     """
     found: dict[str, tuple[DesignVariable, float]] = {}
     for pattern, amount in by_pattern.items():
@@ -222,7 +211,7 @@ def amounts(
 
 
 def _part_of(given: Validator, title: str, text: str, place: DesignVariable) -> float:
-    """Return what a text such as "20 %" is of a value, in its unit."""
+    """Return a text such as "20 %" as an amount of a value, in its unit."""
     percent = re.fullmatch(r"\s*(\d+(?:\.\d*)?)\s*%\s*", text)
     if percent is None:
         given.fail(f'{title} = "{text}": a number is needed, or a text such as "20 %".')
@@ -238,12 +227,12 @@ def _fits(name: str, pattern: str) -> bool:
 
 
 def is_factor(name: str) -> bool:
-    """Return whether a place has a list, and what varies is a factor on all of it."""
+    """Return whether a place is a list that varies by a factor."""
     return name == _SCALED or name.endswith(f".{_SCALED}")
 
 
 def scaled(suspension: Subject, changes: Mapping[str, float]) -> dict[str, Any]:
-    """Return changes of a file with lists in place of the factors on them."""
+    """Return changes of a file with factors replaced by the lists that they multiply."""
     if not any(map(is_factor, changes)):
         return {**changes}
     lists = _lists_of(suspension)
@@ -254,13 +243,13 @@ def scaled(suspension: Subject, changes: Mapping[str, float]) -> dict[str, Any]:
 
 
 def _lists_of(suspension: Subject) -> dict[str, Sequence[float]]:
-    """Return the lists that are no points, such as the forces of a curve, by name."""
-    every = _sections(suspension).items()
+    """Return the lists other than points, such as the forces of a curve, by name."""
+    every = assembly_of(suspension).design_sections.items()
     return {f"{begin}{name}": one for begin, table in every for name, one in _lists(table)}
 
 
 def _lists(table: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Sequence[float]]]:
-    """Yield the lists that are no points, by their names."""
+    """Yield the lists other than points, by their names."""
     for key, value in table.items():
         if isinstance(value, Mapping):
             yield from _lists(value, f"{above}{key}.")
@@ -281,7 +270,7 @@ def _places(
             yield from _places(value, f"{name}.", in_file)
             continue
         if above.startswith("bushings.") and key == "axis":
-            continue  # a direction, whose length does not count
+            continue  # a direction of any length
         of_points = above in _POINTS or above.startswith(_RODS)
         of_points = of_points or (above == "anti_roll_bar." and key in _OF_A_BAR)
         factor = in_file.get(above.rstrip("."), in_file[""])

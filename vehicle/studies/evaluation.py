@@ -21,18 +21,18 @@ from ..models.whole_axle import WholeAxle
 from .sweep_axes import sweep_axis
 
 Subject = Suspension | Axle | WholeAxle | Car
-"""What has design variables: the numbers of its files."""
+"""Subjects with design variables, the numbers of their files."""
 
 _NEEDED = "a kintrafo.Suspension, kintrafo.Axle, kintrafo.RigidAxle or kintrafo.Car is needed"
 
 
 def check_subject(given: Validator, subject: Any) -> None:
-    """Refuse what has no design variables."""
+    """Add an error for a subject without design variables."""
     given.instance("suspension", subject, (Suspension, Axle, WholeAxle, Car), _NEEDED)
 
 
 def check_held_subject(given: Validator, subject: Any) -> None:
-    """Refuse a subject without design variables, and a car, whose body moves."""
+    """Add an error for a subject without design variables, or a car."""
     check_subject(given, subject)
     if isinstance(subject, Car):
         given.fail(
@@ -42,8 +42,8 @@ def check_held_subject(given: Validator, subject: Any) -> None:
 
 
 def usual_positions(assembly: Assembly, over: str) -> Array:
-    """Return the usual positions, as far as the wheels go, SI units."""
-    if over in assembly.motions:  # some are no axis of studies, such as those of the steering
+    """Return the usual positions within the reach of the wheels, SI units."""
+    if over in assembly.motions:  # also motions without an axis, such as those of the steering
         return assembly.usual(over)
     if usual := sweep_axis(over).usual:
         return np.array(usual)
@@ -51,14 +51,14 @@ def usual_positions(assembly: Assembly, over: str) -> Array:
 
 
 def common_positions(assemblies: Sequence[Assembly], over: str) -> Array:
-    """Return the usual positions that all of some cars reach, SI units, zero included."""
+    """Return the usual positions that all of some cars reach, with zero, SI units."""
     if usual := sweep_axis(over).usual:
         return np.array(usual)
     return common_to(assemblies, assemblies[0].usual_motion if over in HELD else over)
 
 
 def curves_over(assembly: Assembly, over: str, positions: Array) -> xr.Dataset:
-    """Return all characteristics over a motion, or all compliances, to be drawn."""
+    """Return all characteristics over a motion, or all compliances."""
     if over in HELD:
         found = linear(assembly, None, positions, held=cast("WheelSupport", over))
         return found.drop_dims(["moved", "by"])
@@ -69,7 +69,7 @@ def curves_over(assembly: Assembly, over: str, positions: Array) -> xr.Dataset:
 def values_of(
     assembly: Assembly, over: str, positions: Array, names: Collection[str] | None = None
 ) -> dict[str, Array]:
-    """Return characteristics or compliances by the names of their columns, all or some."""
+    """Return all or some characteristics or compliances, by the names of their columns."""
     of_a_motion = over not in HELD and sweep_axis(over).curves is None
     if of_a_motion and not assembly.axles:
         return assembly.values(over, positions, names)
@@ -78,7 +78,7 @@ def values_of(
 
 
 def available(assembly: Assembly, over: str) -> tuple[str, ...]:
-    """Return the characteristics, or compliances, for which the file has the data."""
+    """Return the names of characteristics or compliances for which the file has the data."""
     if over in HELD and not assembly.has_bushes:
         return ()
     return tuple(values_of(assembly, over, np.array([sweep_axis(over).at])))

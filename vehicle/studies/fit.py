@@ -1,4 +1,4 @@
-"""Errors of the input file that explain curves which were measured on a rig."""
+"""Errors of the input file that explain curves measured on a rig."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -19,13 +19,13 @@ from .search import Search, in_words, least
 from .sweep_axes import UNDER_LOADS, given_axis, sweep_axes_of, sweep_axis
 from .tolerance import SIGMAS
 
-# A curve is measured to this part of what it varies by, where nothing is said.
+# Default accuracy of a curve, as a part of its range.
 _USUAL_ACCURACY = 0.02
-# Points of a curve that count as if their errors were independent: neighbours on a rig err alike.
+# Number of independent points of a curve: errors of neighbours on a rig are alike.
 _INDEPENDENT = 10
-# Of what a value may be off by, a measurement that explains less than this part explains nothing.
+# Values whose variance is reduced by less than this part are not determined by the measurement.
 _LEAST_DETERMINED = 0.1
-# A curve of a car whose errors are found is farther off than this once in a hundred times.
+# Probability that errors of measurement alone exceed the residual of an explained curve.
 _CHANCE = 0.01
 # Greatest deviation of a constant position [m].
 _HELD = 1e-4
@@ -33,17 +33,17 @@ _HELD = 1e-4
 
 @dataclass(frozen=True)
 class Fitted:
-    """A characteristic before and after.
+    """A measured characteristic before and after the fit.
 
     Attributes
     ----------
     name : str
     points : int
-        How many there are.
+        Number of points.
     within : float
-        How well it is taken to be measured [SI].
+        Assumed accuracy of the measurement [SI].
     before, after : float
-        Root of the mean squared deviation [SI].
+        Root mean square of the deviations [SI].
     """
 
     name: str
@@ -54,9 +54,9 @@ class Fitted:
 
     @property
     def is_explained(self) -> bool:
-        """Whether the residual is within that of measurement errors in 99 of 100 cases.
+        """Whether the residual is within that of errors of measurement in 99 of 100 cases.
 
-        The sum of squares of as many independent errors as count is that of chi-squared.
+        Sums of squares of independent errors have the chi-squared distribution.
         """
         from scipy.stats import chi2  # noqa: PLC0415 (slow to import)
 
@@ -72,24 +72,24 @@ class Fit:
     Attributes
     ----------
     suspension : Suspension, Axle or RigidAxle
-        With the values that explain it best.
+        The subject with the most probable values.
     start : Suspension, Axle or RigidAxle
-        The one that was given.
+        The given subject.
     places : tuple of DesignVariable
-        The values that may be off, as they were.
+        The uncertain values, as given.
     moved : dict of str to float
-        By how much each is off, in the display unit.
+        The change of each value, in the display unit.
     uncertainty : dict of str to float
-        Its standard deviation with the measurement known, in the same unit.
+        The standard deviation of each value after the measurement, in the same unit.
     determined : dict of str to float
-        From 0 to 1, which part of the variance that its tolerance leaves the measurement takes
-        away: near 0 the curves do not determine the value, and it stays where it was.
+        The part by which the measurement reduces the variance of each value, 0 to 1: near 0 the
+        curves do not determine the value, and it does not change.
     curves : tuple of Fitted
     success : bool
         Whether the solver converged and every curve is explained: the remaining deviations are
-        within those that errors of its accuracy cause in 99 of 100 cases.
+        within those by errors of its accuracy in 99 of 100 cases.
     message : str
-        What there is to say about it.
+        Remarks.
     evaluations : int
         Number of evaluated suspensions.
     """
@@ -123,20 +123,20 @@ def fit(
     ----------
     suspension : Suspension, Axle or RigidAxle
     measured : xarray.Dataset
-        From `kintrafo.rig.measured_curves`; the steering straight ahead, or the wheel at design.
-        Compliance by the names of `kintrafo.compliance.linear` may be among the curves over wheel
-        travel, if the file has its bushes.
+        From `kintrafo.rig.measured_curves`, with straight steering, or the wheel at design. Curves
+        over wheel travel may be compliance by the names of `kintrafo.compliance.linear`, if the
+        file has bushes.
     tolerances : mapping of str to float or str
-        How far values may be off to either side, as of `tolerance`: normally distributed with a
-        third of it as standard deviation. None is moved farther. A text such as ``"30 %"`` is a
-        part of the value, as of the stiffness of a bush.
+        Tolerance of values to either side, as in `tolerance`: normally distributed with a third of
+        it as standard deviation, and a limit of the change. A text such as ``"30 %"`` is a part of
+        the value, as of the stiffness of a bush.
     accuracy : mapping of str to float, optional
-        Standard deviation with which characteristics are measured, in the display unit. By
-        default 2 % of what the curve varies by.
+        Standard deviation of measured characteristics, in the display unit. By default 2 % of the
+        range of the curve.
     names : sequence of str, optional
-        Which of the curves are to be explained; by default all.
+        The curves to explain; by default all.
     held : {'height', 'tyre', 'spring', 'locked'}, optional
-        What held the wheel when compliance was measured, see `kintrafo.compliance.linear`.
+        Support of the wheels in the measurement of compliance, see `kintrafo.compliance.linear`.
     over : str, optional
         Axis of the curves of a car, with its options:
         ``lateral_acceleration:radius_m=60``. Steady turns are at 100 km/h by default.
@@ -151,16 +151,16 @@ def fit(
     Raises
     ------
     InputError
-        If an argument cannot be used, or nothing that may be off moves a curve.
+        If an argument cannot be used, or no uncertain value moves a curve.
     PositionError
-        If the suspension does not reach a position as it is.
+        If the given suspension does not reach a position.
 
     Notes
     -----
-    The most probable values, by SciPy's ``least_squares``: the sum of the squared deviations of the
-    curves, each in parts of its accuracy, and of the values, each in parts of its standard
-    deviation. Uncertainties are those of first order there. A curve of more than 10 points counts
-    as 10, since neighbours on a rig err alike.
+    The most probable values, by SciPy's ``least_squares``, minimise the sum of squared deviations
+    of the curves, each divided by its accuracy, and of the values, each divided by its standard
+    deviation. Uncertainties are of first order. Curves of more than 10 points have the weight of
+    10, since errors of neighbours on a rig are alike.
 
     Examples
     --------
@@ -202,9 +202,9 @@ def _targets(
     names: Any,
     how: tuple[Mapping[str, Any], WheelSupport, Any],
 ) -> list[TargetValue]:
-    """Return the measured curves as targets, without the cells that are empty."""
+    """Return the measured curves as targets, without empty cells."""
     accuracies, held_by, asked = how
-    # parallel travel is the first of the ways over wheel travel
+    # parallel travel is the first of the axes over wheel travel
     ways = {sweep_axis(way).along.name: way for way in reversed(sweep_axes_of(suspension))}
     over = [name for name in ways if name in measured.dims]
     if len(over) != 1:
@@ -270,15 +270,15 @@ def _target(given: Validator, curve: xr.DataArray, over: str, accuracy: Any) -> 
 
 
 def _repeated(points: int) -> float:
-    """Return what deviations are divided by, so that many count as independent ones do."""
+    """Return the factor of the accuracy of a point that gives a curve the weight of 10 points."""
     return float(np.sqrt(max(1.0, points / _INDEPENDENT)))
 
 
 def _fit(search: Search, x: Array, gave_up: str) -> Fit:
-    """Return what was found in words and numbers."""
+    """Return the result with its uncertainty and message."""
     slopes = search.slopes(x)
     variances = np.diag(np.linalg.inv(slopes.T @ slopes))
-    # before, each value has a third of its range as standard deviation
+    # the standard deviation before the measurement is a third of the range
     determined = 1.0 - variances * SIGMAS**2
     curves = _curves(search, x)
     names = [place.name for place in search.places]
@@ -316,7 +316,7 @@ def _curves(search: Search, x: Array) -> tuple[Fitted, ...]:
 
 
 def _deviations(search: Search, x: Array) -> Iterable[float]:
-    """Return the root of the mean squared deviation of each curve."""
+    """Return the root mean square of the deviations of each curve."""
     found = search.values(x)
     if found is None:
         found = [np.full(target.at.size, np.nan) for target in search.targets]

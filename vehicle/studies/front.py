@@ -1,4 +1,4 @@
-"""Which of many candidates no other one beats in everything."""
+"""The Pareto front of candidates with several costs, and its representatives."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,17 +9,17 @@ Indices = NDArray[np.intp]
 
 
 def unbeaten(costs: Array) -> Indices:
-    """Return which rows are as good as can be: none is better in a cost and as good in the others.
+    """Return the rows that no other one dominates by being lower in a cost and higher in none.
 
     Parameters
     ----------
     costs : ndarray, shape (candidates, objectives)
-        Less is better.
+        Lower is better.
 
     Returns
     -------
     ndarray
-        Indices, by their first cost; of rows that are alike the first.
+        Indices, sorted by their first cost; only the first of equal rows.
 
     Examples
     --------
@@ -29,7 +29,7 @@ def unbeaten(costs: Array) -> Indices:
     rows, left = np.unique(costs, axis=0, return_index=True)
     found = []
     while left.size:
-        # none of those that are left comes before it in all costs: the rows are sorted
+        # no remaining row is lower in all costs, since rows are sorted
         found.append(left[0])
         better_somewhere = (rows < rows[0]).any(axis=1)
         rows, left = rows[better_somewhere], left[better_somewhere]
@@ -37,13 +37,13 @@ def unbeaten(costs: Array) -> Indices:
 
 
 def spread(costs: Array, count: int) -> Indices:
-    """Return which rows represent a front: the best in each cost, then what is farthest from those.
+    """Return rows that represent a front: the best in each cost, then the farthest from these.
 
     Parameters
     ----------
     costs : ndarray, shape (candidates, objectives)
     count : int
-        How many at most.
+        Number of rows at most.
 
     Returns
     -------
@@ -67,7 +67,7 @@ def spread(costs: Array, count: int) -> Indices:
 
 
 def compromise(costs: Array) -> int:
-    """Return which row is nearest to the best of all costs, each in parts of its range.
+    """Return the row nearest to the best of all costs, each relative to its range.
 
     Examples
     --------
@@ -78,7 +78,7 @@ def compromise(costs: Array) -> int:
 
 
 def in_parts(costs: Array) -> Array:
-    """Return costs from 0, the best of a front, to 1, the worst."""
+    """Return costs scaled from 0, the best of a front, to 1, the worst."""
     extent = np.ptp(costs, axis=0)
     parts: Array = (costs - costs.min(axis=0)) / np.where(extent > 0.0, extent, 1.0)
     return parts

@@ -1,4 +1,4 @@
-"""Targets and limits of characteristics, as a file or a caller gives them."""
+"""Targets and limits of characteristics, from a file or an argument."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -29,31 +29,24 @@ from .sweep_axes import (
 )
 
 _SECTIONS = (
-    "distribution",
-    "tolerances",
-    "free",
-    "targets",
-    "minimise",
-    "maximise",
-    "limits",
-    "accuracy",
-)
+    "distribution", "tolerances", "free", "targets", "minimise", "maximise", "limits", "accuracy",
+)  # fmt: skip
 # Axes that are not named in titles.
 _USUAL = ("travel", "bump", "heave")
-# No characteristic is as great as this in any unit, and no deviation as small matters.
+# Greatest value of a characteristic and least deviation in a file, in display units.
 GREATEST, LEAST = 1e9, 1e-9
 
 
 @dataclass(frozen=True)
 class Goal:
-    """Something about a characteristic at some positions.
+    """A characteristic at some positions, with a target or a limit.
 
     Attributes
     ----------
     name : str
         Characteristic.
     over : str
-        Of `sweep_axes.ALL_AXES`, with its options; or what holds the wheel under loads.
+        One of `sweep_axes.ALL_AXES`, with its options; or the support of the wheel under loads.
     at : ndarray, shape (n,)
         Positions [m]; over roll [rad].
     """
@@ -64,34 +57,34 @@ class Goal:
 
     @property
     def quantity(self) -> Quantity:
-        """What the name represents."""
+        """The quantity of the characteristic."""
         return sweep_axis(self.over).known[self.name]
 
     @property
     def over_words(self) -> str:
-        """What follows the name where it is not over the usual: `` over the rack``."""
+        """The axis after a name, such as `` over the rack``; empty for the usual axis."""
         usual = self.over in _USUAL or self.over in HELD
         return "" if usual else f" over {sweep_axis(self.over).words}"
 
     @property
     def curves(self) -> Curves:
-        """What has to be evaluated for it."""
+        """The curves of the characteristic at its positions."""
         return Curves(self.over, self.at, (self.name,))
 
 
 @dataclass(frozen=True)
 class TargetValue(Goal):
-    """What a characteristic is wanted to be.
+    """A target of a characteristic.
 
     Attributes
     ----------
     name, over, at
-        As of `Goal`.
+        As in `Goal`.
     value : ndarray, shape (n,)
         SI units.
     within : float
-        A deviation that matters, SI units: deviations are compared in parts of it. NaN where it
-        was left out since it plays no part, as of `pareto`.
+        A deviation that matters, SI units, the unit of deviations; NaN if it is not needed and left
+        out, as in `pareto`.
     """
 
     value: Array
@@ -100,14 +93,14 @@ class TargetValue(Goal):
 
 @dataclass(frozen=True)
 class Limit(Goal):
-    """What a characteristic must not pass.
+    """A limit of a characteristic.
 
     Attributes
     ----------
     name, over, at
-        As of `Goal`.
+        As in `Goal`.
     least, most : float
-        SI units; infinite where there is none.
+        Bounds, SI units; infinite if there is none.
     """
 
     least: float
@@ -119,21 +112,21 @@ class Limit(Goal):
 
     @property
     def sides(self) -> list[tuple[float, float]]:
-        """The bounds that there are, with the sign of the room beside them."""
+        """The finite bounds, with 1 for a lower and -1 for an upper bound."""
         return [(s, b) for s, b in ((1.0, self.least), (-1.0, self.most)) if np.isfinite(b)]
 
     @property
     def size(self) -> float:
-        """What room is measured by."""
+        """The unit of room, that of the greater bound."""
         return max(abs(bound) for _, bound in self.sides) or 1.0
 
     def room(self, values: Array) -> Array:
-        """Return how much room there is to every bound, in parts of the size; negative beyond."""
+        """Return the distances to the bounds, in parts of the size; negative beyond a bound."""
         return np.concatenate([sign * (values - bound) / self.size for sign, bound in self.sides])
 
 
 def read(path: str | Path) -> dict[str, Any]:
-    """Read a TOML file of tolerances, free values, targets and limits.
+    """Return the sections of a TOML file of tolerances, free values, targets and limits.
 
     Parameters
     ----------
@@ -142,25 +135,25 @@ def read(path: str | Path) -> dict[str, Any]:
     Returns
     -------
     dict
-        The sections that it has.
+        By the name of the section.
 
     Raises
     ------
     InputError
-        If it cannot be read, or has something else.
+        If it cannot be read, or has other sections.
     """
     return read_sections(path, _SECTIONS)
 
 
 def limits(described: Mapping[str, Any], ways: Sequence[str] = OF_CORNERS) -> list[Limit]:
-    """Return limits for a picture, as those of `tolerance` and `optimise`.
+    """Return limits from tables as in `tolerance` and `optimise`.
 
     Parameters
     ----------
     described : mapping
         By characteristic.
     ways : sequence of str, optional
-        As of `goals`.
+        As in `goals`.
     """
     with Validator("limits") as given:
         tables = given.mapping("limits", described, "names and limits")
@@ -168,15 +161,15 @@ def limits(described: Mapping[str, Any], ways: Sequence[str] = OF_CORNERS) -> li
 
 
 def goals(described: Mapping[str, Any], ways: Sequence[str] = OF_CORNERS) -> list[Goal]:
-    """Return the targets and limits of a file that was read, to be drawn and judged.
+    """Return the targets and limits of a file.
 
     Parameters
     ----------
     described : mapping
-        From `read`; other sections are left to others.
+        From `read`; other sections are not used.
     ways : sequence of str, optional
-        Motions that goals may be over; the first one is the default: ``travel`` and
-        ``rack``, or of an axle, also a rigid one, ``bump``, ``roll``, ``left`` and ``right``.
+        Motions of the goals, the first one by default: ``travel`` and ``rack``, or of an axle, also
+        a rigid one, ``bump``, ``roll``, ``left`` and ``right``.
 
     Returns
     -------
@@ -185,10 +178,10 @@ def goals(described: Mapping[str, Any], ways: Sequence[str] = OF_CORNERS) -> lis
     with Validator("goals") as given:
         sections = given.mapping("described", described, "sections and tables")
         known = _ways(given, ways)
-        return [
-            *targets_of(given, _section(given, sections, "targets"), known),
-            *limits_of(given, _section(given, sections, "limits"), known),
-        ]
+        targets, limits = (
+            given.mapping(name, sections.get(name, {}), "tables") for name in ("targets", "limits")
+        )
+        return [*targets_of(given, targets, known), *limits_of(given, limits, known)]
 
 
 def _ways(given: Validator, ways: Any) -> Sequence[str]:
@@ -199,10 +192,6 @@ def _ways(given: Validator, ways: Any) -> Sequence[str]:
     return names or OF_CORNERS
 
 
-def _section(given: Validator, sections: Mapping[str, Any], name: str) -> Mapping[str, Any]:
-    return given.mapping(name, sections.get(name, {}), "tables")
-
-
 def words_of(kind: str, name: str, over: str) -> str:
     """Return a goal in words: ``limit: scrub radius [mm] over the rack``.
 
@@ -211,7 +200,7 @@ def words_of(kind: str, name: str, over: str) -> str:
     kind : str
         'target' or 'limit'.
     name, over : str
-        As of `Goal`.
+        As in `Goal`.
     """
     quantity = sweep_axis(over).known[name]
     words = f"{kind}: {bracketed(quantity.long_name, quantity.attributes())}"
@@ -227,15 +216,15 @@ class Verdict:
     Attributes
     ----------
     name, over : str
-        The characteristic, and what it is over; or what holds the wheel under loads.
+        The characteristic, and its axis or the support of the wheel under loads.
     kind : str
         'target' or 'limit'.
     met : bool
         Whether all of its positions are within the limit, or within ``within`` of the target.
     beyond : float
-        Deviation of the worst position beyond that, SI units; negative within it.
+        Excess of the worst position, SI units; negative within the limit.
     at : float
-        That position [m]; over roll [rad].
+        The worst position [m]; over roll [rad].
     """
 
     name: str
@@ -263,7 +252,7 @@ def judge(suspension: Any, wanted: Sequence[Goal]) -> list[Verdict]:
     Raises
     ------
     InputError
-        If the file has not the data that one of them needs.
+        If the file lacks data for one of them.
     PositionError
         If the suspension does not reach a position.
 
@@ -299,25 +288,15 @@ def _verdict(goal: Goal, values: Array) -> Verdict:
 
 
 def check_goals(given: Validator, name: str, wanted: Any) -> None:
-    """Refuse anything but a list of goals."""
+    """Add an error for anything but a list of goals."""
     if not isinstance(wanted, list | tuple) or not all(
         isinstance(one, TargetValue | Limit) for one in wanted
     ):
         given.fail(f"{name}: a list of targets and limits, from `variation.goals`, is needed.")
 
 
-def check_data(
-    given: Validator,
-    suspension: Any,
-    goals: Iterable[Goal],
-) -> None:
-    """Refuse goals about what the suspension has not: no data in the file, or no number there.
-
-    Parameters
-    ----------
-    given : Validator
-    suspension : Suspension, Axle or RigidAxle
-    goals : iterable of Goal
+def check_data(given: Validator, suspension: Any, goals: Iterable[Goal]) -> None:
+    """Add errors for goals of characteristics without data in the file, or without a finite value.
 
     Raises
     ------
@@ -355,10 +334,10 @@ def targets_of(
     *,
     weighed: bool = True,
 ) -> list[TargetValue]:
-    """Read targets, by the names of characteristics; in millimetres and display units.
+    """Return targets by the names of characteristics, in millimetres and display units.
 
-    A characteristic has a table, or several in a list: over travel and over the rack. Where targets
-    are not weighed against each other, ``within`` may be left out; where it is given it is checked.
+    A characteristic has a table, or a list of tables, as over travel and over the rack. ``within``
+    may be left out if targets are not weighed against each other.
     """
     found = []
     for name, table in _tables(given, described, ("targets", ways), {"value", "within"}):
@@ -371,13 +350,13 @@ def targets_of(
 def extremes_of(
     given: Validator, described: Mapping[str, Any], section: str, ways: Sequence[str]
 ) -> list[Goal]:
-    """Read which characteristics are to be small or great, and where, as `targets_of`."""
+    """Return characteristics to minimise or maximise, with their positions, as `targets_of`."""
     found = _tables(given, described, (section, ways), set())
     return [Goal(name, table.over, table.at) for name, table in found]
 
 
 def limits_of(given: Validator, described: Mapping[str, Any], ways: Sequence[str]) -> list[Limit]:
-    """Read limits, by the names of characteristics, as `targets_of`."""
+    """Return limits by the names of characteristics, as `targets_of`."""
     found = []
     for name, table in _tables(given, described, ("limits", ways), {"least", "most"}):
         least, most = (
@@ -394,7 +373,7 @@ def limits_of(given: Validator, described: Mapping[str, Any], ways: Sequence[str
 
 @dataclass(frozen=True)
 class _Table:
-    """A table of a file about one characteristic."""
+    """A table of a file for one characteristic."""
 
     given: Validator
     title: str
@@ -435,7 +414,11 @@ def _tables(
     given: Validator, described: Mapping[str, Any], of: tuple[str, Sequence[str]], keys: set[str]
 ) -> Iterable[tuple[str, _Table]]:
     section, ways = of
-    for name, table in _listed(described):
+    for name, table in (
+        (name, table)
+        for name, tables in described.items()
+        for table in (tables if isinstance(tables, list | tuple) else [tables])
+    ):
         title = f"[{section}.{name}]"
         if not isinstance(table, Mapping):
             at_key = sweep_axis(ways[0]).key
@@ -465,10 +448,3 @@ def _tables(
         )
         positions = np.atleast_1d(at) / factor
         yield name, _Table(given, title, table, over, positions, shown.units, shown.factor)
-
-
-def _listed(described: Mapping[str, Any]) -> Iterable[tuple[str, Any]]:
-    """Yield every table with its name, those of lists one after the other."""
-    for name, tables in described.items():
-        for table in tables if isinstance(tables, list | tuple) else [tables]:
-            yield name, table

@@ -1,4 +1,4 @@
-"""Candidates of many generations, by the genetic algorithm NSGA-II of pymoo."""
+"""Generations of candidates by the genetic algorithm NSGA-II of pymoo."""
 
 from collections.abc import Callable
 
@@ -9,7 +9,7 @@ _PURPOSE, _EXTRA = "A Pareto front", "pareto"
 
 
 def check_installed() -> None:
-    """Raise an error with the remedy where pymoo is not installed."""
+    """Raise an error with the remedy if pymoo is not installed."""
     require("pymoo.algorithms.moo.nsga2", purpose=_PURPOSE, extra=_EXTRA)
 
 
@@ -20,29 +20,24 @@ def evolve(
     generations: int,
     seed: int,
 ) -> None:
-    """Have the candidates of some generations judged.
+    """Call a function for the candidates of some generations.
 
     Parameters
     ----------
     judge : callable
-        Takes candidates, of shape (n, values), each value from -1 to 1. Returns their costs and by
-        how much they exceed each of their limits, where 0 and less is none.
+        A function of candidates, of shape (n, values), each value from -1 to 1. It returns their
+        costs and their excess over each limit, positive beyond it.
     first : ndarray, shape (population, values)
         The first generation.
     counts : tuple of int
-        How many costs and limits there are.
+        Numbers of costs and limits.
     generations : int
     seed : int
-        Of the generator of random numbers.
+        Seed of the generator of random numbers.
     """
     nsga2, problems, static, evaluators = (
         require(f"pymoo.{module}", purpose=_PURPOSE, extra=_EXTRA)
-        for module in (
-            "algorithms.moo.nsga2",
-            "core.problem",
-            "problems.static",
-            "core.evaluator",
-        )
+        for module in ("algorithms.moo.nsga2", "core.problem", "problems.static", "core.evaluator")
     )
     objectives, limits = counts
     problem = problems.Problem(
@@ -54,7 +49,7 @@ def evolve(
     while algorithm.has_next():
         candidates = algorithm.ask()
         if candidates is None:
-            return  # pymoo finds no candidate that it has not had
+            return  # pymoo finds no new candidate
         costs, excess = judge(candidates.get("X"))
         judged = static.StaticProblem(problem, F=costs, G=excess)
         evaluators.Evaluator().eval(judged, candidates)

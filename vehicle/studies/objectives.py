@@ -1,4 +1,4 @@
-"""What of a suspension is to be as small, or as great, as can be: one number for each."""
+"""Objectives of a suspension, numbers to minimise or to maximise."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -14,28 +14,24 @@ from .sweep_axes import sweep_axis
 
 Kind = Literal["deviation", "greatest", "least"]
 
-# Of several positions, and of one.
-_WORDS = {
-    "deviation": "deviation of {} (rms)",
-    "greatest": "greatest {}",
-    "least": "least {}",
-}
+# Words for several positions, and for one.
+_WORDS = {"deviation": "deviation of {} (rms)", "greatest": "greatest {}", "least": "least {}"}
 _WORDS_OF_ONE = {"deviation": "deviation of {}", "greatest": "{}", "least": "{}"}
 
 
 @dataclass(frozen=True)
 class Objective:
-    """A number that judges a suspension.
+    """A number of a suspension that is minimised or maximised.
 
     Attributes
     ----------
     name : str
-        Of the variable in a dataset: ``toe_deviation``.
+        Name of the variable in a dataset: ``toe_deviation``.
     kind : str
-        'deviation', the root mean square of what a target is missed by, and 'greatest', the
-        greatest value at some positions, are to be small; 'least', the least value, is to be great.
+        'deviation', the root mean square of deviations from a target, and 'greatest', the greatest
+        value at some positions, are minimised; 'least', the least value, is maximised.
     goal : Goal
-        The goal that it is about; of a deviation a `TargetValue`.
+        The characteristic and its positions; a `TargetValue` for a deviation.
     """
 
     name: str
@@ -43,14 +39,14 @@ class Objective:
     goal: Goal
 
     def of(self, values: Array) -> float:
-        """Return the number that some values of the characteristic make; SI units."""
+        """Return the objective from values of the characteristic, SI units."""
         if isinstance(self.goal, TargetValue):
             return float(np.sqrt(np.mean((values - self.goal.value) ** 2)))
         return float(values.max() if self.kind == "greatest" else values.min())
 
     @property
     def sign(self) -> float:
-        """What the number is multiplied with so that less is better."""
+        """Factor with which less is better."""
         return -1.0 if self.kind == "least" else 1.0
 
     def attributes(self) -> dict[str, Any]:
@@ -73,16 +69,13 @@ def objectives_of(
     maximise: Mapping[str, Any],
     ways: Sequence[str],
 ) -> list[Objective]:
-    """Read objectives: deviations from targets, greatest and least values."""
+    """Return objectives: deviations from targets, greatest and least values."""
     goals: dict[Kind, Sequence[Goal]] = {
         "deviation": targets_of(given, targets, ways, weighed=False),
         "greatest": extremes_of(given, minimise, "minimise", ways),
         "least": extremes_of(given, maximise, "maximise", ways),
     }
     found = [(kind, goal) for kind, several in goals.items() for goal in several]
-    names = distinct([_name(kind, goal) for kind, goal in found])
+    overs = [goal.over_words.replace(" the ", " ").replace(" ", "_") for _, goal in found]
+    names = distinct([f"{g.name}{over}_{k}" for (k, g), over in zip(found, overs, strict=True)])
     return [Objective(name, kind, goal) for name, (kind, goal) in zip(names, found, strict=True)]
-
-
-def _name(kind: Kind, goal: Goal) -> str:
-    return f"{goal.name}{goal.over_words.replace(' the ', ' ').replace(' ', '_')}_{kind}"

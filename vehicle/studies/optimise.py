@@ -25,11 +25,11 @@ from .search import (
 )
 from .sweep_axes import sweep_axes_of
 
-# What it costs to move a value over all of its range, in deviations that matter: of what does as
-# well, that which moves least is taken.
+# Cost of a change over the whole range of a value, in deviations that matter: of equal solutions
+# the one with the smallest changes is the best.
 _RELUCTANCE = ENOUGH
 _MET = f"found: all targets are met to {ENOUGH:.0%} of within, where the search ended"
-# What SLSQP's exit codes mean here.
+# Meanings of SLSQP's exit codes.
 _GAVE_UP = {
     4: "the limits exclude each other",
     8: "no step from here makes it better",
@@ -44,20 +44,20 @@ class Optimum:
     Attributes
     ----------
     suspension : Suspension, Axle or RigidAxle
-        With the values that were found.
+        The subject with the best values.
     start : Suspension, Axle or RigidAxle
-        The one that was given.
+        The given subject.
     places : tuple of DesignVariable
-        The values that were free, as they were.
+        The free values, as given.
     moved : dict of str to float
-        By how much each has moved, in the display unit.
+        The change of each value, in the display unit.
     targets : tuple of TargetValue
     limits : tuple of Limit
     success : bool
-        Whether the solver converged and all limits are kept. Targets may be missed.
+        Whether the solver converged and all limits are kept; targets may be missed.
     message : str
-        Limits that are not kept, targets that are missed by more than ``within``, values at the
-        ends of their ranges or without effect; or that the search ended at its targets.
+        Broken limits, targets missed by more than ``within``, values at the ends of their ranges or
+        without effect; or the note that the search ended at its targets.
     evaluations : int
         Number of evaluated suspensions.
     """
@@ -95,11 +95,11 @@ def optimise(
         places as in `sensitivity`. All other values are constant.
     targets : mapping
         By characteristic: ``at_mm``, positions; ``value``, one for all or one for each; ``within``,
-        a deviation that matters; ``over``, 'travel' or 'rack'. In mm and display units. Or a
-        list of several such. Of a file with bushes also by the names of
-        `kintrafo.compliance.linear`, with ``held``.
+        a deviation that matters; ``over``, 'travel' or 'rack'; in mm and display units. Or a list
+        of such tables. For a file with bushes also by the names of `kintrafo.compliance.linear`,
+        with ``held``.
     limits : mapping, optional
-        By characteristic: ``at_mm``, ``least``, ``most``, ``over``, or a list of several such.
+        By characteristic: ``at_mm``, ``least``, ``most``, ``over``, or a list of such tables.
     progress : callable, optional
         Called after every step of the solver with the remaining cost, as a fraction of that at the
         start.
@@ -113,14 +113,14 @@ def optimise(
     InputError
         If an argument cannot be used, or no free value moves a target.
     PositionError
-        If the suspension does not reach a position as it is.
+        If the given suspension does not reach a position.
 
     Notes
     -----
-    Without limits by SciPy's ``least_squares`` (trust region, reflected at the bounds), with limits
-    by SLSQP from there. The search ends where all limits are kept and all deviations are at most a
-    hundredth of ``within``. Derivatives are differences of neighbours, of a hardpoint 0.5 mm to
-    either side. A change of a value over its whole range counts as a hundredth of ``within``.
+    The solver is SciPy's ``least_squares`` (trust region, reflected at the bounds), followed by
+    SLSQP if limits are not kept. The search ends where all limits are kept and all deviations are
+    at most a hundredth of ``within``. Derivatives are differences of neighbours, of a hardpoint
+    0.5 mm to either side. A change of a value over its whole range costs a hundredth of ``within``.
 
     Examples
     --------
@@ -160,7 +160,7 @@ def optimise(
 
 
 def _solved(search: Search) -> tuple[Array, str]:
-    """Return the values that SciPy's solvers find, and why they gave up if they did.
+    """Return the values that SciPy's solvers find, and a reason if they did not converge.
 
     Raises
     ------
@@ -171,7 +171,7 @@ def _solved(search: Search) -> tuple[Array, str]:
     found, gave_up = least(search)
     if not search.limits or (search.room(found) >= 0.0).all():
         return found, gave_up
-    # from beyond the limits, and where that leads nowhere, from where the file is
+    # from beyond the limits, and if that fails, from the values of the file
     tried = [_within_limits(search, found)]
     if tried[0][1]:
         tried.append(_within_limits(search, start))
@@ -198,19 +198,7 @@ def _within_limits(search: Search, start: Array) -> tuple[Array, str]:
 def _optimum(
     search: Search, x: Array, gave_up: str, idle: list[str], *, met: bool = False
 ) -> Optimum:
-    """Return what was found in words and numbers.
-
-    Parameters
-    ----------
-    search : Search
-    x : ndarray
-    gave_up : str
-        Why the solver gave up, if so.
-    idle : list of str
-        Values without effect at the start.
-    met : bool, optional
-        Whether the search ended at its targets.
-    """
+    """Return the result with its message, from values without effect and the end of the search."""
     values = search.values(x)
     if values is None:
         values = [np.full(goal.at.size, np.nan) for goal in search.goals]

@@ -1,4 +1,4 @@
-"""Values of the input file among which no choice is better in every objective."""
+"""The Pareto front of several objectives by values of the input file."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -24,21 +24,21 @@ from .sweep_axes import sweep_axes_of
 MEMBER = "member"
 """Dimension of a front."""
 
-# Cars of a generation, and so members of a front: with fewer, NSGA-II has nobody to pair.
+# Members of a generation, and of a front; NSGA-II cannot pair fewer.
 _LEAST_MEMBERS, _MOST_MEMBERS = 4, 10_000
 # They take some minutes.
 _MOST_CARS = 100_000
-# Of more than this hardly a car is beaten in all of them, so that a front means nothing.
+# With more objectives nearly all cars are on the front, which then has no meaning.
 _MOST_OBJECTIVES = 6
-# What a suspension that cannot be exceeds its limits by, in parts of them.
+# Excess over the limits of a suspension without values, in parts of them.
 _IMPOSSIBLE = 1e6
-# A change by less than this part of a number is rounding.
+# Changes below this part of a number are rounding.
 _ROUNDING = 1e-9
 
 
 @dataclass(frozen=True)
 class Front:
-    """Suspensions of which none is better than another in every objective.
+    """A Pareto front: no suspension is better than another in every objective.
 
     Attributes
     ----------
@@ -46,24 +46,24 @@ class Front:
         Over ``member``, from 1: each objective by its name, and each free value by its place, in SI
         units. Sorted by the first objective.
     start : Suspension, Axle or RigidAxle
-        The one that was given.
+        The given subject.
     before : dict of str to float
         Its objectives [SI].
     keeps_limits : bool
         Whether it keeps the limits.
     places : tuple of DesignVariable
-        The values that were free, as they were.
+        The free values, as given.
     objectives : tuple of Objective
     limits : tuple of Limit
     moved : tuple of dict of str to float
-        By how much each value of each member has moved, in the display unit.
+        The changes of the values of each member, in the display unit.
     compromise : int
-        The member whose objectives are nearest to the best of each, in parts of their ranges over
-        the front; 0 where there is no member.
+        The member whose objectives are nearest to the best of each, relative to their ranges over
+        the front; 0 for an empty front.
     success : bool
-        Whether there is a member: a car that keeps all limits.
+        Whether the front has a member, a car that keeps all limits.
     message : str
-        What there is to say about it.
+        Remarks.
     evaluations : int
         Number of evaluated suspensions.
     """
@@ -125,28 +125,28 @@ def pareto(
 ) -> Front:
     """Return the Pareto front of several objectives by values of the input file.
 
-    Objectives that contradict each other have no best suspension, but many of which none is better
-    in all of them: their Pareto front, among which an engineer chooses.
+    Contradictory objectives have no single best suspension, but many of which none is better than
+    another in all objectives: their Pareto front, from which an engineer chooses.
 
     Parameters
     ----------
     suspension : Suspension, Axle or RigidAxle
     free : mapping of str to float
-        How far values may move to either side, as of `optimise`.
+        Largest change of values to either side, as in `optimise`.
     targets : mapping, optional
-        As of `optimise`. Each is an objective: the root mean square of the deviations. ``within``
-        plays no part, and may be left out.
+        As in `optimise`. Each is an objective: the root mean square of the deviations. ``within``
+        is not needed.
     minimise, maximise : mapping, optional
-        By characteristic: ``at_mm`` and ``over``, or a list of several such. The greatest value at
-        these positions is to be small, or the least value great.
+        By characteristic: ``at_mm`` and ``over``, or a list of such tables. The greatest value at
+        these positions is minimised, or the least value maximised.
     limits : mapping, optional
-        As of `optimise`.
+        As in `optimise`.
     population : int, optional
-        How many suspensions a generation has, and members a front at most; from 4.
+        Number of suspensions in a generation, and of members of a front at most; from 4.
     generations : int, optional
-        How many there are, the first included.
+        Number of generations with the first one.
     seed : int, optional
-        Of the generator of random numbers: the same front for the same seed.
+        Seed of the generator of random numbers: the same front for the same seed.
     progress : callable, optional
         Called with the part that is done, up to 1.
 
@@ -159,16 +159,16 @@ def pareto(
     InputError
         If an argument cannot be used, or no free value moves an objective.
     PositionError
-        If the suspension does not reach a position as it is.
+        If the given suspension does not reach a position.
     MissingPackageError
         If pymoo is not installed.
 
     Notes
     -----
-    By the genetic algorithm NSGA-II of pymoo. The first generation is the suspension as it is, and
-    a Latin hypercube over the ranges. Suspensions that cannot be built, or do not reach a position,
-    count as far beyond all limits. The front is that of all evaluated suspensions, thinned out to
-    the size of a generation if it has more.
+    The solver is the genetic algorithm NSGA-II of pymoo. The first generation is the given
+    suspension, and a Latin hypercube over the ranges. Suspensions that cannot be built, or do not
+    reach a position, are far beyond all limits. The front is that of all evaluated suspensions,
+    reduced to the size of a generation if it has more.
 
     Examples
     --------
@@ -238,7 +238,7 @@ def _refuse_counts(given: Validator, objectives: int, population: int, generatio
 
 
 def _first(population: int, values: int, seed: int) -> Array:
-    """Return the first generation: the suspension as it is, and others all over the ranges."""
+    """Return the first generation: the given suspension, and a Latin hypercube over the ranges."""
     from scipy.stats import qmc  # noqa: PLC0415 (slow to import)
 
     drawn = qmc.LatinHypercube(values, rng=np.random.default_rng(seed)).random(population)
@@ -248,20 +248,7 @@ def _first(population: int, values: int, seed: int) -> Array:
 
 
 class _Judge:
-    """The objectives and limits of candidates, and all evaluated candidates.
-
-    Parameters
-    ----------
-    suspension : Suspension, Axle or RigidAxle
-    reach : mapping of DesignVariable to float
-        How far values may move to either side [SI].
-    objectives : sequence of Objective
-    limits : sequence of Limit
-    expected : int
-        How many candidates there will be.
-    progress : callable or None
-        Called with the part that is done.
-    """
+    """The objectives and limits of candidates, of which a number is expected, and all evaluated."""
 
     def __init__(
         self,
@@ -277,12 +264,12 @@ class _Judge:
         self.candidates = Candidates(suspension, reach, goals)
         self.seen: list[tuple[Array, Array, Array]] = []
         self._expected, self._progress = expected, progress
-        # what cannot be exceeds a limit also where there are none
+        # one more limit, which only impossible suspensions exceed
         sides = 1 + sum(limit.at.size * len(limit.sides) for limit in limits)
         self.counts = len(objectives), sides
 
     def __call__(self, generation: Array) -> tuple[Array, Array]:
-        """Return costs, and by how much limits are exceeded, of each candidate."""
+        """Return the costs of each candidate, and its excess over the limits."""
         found = []
         self.candidates.look_at(generation)
         for x in generation:
@@ -294,7 +281,7 @@ class _Judge:
         return np.array(costs), np.array(excess)
 
     def one(self, x: Array) -> tuple[Array, Array]:
-        """Return the costs of a candidate, and by how much it exceeds its limits."""
+        """Return the costs of a candidate, and its excess over the limits."""
         values = self.candidates.values(x)
         if values is None:
             objectives, sides = self.counts
@@ -306,7 +293,7 @@ class _Judge:
         return costs, -np.concatenate([np.zeros(1), *rooms])
 
     def idle(self) -> list[str]:
-        """Name the values without any effect from one end of their ranges to the other."""
+        """Return the names of values without effect from one end of their ranges to the other."""
         here = np.zeros(len(self.candidates.places))
         return [
             place.name
@@ -315,7 +302,7 @@ class _Judge:
         ]
 
     def broken(self, x: Array) -> list[str]:
-        """Name the limits that a candidate does not keep."""
+        """Return the names of limits that a candidate exceeds."""
         values = self.candidates.values(x)
         if values is None:
             return []
@@ -349,7 +336,9 @@ def _front(judge: _Judge, idle: list[str], most: int) -> Front:
     return Front(
         dataset=_dataset(judge, x[members], costs[members] * signs, message),
         start=candidates.suspension,
-        before=dict(zip(_names(judge), (before * signs).tolist(), strict=True)),
+        before=dict(
+            zip([o.name for o in judge.objectives], (before * signs).tolist(), strict=True)
+        ),
         keeps_limits=not judge.broken(np.zeros(x.shape[1])),
         places=candidates.places,
         objectives=judge.objectives,
@@ -394,7 +383,3 @@ def _dataset(judge: _Judge, x: Array, numbers: Array, message: str) -> xr.Datase
         data[place.name] = xr.Variable(MEMBER, values, place.attributes())
     members = xr.Variable(MEMBER, np.arange(1, len(x) + 1), {"long_name": "member of the front"})
     return xr.Dataset(data, {MEMBER: members}, {"title": "Pareto front", "message": message})
-
-
-def _names(judge: _Judge) -> list[str]:
-    return [objective.name for objective in judge.objectives]

@@ -1,4 +1,4 @@
-"""Curves of studies over the speed of a car on a rough road: the numbers of its ride."""
+"""The axis of speeds of a car on a rough road, with metrics of its ride as curves."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -17,7 +17,7 @@ from .axis import SweepAxis, number_of
 RIDE = "speed"
 """Speed of cars that do not drive, on a rough road."""
 OPTIONS = ("road", "seat")
-"""The class of the road, or G(n0) [m^3], and where accelerations are."""
+"""The class of the road, or G(n0) [m^3], and the seat of accelerations."""
 
 _USUAL_KM_PER_H, _AT_KM_PER_H = (40.0, 60.0, 80.0, 100.0, 120.0), 80.0
 _KNOWN = OF_CAR | {

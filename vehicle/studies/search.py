@@ -1,4 +1,4 @@
-"""Characteristics as functions of values of the input file, for solvers."""
+"""Deviations and limits as functions of values of the input file, for solvers."""
 
 from collections.abc import Callable, Mapping, Sequence
 
@@ -13,20 +13,20 @@ from .goals import Limit, TargetValue
 from .sensitivity import step_of
 
 MOST_STEPS, NOTHING_TO_GAIN = 100, 1e-8
-"""Steps of the solvers, and the part of the cost below which there is nothing to gain."""
+"""Most steps of the solvers, and the relative change of the cost at which they stop."""
 
 TOO_MANY_STEPS = f"no end within {MOST_STEPS} steps"
 
-# What a suspension that cannot be is worth, in deviations that matter.
+# Deviation of a suspension without values, in deviations that matter.
 _IMPOSSIBLE = 1e6
-# Part of a limit by which it is kept for sure, whatever rounding does.
+# Margin to a limit against rounding, as a part of it.
 _MARGIN = 1e-7
 # Deviations below this part of what matters end a search; a change of a value over its whole range
 # counts as much.
 ENOUGH = 0.01
-# Steps from there to values that are moved less; each costs one evaluation.
+# Steps from there to smaller changes; each costs one evaluation.
 _LAST_STEPS = 3
-# A value that changes targets by less than this part of what matters, over its range, is idle.
+# A value that changes all targets by less than this part of what matters, over its range, is idle.
 _IDLE = 1e-6
 
 
@@ -45,14 +45,13 @@ class Search(Candidates):
     ----------
     suspension : Suspension, Axle or RigidAxle
     reach : mapping of DesignVariable to float
-        How far values may move to either side [SI].
+        Largest change of each value to either side [SI].
     targets : sequence of TargetValue
     limits : sequence of Limit
     progress : callable or None
-        Called after every step of a solver with the cost that is left, as a part of that at the
-        start.
+        Called after every step of a solver with the remaining cost, as a part of that at the start.
     reluctance : float
-        What it costs to move a value over its range to one side, in deviations that matter.
+        Cost of the largest change of a value, in deviations that matter.
     enough : float, optional
         Part of what matters below which deviations end a solver, by `MetError`. By default none is
         small enough.
@@ -75,13 +74,13 @@ class Search(Candidates):
         self._begin = self.cost(np.zeros(len(reach))) or 1.0
 
     def derivatives(self, x: Array) -> list[Array]:
-        """Return the derivatives of what `values` returns; (values, free) for each."""
+        """Return the derivatives of `values`, each of shape (values, free values)."""
         self.look_at(at for which in range(x.size) for at in self._beside(x, which))
         columns = [self._difference(x, which) for which in range(x.size)]
         return [np.stack(parts, axis=1) for parts in zip(*columns, strict=True)]
 
     def _difference(self, x: Array, which: int) -> list[Array]:
-        """Return the derivatives by one value, one-sided beside what cannot be."""
+        """Return the derivatives in one value, one-sided if one neighbour has no values."""
         beside = [(at[which], self.values(at)) for at in self._beside(x, which)]
         possible = [(at, values) for at, values in beside if values is not None]
         if len(possible) < 2:
@@ -90,19 +89,19 @@ class Search(Candidates):
         return [(b - a) / (last - first) for a, b in zip(low, high, strict=True)]
 
     def _beside(self, x: Array, which: int) -> tuple[Array, Array, Array]:
-        """Return a place and its neighbours to either side, along one value."""
+        """Return the free values with one of them less, equal and more by a step."""
         by = np.zeros(x.size)
         by[which] = step_of(self.places[which]) / self.reach[which]
         return x - by, x, x + by
 
     def idle(self, x: Array, of: Sequence[str] | None = None) -> list[str]:
-        """Name the values without effect on a target, here and from one end to the other.
+        """Return the names of values without effect on a target, here and over their ranges.
 
         Parameters
         ----------
         x : ndarray
         of : sequence of str, optional
-            Names of the values that are in question; by default all of them.
+            Names of the values in question; by default all of them.
         """
         asked = [i for i, place in enumerate(self.places) if of is None or place.name in of]
         self.look_at(at for which in asked for at in self._beside(x, which))
@@ -113,7 +112,7 @@ class Search(Candidates):
         ]
 
     def _range(self, x: Array, which: int) -> list[Array]:
-        """Return by how much everything differs between the ends of the range of a value."""
+        """Return the differences of `values` between the ends of the range of one value."""
         low, high = self.ends(x, which)
         if low is None or high is None:
             return [np.zeros(goal.at.size) for goal in self.goals]
@@ -124,10 +123,8 @@ class Search(Candidates):
         pairs = zip(self.targets, changes, strict=False)
         return any((np.abs(change) > _IDLE * target.within).any() for target, change in pairs)
 
-    # -- targets ----------------------------------------------------------------------------------
-
     def deviations(self, x: Array) -> Array:
-        """Return the deviations from the targets, in parts of what matters, and what moves cost."""
+        """Return the deviations from targets, relative to `within`, and the costs of changes."""
         values = self.values(x)
         if values is None:
             return np.full(sum(t.at.size for t in self.targets) + x.size, _IMPOSSIBLE)
@@ -136,7 +133,7 @@ class Search(Candidates):
         return np.concatenate([*missed, self._reluctance * x])
 
     def slopes(self, x: Array) -> Array:
-        """Return the derivatives of the deviations; every step of a solver asks for them once.
+        """Return the derivatives of the deviations; called once in every step of a solver.
 
         Raises
         ------
@@ -170,7 +167,7 @@ class Search(Candidates):
         return bool((np.abs(missed) <= self._enough).all() and (self.room(x) >= 0.0).all())
 
     def cost(self, x: Array) -> float:
-        """Return half of the sum of the squares."""
+        """Return half of the sum of squared deviations."""
         missed = self.deviations(x)
         return 0.5 * float(missed @ missed)
 
@@ -178,10 +175,8 @@ class Search(Candidates):
         """Return the derivative of the cost."""
         return self.deviations(x) @ self.slopes(x)
 
-    # -- limits -----------------------------------------------------------------------------------
-
     def room(self, x: Array) -> Array:
-        """Return how much room the limits leave, in parts of their size; negative beyond one."""
+        """Return the distances to the limits, in parts of their size; negative beyond one."""
         values = self.values(x)
         if values is None:
             sides = (limit.at.size * len(limit.sides) for limit in self.limits)
@@ -201,7 +196,7 @@ class Search(Candidates):
 
 
 def least(search: Search) -> tuple[Array, str]:
-    """Return the values of the least deviations, limits aside, and why the solver gave up if so."""
+    """Return the values of least deviations without limits, and a reason without convergence."""
     found = least_squares(
         search.deviations,
         np.zeros(len(search.places)),
@@ -216,6 +211,6 @@ def least(search: Search) -> tuple[Array, str]:
 
 
 def in_words(facts: Mapping[str, Sequence[str]]) -> str:
-    """Return facts with the names that they are about, of those that are about any."""
+    """Return facts with their names, without facts that have none."""
     lines = [f"{fact}: {', '.join(dict.fromkeys(names))}" for fact, names in facts.items() if names]
     return "; ".join(lines)

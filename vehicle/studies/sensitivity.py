@@ -1,4 +1,4 @@
-"""By how much each value of the input file moves each characteristic."""
+"""Derivatives of characteristics with respect to values of the input file."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
@@ -19,19 +19,17 @@ from .evaluation import Subject, check_subject
 from .sweep_axes import known_anywhere
 
 PLACE = "place"
-"""The dimension of the values that vary."""
+"""Dimension of the values that vary."""
 
-# Half of the longer of two steps, in SI units. The error of the difference is of fourth order:
+# The shorter of two steps, in SI units. The error of the difference is of fourth order:
 # (0.5 mm / 300 mm)^4 = 8e-12 of a curve that changes over 300 mm, and rounding is 1e-15 / 0.5 mm =
 # 2e-12 of it per millimetre.
 _STEPS = {"m": 5e-4, "rad": 1e-3}
 _RELATIVE_STEP = 1e-3
-# What stands for the size of a value that is zero: other elements of such an inertia are some
-# hundredths, and no body has one without them that is as great.
+# Size of a value of zero: the products of inertia of a body are below its moments, some hundredths.
 _SIZE_OF_ZERO = {"kg m^2": 1e-3}
-# Differences of fourth order, and of second order beside them, by steps from where the value is:
-# with neighbours on both sides, and with those of one side where the other cannot be, as below a
-# mass of zero.
+# Weights of differences of fourth and of second order, by the number of steps: with neighbours on
+# both sides, and on one side if the other is impossible, as below a mass of zero.
 _BOTH_SIDES = (
     {-2: 1 / 12, -1: -8 / 12, 1: 8 / 12, 2: -1 / 12},
     {-1: -1 / 2, 1: 1 / 2},
@@ -40,12 +38,12 @@ _ONE_SIDE = (
     {0: -25 / 12, 1: 4.0, 2: -3.0, 3: 4 / 3, 4: -1 / 4},
     {0: -3 / 2, 1: 2.0, 2: -1 / 2},
 )
-# Two orders that disagree by more than these parts of the derivative, and of the greatest one of
-# the curve, see a kink, such as that of a stop that begins to act: there is no derivative. Of a
-# smooth curve they differ by (0.5 mm / 300 mm)^2 = 3e-6 of it, some times.
+# If both orders differ by more than these parts of the derivative, and of the greatest one of the
+# curve, there is a kink without a derivative, such as the contact of a stop. Those of smooth curves
+# differ by some (0.5 mm / 300 mm)^2 = 3e-6 of it.
 _KINK, _KINK_OF_GREATEST = 3e-3, 3e-4
-# Rounding of a curve, as a part of its greatest value, or of 1 rad, 1 m, ...: loops that are solved
-# one after the other, and their rates, leave some thousand roundings of 2e-16.
+# Rounding of a curve, as a part of its greatest value, or of 1 rad, 1 m, ...: solving successive
+# loops, and their rates, adds some thousand roundings of 2e-16.
 ROUNDING = 1e-12
 
 
@@ -66,7 +64,7 @@ def sensitivity(
     suspension : Suspension, Axle or RigidAxle
     places : sequence of str, optional
         The values: section and key with dots between them, such as ``hardpoints.ball_joint.z``. A
-        point or a section represents all of its numbers, ``*`` for anything.
+        point or a section represents all of its numbers, ``*`` any text.
     over : {'travel', 'rack', 'bump', 'roll', 'left', 'right'}, optional
         Motion along the curves. Of a corner ``travel``, by default, or ``rack``; of axles and rigid
         axles ``bump`` (both wheels), by default, or one of the last three.
@@ -97,9 +95,9 @@ def sensitivity(
 
     Notes
     -----
-    The differences of four neighbouring suspensions for each value, of fourth order: of a
-    hardpoint 0.5 mm and 1 mm to either side. Where one side cannot be, as with a friction of zero,
-    up to 2 mm to the other.
+    Derivatives are differences of fourth order between four neighbouring suspensions for each
+    value: of a hardpoint 0.5 mm and 1 mm to either side. If one side is impossible, as for a
+    friction of zero, neighbours are on the other side, up to 2 mm.
 
     Examples
     --------
@@ -142,17 +140,17 @@ def sensitivity(
 
 _ALONE = "a file cannot have values beside them (name one in full to see why)"
 _RIGID = "nothing here depends on bushes, joints are rigid"
-# So many values that are left out are named in a message; the dataset names all.
+# Number of names in the message on values that are left out; the dataset has all.
 _NAMED = 3
 
 
 def _is_asked_for(place: DesignVariable, patterns: Sequence[str]) -> bool:
-    """Return whether this value is asked for by name, and not by a pattern or a section."""
+    """Return whether a value is named in full, rather than by a pattern or a section."""
     return any(p == place.name or (place.of_bushes and names_bushes(p)) for p in patterns)
 
 
 def _message(left_out: Mapping[str, str]) -> str:
-    """Return the text of the values that are left out, with reasons."""
+    """Return a message on values that are left out, with reasons."""
     parts = []
     for reason in dict.fromkeys(left_out.values()):
         names = [name for name, why in left_out.items() if why == reason]
@@ -168,9 +166,9 @@ def derivatives(
     progress: Callable[[float], None] | None = None,
     otherwise: Callable[[Subject, DesignVariable, Curves], Array] | None = None,
 ) -> Array:
-    """Return the derivatives of some curves by values; (places, names, positions), SI units.
+    """Return the derivatives of curves in values, (places, names, positions), SI units.
 
-    The neighbours to both sides are evaluated together; a car that lacks one, separately.
+    All neighbours are evaluated together; values without one of them, by `otherwise`.
     """
     steps = [*_BOTH_SIDES[0]]
     off = np.zeros((len(places) * len(steps), len(places)))
@@ -187,37 +185,37 @@ def derivatives(
     shape = len(places), len(steps)
     pairs = zip(beside.reshape(*shape, *beside.shape[1:]), there.reshape(shape), strict=True)
     alone = otherwise or derivative
-    return np.array(
-        [
-            _difference(_BOTH_SIDES, step_of(place), dict(zip(steps, at, strict=True)))
-            if possible.all()
-            else alone(suspension, place, curves)
-            for place, (at, possible) in zip(places, pairs, strict=True)
-        ]
-    )
+    found = []
+    for place, (at, possible) in zip(places, pairs, strict=True):
+        if possible.all():
+            beside_it = dict(zip(steps, at, strict=True))
+            found.append(_difference(_BOTH_SIDES, step_of(place), beside_it))
+        else:
+            found.append(alone(suspension, place, curves))
+    return np.array(found)
 
 
 def slopes(suspension: Subject, places: Sequence[DesignVariable], curves: Curves) -> Array:
-    """Return what `derivatives` does; NaN for a value whose neighbours cannot be."""
-    return derivatives(suspension, places, curves, otherwise=_derivative_or_nan)
+    """Return `derivatives`, with NaN for values without possible neighbours."""
 
+    def or_nan(suspension: Subject, place: DesignVariable, curves: Curves) -> Array:
+        try:
+            return derivative(suspension, place, curves)
+        except InputError:
+            return np.full((len(curves.names), curves.positions.size), np.nan)
 
-def _derivative_or_nan(suspension: Subject, place: DesignVariable, curves: Curves) -> Array:
-    try:
-        return derivative(suspension, place, curves)
-    except InputError:
-        return np.full((len(curves.names), curves.positions.size), np.nan)
+    return derivatives(suspension, places, curves, otherwise=or_nan)
 
 
 def derivative(suspension: Subject, place: DesignVariable, curves: Curves) -> Array:
-    """Return the derivative of some curves by a value; of shape (names, positions), SI units."""
+    """Return the derivative of curves in a value, (names, positions), SI units."""
     return _difference(*_neighbours(suspension, place, curves))
 
 
 def _difference(
     orders: Sequence[Mapping[int, float]], step: float, at: Mapping[int, Array]
 ) -> Array:
-    """Return the derivative from the curves so many steps off, NaN at a kink."""
+    """Return the derivative from curves by the number of steps, NaN at a kink."""
     with np.errstate(invalid="ignore"):  # a turning circle is infinite straight ahead
         fourth, second = (
             np.sum([weight * at[by] for by, weight in order.items()], axis=0) / step
@@ -233,23 +231,21 @@ def _difference(
 def _neighbours(
     suspension: Subject, place: DesignVariable, curves: Curves
 ) -> tuple[Sequence[Mapping[int, float]], float, dict[int, Array]]:
-    """Return the differences that can be taken, their step, and the curves so many steps off."""
+    """Return the weights of a possible difference, its step, and curves by the number of steps."""
     size = step_of(place)
     refused = []
     for orders, step in ((_BOTH_SIDES, size), (_ONE_SIDE, size), (_ONE_SIDE, -size)):
         try:
-            return (
-                orders,
-                step,
-                {by: _moved(suspension, place, by * step, curves) for by in orders[0]},
-            )
+            at = {by: _moved(suspension, place, by * step, curves) for by in orders[0]}
         except InputError as error:
             refused.append(error)
+        else:
+            return orders, step, at
     raise refused[0]
 
 
 def _greatest(values: Array) -> Array:
-    """Return the greatest absolute value of each row that is one."""
+    """Return the greatest finite absolute value of each row, (rows, 1)."""
     sizes = np.where(np.isfinite(values), np.abs(values), 0.0)
     greatest: Array = sizes.max(axis=1, initial=0.0, keepdims=True)
     return greatest
@@ -292,7 +288,7 @@ def _dataset(curves: Curves, places: Sequence[DesignVariable], values: Array) ->
 
 
 def _attributes(curves: Curves, name: str, places: Sequence[DesignVariable]) -> dict[str, Any]:
-    """Describe a derivative; where the values have several units, it is shown by their SI units."""
+    """Return the attributes of a derivative; its display unit needs one unit of all values."""
     quantity = curves.quantity(name)
     attributes = quantity.attributes()
     shown = display_of(attributes)
@@ -338,7 +334,7 @@ class Effect(NamedTuple):
 def effects(dataset: xr.Dataset, name: str, at: float = 0.0) -> Iterator[Effect]:
     """Return the effect of each value on a characteristic at a position, the largest first.
 
-    A millimetre and a degree cannot be compared: values of one unit come together.
+    Values are grouped by their units, since a millimetre and a degree cannot be compared.
 
     Parameters
     ----------
@@ -347,7 +343,7 @@ def effects(dataset: xr.Dataset, name: str, at: float = 0.0) -> Iterator[Effect]
     name : str
         Characteristic.
     at : float, optional
-        Position [m]; the nearest that there is.
+        Position [m]; the nearest one is used.
 
     Returns
     -------

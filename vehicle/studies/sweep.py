@@ -1,4 +1,4 @@
-"""The motion of a suspension over a grid of values of its file."""
+"""Simulations of a suspension over a grid of values of its file."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -34,35 +34,35 @@ def sweep(
     max_steps: int = 1_000_000,
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
-    """Simulate a suspension with all combinations of some values.
+    """Return simulations of a suspension with all combinations of some values.
 
     Parameters
     ----------
     suspension : Suspension, Axle or RigidAxle
     values : mapping of str to array_like
-        The values that each place of the input file takes, in its display unit (mm, deg, N/m,
-        ...): ``{"strut.spring_rate_N_per_m": [20e3, 25e3]}``.
+        Values of each place of the input file, in its display unit (mm, deg, N/m, ...):
+        ``{"strut.spring_rate_N_per_m": [20e3, 25e3]}``.
     scenario : Scenario, optional
-        Road, rack and start; by default a second at rest. Where it gives no height, each suspension
-        starts at its own rest. A rigid axle has the road under both wheels, or inputs by its own
-        names, such as ``left_road_height``.
+        Road, rack and start; by default a second at rest. Without a height each suspension starts
+        at its own rest. A rigid axle has the road under both wheels, or inputs by the names of its
+        model, such as ``left_road_height``.
     signals, reductions
-        Results, as of `kintrafo.ensemble`: signals at the output times, and numbers.
+        Results, as in `kintrafo.ensemble`: signals at the output times, and numbers.
     rtol, atol, max_steps
-        As of `kintrafo.ensemble`.
+        As in `kintrafo.ensemble`.
     progress : callable, optional
-        Called with the part that is prepared, up to 1; most of the time goes there.
+        Called with the part that is prepared, up to 1, which takes most of the time.
 
     Returns
     -------
     xarray.Dataset
-        As of `kintrafo.ensemble`, over one dimension for each place, in SI units. What cannot be,
-        or has no rest, says why in ``reason``.
+        As from `kintrafo.ensemble`, over one dimension for each place, in SI units. Suspensions
+        that cannot be built, or have no rest, have a ``reason``.
 
     Raises
     ------
     InputError
-        If an argument cannot be used, or the values ask for different equations.
+        If an argument cannot be used, or the values need different equations.
 
     Examples
     --------
@@ -107,7 +107,7 @@ def sweep(
 def _axes(
     given: Validator, suspension: Subject, grid: Mapping[Any, Any]
 ) -> dict[DesignVariable, Array]:
-    """Return the values of each place in SI units."""
+    """Return the checked values of each place in SI units."""
     axes: dict[DesignVariable, Array] = {}
     for name, along in grid.items():
         places = matching(given, suspension, [name] if isinstance(name, str) else name)
@@ -147,7 +147,7 @@ class _Cars:
         self._reasons = np.full(self.count, "", dtype=object)
 
     def prepare(self, car: int) -> None:
-        """Find the parameters and the start of one suspension."""
+        """Store the parameters and the start of one suspension, or a reason."""
         changes: dict[str, float] = {}
         places = np.unravel_index(car, self._shape)
         for (place, along), at in zip(self._axes.items(), places, strict=True):
@@ -156,16 +156,13 @@ class _Cars:
             suspension = changed(self._suspension, changes)
             model = model_of(suspension, wheel_loads=self.model.wheel_loads)
             self._check_equations(model)
-            self._starts[car] = self._start(model)
+            start, self.inputs = started(model, self._scenario)
+            self._starts[car] = np.array(start)
             self._parameters[car] = dict(model.parameters)
         except _OtherEquationsError as error:
             raise InputError([str(error)], "sweep") from None
         except KintrafoError as error:
             self._reasons[car] = str(error)
-
-    def _start(self, model: AnyModel) -> Array:
-        start, self.inputs = started(model, self._scenario)
-        return np.array(start)
 
     def _check_equations(self, model: AnyModel) -> None:
         if model.equations is not self.model.equations:
@@ -190,14 +187,14 @@ class _Cars:
         return {n: row for n, row in rows.items() if (row != given[n]).any()}
 
     def starts(self) -> Array:
-        """Return the states at the start, a row for each suspension that can be."""
+        """Return the states at the start, a row for each possible suspension."""
         if not self._starts:
             problems = [str(reason) for reason in dict.fromkeys(self._reasons)]
             raise InputError(["none of the suspensions can be simulated", *problems[:3]], "sweep")
         return np.array([*self._starts.values()])
 
     def over_the_grid(self, found: xr.Dataset) -> xr.Dataset:
-        """Bring what came of the suspensions that can be onto the grid."""
+        """Return the results of the possible suspensions over the grid."""
         found = found.drop_vars([*self.variants()])
         nothing: dict[Any, Any] = {
             "success": False, "valid": False, "reason": "", "solver": "", "steps": 0

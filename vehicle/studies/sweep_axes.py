@@ -1,4 +1,4 @@
-"""What curves may be over: motions of a rig, supports of wheels under loads, steady turns."""
+"""Axes of curves: motions of a rig, supports of wheels under loads, steady turns, speeds."""
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
@@ -29,17 +29,17 @@ SWEEP_AXES: dict[str, SweepAxis] = {
         name: SweepAxis(along, OF_AXLES[along.name], words)
         for name, (along, words) in _OF_AXLES.items()
     },
-    # over roll cars have columns of their own beside those of axles
+    # curves over roll are those of axles and of cars
     "roll": SweepAxis(ROLL, OF_AXLES[ROLL.name] | OF_CARS, "roll"),
     "heave": SweepAxis(HEAVE, OF_CARS, "heave of the body"),
     "pitch": SweepAxis(PITCH, OF_CARS, "pitch of the body"),
 }
-"""What characteristics may be over, by the name of the motion."""
+"""Axes of characteristics by the name of the motion."""
 
 UNDER_LOADS = {
     held: SweepAxis(TRAVEL, COMPLIANCES | COMPLIANCES_OF_AXLES, "wheel travel") for held in HELD
 }
-"""Compliance over wheel travel, of an axle over parallel travel, by what holds the wheels."""
+"""Axes of compliance, wheel travel in parallel, by the support of the wheels."""
 
 OF_CORNERS = ("travel", "rack")
 _COMPLIANCES_OVER: dict[str, Mapping[str, Quantity]] = {
@@ -50,15 +50,7 @@ _COMPLIANCES_OVER: dict[str, Mapping[str, Quantity]] = {
 
 @dataclass(frozen=True)
 class _Family:
-    """Axes of one name that differ in options.
-
-    Attributes
-    ----------
-    options : tuple of str
-        Their names.
-    axis : callable
-        Returns the axis with some options, which it checks.
-    """
+    """Axes of one name with different options, and a function that returns the axis with some."""
 
     options: tuple[str, ...]
     axis: Callable[[Validator, Mapping[str, Any]], SweepAxis]
@@ -71,7 +63,7 @@ _FAMILIES = {
 
 
 def options_of(over: str) -> tuple[str, ...]:
-    """Return the names of the options of an axis; most have none."""
+    """Return the names of the options of an axis, none of most axes."""
     return _FAMILIES[name_of_axis(over)].options if name_of_axis(over) in _FAMILIES else ()
 
 
@@ -87,7 +79,7 @@ def given_axis(
     ways: Iterable[str],
     options: Mapping[str, Any] | None = None,
 ) -> str:
-    """Check an axis and its options, and return its name with them: ``speed:road=C,seat=driver``.
+    """Return the checked name of an axis with its options: ``speed:road=C,seat=driver``.
 
     Parameters
     ----------
@@ -97,7 +89,7 @@ def given_axis(
     over : str
         Its name, with or without options.
     ways : iterable of str
-        The names that are possible.
+        The possible names.
     options : mapping, optional
         Further options, such as those of a file.
     """
@@ -123,7 +115,7 @@ def given_axis(
 
 @lru_cache(maxsize=256)
 def sweep_axis(over: str) -> SweepAxis:
-    """Return the axis of some curves, by its name with options.
+    """Return an axis by its name with options.
 
     Raises
     ------
@@ -139,7 +131,7 @@ def sweep_axis(over: str) -> SweepAxis:
 
 
 def known_anywhere(name: str) -> Quantity:
-    """Return the quantity of a curve by its name, over any axis that has it."""
+    """Return the quantity of a curve by its name, over any axis."""
     axes = [*SWEEP_AXES.values(), *UNDER_LOADS.values(), *map(sweep_axis, _FAMILIES)]
     return next(axis.known[name] for axis in axes if name in axis.known)
 
@@ -149,7 +141,7 @@ ALL_AXES = (*SWEEP_AXES, *_FAMILIES)
 
 
 def sweep_axes_of(subject: Any) -> tuple[str, ...]:
-    """Return what the characteristics of an assembly may be over, the usual first."""
+    """Return the names of the axes of an assembly, the usual one first."""
     assembly = assembly_of(subject)
     if assembly.body_moves:
         return (*assembly.motions, TURNS if assembly.drives else RIDE)

@@ -1,4 +1,4 @@
-"""What tolerances of the input file make of the characteristics: bands, yield and shares."""
+"""Characteristics with tolerances of the input file: bands, yield and shares of the variance."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal
@@ -25,12 +25,12 @@ QUANTILE, CAR = "quantile", "car"
 """Dimensions of the bands, and of the cars."""
 
 SIGMAS = 3.0
-"""Of a normal distribution, a tolerance is so many standard deviations: 99.7 % lie within."""
+"""Standard deviations in a tolerance of the normal distribution, with 99.7 % of the values."""
 
 QUANTILES = (0.0, 0.05, 0.5, 0.95, 1.0)
 
 _MOST_CARS = 1_000_000
-# So many numbers take 0.8 GB until their quantiles are found.
+# They take 0.8 GB.
 _MOST_NUMBERS = 100_000_000
 
 
@@ -61,30 +61,29 @@ def tolerance(
         Distribution of each value: normal with a third of the tolerance as standard deviation, so
         that three in a thousand deviate by more, or uniform within the tolerance.
     correlation : array_like, shape (values, values), optional
-        Of the values, in the order of the file, where they do not vary independently; of the
-        normal distribution only.
+        Correlation of the values, in the order of the file, for the normal distribution; by default
+        they are independent.
     limits : mapping, optional
         By characteristic: ``at_mm``, ``least`` and ``most``, in mm and the display unit, as in a
         file of limits.
     count : int, optional
-        How many cars.
+        Number of cars.
     seed : int, optional
-        Of the generator of random numbers: the same cars for the same seed.
+        Seed of the generator of random numbers: the same cars for the same seed.
     over, positions, names, held, progress
-        As of `sensitivity`.
+        As in `sensitivity`.
 
     Returns
     -------
     xarray.Dataset
         Each characteristic over ``quantile`` and the positions: 0 and 1 are the least and the
-        greatest value of all cars. ``..._nominal`` is that of the suspension itself.
-        ``..._share`` over ``place`` and the positions is the part of its variance that each value
-        causes to first order, NaN where it does not vary or has no derivative, as at a kink;
-        ``..._first_order`` is the standard deviation that the shares are about, as a part of that
-        of the cars: where it is not about 1, as where stops act in some cars only, shares say
-        little. Over ``car``: ``within_limits``, ``reason`` where a car cannot be built or does not
-        reach a position, and which value each car has in ``value_of``. The attribute ``yield`` is
-        the part of cars within all limits.
+        greatest value of all cars. ``..._nominal`` is that of the nominal suspension. ``..._share``
+        over ``place`` and the positions is the part of its variance by each value to first order,
+        NaN if it does not vary or has no derivative, as at a kink; ``..._first_order`` is the
+        first-order standard deviation as a part of that of the cars: if it is far from 1, as where
+        stops act in some cars only, shares have little meaning. Over ``car``: ``within_limits``,
+        ``reason`` for a car that cannot be built or does not reach a position, and its values in
+        ``value_of``. The attribute ``yield`` is the part of cars within all limits.
 
     Raises
     ------
@@ -131,11 +130,8 @@ def tolerance(
     return _dataset(cars, parts)
 
 
-# -- cars -----------------------------------------------------------------------------------------
-
-
 def _root_of(given: Validator, correlation: Any, size: int, distribution: str) -> Array:
-    """Return a matrix that makes correlated numbers of independent ones."""
+    """Return a matrix whose product with independent numbers has a correlation."""
     if correlation is None:
         return np.eye(size)
     matrix = given.array("correlation", correlation, dimensions=[2])
@@ -155,7 +151,7 @@ def _root_of(given: Validator, correlation: Any, size: int, distribution: str) -
 
 
 def _drawn(distribution: str, root: Array, count: int, seed: int) -> Array:
-    """Draw how far the values of each car are off, in parts of their tolerances."""
+    """Return random deviations of the values of each car, in parts of their tolerances."""
     random = np.random.default_rng(seed)
     if distribution == "uniform":
         return random.uniform(-1.0, 1.0, (count, len(root)))
@@ -164,18 +160,7 @@ def _drawn(distribution: str, root: Array, count: int, seed: int) -> Array:
 
 
 class _Cars:
-    """The cars of a study.
-
-    Parameters
-    ----------
-    suspension : Suspension, Axle or RigidAxle
-    places : sequence of DesignVariable
-        What varies.
-    off : ndarray, shape (cars, places)
-        By how much, SI units.
-    curves : Curves
-    limits : sequence of Limit
-    """
+    """The cars of a study, with deviations of values, (cars, places), in SI units."""
 
     def __init__(
         self,
@@ -193,7 +178,7 @@ class _Cars:
         self.within = np.zeros(len(off), dtype=bool)
 
     def see(self, progress: Callable[[float], None] | None) -> None:
-        """Look at all of them."""
+        """Evaluate all cars."""
         looks = [self.curves, *(limit.curves for limit in self.limits)]
         moved = moved_by(self.places, self.off)
         curves_of_many(self.suspension, moved, looks, self._seen, progress=progress)
@@ -207,9 +192,6 @@ class _Cars:
         self.within[some] = within
 
 
-# -- results --------------------------------------------------------------------------------------
-
-
 def _parts(
     suspension: Subject,
     spread: Mapping[DesignVariable, float],
@@ -217,9 +199,9 @@ def _parts(
     distribution: str,
     curves: Curves,
 ) -> Array:
-    """Return the variance that each value causes to first order; (places, names, positions).
+    """Return the first-order part of the variance by each value, (places, names, positions).
 
-    Of correlated values it is that of their sum in which they have a part: it may be negative.
+    Parts of correlated values may be negative.
     """
     sigma = np.array([*spread.values()]) / (np.sqrt(3.0) if distribution == "uniform" else SIGMAS)
     moved = sigma[:, None, None] * slopes(suspension, [*spread], curves)

@@ -1,4 +1,4 @@
-"""Curves of studies over the lateral acceleration of steady turns with a constant quantity."""
+"""The axis of lateral accelerations of steady turns with a constant quantity."""
 
 from collections.abc import Mapping
 
@@ -20,7 +20,7 @@ TURNS = "lateral_acceleration"
 TURNING_SPEED_KM_PER_H = 100.0
 """Default of the constant speed of steady turns [km/h]."""
 
-# The constant quantity: its kind, the unit of the key in SI units, the greatest value in the unit
+# Constant quantities: kind, factor from the unit of the key to SI units, greatest value in the unit
 # of the key, and words.
 _CONSTANT = {
     "speed_km_per_h": ("speed", 1.0 / 3.6, 500.0, "speed of {:g} km/h"),
@@ -28,7 +28,7 @@ _CONSTANT = {
     "steering_wheel_deg": ("steering_wheel", np.pi / 180.0, 2000.0, "steering wheel of {:g} deg"),
 }
 OPTIONS = tuple(_CONSTANT)
-"""Of which one is constant in all turns."""
+"""Quantities of which one is constant in all turns."""
 
 
 def axis(given: Validator, options: Mapping[str, object]) -> SweepAxis:
