@@ -18,7 +18,7 @@ def by_axle(dataset: xr.Dataset) -> xr.Dataset:
     Parameters
     ----------
     dataset : xarray.Dataset
-        Variables over ``wheel`` and another dimension, as of `kintrafo.ride.over`.
+        Variables over ``wheel`` and another dimension, such as those of `kintrafo.ride.over`.
 
     Returns
     -------
@@ -57,7 +57,7 @@ def names_by_axle(dataset: xr.Dataset, names: Iterable[str]) -> list[str]:
 
 
 def _ends(dataset: xr.Dataset) -> list[str]:
-    """Return the ends at which there are two wheels; none where there is one axle."""
+    """Return the ends of a car with two wheels each; none for one axle."""
     wheels = [str(name) for name in dataset[WHEEL].values.ravel()]
     ends = list(dict.fromkeys(name.rpartition("_")[0] for name in wheels))
     return ends if len(wheels) == len(ends) * len(SIDES) and len(ends) > 1 else []

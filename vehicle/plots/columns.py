@@ -8,20 +8,19 @@ from matplotlib.text import Annotation
 
 from ...core.named_types import Array
 
-# Between two labels, and between them and the edge [points].
+# Distance of two labels, and of labels from the edge [points].
 _ROOM = 3.0
 _POINTS = 72.0
 
 
 def in_columns(axes: Axes, labels: Sequence[Annotation]) -> None:
-    """Put labels at the sides of a drawing, with lines to what they label.
+    """Move labels to the sides of a finished drawing, with lines to their points.
 
     Parameters
     ----------
     axes : Axes
-        Where everything else is drawn and laid out.
     labels : sequence of Annotation
-        Their offsets are in points.
+        With offsets in points.
     """
     figure = axes.get_figure(root=True)
     assert figure is not None
@@ -45,17 +44,7 @@ def in_columns(axes: Axes, labels: Sequence[Annotation]) -> None:
 
 
 def _stacked(wanted: Array, heights: Array, low: float, high: float) -> Array:
-    """Return middles of labels above each other, as near to the wanted ones as they find room.
-
-    Parameters
-    ----------
-    wanted : ndarray
-        Rising.
-    heights : ndarray
-        Of the labels.
-    low, high : float
-        Between which there is room.
-    """
+    """Return the middles of labels between two limits without overlap, near rising wanted ones."""
     middles = wanted.copy()
     edge = low
     for i, height in enumerate(heights):
@@ -69,7 +58,7 @@ def _stacked(wanted: Array, heights: Array, low: float, high: float) -> Array:
 
 
 def _join(axes: Axes, label: Annotation, offset: Array) -> None:
-    """Draw a line from the edge of a label to what it labels."""
+    """Draw a line from the edge of a label to its point."""
     line = {
         "arrowstyle": "-", "color": label.get_color(), "linewidth": 0.5, "alpha": 0.6,
         "shrinkA": 0.0, "shrinkB": 0.0,

@@ -1,11 +1,9 @@
 """Curves for print: one figure for each variable of a dataset, and one page for each group.
 
-Targets and limits are drawn into the curves that they are about. How a curve is drawn is in
-`kintrafo.pictures.curves`.
+`kintrafo.pictures.curves` draws the curves; targets and limits are added here.
 """
 
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
-from functools import partial
 from io import BytesIO
 from pathlib import Path
 
@@ -28,35 +26,21 @@ from ..studies.goals import Goal
 from .goals import about, mark_sides
 
 FORMATS = ("png", "svg", "pdf")
-# Over travel and roll, and over the rack: the curves that engineers look at first.
+# Main curves over travel and roll, and over the rack.
 _FIRST = (
-    "camber",
-    "toe",
-    "caster",
-    "kingpin_inclination",
-    "half_track_change",
-    "track_change",
-    "motion_ratio",
-    "wheel_rate",
-    "roll_center_height_kinematic",
-    "roll_center_height",
-)
+    "camber", "toe", "caster", "kingpin_inclination", "half_track_change", "track_change",
+    "motion_ratio", "wheel_rate", "roll_center_height_kinematic", "roll_center_height",
+)  # fmt: skip
 _FIRST_STEERED = (
-    "steer",
-    "camber",
-    "caster",
-    "kingpin_inclination",
-    "trail",
-    "ackermann",
-    "turning_circle",
+    "steer", "camber", "caster", "kingpin_inclination", "trail", "ackermann", "turning_circle",
     "steering_ratio",
-)
+)  # fmt: skip
 _FEWEST_FIRST = 4
-# Curves are alike up to rounding, in SI units.
+# Differences of equal curves by rounding, in SI units.
 _ROUNDING = {"rtol": 1e-9, "atol": 1e-12}
-# Positions have a design value at zero; time has not.
+# Positions with the design at zero, unlike time.
 _WITH_DESIGN = ("wheel_travel", "rack_position", "roll_angle", "steering_wheel_angle")
-# As suspension engineers draw them.
+# Positions on the vertical axis, as suspension engineers draw them.
 _UPRIGHT = ("wheel_travel",)
 
 
@@ -79,16 +63,15 @@ def write(
     dataset : xarray.Dataset
         Variables over one dimension or two.
     folder : str or pathlib.Path
-        Made if there is none.
+        Created if it does not exist.
     formats : sequence of str, optional
-        Of 'png', 'svg' and 'pdf'.
+        'png', 'svg' and 'pdf'.
     title : str, optional
         Title of each figure, usually the name of the data.
     suffix : str, optional
-        Ends the name of each file, before its ending.
+        Last part of the name of each file, before its ending.
     goals : sequence of Goal, optional
-        Targets and limits, drawn into the curves that they are about; of an axle those over its
-        motion alone.
+        Targets and limits, drawn into their curves; for an axle only those over its motion.
     progress : callable, optional
         Called with the part that is done, up to 1.
     force : bool, optional
@@ -104,7 +87,7 @@ def write(
     Raises
     ------
     InputError
-        If one of them must not be written, before any is; or if one cannot be.
+        If a file must not be written, in which case none is written; or if one cannot be.
     """
     check_formats(formats=formats)
     with Validator("figures") as given:
@@ -115,7 +98,8 @@ def write(
         given.function("progress", progress)
         given.flag("force", force)
         given.paths("inputs", inputs)
-    pages = {f"overview_{_slug(group)}": names for group, names in grouped(dataset, goals).items()}
+    groups = grouped(dataset, goals).items()
+    pages = {f"overview_{'_'.join(group.lower().split())}": names for group, names in groups}
     single = {str(name): (name,) for name in drawable(dataset)}
     drawn = {**pages, **single}
     files = {n: [Path(folder) / f"{n}{suffix}.{ending}" for ending in formats] for n in drawn}
@@ -151,8 +135,7 @@ def write_overview(
         By default all that vary.
     title : str, optional
     goals : sequence of Goal, optional
-        Targets and limits, drawn into the curves that they are about; of an axle those over its
-        motion alone.
+        Targets and limits, drawn into their curves; for an axle only those over its motion.
     force : bool, optional
         Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
     inputs : iterable of str or pathlib.Path, optional
@@ -193,15 +176,7 @@ def write_overview(
 
 
 def check_formats(paths: Sequence[str | Path] = (), formats: Sequence[str] = ()) -> None:
-    """Refuse names of files, and formats, in which no figure can be written.
-
-    Parameters
-    ----------
-    paths : sequence of str or pathlib.Path, optional
-        Pages of curves.
-    formats : sequence of str, optional
-        Of figures: png, svg or pdf.
-    """
+    """Raise an `InputError` for files or formats other than png, svg and pdf."""
     with Validator("figures") as given:
         for name, listed in (("paths", paths), ("formats", formats)):
             if not isinstance(listed, list | tuple):
@@ -221,20 +196,19 @@ def check_formats(paths: Sequence[str | Path] = (), formats: Sequence[str] = ())
 
 
 def grouped(dataset: xr.Dataset, goals: Sequence[Goal] = ()) -> dict[str, tuple[Hashable, ...]]:
-    """Return the variables that belong on one page, by the name of their group.
+    """Return the variables of each page by the name of their group, in the order of the report.
 
-    Constant variables are left out, unless all are constant, or a goal is about them.
+    Constant variables are left out, unless all are constant, or have a goal.
 
     Parameters
     ----------
     dataset : xarray.Dataset
     goals : sequence of Goal, optional
-        Targets and limits that are to be drawn.
+        Targets and limits.
 
     Returns
     -------
     dict of str to tuple of str
-        In the order of the report.
     """
     with Validator("figures") as given:
         given.dataset(dataset)
@@ -243,7 +217,8 @@ def grouped(dataset: xr.Dataset, goals: Sequence[Goal] = ()) -> dict[str, tuple[
     varying = tuple(
         name
         for name in names
-        if not is_constant(displayed(dataset[name])) or _is_wanted(dataset[name], goals)
+        if not is_constant(displayed(dataset[name]))
+        or any(about(goals, dataset[name], dimension_along(dataset[name])).values())
     )
     for name in without_copies(dataset, varying or names):
         group = group_of(name)
@@ -252,7 +227,7 @@ def grouped(dataset: xr.Dataset, goals: Sequence[Goal] = ()) -> dict[str, tuple[
 
 
 def first_curves(dataset: xr.Dataset) -> tuple[str, ...]:
-    """Return the main curves; none where few of them exist.
+    """Return the names of the main curves in the order of a page; none if few of them exist.
 
     Parameters
     ----------
@@ -262,7 +237,6 @@ def first_curves(dataset: xr.Dataset) -> tuple[str, ...]:
     Returns
     -------
     tuple of str
-        In the order of a page.
     """
     with Validator("first_curves") as given:
         given.dataset(dataset)
@@ -273,14 +247,7 @@ def first_curves(dataset: xr.Dataset) -> tuple[str, ...]:
 
 
 def without_copies(dataset: xr.Dataset, names: Iterable[Hashable]) -> Iterator[Hashable]:
-    """Yield the names of curves without those that equal an earlier one or its negative.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-    names : iterable of str
-        Of variables.
-    """
+    """Yield the names of curves without those that equal an earlier one or its negative."""
     seen: list[xr.DataArray] = []
     for name in names:
         data = dataset[name]
@@ -294,15 +261,6 @@ def without_copies(dataset: xr.Dataset, names: Iterable[Hashable]) -> Iterator[H
             yield name
 
 
-def _is_wanted(data: xr.DataArray, goals: Sequence[Goal]) -> bool:
-    return any(about(goals, data, dimension_along(data)).values())
-
-
-def _slug(text: str) -> str:
-    """Return a text as part of the name of a file."""
-    return "_".join(text.lower().split())
-
-
 def figure(
     dataset: xr.Dataset,
     names: Sequence[Hashable],
@@ -312,7 +270,7 @@ def figure(
     columns: int = COLUMNS,
     goals: Sequence[Goal] = (),
 ) -> Figure:
-    """Draw curves of some variables, each in its own axes.
+    """Return a figure with curves of some variables, each in its own axes.
 
     Parameters
     ----------
@@ -321,34 +279,21 @@ def figure(
         Variables over one dimension or two.
     title : str, optional
     alone : bool, optional
-        Whether this is the figure of one curve, with its definition where there is one.
+        Whether this is the figure of one curve, with its definition if it has one.
     columns : int, optional
         Largest number of panels in a row.
     goals : sequence of Goal, optional
-        Targets and limits, drawn into the curves that they are about; of an axle those over its
-        motion alone.
+        Targets and limits, drawn into their curves; for an axle only those over its motion.
 
     Returns
     -------
     matplotlib.figure.Figure
     """
+
+    def mark(axes: Axes, data: xr.DataArray, along: str, colours: Mapping[str, str]) -> Array:
+        return mark_sides(axes, about(goals, data, along), colours)
+
     return draw(
-        dataset,
-        names,
-        title=title,
-        alone=alone,
-        columns=columns,
-        positions=_WITH_DESIGN,
-        upright=_UPRIGHT,
-        mark=partial(_mark, goals),
-    )
-
-
-def _mark(
-    goals: Sequence[Goal],
-    axes: Axes,
-    data: xr.DataArray,
-    along: str,
-    colours: Mapping[str, str],
-) -> Array:
-    return mark_sides(axes, about(goals, data, along), colours)
+        dataset, names, title=title, alone=alone, columns=columns, positions=_WITH_DESIGN,
+        upright=_UPRIGHT, mark=mark,
+    )  # fmt: skip

@@ -19,17 +19,17 @@ _RED = "#aa0000"
 
 
 def of_curve(goals: Iterable[Goal], name: str, over: str) -> list[Goal]:
-    """Return the goals about a characteristic over something."""
+    """Return the goals of a characteristic over an axis."""
     return [goal for goal in goals if (goal.name, goal.over) == (name, over)]
 
 
 def about(goals: Iterable[Goal], data: xr.DataArray, along: str) -> dict[str, list[Goal]]:
-    """Return the goals about the curves of a panel, by the side of the axle that they are about.
+    """Return the goals of the curves of a panel, by side; under '' those of all curves.
 
     Parameters
     ----------
     goals : iterable of Goal
-        Those of other curves are left out.
+        Goals of other curves are left out.
     data : xarray.DataArray
         The curves; those of both wheels of an axle are over ``wheel``, or of a car over ``side``.
     along : str
@@ -38,13 +38,12 @@ def about(goals: Iterable[Goal], data: xr.DataArray, along: str) -> dict[str, li
     Returns
     -------
     dict of str to list of Goal
-        Empty for what is about all curves: a goal of both wheels is one where they have the same.
+        Equal goals of both wheels are one goal of all curves.
 
     Raises
     ------
     InputError
-        If some are about parallel travel and others about that of one wheel: the axis, which is the
-        same, does not say which of them the curves are over.
+        If goals over parallel travel and over that of one wheel have the same axis.
     """
     own = [goal for goal in goals if sweep_axis(goal.over).along.name == along]
     name = str(data.name)
@@ -63,12 +62,12 @@ def about(goals: Iterable[Goal], data: xr.DataArray, along: str) -> dict[str, li
 
 
 def _has_like(goals: Iterable[Goal], goal: Goal) -> bool:
-    """Return whether one of some goals is another in nothing but its name."""
+    """Return whether one of some goals equals another but for its name."""
     return any(but_name(other) == but_name(goal) for other in goals)
 
 
 def but_name(goal: Goal) -> tuple[type, dict[str, list[float] | str]]:
-    """Return all of a goal but its name, to be compared."""
+    """Return all attributes of a goal but its name, for comparisons."""
     values = {key: np.asarray(value).tolist() for key, value in vars(goal).items() if key != "name"}
     return type(goal), values
 
@@ -76,7 +75,7 @@ def but_name(goal: Goal) -> tuple[type, dict[str, list[float] | str]]:
 def mark_sides(
     axes: Axes, goals: Mapping[str, Iterable[Goal]], colours: Mapping[str, str]
 ) -> NDArray[np.float64]:
-    """Mark what `about` returns, that of one side in the colour of its curve; as `mark`."""
+    """Draw the goals of `about`, those of one side in the colour of its curve; see `mark`."""
     return np.concatenate(
         [mark(axes, some, side, colours.get(side, "")) for side, some in goals.items()]
     )
@@ -85,24 +84,21 @@ def mark_sides(
 def mark(
     axes: Axes, goals: Iterable[Goal], side: str = "", colour: str = ""
 ) -> NDArray[np.float64]:
-    """Mark what characteristics are wanted to be, and what they must not pass.
-
-    A target is a point with what matters of it to either side; of limits, arrows lie beyond.
+    """Draw targets as points with an error bar of `within`, and limits as lines with arrows beyond.
 
     Parameters
     ----------
     axes : matplotlib.axes.Axes
     goals : iterable of Goal
-        All of them are marked.
     side : str, optional
-        Which curve they are about, where it is one of several.
+        The side of their curve, if it is one of several.
     colour : str, optional
         By default that of targets and that of limits.
 
     Returns
     -------
     ndarray
-        The values that were marked, as they are displayed.
+        The drawn values, in display units.
     """
     marked: list[NDArray[np.float64]] = [np.empty(0)]
     whose = f", {side}" if side else ""

@@ -42,11 +42,11 @@ _SIDESLIP = "sideslip_angle"
 # Curves without larger values, in display units, are rounding: steering torque straight ahead.
 _ROUNDING = 1e-6
 _COLUMNS = 3
-# Less width of a path is drawn as little as it is [m].
+# Least drawn width of a path [m].
 _LEAST = 2.0
 # Time between two outlines of the car [s].
 _BETWEEN = 0.5
-# Width of the picture of a path, and its height at most [in].
+# Width of the picture of a path, and its greatest height [in].
 _WIDE, _HIGH = 10.0, 7.0
 
 
@@ -67,7 +67,7 @@ def write_curves(
     path : str or pathlib.Path
         Its ending is the format.
     title, force, inputs
-        As of `kintrafo.plots.write`.
+        As in `kintrafo.plots.write`.
 
     Returns
     -------
@@ -93,10 +93,7 @@ def _along(dataset: xr.Dataset) -> str:
 
 
 def for_print(dataset: xr.Dataset, along: str) -> xr.Dataset:
-    """Return curves with the names of wheels in words, and a sideslip angle that does not leap.
-
-    That of a car that turns round passes 180 degrees.
-    """
+    """Return curves with the names of wheels in words, and a sideslip angle without jumps."""
     if WHEEL in dataset.dims:
         words = [str(name).replace("_", " ") for name in dataset[WHEEL].values]
         dataset = dataset.assign_coords({WHEEL: words})
@@ -116,18 +113,18 @@ def write_path(
     force: bool = False,
     inputs: Paths = (),
 ) -> Path:
-    """Write the path of the reference point of a car, between cones where there are some.
+    """Write the path of the reference point of a car, with cones if there are some.
 
     Parameters
     ----------
     motion : xarray.Dataset
-        With ``x`` and ``y``, over time, and over amplitude too where there are several runs.
+        With ``x`` and ``y``, over time, and also over amplitude for several runs.
     path : str or pathlib.Path
         Its ending is the format.
     cones : xarray.Dataset, optional
-        Their places, and how far from each the car passes.
+        Their positions, and their distances from the car.
     title, force, inputs
-        As of `kintrafo.plots.write`.
+        As in `kintrafo.plots.write`.
 
     Returns
     -------
@@ -164,7 +161,7 @@ def write_path(
 
 
 def _name_runs(axes: Axes, lines: Sequence[Line2D], motion: xr.Dataset) -> None:
-    """Name some of the paths of several runs."""
+    """Draw a legend with the names of some runs."""
     runs = motion[next(str(name) for name in motion["x"].dims if name != "time")]
     names = named_values(runs)
     axes.legend(
@@ -174,7 +171,7 @@ def _name_runs(axes: Axes, lines: Sequence[Line2D], motion: xr.Dataset) -> None:
 
 
 def _draw_car(axes: Axes, motion: xr.Dataset, size: Mapping[str, float]) -> None:
-    """Draw the outline of the car from time to time."""
+    """Draw the outline of the car at equal times."""
     front, half = size["car_front"], 0.5 * size["car_width"]
     back = front - size["car_length"]
     around = np.array([[front, half], [back, half], [back, -half], [front, -half], [front, half]])

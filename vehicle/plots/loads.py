@@ -18,19 +18,19 @@ from ..analysis.loads.sheets import without_side
 from .columns import in_columns
 from .curves import check_formats
 
-# Seen from behind and from the right: which axes of the chassis lie across and upward.
+# Chassis axes across and upward in each view, and the sense of the first.
 _VIEWS = {"from behind": (1, 2, -1.0), "from the right": (0, 2, 1.0)}
-# The longest arrow of a part, as a part of the part's greatest extent, and the least extent [m].
+# The longest arrow, relative to the greatest extent of the part, and the least extent [m].
 _LONGEST, _LEAST_EXTENT = 0.6, 0.15
-# The shortest arrow, as a part of the longest. A force of which a view has less than this part
-# points out of the drawing or into it: a dot in a circle, or a cross.
+# The shortest arrow, relative to the longest. A force with a smaller part than the second number in
+# the plane of the view is drawn as a dot in a circle, out of the drawing, or a cross, into it.
 _SHORTEST, _ACROSS = 0.12, 0.2
 # Width of a part [points], and of its outline.
 _THICK, _EDGE = 6.0, 1.2
-# A part with more loads than this has a row for each view. Labels are at both sides of a drawing,
-# in room that is this part of its width.
+# A part with more loads has a row for each view. Room for labels on both sides of a drawing, as a
+# part of its width.
 _MANY, _ASIDE, _ASIDE_NARROW = 4, 0.35, 0.9
-# Least height of a row; its height beside its labels, and for each of them in a column [in].
+# Least height of a row; its height without labels, and for each label in a column [in].
 _ROW, _FRAME, _LABEL = 2.7, 0.8, 0.45
 # Forces and couples below these are not drawn [N], [N m].
 _SMALL_FORCE, _SMALL_MOMENT = 0.5, 1.0
@@ -49,18 +49,18 @@ def write_free_bodies(
 ) -> list[Path]:
     """Write the moving parts of a suspension with the forces on them, in two views.
 
-    Rods that only forces at their ends act on are drawn if they are named.
+    Rods with forces only at their ends are drawn only if they are named.
 
     Parameters
     ----------
     dataset : xarray.Dataset
         From `kintrafo.loads.static`.
     paths : sequence of pathlib.Path
-        The case's name goes behind each file's name; the ending is the format.
+        The name of the case is appended to each name; the ending is the format.
     case : str
         Load case.
     parts : sequence of str, optional
-        By default all that move.
+        By default all moving parts.
     title : str, optional
     force : bool, optional
         Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
@@ -85,12 +85,12 @@ def write_free_bodies(
 def free_bodies(
     dataset: xr.Dataset, case: str, parts: Sequence[str] | None = None, *, title: str = ""
 ) -> Figure:
-    """Draw the moving parts of a suspension with the forces on them; see `write_free_bodies`."""
+    """Return a figure of the moving parts with the forces on them; see `write_free_bodies`."""
     here = dataset.sel(case=case)
     rods = [str(rod) for rod in here["rod"].values] if "rod" in here.coords else []
     shown = parts or [str(part) for part in here["moving_part"].values if part not in rods]
     chosen = {part: here.isel(load=(here["part"] == part).values) for part in shown}
-    # a view stands alone in its row where many labels are beside it
+    # a view with many labels has a row of its own
     heights = [
         max(_ROW, _FRAME + _LABEL * -(-len(_drawn(loads)) // 2))
         for loads in chosen.values()
@@ -108,21 +108,21 @@ def free_bodies(
             axes.set_title(f"{part.replace('_', ' ')}, {view}", fontsize=9.5)
         row += len(_VIEWS) if _crowded(loads) else 1
     figure.suptitle(title, fontsize=11)
-    figure.draw_without_rendering()  # labels are placed by what is drawn
+    figure.draw_without_rendering()  # labels are placed after the layout
     for axes, of_view in labels.items():
         in_columns(axes, of_view)
     return written_plainly(figure)
 
 
 def _drawn(loads: xr.Dataset) -> np.ndarray:
-    """Return the indices of the loads that are drawn: forces, and couples that mean something."""
+    """Return the indices of the drawn loads: forces and couples above the least sizes."""
     sizes = np.linalg.norm(loads["force"].values, axis=1)
     couples = np.linalg.norm(loads["moment"].values, axis=1)
     return np.flatnonzero((sizes > _SMALL_FORCE) | (couples > _SMALL_MOMENT))
 
 
 def _crowded(loads: xr.Dataset) -> bool:
-    """Return whether so many loads are on a part that their labels would lie on each other."""
+    """Return whether labels of the loads on a part would overlap in one row."""
     return len(_drawn(loads)) > _MANY
 
 
@@ -140,9 +140,12 @@ def _draw(axes: Axes, loads: xr.Dataset, view: str) -> list[Annotation]:
         colour = ORANGE if without_side(loads["by"].values[i]) in _FROM_OUTSIDE else BLUE
         strength = float(np.linalg.norm(forces[i]))
         if strength < _ACROSS * sizes[i]:
-            # seen from behind and from the right, positive goes away from the viewer
+            # positive is away from the viewer in both views
             away = float(loads["force"].values[i, 1 - across]) > 0.0
-            _draw_across(axes, places[i], colour, away=away)
+            axes.plot(
+                *places[i], "o", markersize=9, markerfacecolor="white", color=colour, zorder=4
+            )
+            axes.plot(*places[i], "x" if away else ".", markersize=6, color=colour, zorder=5)
             tail = places[i]
         elif strength:
             length = max(scale * strength, _SHORTEST * _LONGEST * extent)
@@ -152,7 +155,7 @@ def _draw(axes: Axes, loads: xr.Dataset, view: str) -> list[Annotation]:
         else:
             tail = places[i]
         labels.append(_labelled(axes, loads.isel(load=i), tail, colour))
-        axes.plot(*tail, alpha=0.0)  # so that arrows are within the axes
+        axes.plot(*tail, alpha=0.0)  # the limits of the axes include arrows
     axes.set_aspect("equal", adjustable="datalim")
     axes.margins(_ASIDE if _crowded(loads) else _ASIDE_NARROW, 0.15)
     axes.tick_params(labelsize=7)
@@ -163,7 +166,7 @@ def _draw(axes: Axes, loads: xr.Dataset, view: str) -> list[Annotation]:
 
 
 def _labelled(axes: Axes, load: xr.Dataset, tail: np.ndarray, colour: str) -> Annotation:
-    """Label a load with its neighbour, its point and its size."""
+    """Return the label of a load: its neighbour, its point and its size."""
     size, couple = (float(np.linalg.norm(load[name].values)) for name in ("force", "moment"))
     amounts = [f"{size:.0f} N"] if size > _SMALL_FORCE else []
     amounts += [f"{couple:.0f} N m"] if couple > _SMALL_MOMENT else []
@@ -177,14 +180,8 @@ def _labelled(axes: Axes, load: xr.Dataset, tail: np.ndarray, colour: str) -> An
     )  # fmt: skip
 
 
-def _draw_across(axes: Axes, place: np.ndarray, colour: str, *, away: bool) -> None:
-    """Draw a force that points out of the drawing, or into it."""
-    axes.plot(*place, "o", markersize=9, markerfacecolor="white", color=colour, zorder=4)
-    axes.plot(*place, "x" if away else ".", markersize=6, color=colour, zorder=5)
-
-
 def _draw_part(axes: Axes, loads: xr.Dataset, places: np.ndarray) -> None:
-    """Draw what connects the points of a part: each with the nearest of those before it."""
+    """Draw the shortest connections between the points of a part."""
     held = np.flatnonzero(loads["point"].values != "mass")
     at = loads["at"].values[held]
     for first, second in _connected(at):
@@ -195,7 +192,7 @@ def _draw_part(axes: Axes, loads: xr.Dataset, places: np.ndarray) -> None:
 
 
 def _connected(at: np.ndarray) -> list[tuple[int, int]]:
-    """Return the pairs of points whose connections are the shortest that hold all together."""
+    """Return the pairs of points of the minimum spanning tree."""
     distances = np.linalg.norm(at[:, None] - at, axis=2)
     reached, pairs = [0], []
     while len(reached) < len(at):

@@ -1,4 +1,4 @@
-"""One picture of a suspension: how it moves, and what that does to the wheel."""
+"""One picture of a suspension: its positions, and camber and toe over travel."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -30,13 +30,13 @@ _COLOURS = {
 
 
 def write_overview(model: Model, path: Path, travel: float = 0.08, *, force: bool = False) -> None:
-    """Draw the suspension from the front in three positions, and camber and toe over travel.
+    """Write a picture of the suspension in three positions, with camber and toe over travel.
 
     Parameters
     ----------
     model : Model
     path : Path
-        Where to write; the ending gives the format.
+        The ending is the format.
     travel : float, optional
         Wheel travel in bump and rebound [m].
     force : bool, optional
@@ -59,7 +59,7 @@ def write_overview(model: Model, path: Path, travel: float = 0.08, *, force: boo
 
 
 def from_behind(models: Sequence[Model]) -> Figure:
-    """Draw one suspension at design, or both of an axle, seen from behind.
+    """Return a figure of one suspension at design, or both of an axle, seen from behind.
 
     Parameters
     ----------
@@ -90,32 +90,26 @@ def _draw_front(axes: Axes, model: Model, state: Array, colour: str) -> None:
     for name, (first, second, role) in drawing.links.items():
         line = np.array([points[first], points[second]])
         axes.plot(
-            *line.T,
-            color=_COLOURS[role] if strong else colour,
-            linewidth=3.0 if strong else 1.4,
-            marker="o",
-            markersize=5 if strong else 3,
-            label=name if strong else None,
+            *line.T, color=_COLOURS[role] if strong else colour, linewidth=3.0 if strong else 1.4,
+            marker="o", markersize=5 if strong else 3, label=name if strong else None,
             zorder=3 if strong else 2,
-        )
+        )  # fmt: skip
     spokes = np.array([points[name] for name in drawing.knuckle])
     axes.plot(*spokes.T, color="#666666" if strong else colour, linewidth=1.6, zorder=2)
     _draw_tyre(axes, model, state, points["wheel_center"], strong=strong)
 
 
 def _draw_tyre(axes: Axes, model: Model, state: Array, center: Array, *, strong: bool) -> None:
-    """Draw the section of the tyre by the plane through the spin axis."""
+    """Draw the section of the tyre in the plane through the spin axis."""
     side = 1.0 if model.suspension.vehicle.side == "left" else -1.0
     lean = side * float(model.signal("camber", state))  # positive: top to the left
     up = np.array([np.sin(lean), np.cos(lean)]) * TYRE_RADIUS * 1e3
     across = np.array([np.cos(lean), -np.sin(lean)]) * TYRE_WIDTH / 2 * 1e3
     corners = np.array([up + across, up - across, -up - across, -up + across, up + across])
     axes.plot(
-        *(center + corners).T,
-        color="#333333" if strong else GREY,
-        linewidth=1.6 if strong else 1.0,
-        zorder=2 if strong else 1,
-    )
+        *(center + corners).T, color="#333333" if strong else GREY,
+        linewidth=1.6 if strong else 1.0, zorder=2 if strong else 1,
+    )  # fmt: skip
     if strong:
         axes.fill(*(center + corners).T, color="#f0f0f0", zorder=1)
 
@@ -129,7 +123,7 @@ def _finish_front(axes: Axes) -> None:
 
 
 def _draw_angles(camber: Axes, toe: Axes, model: Model, design: float, travel: float) -> None:
-    """Draw the angles as suspension engineers do: travel upward, angle across."""
+    """Draw the angles with travel on the vertical axis."""
     offsets = np.linspace(-travel, travel, 81)
     signals = model.signals(np.array([state_at_height(model, design + o) for o in offsets]))
     for axes, name, colour, sign in (

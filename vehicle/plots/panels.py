@@ -43,22 +43,22 @@ def write_panels(
     force: bool = False,
     inputs: Paths = (),
 ) -> Path:
-    """Write one figure of several panels, two beside each other.
+    """Write one figure of several panels, two in a row.
 
-    The legend below them is of those without a legend of their own.
+    The legend below them is that of panels without a legend.
 
     Parameters
     ----------
     draw : callable
-        Takes the axes of a panel and its name.
+        A function of the axes of a panel and its name.
     names : sequence of str
         The panels.
     path : str or pathlib.Path
         The ending is the format: ``.png``, ``.svg`` or ``.pdf``.
     height : float
-        Of a row [in].
+        Height of a row [in].
     title, force, inputs
-        As of `FigureOptions`.
+        As in `FigureOptions`.
 
     Returns
     -------
@@ -74,23 +74,16 @@ def write_panels(
             draw(axes, name)
         for axes in panels[len(names) :]:
             axes.remove()
-        found = [
-            panel.get_legend_handles_labels()
-            for panel in panels[: len(names)]
-            if panel.get_legend() is None
-        ]
         named = {
             label: line
-            for lines, labels in found
-            for line, label in zip(lines, labels, strict=True)
+            for panel in panels[: len(names)]
+            if panel.get_legend() is None
+            for line, label in zip(*panel.get_legend_handles_labels(), strict=True)
         }
         if named:
             figure.legend(
-                named.values(),
-                named.keys(),
-                loc="outside lower center",
-                ncols=2 * columns,
+                named.values(), named.keys(), loc="outside lower center", ncols=2 * columns,
                 frameon=False,
-            )
+            )  # fmt: skip
         figure.suptitle(title, fontsize=11)
         return save(written_plainly(figure), path, force=force, inputs=inputs)

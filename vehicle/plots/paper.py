@@ -35,19 +35,19 @@ def write_figures(
 
     Parameters
     ----------
-    kinematics, dynamics
-        What they show.
+    kinematics : PaperKinematics
+    dynamics : PaperDynamics
     folder : Path
         Created if it does not exist.
-    data
+    data : str
         Name of the data set, for the line below each figure.
-    force
+    force : bool, optional
         Whether files that kintrafo did not write are replaced, see `kintrafo.core.files`.
 
     Returns
     -------
     list of Path
-        The files written, PNG and SVG of each figure.
+        PNG and SVG files of each figure.
     """
     files = figure_files(folder)
     refuse(files, force=force)
@@ -62,7 +62,7 @@ def write_figures(
 
 
 def wheel_path(kinematics: PaperKinematics) -> Figure:
-    """Draw Figure 4: the path of the wheel centre, seen from the side and from the front."""
+    """Return Figure 4: the path of the wheel centre, seen from the side and from the front."""
     figure = Figure(figsize=(8.4, 4.4), layout="constrained")
     side, front = figure.subplots(1, 2, sharey=True)
     # y grows to the right of the drawing, so a left wheel has its outboard side there
@@ -79,7 +79,7 @@ def wheel_path(kinematics: PaperKinematics) -> Figure:
 
 
 def wheel_angles(kinematics: PaperKinematics) -> Figure:
-    """Draw Figure 5: camber and steer angle over wheel height."""
+    """Return Figure 5: camber and steer angle over wheel height."""
     figure = Figure(figsize=(8.4, 4.4), layout="constrained")
     camber, steer = figure.subplots(1, 2)
     for axes, angle, colour in (
@@ -103,7 +103,7 @@ def _mark_design(axes: Axes, x: Array, y: Array, kinematics: PaperKinematics) ->
 
 
 def wheel_motion(dynamics: PaperDynamics) -> Figure:
-    """Draw Figure 6: height, velocity and acceleration of the wheel centre."""
+    """Return Figure 6: height, velocity and acceleration of the wheel centre."""
     result = dynamics.result
     figure = Figure(figsize=(8.4, 7.6), layout="constrained")
     rows = figure.subplots(3, 1, sharex=True)

@@ -1,4 +1,4 @@
-"""A Pareto front: each two of its objectives against each other."""
+"""Pictures of a Pareto front: each pair of its objectives."""
 
 from itertools import combinations
 from pathlib import Path
@@ -7,14 +7,13 @@ from typing import Unpack
 
 from matplotlib.axes import Axes
 
-from ...core.named_types import Array
 from ...core.quantities import bracketed, display_of
 from ...pictures.figures import BLUE, GREEN, ORANGE
 from ..studies.objectives import Objective
 from ..studies.pareto import Front
 from .panels import FigureOptions, write_panels
 
-# So many letters of a name stand beside an axis of these pictures.
+# Letters in a line of the label of an axis.
 _LETTERS = 34
 
 
@@ -25,34 +24,36 @@ def write_front(
     chosen: int = 0,
     **how: Unpack[FigureOptions],
 ) -> Path:
-    """Write a front, the suspension as it was, and members that are marked.
+    """Write a picture of a front, with marks at the given suspension and some members.
 
     Parameters
     ----------
     found : Front
         From `kintrafo.variation.pareto`.
     path, **how
-        As of `panels.write_panels`.
+        As in `panels.write_panels`.
     chosen : int, optional
-        A member that is marked besides the compromise.
+        A member to mark, in addition to the compromise.
 
     Returns
     -------
     pathlib.Path
     """
     panels = {f"{a.name} {b.name}": (a, b) for a, b in combinations(found.objectives, 2)}
-    return write_panels(
-        lambda axes, key: _pair(axes, found, panels[key], chosen),
-        [*panels],
-        path,
-        height=3.4,
-        **how,
-    )
+
+    def draw(axes: Axes, key: str) -> None:
+        _pair(axes, found, panels[key], chosen)
+
+    return write_panels(draw, [*panels], path, height=3.4, **how)
 
 
 def _pair(axes: Axes, found: Front, pair: tuple[Objective, Objective], chosen: int) -> None:
-    across, up = (_shown(found, objective) for objective in pair)
-    start = [found.before[objective.name] * _factor(objective) for objective in pair]
+    factors = [display_of(objective.attributes()).factor for objective in pair]
+    across, up = (
+        found.dataset[objective.name].values * factor
+        for objective, factor in zip(pair, factors, strict=True)
+    )
+    start = [found.before[o.name] * factor for o, factor in zip(pair, factors, strict=True)]
     axes.plot(across, up, "o", color=BLUE, markersize=4, alpha=0.8, label="front")
     label = "as it is" if found.keeps_limits else "as it is, beyond limits"
     axes.plot(*start, "X", color="black", markersize=8, label=label)
@@ -69,17 +70,8 @@ def _pair(axes: Axes, found: Front, pair: tuple[Objective, Objective], chosen: i
     axes.set_ylabel(_label(pair[1]), fontsize=9.5)
 
 
-def _factor(objective: Objective) -> float:
-    return display_of(objective.attributes()).factor
-
-
-def _shown(found: Front, objective: Objective) -> Array:
-    values: Array = found.dataset[objective.name].values * _factor(objective)
-    return values
-
-
 def _label(objective: Objective) -> str:
-    """Return what an axis is, and to which side it is better."""
+    """Return the label of an axis, with its direction of optimisation."""
     attrs = objective.attributes()
     name = bracketed(str(attrs["long_name"]), attrs)
     return f"{fill(name, _LETTERS)}\n{attrs['wanted']}"

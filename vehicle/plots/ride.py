@@ -1,4 +1,4 @@
-"""Spectra of a car on a rough road, and its responses to the road, over the frequency."""
+"""Spectra of a car on a rough road, and its responses to the road, over frequency."""
 
 import numpy as np
 import xarray as xr
@@ -17,14 +17,14 @@ _ROAD_WHEEL = "road_wheel"
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 # Most dimensions: responses of each wheel to the road under each wheel are too many lines.
 _MOST = 2
-# Least value of an axis, by the greatest value of its curve.
+# Least value of an axis, relative to the greatest value of its curve.
 _LEAST = 1e-4
-# Room below the least value, for the names of lines.
+# Room for names of lines below the least value, as a factor.
 _BELOW = 0.1
 
 
 def response_figures(response: xr.Dataset) -> dict[str, Figure]:
-    """Return spectra and responses over the frequency, in logarithmic axes, by their headings.
+    """Return spectra and responses over frequency, in logarithmic axes, by their headings.
 
     Parameters
     ----------
@@ -34,8 +34,8 @@ def response_figures(response: xr.Dataset) -> dict[str, Figure]:
     Returns
     -------
     dict of str to matplotlib.figure.Figure
-        The spectra, then the responses of the body to the road under each wheel alone; of one wheel
-        all responses.
+        The spectra, then the responses of the body to the road under each wheel; for one wheel all
+        responses.
     """
     with Validator("response_figures") as given:
         given.dataset(response, over="frequency")

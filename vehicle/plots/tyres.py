@@ -15,26 +15,22 @@ if TYPE_CHECKING:
 
 _POINTS = 241
 _COLOURS = (BLUE, ORANGE, GREEN, "#cc79a7")
-_LENGTHS = "#7b4ea3"  # of curves with the axis at the right
-_LOADS = (0.5, 1.0, 1.5)
-_ANGLES = (0.0, 2.0, 4.0, 8.0)  # of combined slip [deg]
+_LENGTHS = "#7b4ea3"  # colour of curves with the axis at the right
+_LOADS = (0.5, 1.0, 1.5)  # in nominal loads
+_ANGLES = (0.0, 2.0, 4.0, 8.0)  # slip angles of combined slip [deg]
 _CAMBERS = (-4.0, 0.0, 4.0)  # [deg]
-_WIDEST = 20.0  # slip angle that is drawn [deg]
+_WIDEST = 20.0  # greatest drawn slip angle [deg]
 _DASHES = ("-", "--", ":", "-.")
 
 
-def write_tyre(
-    tyre: Tyre,
-    path: str | Path,
-    **how: Unpack[FigureOptions],
-) -> Path:
+def write_tyre(tyre: Tyre, path: str | Path, **how: Unpack[FigureOptions]) -> Path:
     """Write curves of a tyre: forces and aligning moment over slip, at several loads and cambers.
 
     Parameters
     ----------
     tyre : Tyre
     path, **how
-        As of `panels.write_panels`.
+        As in `panels.write_panels`.
 
     Returns
     -------
@@ -54,17 +50,11 @@ def write_tyre(
         "camber": drawn.camber,
         "stiffness": drawn.stiffness,
     }
-    return write_panels(
-        lambda axes, name: panels[name](axes),
-        [*panels],
-        path,
-        height=3.2,
-        **how,
-    )
+    return write_panels(lambda axes, name: panels[name](axes), [*panels], path, height=3.2, **how)
 
 
 class _Curves:
-    """The panels of a tyre; one colour a load, one dash a slip angle or a camber."""
+    """The panels of a tyre, with a colour for each load and a dash for each angle."""
 
     def __init__(self, tyre: Tyre) -> None:
         low, high = tyre.ranges.get("load", (0.0, np.inf))

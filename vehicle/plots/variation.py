@@ -1,4 +1,4 @@
-"""What values of the input file do to the characteristics: bars, bands, before and after."""
+"""Pictures of studies: bars of sensitivities, bands of tolerances, curves before and after."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -23,13 +23,12 @@ from ..studies.tolerance import QUANTILE
 from .goals import mark, of_curve
 from .panels import FigureOptions, write_panels
 
-# Before and after: they differ in black and white, too.
+# Lines before and after, which also differ in black and white.
 _PAIR = ((BLUE, "-"), (ORANGE, "--"))
-# More bars than this are no ranking any more.
 _MOST_BARS = 10
-# Few bars do not become fatter than these many.
+# Bars have at most the height of these many.
 _LEAST_ROOM = 4
-# So many letters of a name stand beside an axis of these pictures.
+# Letters in a line of the label of an axis.
 _LETTERS = 28
 
 
@@ -41,14 +40,14 @@ def write_bars(
     at: float = 0.0,
     **how: Unpack[FigureOptions],
 ) -> Path:
-    """Write which values move characteristics most, each in its own axes for each unit.
+    """Write bars of the largest effects on characteristics, in separate axes for each unit.
 
     Parameters
     ----------
     dataset : xarray.Dataset
         From `kintrafo.vehicle.studies.sensitivity`.
     path, **how
-        As of `panels.write_panels`.
+        As in `panels.write_panels`.
     names : sequence of str
         Characteristics.
     at : float, optional
@@ -63,13 +62,11 @@ def write_bars(
         for name, found in ((name, list(effects(dataset, name, at))) for name in names)
         for unit in dict.fromkeys(effect.unit for effect in found)
     }
-    return write_panels(
-        lambda axes, key: _bars(axes, dataset, *panels[key]),
-        [*panels],
-        path,
-        height=2.6,
-        **how,
-    )
+
+    def draw(axes: Axes, key: str) -> None:
+        _bars(axes, dataset, *panels[key])
+
+    return write_panels(draw, [*panels], path, height=2.6, **how)
 
 
 def write_bands(
@@ -87,37 +84,31 @@ def write_bands(
     dataset : xarray.Dataset
         From `kintrafo.vehicle.studies.tolerance`.
     path, names, **how
-        As of `write_bars`.
+        As in `write_bars`.
     limits : sequence of Limit, optional
-        Drawn where they are about one of the curves.
+        Drawn into their curves.
 
     Returns
     -------
     pathlib.Path
     """
     panels = {key: name for name in names for key in (name, f"{name}, deviation")}
-    return write_panels(
-        lambda axes, key: _bands(axes, dataset, panels[key], limits, deviation=key != panels[key]),
-        [*panels],
-        path,
-        height=3.0,
-        **how,
-    )
+
+    def draw(axes: Axes, key: str) -> None:
+        _bands(axes, dataset, panels[key], limits, deviation=key != panels[key])
+
+    return write_panels(draw, [*panels], path, height=3.0, **how)
 
 
-def write_optimum(
-    found: Optimum,
-    path: str | Path,
-    **how: Unpack[FigureOptions],
-) -> Path:
-    """Write what there were targets and limits for, before and after, with these.
+def write_optimum(found: Optimum, path: str | Path, **how: Unpack[FigureOptions]) -> Path:
+    """Write the curves with targets and limits before and after an optimisation.
 
     Parameters
     ----------
     found : Optimum
         From `kintrafo.vehicle.studies.optimise`.
     path, **how
-        As of `write_bars`.
+        As in `write_bars`.
 
     Returns
     -------
@@ -134,10 +125,7 @@ def write_optimum(
         panel = panels[key]
         along = positions[panel.over]
         quantity, over = panel.quantity, sweep_axis(panel.over).along
-        factor, step = (
-            display_of(quantity.attributes()).factor,
-            display_of(over.attributes()).factor,
-        )
+        factor, step = (display_of(each.attributes()).factor for each in (quantity, over))
         for (label, model), (colour, dashes) in zip(models.items(), _PAIR, strict=True):
             values = Curves(panel.over, along, (panel.name,)).of(model)[0]
             axes.plot(step * along, factor * values, dashes, color=colour, label=label)
@@ -170,7 +158,7 @@ def _bars(axes: Axes, dataset: xr.Dataset, name: str, found: Sequence[Effect]) -
 def _bands(
     axes: Axes, dataset: xr.Dataset, name: str, limits: Sequence[Limit], *, deviation: bool
 ) -> None:
-    """Draw the bands of a characteristic, or of its deviation from that of the nominal car."""
+    """Draw the bands of a characteristic, or of its deviation from the nominal car."""
     data = dataset[name]
     along = next(str(d) for d in data.dims if d != QUANTILE)
     position = displayed(dataset[along])
@@ -191,7 +179,7 @@ def _bands(
 
 
 def _around(axes: Axes, along: Mapping[str, Any], values: Mapping[str, Any]) -> None:
-    """Say what the axes are, and mark the design position."""
+    """Label the axes, and mark the design position."""
     axes.axvline(0.0, color="#888888", linewidth=0.8, zorder=1)
     axes.margins(x=0.02)
     axes.set_xlabel(bracketed(str(along["long_name"]), along), fontsize=9)

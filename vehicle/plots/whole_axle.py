@@ -1,4 +1,4 @@
-"""An axle that one file describes at design from above, from the left and from behind."""
+"""A rigid or twist-beam axle at design from above, from the left and from behind."""
 
 from collections.abc import Iterator
 
@@ -13,7 +13,7 @@ from ..models.sides import SIDES
 from ..models.whole_axle import WholeAxle
 
 _SPRING, _DAMPER, _WHEEL = "#e69f00", "#56b4e9", "#cfd6dc"
-# What a view has to the right and upward: a component of a point, and its sense.
+# Components of points to the right and upward in each view, with their senses.
 _VIEWS = {
     "from above": ((1, -1.0), (0, 1.0)),
     "from the left": ((0, -1.0), (2, 1.0)),
@@ -21,13 +21,13 @@ _VIEWS = {
 }
 _NAMES = "xyz"
 _LEFTWARD = np.array([0.0, 1.0, 0.0])
-# A tyre is so wide, in parts of its radius.
+# Width of a tyre relative to its radius.
 _WIDTH = 0.6
-_RADIUS = 0.33  # of wheels that stand on no ground [m]
+_RADIUS = 0.33  # of wheels without a given radius [m]
 
 
 def views(axle: WholeAxle) -> Figure:
-    """Draw such an axle at its design position in three views.
+    """Return a figure of an axle at its design position in three views.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ def views(axle: WholeAxle) -> Figure:
 
 
 def _lines(axle: WholeAxle) -> Iterator[tuple[str, str, float, Array]]:
-    """Yield what is drawn as lines: its label, colour, width and points, (n, 3) [m]."""
+    """Yield the drawn lines: label, colour, width and points, (n, 3) [m]."""
     yield from axle.drawn_lines()
     for part, color in (("spring", _SPRING), ("damper", _DAMPER)):
         for side in SIDES:

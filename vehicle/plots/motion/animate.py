@@ -1,4 +1,4 @@
-"""Writing the motion of a car as a GIF, or as a page that plays it."""
+"""Animations of the motion of a car, as a GIF or as a page with a player."""
 
 from pathlib import Path
 
@@ -45,9 +45,8 @@ def animate(
         Result of `kintrafo.handling.drive` or `kintrafo.ride.run`. Of several simulations of a
         manoeuvre the last one is shown.
     path : str or pathlib.Path
-        Ends in ``.gif``, for an animated picture with 25 frames per second, fewer of a motion
-        longer than a minute; or ``.html``, for a page to play, stop and turn, with curves that
-        follow.
+        ``.gif`` for an animated picture with 25 frames per second, fewer for a motion longer than a
+        minute; or ``.html`` for a page with a player, a view that turns, and curves.
     title : str, optional
     force : bool, optional
         Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
@@ -89,7 +88,7 @@ def played(result: HandlingResult | Run) -> Markup:
     Parameters
     ----------
     result : HandlingResult or Run
-        As of `animate`.
+        As in `animate`.
     """
     run, cones = _shown(result)
     rows = frames(run.motion["time"].values, _per_second(run, _MOST_POSITIONS))[1]
@@ -107,7 +106,7 @@ def _shown(result: HandlingResult | Run) -> tuple[Run, xr.Dataset | None]:
 
 
 def _per_second(run: Run, most: int) -> float:
-    """Return the number of frames per second with which there are `most` frames at most."""
+    """Return the number of frames per second for at most `most` frames."""
     times = run.motion["time"].values
     return min(_FPS, (most - 1) / max(float(times[-1] - times[0]), 1.0))
 

@@ -1,4 +1,4 @@
-"""Curves of a motion with a line at the time that is shown: a picture each."""
+"""Pictures of curves of a motion, with a line at the shown time."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -38,13 +38,13 @@ class Chart:
     box : list of float
         Left, right, top and bottom end of its axes, as parts of its width and height.
     times : list of float
-        At the left and the right end of its axes [s].
+        Times at the left and the right end of its axes [s].
     lines : list of tuple
-        Name, empty for one line alone, and the values at the times of the scene.
+        Name, empty for a single line, and the values at the times of the scene.
     decimals : int
         Number of decimals of the values as text.
     unit : str
-        Of the values.
+        Unit of the values.
     """
 
     source: str
@@ -68,9 +68,9 @@ def charts_of(motion: xr.Dataset, rows: NDArray[np.intp]) -> list[Chart]:
     Parameters
     ----------
     motion : xarray.Dataset
-        Over time.
+        Curves over time.
     rows : ndarray of int
-        Indices of the outputs that a scene shows.
+        Indices of the outputs in the scene.
     """
     dataset = for_print(by_axle(motion.transpose("time", ...)), "time")
     with rc_context(STYLE):
@@ -78,13 +78,7 @@ def charts_of(motion: xr.Dataset, rows: NDArray[np.intp]) -> list[Chart]:
 
 
 def shown_names(dataset: xr.Dataset) -> list[str]:
-    """Return the names of the main curves of a motion, in their order.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        Over time, from `by_axle`.
-    """
+    """Return the names of the main curves of a motion from `by_axle`, in their order."""
     moving = {str(name) for name in varying(dataset)}
     seats = sorted(n for n in moving if n.endswith("_acceleration") and n not in _SHOWN)
     order = [own for name in _SHOWN for own in (seats if name == _SEATS else [name])]
@@ -99,12 +93,16 @@ def _chart(dataset: xr.Dataset, name: str, rows: NDArray[np.intp]) -> Chart:
     lines = _lines(data)
     greatest = max(float(np.nanmax(np.abs(values))) for _, values in lines)
     decimals = int(np.clip(_DIGITS - 1 - np.floor(np.log10(greatest)), 0, 6))
+
+    def written(values: NDArray[np.float64]) -> list[float | None]:
+        return [round(float(v), decimals) + 0.0 if np.isfinite(v) else None for v in values]
+
     return Chart(
         source=data_uri(drawn),
         words=heading_of(data),
         box=[place.x0, place.x1, 1.0 - place.y1, 1.0 - place.y0],
         times=list(axes.get_xlim()),
-        lines=[(words, _written(values[rows], decimals)) for words, values in lines],
+        lines=[(words, written(values[rows])) for words, values in lines],
         decimals=decimals,
         unit=display_of(data.attrs).units.replace("^2", "²"),
     )
@@ -118,7 +116,3 @@ def _lines(data: xr.DataArray) -> list[tuple[str, NDArray[np.float64]]]:
     across = next(str(d) for d in data.dims if d != "time")
     values = values if data.dims[0] != "time" else values.T
     return [(name, values[i]) for i, name in named_values(data[across]).items()]
-
-
-def _written(values: NDArray[np.float64], decimals: int) -> list[float | None]:
-    return [round(float(v), decimals) + 0.0 if np.isfinite(v) else None for v in values]

@@ -1,4 +1,4 @@
-"""Pages that play the motion of a car: self-contained HTML, or a part of one."""
+"""Pages with a player of the motion of a car: self-contained HTML, or a part of it."""
 
 from collections.abc import Sequence
 from importlib.metadata import version
@@ -15,14 +15,7 @@ from .scene import LOOKED_AT, WIDTH, CarScene
 
 
 def motion_page(scene: CarScene, charts: Sequence[Chart], title: str) -> str:
-    """Return a page that plays a motion, as text.
-
-    Parameters
-    ----------
-    scene : CarScene
-    charts : sequence of Chart
-    title : str
-    """
+    """Return the text of a page that plays a motion."""
     return page_environment(__package__).get_template("page.html.jinja").render(
         title=title,
         version=version("kintrafo"),
@@ -39,9 +32,9 @@ def player(scene: CarScene, charts: Sequence[Chart] = ()) -> Markup:
     Parameters
     ----------
     scene : CarScene
-        Of one position: it is shown to be turned.
+        A scene of one position has no controls of time.
     charts : sequence of Chart, optional
-        Curves that follow.
+        Curves with a line at the shown time.
     """
     data = _data(scene) | {"charts": [chart.data for chart in charts]}
     text = page_environment(__package__).get_template("player.html.jinja").render(
@@ -56,7 +49,7 @@ def player(scene: CarScene, charts: Sequence[Chart] = ()) -> Markup:
 
 
 def player_script() -> Markup:
-    """Return the script that moves every player of a page."""
+    """Return the script of all players of a page."""
     return moving_script() + asset(__package__, "player.js")
 
 
@@ -70,7 +63,7 @@ def _data(scene: CarScene) -> dict[str, Any]:
     at = np.concatenate([scene.places, np.zeros((len(scene.times), 1))], axis=1)
 
     def beside(points: Array) -> list[Any]:
-        """Return points as rows, one for each position."""
+        """Return points relative to the car as rows, one for each position [mm]."""
         from_car = points - at.reshape(-1, *([1] * (points.ndim - 2)), 3)
         return _whole(1e3 * from_car.reshape(len(at), -1))
 
@@ -98,7 +91,7 @@ def _data(scene: CarScene) -> dict[str, Any]:
 
 
 def _track(points: Array) -> dict[str, Any]:
-    """Return a road under wheels: where it begins, its steps, and its heights [mm]."""
+    """Return the first position, the step and the heights of a road under wheels [mm]."""
     x, y, z = 1e3 * points.T
     first, step = float(x[0]), float(x[1] - x[0])
     return {"first": round(first, 1), "step": round(step, 6), "y": round(y[0]), "z": _whole(z)}

@@ -1,4 +1,4 @@
-"""Frames of a car in motion: from the front and above, and its whole path from above."""
+"""Frames of a car in motion: a view from the front and above, and its path from above."""
 
 from collections.abc import Callable, Iterator
 from functools import partial
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 Draws = Callable[[float], None]
-# Distance towards the viewer, and the function that draws.
+# Distance towards the viewer, and a function that draws.
 Item = tuple[float, Draws]
 
 INK, TYRE, RIM, BODY, LINK, SPRING, FORCE, PATH, CONE = (
@@ -31,10 +31,10 @@ _TURN, _TILT = np.radians(-38.0), np.radians(22.0)
 # Length of the arrow of a force [m/N], distance of the lines on the road [m].
 PER_NEWTON, GRID = 1.0 / 5000.0, 2.0
 _ARROW = {"arrowstyle": "-|>", "color": FORCE, "lw": 2.0, "shrinkA": 0, "shrinkB": 0}
-_LEAST_ARROW = 0.03  # a shorter one has no shaft [m]
+_LEAST_ARROW = 0.03  # shorter arrows would have no shaft [m]
 _AROUND = np.linspace(0.0, 2.0 * np.pi, 37)
 _SPOKES = 5
-# Half the width of the drawn road around the car, by that of the view.
+# Half the width of the drawn road around the car, relative to that of the view.
 _FAR = 4.0
 
 
@@ -47,7 +47,7 @@ def write_gif(path: Path, scene: CarScene, title: str, fps: float) -> None:
     scene : CarScene
     title : str
     fps : float
-        Frames that are shown per second.
+        Frames per second.
     """
     drawer = Drawer(scene, title)
     save_frames(path, drawer.figure, drawer.draw, len(scene.times), fps)
@@ -84,12 +84,10 @@ class Drawer:
         self._half = np.array([1.3, 0.83]) * scene.size
 
     def draw(self, index: int) -> None:
-        """Draw one frame in the place of the one before."""
+        """Draw one frame instead of the previous one."""
         self._follow(index)
         if self._scene.turns:
             self._from_above(index)
-
-    # -- the view that follows --------------------------------------------------------------------
 
     def _follow(self, index: int) -> None:
         axes, scene = self._axes, self._scene
@@ -198,8 +196,6 @@ class Drawer:
         words = "force of the road, 5 kN"
         self._axes.text(left + 1.1, low, words, va="center", size=9, color="#5c5c5c")
 
-    # -- strokes ----------------------------------------------------------------------------------
-
     def _filler(self, on: Array, colour: str, alpha: float, width: float) -> Draws:
         def draw(z: float) -> None:
             edge = INK if alpha == 1.0 else to_rgba(colour, 0.55)
@@ -224,8 +220,6 @@ class Drawer:
             self._axes.add_collection(made)
 
         return draw
-
-    # -- the path from above ----------------------------------------------------------------------
 
     def _from_above(self, index: int) -> None:
         axes, scene = self._above, self._scene

@@ -15,29 +15,29 @@ from ...corner.corner import UP
 from ...roads.road import Road
 
 WIDTH = 0.62
-"""Width of a wheel, by its radius."""
+"""Width of a wheel relative to its radius."""
 
 LOOKED_AT = 0.45
 """Height of the middle of a view [m]."""
 
-# The outline of a body: forward of the front axle and above the road, by the wheelbase, and its
-# width by the track.
+# The outline of a body: forward of the front axle and above the road, relative to the wheelbase,
+# and its width relative to the track.
 _OUTLINE = np.array([
     (0.30, 0.09, 0.76), (0.32, 0.22, 0.76), (0.22, 0.28, 0.80), (-0.10, 0.34, 0.82),
     (-0.34, 0.53, 0.62), (-0.82, 0.53, 0.62), (-1.12, 0.36, 0.80), (-1.30, 0.33, 0.76),
     (-1.32, 0.12, 0.76),
 ])  # fmt: skip
-# The part of a body above a single wheel: forward of it and above the road, by its radius; and its
-# sides, by the distance of the wheel from the middle.
+# The part of a body above a single wheel: forward of it and above the road, relative to its radius;
+# and its sides, relative to the distance of the wheel from the middle.
 _BLOCK = np.array([(1.5, 2.5), (1.5, 3.1), (-1.5, 3.1), (-1.5, 2.5)])
 _BLOCK_SIDES = (1.0, 0.2)
-# Between the points of a road that are drawn, and how far it is drawn before and behind [m].
+# Distance of the drawn points of a road, and its length before the start and after the end [m].
 _ALONG, _BEYOND = 0.05, 12.0
 
 
 @dataclass(frozen=True)
 class CarScene:
-    """A car of w wheels in n positions, in the axes of the road [m].
+    """A car with w wheels in n positions, in the axes of the road [m].
 
     Attributes
     ----------
@@ -48,19 +48,19 @@ class CarScene:
     springs : list of ndarray, shape (n, 2, 3)
         Ends of springs and struts.
     outline : ndarray, shape (n, 2, points, 3)
-        Of the body, on the left and on the right.
+        Outline of the body, on the left and on the right.
     centers, axes, spokes : ndarray, shape (n, w, 3)
-        Centres of wheels; unit vectors along their axes, to the left, and across them, which turn
-        with them.
+        Centres of wheels; unit vectors along their axes, to the left, and across them, fixed to the
+        wheels.
     radii : ndarray, shape (w,)
         Heights of the centres above the road at rest.
     contacts, forces : ndarray, shape (n, w, 3)
         Lowest points of wheels, and the forces of the road on them [N].
     places : ndarray, shape (n, 2)
-        Of the reference point on the road.
+        Positions of the reference point on the road.
     cones : ndarray, shape (cones, 2)
     tracks : list of ndarray, shape (m, 3)
-        The road under the left and the right wheels, where it is not level.
+        The road under the left and the right wheels; empty for a level road.
     words : list of str
         Numbers at each position, as text.
     """
@@ -82,7 +82,7 @@ class CarScene:
 
     @property
     def turns(self) -> bool:
-        """Whether the car may turn: along a road with heights its path is straight."""
+        """Whether the path may be curved, unlike that along a road with heights."""
         return not self.tracks
 
     @property
@@ -167,7 +167,7 @@ def _tracks(road: Road, car: MovingCar, centers: Array, way: Array) -> list[Arra
 
 
 def _spinning(car: MovingCar) -> list[int]:
-    """Return the rotating bodies of the wheels, which their spin angles alone turn."""
+    """Return the indices of the bodies that rotate with the spin angles of the wheels."""
     model = car.model
     before = model.evaluate("orientations", model.design_state)
     found = []
@@ -182,10 +182,7 @@ def _spinning(car: MovingCar) -> list[int]:
 def _wheels(
     car: MovingCar, bodies: list[int], states: Array, inputs: Array
 ) -> tuple[Array, Array, Array]:
-    """Return centres, axes and spokes of the wheels.
-
-    The axis of a wheel follows from its rotation by a quarter of a turn at design.
-    """
+    """Return centres, axes and spokes of the wheels; axes from a quarter of a turn at design."""
     model = car.model
     design = model.evaluate("orientations", model.design_state)[bodies]
     axes = []
@@ -193,7 +190,7 @@ def _wheels(
         state = model.design_state.copy()
         state[model.state_names.index(spin)] += 0.5 * np.pi
         turn = model.evaluate("orientations", state)[body] @ start.T
-        # of a quarter of a turn the antisymmetric part is the axis itself
+        # the antisymmetric part of a quarter of a turn is the axis
         skew = 0.5 * (turn - turn.T)
         axis = start.T @ unit_vector(np.array([skew[2, 1], skew[0, 2], skew[1, 0]]))
         axes.append(np.sign(axis[1]) * axis)
@@ -223,7 +220,7 @@ def _forces(car: MovingCar, motion: xr.Dataset, centers: Array, axes: Array) -> 
     upward = cross(forward, axes)
     contacts = centers - np.array(car.radii)[:, None] * upward
     if "fz" not in motion:
-        # the force of a tyre is in the plane of the wheel, and acts where the road is
+        # the force of a tyre is in the plane of the wheel, and acts at the height of the road
         contacts[..., 2] = _of_wheels(motion, "road")
         return contacts, _of_wheels(motion, "load")[..., None] * upward
     parts = [_of_wheels(motion, name)[..., None] for name in ("fx", "fy", "fz")]
@@ -231,7 +228,7 @@ def _forces(car: MovingCar, motion: xr.Dataset, centers: Array, axes: Array) -> 
 
 
 def _of_wheels(motion: xr.Dataset, name: str) -> Array:
-    """Return a variable as (n, w), of one wheel too."""
+    """Return a variable of one or more wheels as (n, w)."""
     values = motion[name].transpose("time", ...).values
     return np.asarray(values, dtype=float).reshape(len(values), -1)
 
@@ -264,10 +261,8 @@ def _outline(car: MovingCar, spinning: list[int], states: Array, inputs: Array) 
 
 
 _ENDS = ("front", "rear")
-
-
 _UNITS = {"deg": "°", "m/s^2": " m/s²"}
-# Numbers that are shown of a motion, if it has them: words, and decimals.
+# Numbers shown with a motion, if it has them: words, and decimals.
 _READ = {
     "speed": ("", 1),
     "lateral_acceleration": ("lateral ", 1),
@@ -283,10 +278,7 @@ def _words(motion: xr.Dataset) -> list[str]:
         if name in motion:
             unit = _UNITS.get(unit := display_of(motion[name].attrs).units, f" {unit}")
             values = displayed(motion[name])
-            columns.append([f"{words}{_plain(value, digits)}{unit}" for value in values])
+            # without a negative zero, with the minus sign of typesetting
+            texts = (f"{round(float(v), digits) + 0.0:.{digits}f}" for v in values)
+            columns.append([f"{words}{text.replace('-', '−')}{unit}" for text in texts])
     return ["    ".join(row) for row in zip(*columns, strict=True)]
-
-
-def _plain(value: float, digits: int) -> str:
-    """Return a number without a negative zero, with the minus sign of typesetting."""
-    return f"{round(float(value), digits) + 0.0:.{digits}f}".replace("-", "−")
