@@ -1,4 +1,4 @@
-"""How far the page's interpolated values are from those of the compiled model."""
+"""Differences of the page's interpolated values from those of the compiled model."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -16,18 +16,18 @@ from .poses import Poses, poses
 
 @dataclass(frozen=True)
 class GridAccuracy:
-    """Largest differences, measured between the grid's points, where they are largest.
+    """Largest differences, between the points of the grid, where they are largest.
 
     Attributes
     ----------
     points : float
-        Of a position [m].
+        Distance of positions [m].
     spin_axis : float
         Angle between the wheel's axes [rad].
     curves : dict
-        Of each characteristic by its key, in the unit of the reader, where it is plotted.
+        Of each characteristic by its key, in the display unit, within the plotted range.
     places : int
-        Number of places at which was compared.
+        Number of compared positions.
     """
 
     points: float
@@ -46,57 +46,49 @@ def measure(
     *,
     report: Callable[[str], None] = lambda _: None,
 ) -> GridAccuracy:
-    """Compare interpolated with compiled values.
+    """Return the differences of interpolated from compiled values, with those of the encoding.
 
     Parameters
     ----------
     model : Model
     grid : Grid
     sampled : Poses
-        The samples on the grid.
+        On the grid.
     drawn : list of CharacteristicCurve
-        The same of the characteristics.
+        On the grid.
     gaps : list of ndarray
-        What is open of the stops, on the grid.
+        Open gaps of the stops, on the grid.
     ranges : dict
-        Key of a curve to the values between which it is plotted, in SI units; what lies beyond,
-        near a pole for example, is not shown and not compared.
+        Range of plotted values by the key of a curve, in SI units; values beyond, as near a pole,
+        are not compared.
     report : callable, optional
-        Takes a word on what is being done.
-
-    Returns
-    -------
-    GridAccuracy
-        With the rounding of the encoding.
+        Called with a description of each step.
     """
     travel, rack = grid.travel.between, grid.rack.between
     report("accuracy of the interpolation")
     exact = poses(model, travel, rack)
+
+    def interpolated(samples: Array) -> Array:
+        return grid.interpolate(as_encoded(grid, samples), travel, rack)
+
+    axis = interpolated(sampled.spin_axis)
+    axis /= np.linalg.norm(axis, axis=-1, keepdims=True)
+    # from the sine, since the cosine of a small angle has no digits left
+    sine = np.linalg.norm(cross(axis, exact.spin_axis), axis=-1).max()
     return GridAccuracy(
         points=max(
-            _distance(grid, sampled.points[name], points) for name, points in exact.points.items()
+            float(np.linalg.norm(interpolated(sampled.points[name]) - points, axis=-1).max())
+            for name, points in exact.points.items()
         ),
-        spin_axis=_angle(grid, sampled.spin_axis, exact.spin_axis),
+        spin_axis=float(np.arcsin(sine)),
         curves=_of_curves(grid, drawn, gaps, curves(model, travel, rack, report=report), ranges),
         places=travel.size * rack.size,
     )
 
 
 def as_encoded(grid: Grid, samples: Array) -> Array:
-    """Return samples on the grid with the rounding that the page sees."""
+    """Return samples on the grid with the rounding of the encoding."""
     return rounded(samples, samples[grid.travel.zero, grid.rack.zero])
-
-
-def _distance(grid: Grid, samples: Array, exact: Array) -> float:
-    near = grid.interpolate(as_encoded(grid, samples), grid.travel.between, grid.rack.between)
-    return float(np.linalg.norm(near - exact, axis=-1).max())
-
-
-def _angle(grid: Grid, samples: Array, exact: Array) -> float:
-    near = grid.interpolate(as_encoded(grid, samples), grid.travel.between, grid.rack.between)
-    near /= np.linalg.norm(near, axis=-1, keepdims=True)
-    # from the sine: the cosine of a small angle has no digits left
-    return float(np.arcsin(np.linalg.norm(cross(near, exact), axis=-1).max()))
 
 
 def _of_curves(
@@ -117,7 +109,7 @@ def _of_curves(
             grid.rack.between,
         )
         if curve.reciprocal:
-            with np.errstate(divide="ignore"):  # an infinite value is outside of what is shown
+            with np.errstate(divide="ignore"):  # an infinite value is outside the range
                 near = 1.0 / near
         low, high = ranges[curve.key]
         true = between[curve.key]

@@ -1,4 +1,4 @@
-"""The characteristics over the grid, whichever there are."""
+"""All characteristics of a suspension over the grid."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -30,15 +30,15 @@ class CharacteristicCurve:
     name : str
         Name of the variable.
     over : {"travel", "rack"}
-        What it is drawn over.
+        Abscissa of the chart.
     label, definition, sign : str
         Words for the reader.
     group : str
-        Heading under which it is.
+        Its heading.
     unit : str
-        Unit for the reader.
+        Display unit.
     factor : float
-        From the SI unit to that.
+        Factor from the SI unit to the display unit.
     values : ndarray, shape (travels, racks)
         In SI units; NaN where it is not defined.
     """
@@ -55,44 +55,44 @@ class CharacteristicCurve:
 
     @property
     def key(self) -> str:
-        """A name that no other curve of the page has."""
+        """Unique name of the curve on the page."""
         return self.name if self.over == "travel" else f"{self.name}_over_rack"
 
     @property
     def jumps(self) -> bool:
-        """Whether it jumps where a stop begins to act."""
+        """Whether it jumps at the contact of a stop."""
         return self.name in AT_STOPS
 
     @property
     def reciprocal(self) -> bool:
-        """Whether one over the values is smoother: they have a pole, and no zero.
+        """Whether the reciprocal of the values is smoother: they have a pole, and no zero.
 
-        A swing arm's length is infinite where the wheel moves straight, a turning circle straight
-        ahead; what is interpolated is then the curvature, which passes through zero there.
+        The length of a swing arm is infinite where the wheel moves straight, a turning circle
+        straight ahead; their curvatures, which are interpolated, are zero there.
         """
         return has_pole(self.values) and bool(np.all(np.abs(self.values) > 0.0))
 
     @property
     def smooth(self) -> Array:
-        """What is sampled and interpolated, shape (travels, racks)."""
+        """The interpolated values or reciprocals, shape (travels, racks)."""
         return 1.0 / self.values if self.reciprocal else self.values
 
     def through_design(self, grid: Grid) -> Array:
-        """Return the curve with the other coordinate zero [SI unit]."""
+        """Return the curve with the other coordinate at zero, SI units."""
         if self.over == "travel":
             return self.values[:, grid.rack.zero]
         return self.values[grid.travel.zero, :]
 
 
 def printed(unit: str) -> str:
-    """Return a unit as it is printed: nothing for a pure number, a small 2 for a square."""
+    """Return a unit for print: empty for a pure number, with a superscript for a square."""
     return "" if unit == "1" else unit.replace("^2", "\u00b2")
 
 
 def curves(
     model: Model, travel: Array, rack: Array, *, report: Callable[[str], None] = lambda _: None
 ) -> list[CharacteristicCurve]:
-    """Compute all characteristics at every combination of travels and rack displacements.
+    """Return all characteristics at every combination of travels and rack displacements.
 
     Parameters
     ----------
@@ -102,13 +102,12 @@ def curves(
     rack : ndarray, shape (m,)
         Rack displacement [m].
     report : callable, optional
-        Takes a word on what is being done.
+        Called with a description of each step.
 
     Returns
     -------
     list of CharacteristicCurve
-        Those over travel, then those over rack displacement; without those that are defined
-        nowhere.
+        Those over travel, then those over rack displacement, without undefined ones.
     """
     report("characteristics over wheel travel")
     rack = racks_of(model, rack)
@@ -122,17 +121,9 @@ def curves(
 
 
 def gaps_on(model: Model, grid: Grid) -> list[Array]:
-    """Return what is open of each stop that begins to act somewhere on the grid.
+    """Return the open gap of each stop that closes on the grid, (travels, racks) [m].
 
-    Parameters
-    ----------
-    model : Model
-    grid : Grid
-
-    Returns
-    -------
-    list of ndarray, shape (travels, racks)
-        Negative where the stop is compressed [m].
+    It is negative where the stop is compressed.
     """
     rack = racks_of(model, grid.rack.values)
     angles = arm_angles(model, design_height(model) + grid.travel.values[:, None], rack)
@@ -140,7 +131,7 @@ def gaps_on(model: Model, grid: Grid) -> list[Array]:
 
 
 def only_over_rack(drawn: list[CharacteristicCurve]) -> set[str]:
-    """Return the names of the characteristics that belong to steering alone."""
+    """Return the names of characteristics over the rack alone."""
     along = {curve.name for curve in drawn if curve.over == "travel"}
     return {curve.name for curve in drawn} - along
 
@@ -148,14 +139,10 @@ def only_over_rack(drawn: list[CharacteristicCurve]) -> set[str]:
 def _stacked(
     cuts: "Sequence[Dataset]", coordinate: str, over: Literal["travel", "rack"]
 ) -> list[CharacteristicCurve]:
-    """Join the cuts through the grid to one array for each variable along the coordinate."""
+    """Return the variables along a coordinate, each joined from cuts through the grid."""
     axis = 1 if over == "travel" else 0
     return [
-        _curve(
-            variable,
-            over,
-            np.stack([cut.variables[name].values for cut in cuts], axis=axis),
-        )
+        _curve(variable, over, np.stack([cut.variables[name].values for cut in cuts], axis=axis))
         for name, variable in cuts[0].data_vars.items()
         if variable.dims == (coordinate,) and np.issubdtype(variable.dtype, np.floating)
     ]

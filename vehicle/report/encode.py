@@ -1,4 +1,4 @@
-"""Arrays as text: base64 of little-endian 32-bit floats, differences from the design position."""
+"""Arrays as text: base64 of differences from design position, as little-endian 32-bit floats."""
 
 import base64
 from typing import Any
@@ -10,38 +10,23 @@ from ...core.named_types import Array
 
 
 def rounded(values: ArrayLike, design: ArrayLike) -> Array:
-    """Return values as the page will have them.
+    """Return values with the error of the encoding.
 
-    Parameters
-    ----------
-    values : array_like
-    design : array_like
-        What is subtracted before the rounding to 32 bits; NaN counts as zero.
-
-    Returns
-    -------
-    ndarray
-        The values with the error of the encoding.
+    The value at design is subtracted before the rounding to 32 bits; NaN counts as zero.
     """
     offset = _offset(design)
     return _difference(values, offset).astype(np.float64) + offset
 
 
 def packed(values: ArrayLike, design: ArrayLike = 0.0) -> dict[str, Any]:
-    """Encode an array for the page.
+    """Return an array for the page: ``design``, and ``differences`` in base64 and C order.
 
     Parameters
     ----------
     values : array_like
-        In C order in the text.
     design : array_like, optional
-        Value at design, or one for each of the last dimension; it is kept in full. NaN counts as
+        Value at design, or one for each of the last dimension, with full precision. NaN counts as
         zero.
-
-    Returns
-    -------
-    dict
-        ``design`` and ``differences``, the latter in base64.
     """
     offset = _offset(design)
     text = base64.b64encode(_difference(values, offset).tobytes()).decode("ascii")

@@ -1,8 +1,7 @@
 """The grid on which a model is sampled, and the interpolation between its points.
 
-The page interpolates in the browser; `Grid.interpolate` and `Grid.interpolate_apart` do the same
-arithmetic here, so that its error can be measured against the compiled model before the page is
-written.
+The page interpolates in the browser; `Grid.interpolate` and `Grid.interpolate_apart` have the same
+arithmetic, with which the error is measured against the compiled model when the page is written.
 """
 
 from collections.abc import Sequence
@@ -13,9 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...core.named_types import Array
 
-# Points of the cubic through which each direction is interpolated.
+# Points of the cubic in each direction.
 ORDER = 4
-# Between the first two of its four points, a cubic's error is largest here, in steps.
+# Place of the largest error between the first two of four points, in steps.
 _WORST = 0.5 * (3.0 - 5.0**0.5)
 
 
@@ -37,21 +36,12 @@ class GridAxis:
 
     @classmethod
     def around_zero(cls, low: float, high: float, step: float) -> "GridAxis":
-        """Return the multiples of a step from a lower to an upper limit, zero among them.
+        """Return the multiples of a step between two limits on either side of zero.
 
-        Parameters
-        ----------
-        low, high : float
-            Limits, on either side of zero.
-        step : float
-            Wanted distance; it becomes smaller where fewer than four values would be left.
-
-        Returns
-        -------
-        GridAxis
+        A step with fewer than four values becomes smaller.
         """
         step = min(step, (high - low) / ORDER)
-        # a limit that is a multiple but for rounding counts as one
+        # with limits that are multiples to rounding
         below, above = int(-low / step + 1e-9), int(high / step + 1e-9)
         return cls(-below * step, step, below + above + 1)
 
@@ -67,10 +57,10 @@ class GridAxis:
 
     @property
     def between(self) -> Array:
-        """One coordinate between each two neighbours, where interpolation is worst.
+        """A coordinate in each interval, where the error of interpolation is largest.
 
-        The error of a cubic goes with s (s - 1) (s - 2) (s - 3): half way within the axis, nearer
-        to the end in the first and in the last interval.
+        The error of a cubic is proportional to s (s - 1) (s - 2) (s - 3): largest in the middle of
+        inner intervals, and nearer to the end of the first and the last one.
         """
         parts = np.full(self.count - 1, 0.5)
         parts[0], parts[-1] = _WORST, 1.0 - _WORST
@@ -86,19 +76,9 @@ class GridAxis:
         return (np.asarray(where, dtype=np.float64) - self.first) / self.step
 
     def weights(self, where: ArrayLike) -> tuple[NDArray[np.int64], Array]:
-        """Return which values interpolate, and with which weights.
+        """Return the index of the first of four neighbours, (n,), and their weights, (n, 4).
 
-        Parameters
-        ----------
-        where : array_like, shape (n,)
-            Coordinates within the axis.
-
-        Returns
-        -------
-        first : ndarray of int, shape (n,)
-            Index of the first of four neighbours.
-        weights : ndarray, shape (n, 4)
-            Lagrange's cubic polynomials at these coordinates.
+        The weights are Lagrange's cubic polynomials at coordinates within the axis, (n,).
         """
         place = self.places(where)
         first = np.clip(np.floor(place).astype(np.int64) - 1, 0, self.count - ORDER)
@@ -115,17 +95,7 @@ class GridAxis:
         return first, weights
 
     def interpolate(self, samples: Array, where: ArrayLike) -> Array:
-        """Interpolate samples over this axis alone.
-
-        Parameters
-        ----------
-        samples : ndarray, shape (count, ...)
-        where : array_like, shape (n,)
-
-        Returns
-        -------
-        ndarray, shape (n, ...)
-        """
+        """Return samples of shape (count, ...) interpolated at coordinates (n,), (n, ...)."""
         first, weights = self.weights(where)
         near = samples[first[:, None] + np.arange(ORDER)]
         result: Array = np.einsum("nk,nk...->n...", weights, near)
@@ -134,7 +104,7 @@ class GridAxis:
 
 @dataclass(frozen=True)
 class Grid:
-    """Wheel travel by rack displacement.
+    """A grid over wheel travel and rack displacement.
 
     Attributes
     ----------
@@ -153,7 +123,7 @@ class Grid:
         return self.travel.count, self.rack.count
 
     def interpolate(self, samples: Array, travel: ArrayLike, rack: ArrayLike) -> Array:
-        """Interpolate samples at every combination of travels and rack displacements.
+        """Return samples interpolated at every combination of coordinates, (n, m, ...).
 
         Parameters
         ----------
@@ -162,10 +132,6 @@ class Grid:
         travel : array_like, shape (n,)
         rack : array_like, shape (m,)
             Coordinates within the grid [m].
-
-        Returns
-        -------
-        ndarray, shape (n, m, ...)
         """
         along = self.travel.interpolate(samples, travel)
         across = self.rack.interpolate(np.moveaxis(along, 1, 0), rack)
@@ -174,11 +140,11 @@ class Grid:
     def interpolate_apart(
         self, samples: Array, gaps: Sequence[Array], travel: ArrayLike, rack: ArrayLike
     ) -> Array:
-        """Interpolate samples that jump where a gap closes, from their own side of the jump alone.
+        """Return samples with jumps at closing gaps, interpolated on each side of a jump, (n, m).
 
-        The gaps themselves are smooth. Their signs show on which side a place is; of the grid's
-        points only those on the same side take part, and the cubic reaches out from them up to the
-        jump.
+        The gaps are smooth, and their signs give the side. Only points of the grid on the same side
+        are used, with extrapolation up to the jump; a part of the grid without points is
+        interpolated across its border.
 
         Parameters
         ----------
@@ -189,11 +155,6 @@ class Grid:
         travel : array_like, shape (n,)
         rack : array_like, shape (m,)
             Coordinates within the grid [m].
-
-        Returns
-        -------
-        ndarray, shape (n, m)
-            A part of the grid without a point of its own is interpolated across its border.
         """
         result = self.interpolate(samples, travel, rack)
         if not gaps:
@@ -211,7 +172,7 @@ class Grid:
 
 
 def _one_sided(samples: Array, same: NDArray[np.bool_], line: float, column: float) -> float:
-    """Interpolate at a place, in steps of the grid, from the marked points alone."""
+    """Return the value at a place, in steps of the grid, interpolated from marked points."""
     columns = _run(np.logical_or.reduce(same, axis=0), column)
     values = []
     for index in columns:
@@ -222,7 +183,7 @@ def _one_sided(samples: Array, same: NDArray[np.bool_], line: float, column: flo
 
 
 def _run(marked: NDArray[np.bool_], place: float) -> range:
-    """Return up to four neighbours, all of them marked, as near to a place as there are."""
+    """Return up to four adjacent marked points that are nearest to a place."""
     known = np.flatnonzero(marked)
     low = high = int(known[np.argmin(np.abs(known - place))])
     while low > 0 and marked[low - 1]:
@@ -234,6 +195,6 @@ def _run(marked: NDArray[np.bool_], place: float) -> range:
 
 
 def _lagrange(s: float, count: int) -> Array:
-    """Return Lagrange's weights at a place, counted in steps from the first of some neighbours."""
+    """Return Lagrange's weights at a place, in steps from the first of some neighbours."""
     others = [[other for other in range(count) if other != k] for k in range(count)]
     return np.array([np.prod([(s - o) / (k - o) for o in row]) for k, row in enumerate(others)])

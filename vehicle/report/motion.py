@@ -1,4 +1,4 @@
-"""The simulated second that the page plays: a wheel released above its place, spinning."""
+"""The simulated second of the page: a spinning wheel, released above its design position."""
 
 from dataclasses import dataclass
 
@@ -16,18 +16,14 @@ from .grid import Grid, GridAxis
 
 DROP = START_HEIGHT - REST_HEIGHT  # above the design position, as in the paper [m]
 STEP = 1e-3  # between two samples [s]
-# Between two samples so many more are computed, to measure the interpolation.
+# Computed steps in the step of samples, for the error of the interpolation.
 _FINER = 4
 
-# What is plotted over time, as far as the model has it.
+# Signals plotted over time, if the model has them.
 SIGNALS = (
-    "wheel_center_z",
-    "wheel_velocity",
-    "wheel_acceleration",
-    "tyre_force",
-    "spring_force",
+    "wheel_center_z", "wheel_velocity", "wheel_acceleration", "tyre_force", "spring_force",
     "damper_force",
-)
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -39,9 +35,9 @@ class TimeCurve:
     name, label, sign : str
         Its name, and words for the reader.
     unit : str
-        Unit for the reader.
+        Display unit.
     factor : float
-        From the SI unit to that.
+        Factor from the SI unit to the display unit.
     values : ndarray, shape (n,)
         In SI units.
     """
@@ -55,7 +51,7 @@ class TimeCurve:
 
     @property
     def key(self) -> str:
-        """A name that no other curve of the page has."""
+        """Unique name of the curve on the page."""
         return f"{self.name}_over_time"
 
 
@@ -73,7 +69,7 @@ class ReportedMotion:
     travel_error : float
         Largest error of the travel interpolated between two samples [m].
     solver : str
-        What integrated.
+        The solver with its package.
     """
 
     time: GridAxis
@@ -87,29 +83,15 @@ class ReportedMotion:
 
 @dataclass(frozen=True)
 class NoMotion:
-    """Why there is nothing to play.
-
-    Attributes
-    ----------
-    reason : str
-        A sentence for the reader.
-    """
+    """The reason, in a sentence, why the page has no motion."""
 
     reason: str
 
 
 def simulated_second(model: Model, grid: Grid) -> ReportedMotion | NoMotion:
-    """Simulate a wheel that is released above its design position, with the paper's spin.
+    """Return a second of a wheel released above its design position, with the spin of the paper.
 
-    Parameters
-    ----------
-    model : Model
-    grid : Grid
-        Where poses are known; a motion that leaves it cannot be shown.
-
-    Returns
-    -------
-    ReportedMotion or NoMotion
+    A motion that leaves the grid cannot be shown.
     """
     try:
         return _shown(_simulate(model), grid)
@@ -137,9 +119,7 @@ def _simulate(model: Model) -> ReportedMotion:
         rack=rack[kept],
         spin=result.y[model.state_names.index(model.names.spin)][kept],
         signals=[
-            _time_curve(model, name, result.signals[name][kept])
-            for name in SIGNALS
-            if name in result.signals
+            _time_curve(model, n, result.signals[n][kept]) for n in SIGNALS if n in result.signals
         ],
         travel_error=float(error),
         solver=result.solver,
@@ -160,10 +140,8 @@ def _time_curve(model: Model, name: str, values: Array) -> TimeCurve:
 
 
 def _shown(motion: ReportedMotion, grid: Grid) -> ReportedMotion | NoMotion:
-    for what, values, axis in (
-        ("wheel", motion.travel, grid.travel),
-        ("rack", motion.rack, grid.rack),
-    ):
+    pairs = ("wheel", motion.travel, grid.travel), ("rack", motion.rack, grid.rack)
+    for what, values, axis in pairs:
         low, high = values.min(), values.max()
         if low < axis.first or high > axis.last:
             return NoMotion(

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 from jinja2 import Environment
-from markupsafe import Markup
 
 from ...core.files import Paths, refuse, replacing
 from ...core.legible import legible
@@ -36,14 +35,14 @@ from .poses import Poses, poses, reachable_grid
 from .tables import input_tables, summary
 
 ENDINGS = (".html", ".htm")
-"""What the name of a report ends in."""
+"""Endings of the names of reports."""
 
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 @dataclass(frozen=True)
 class _Samples:
-    """Everything that was computed for a report."""
+    """All samples of a report."""
 
     grid: Grid
     poses: Poses
@@ -70,30 +69,30 @@ def write(
 ) -> Path:
     """Write an HTML report of a suspension, or of any mechanism.
 
-    The mechanism in three dimensions to be moved by hand, its characteristics, a simulated second
-    and the input data, in one file without references to others. Of a mechanism of your own: its
-    bodies as lines between their joints, a slider for each coordinate, signals, modes at rest.
+    One file without references to others has a three-dimensional view of the mechanism that is
+    moved by hand, its characteristics, a simulated second and the input data. A mechanism of your
+    own has bodies as lines between their joints, a slider for each coordinate, signals, and modes
+    at rest.
 
     Parameters
     ----------
     model : Model or System
     path : str or pathlib.Path
-        The file to write, whose name ends in ``.html``; it appears when it is complete. Folders
-        are made.
+        A file whose name ends in ``.html``; it appears when it is complete. Folders are created.
     title : str, optional
         Heading of the page; by default a description of the suspension.
     chapters : sequence of Chapter, optional
         Further chapters: see `kintrafo.report.axle_chapter`, `loads_chapter`,
         `compliance_chapter` and `elastokinematics_chapter`.
     without : collection of str, optional
-        Characteristics that are left out: of a rear axle those that only a front axle has.
+        Characteristics to leave out, such as those of front axles on a rear axle.
     goals : sequence of Target and Limit, optional
-        From `kintrafo.variation.goals`: they are marked in the charts of their characteristics, and
-        the page lists those that are in no chart, see `kintrafo.report.goals_chapter`. Of a side of
-        an axle they may be those of the axle.
+        From `kintrafo.variation.goals`, also those of an axle for the report of its side. They are
+        marked in the charts of their characteristics, and the page lists those without a chart, see
+        `kintrafo.report.goals_chapter`.
     motion : Simulation, optional
-        For a mechanism that is not a suspension, the motion to be played; by default one second
-        from the design position at rest, without inputs.
+        Motion of a mechanism other than a suspension; by default one second from the design
+        position at rest, without inputs.
     progress : callable, optional
         Called with a short description of the present step.
     force : bool, optional
@@ -104,7 +103,6 @@ def write(
     Returns
     -------
     Path
-        The file.
 
     Raises
     ------
@@ -175,7 +173,16 @@ def render(
         chapters=chapters,
         drop=DROP,
         spin=SPIN_RATE / (2.0 * np.pi),
-        data=_data(model, samples),
+        data=page_data(
+            model.suspension,
+            samples.grid,
+            samples.poses,
+            samples.curves,
+            samples.gaps,
+            samples.looks,
+            samples.marks,
+            samples.motion,
+        ),
         script=asset(__package__, "assets/report.js"),
         style=asset(__package__, "assets/report.css"),
     )
@@ -190,12 +197,12 @@ def write_chapters(
     force: bool = False,
     inputs: Paths = (),
 ) -> Path:
-    """Write an HTML report that is chapters and input data, with nothing to be moved by hand.
+    """Write an HTML report of chapters and input data, without an interactive mechanism.
 
     Parameters
     ----------
     path, force, inputs
-        As of `write`.
+        As in `write`.
     title : str
         Heading of the page.
     chapters : sequence of Chapter
@@ -205,7 +212,6 @@ def write_chapters(
     Returns
     -------
     Path
-        The file.
 
     Raises
     ------
@@ -213,23 +219,20 @@ def write_chapters(
         If the file must not or cannot be written.
     """
     refuse([path], force=force, inputs=inputs, endings=ENDINGS)
-    text = (
-        _environment()
-        .get_template("plain.html.jinja")
-        .render(
-            title=legible(title),
-            version=version("kintrafo"),
-            inputs=[
-                replace(table, name=f"{begin} {table.name}".strip())
-                for begin, section in data.items()
-                for table in input_tables(section)
-            ],
-            chapters=chapters,
-            moves=any(chapter.players for chapter in chapters),
-            player_script=player_script(),
-            player_style=player_style(),
-            style=asset(__package__, "assets/report.css"),
-        )
+    template = _environment().get_template("plain.html.jinja")
+    text = template.render(
+        title=legible(title),
+        version=version("kintrafo"),
+        inputs=[
+            replace(table, name=f"{begin} {table.name}".strip())
+            for begin, section in data.items()
+            for table in input_tables(section)
+        ],
+        chapters=chapters,
+        moves=any(chapter.players for chapter in chapters),
+        player_script=player_script(),
+        player_style=player_style(),
+        style=asset(__package__, "assets/report.css"),
     )
     with replacing(path, force=force, inputs=inputs) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")
@@ -268,10 +271,7 @@ def _sample(
 def _look(
     curve: CharacteristicCurve, grid: Grid, shown: tuple[float, float], accuracy: GridAccuracy
 ) -> Look:
-    """Return how a curve is shown.
-
-    Its decimals distinguish values through the design position, and say what the one at design is.
-    """
+    """Return range and decimals of a curve, which distinguish values through design."""
     values = curve.through_design(grid)
     drawn = values if np.isfinite(values).any() else curve.values
     low, high = (end * curve.factor for end in shown_range(drawn))
@@ -295,27 +295,11 @@ def _over_travel(drawn: list[CharacteristicCurve]) -> dict[str, list[Characteris
 def _over_rack(
     drawn: list[CharacteristicCurve], marked: Marks
 ) -> tuple[list[CharacteristicCurve], list[CharacteristicCurve]]:
-    """Return the curves over rack displacement that are in sight, and the others.
-
-    Those are of steering, of the wheel, and with targets or limits.
-    """
+    """Return the visible curves over the rack: those of steering, wheel and goals, and the others."""
     first = only_over_rack(drawn) | {c.name for c in drawn if c.group == ORDER[0]}
     first |= {c.name for c in drawn if c.over == "rack" and marked.about(c.key)}
     along = [curve for curve in drawn if curve.over == "rack"]
     return [c for c in along if c.name in first], [c for c in along if c.name not in first]
-
-
-def _data(model: Model, samples: _Samples) -> Markup:
-    return page_data(
-        model.suspension,
-        samples.grid,
-        samples.poses,
-        samples.curves,
-        samples.gaps,
-        samples.looks,
-        samples.marks,
-        samples.motion,
-    )
 
 
 def _environment() -> Environment:
@@ -327,7 +311,7 @@ def _environment() -> Environment:
 
 
 def _fixed(value: float, places: int) -> str:
-    """Write a number with a true minus sign; a dash where there is none."""
+    """Return a number with a true minus sign; a dash if it is not finite."""
     if not np.isfinite(value):
         return "\u2013"
     text = f"{abs(value):.{places}f}"
@@ -335,12 +319,12 @@ def _fixed(value: float, places: int) -> str:
 
 
 def _with_minus(text: str) -> str:
-    """Write a number with a true minus sign."""
+    """Return a number as text with a true minus sign."""
     return text.replace("-", "\u2212") if text[1:2].isdigit() else text
 
 
 def _upper_limit(error: float) -> str:
-    """Write an error with one digit, rounded up."""
+    """Return an error with one digit, rounded up."""
     if error == 0.0:
         return "0"
     exponent = int(np.floor(np.log10(error)))

@@ -1,4 +1,4 @@
-"""What the page's script reads: samples on the grid, and how to show them."""
+"""Data of the page's script: samples on the grid, ranges and decimals."""
 
 from typing import Any, NamedTuple
 
@@ -16,22 +16,22 @@ from .motion import NoMotion, ReportedMotion, TimeCurve
 from .plotted import decimals, full_range, meaningful
 from .poses import Poses
 
-# Of the drawing only [m]; the radius where the data have none.
+# Tyre of the drawing [m]; the radius of files without one.
 TYRE_WIDTH = 0.205
 TYRE_RADIUS = 0.3
 
 
 class Look(NamedTuple):
-    """How a curve is shown, in the unit of the reader.
+    """Appearance of a curve, in its display unit.
 
     Attributes
     ----------
     shown : tuple of float
-        Values between which it is plotted.
+        Plotted range.
     decimals : int
-        With how many it is written.
+        Number of decimals of written values.
     error : float
-        By how much interpolated values may be off; computed ones are not.
+        Greatest error of interpolated values.
     """
 
     shown: tuple[float, float]
@@ -51,25 +51,7 @@ def page_data(
 ) -> Markup:
     """Return the data of the page as JSON that is safe inside an HTML element.
 
-    Parameters
-    ----------
-    suspension : Suspension
-    grid : Grid
-    sampled : Poses
-        On the grid.
-    drawn : list of CharacteristicCurve
-        Characteristics on the grid.
-    gaps : list of ndarray
-        What is open of the stops, on the grid.
-    looks : dict
-        How each is shown, by its key.
-    marks : Marks
-        Targets and limits.
-    motion : ReportedMotion or NoMotion
-
-    Returns
-    -------
-    str
+    Poses, curves and open gaps of stops are on the grid; looks are by the key of a curve.
     """
     stored = _stored_under(drawn)
     data = {
@@ -96,7 +78,7 @@ def page_data(
 
 
 def _stored_under(drawn: list[CharacteristicCurve]) -> dict[str, str]:
-    """Return for each curve whose samples it has: over travel and rack they are often the same."""
+    """Return the key of the curve with the same samples, by the key of each curve."""
     along = {curve.name: curve for curve in drawn if curve.over == "travel"}
     return {
         curve.key: twin.key
@@ -129,7 +111,7 @@ def _time_curve(curve: TimeCurve) -> dict[str, Any]:
 
 
 def _described(curve: CharacteristicCurve | TimeCurve, look: Look) -> dict[str, Any]:
-    """Return how a curve is drawn and written."""
+    """Return unit, range and decimals of a curve."""
     return {
         "key": curve.key,
         "unit": curve.unit,
@@ -137,7 +119,7 @@ def _described(curve: CharacteristicCurve | TimeCurve, look: Look) -> dict[str, 
         "decimals": look.decimals,
         "approximate": not meaningful(look.decimals, look.error),
         "range": look.shown,
-        # what hardly changes in the digits that are written and right is drawn flat
+        # a smaller range is drawn flat
         "least": 4.0 * max(10.0**-look.decimals, 2.0 * look.error),
     }
 
@@ -147,7 +129,7 @@ def _axis(axis: GridAxis) -> dict[str, float]:
 
 
 def _drawing(suspension: Suspension, grid: Grid, sampled: Poses) -> dict[str, Any]:
-    """Return what the 3D view needs besides: sizes, directions and the road, in metres."""
+    """Return further data of the 3D view: sizes, directions and the road [m]."""
     at_design = {
         name: values[grid.travel.zero, grid.rack.zero] for name, values in sampled.points.items()
     }
@@ -156,7 +138,7 @@ def _drawing(suspension: Suspension, grid: Grid, sampled: Poses) -> dict[str, An
     rack = np.array([parameters[f"rack_axis_{c}"] if steered else 0.0 for c in "xyz"])
     x, y, z = at_design["wheel_center"]
     loaded = suspension.tyre_radius() or TYRE_RADIUS
-    # free of force, the tyre is larger by what it is compressed at design
+    # without load, the tyre is larger by its compression at design
     radius = loaded + float(np.clip(parameters["tyre_free_height"] - z, 0.0, 0.2 * loaded))
     corners = np.array([*at_design.values(), [x, y, z + radius], [x, y, z - loaded]])
     low, high = corners.min(axis=0), corners.max(axis=0)
@@ -174,7 +156,7 @@ def _drawing(suspension: Suspension, grid: Grid, sampled: Poses) -> dict[str, An
 
 
 def _linkage(suspension: Suspension) -> dict[str, Any]:
-    """Return what guides and springs the wheel, by the names of the points."""
+    """Return the points of arms, spring, damper and steering axis."""
     drawing, points = suspension.drawing(), suspension.hardpoints
     return {
         "arms": [(*bearings, ball) for ball, bearings in points.ARMS.items()],

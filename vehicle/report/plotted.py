@@ -1,4 +1,4 @@
-"""How a characteristic is shown: between which values, and with how many decimals."""
+"""Plotted range and decimals of a characteristic."""
 
 import math
 
@@ -6,29 +6,19 @@ import numpy as np
 
 from ...core.named_types import Array
 
-# A range so many times as wide as that of the middle 80 % of the values belongs to a pole.
+# A range wider than that of the middle 80 % of the values by this factor is due to a pole.
 _POLE = 12.0
-# With a pole, values are shown up to so many times their median.
+# Plotted values of a curve with a pole, relative to their median.
 _SHOWN_OF_POLE = 3.0
-# What interpolation may add to the extremes of the samples, as part of their range.
+# Overshoot of the interpolation, as a part of the range of the samples.
 _OVERSHOOT = 0.02
 _MOST_DECIMALS = 5
-# More decimals can be neither built nor measured.
+# Further decimals can be neither built nor measured.
 _MOST_OF_UNIT = {"deg": 2, "mm": 2, "%": 1, "N/mm": 2, "m": 2, "m/s": 2, "m/s\u00b2": 1, "N": 0}
 
 
 def has_pole(values: Array) -> bool:
-    """Return whether values run away at some place and would press the rest of a curve flat.
-
-    Parameters
-    ----------
-    values : ndarray
-        Everything that a curve takes on the grid; NaN where it is not defined.
-
-    Returns
-    -------
-    bool
-    """
+    """Return whether values on the grid have a pole, beside which the rest would be flat."""
     known = values[~np.isnan(values)]
     if np.isinf(known).any():
         return True
@@ -37,34 +27,13 @@ def has_pole(values: Array) -> bool:
 
 
 def full_range(values: Array) -> tuple[float, float]:
-    """Return the least and the greatest of values, with room for what interpolation adds.
-
-    Parameters
-    ----------
-    values : ndarray
-        NaN and infinity are left out.
-
-    Returns
-    -------
-    tuple of float
-    """
+    """Return the least and the greatest finite value, widened by the overshoot."""
     finite = values[np.isfinite(values)]
     return _widened(float(finite.min()), float(finite.max()))
 
 
 def shown_range(values: Array) -> tuple[float, float]:
-    """Return the values between which a characteristic is plotted.
-
-    Parameters
-    ----------
-    values : ndarray
-        As of `has_pole`.
-
-    Returns
-    -------
-    tuple of float
-        As of `full_range`; with a pole, only those within some times the usual size.
-    """
+    """Return the plotted range: `full_range`, limited to usual values for a curve with a pole."""
     if not has_pole(values):
         return full_range(values)
     finite = values[np.isfinite(values)]
@@ -78,20 +47,16 @@ def _widened(low: float, high: float) -> tuple[float, float]:
 
 
 def decimals(low: float, high: float, *, unit: str = "", value: float = 0.0) -> int:
-    """Return with how many decimals values are written.
+    """Return the number of decimals of written values.
 
     Parameters
     ----------
     low, high : float
-        Range of the values, in the unit of the reader.
+        Range of the values, in the display unit.
     unit : str, optional
-        That unit.
+        The display unit.
     value : float, optional
-        One of them that is to have three digits, as far as its unit has them.
-
-    Returns
-    -------
-    int
+        A value with three digits, if its unit has so many decimals.
 
     Examples
     --------
@@ -109,5 +74,5 @@ def decimals(low: float, high: float, *, unit: str = "", value: float = 0.0) -> 
 
 
 def meaningful(places: int, error: float) -> bool:
-    """Return whether an error leaves the last of so many decimals right but for rounding."""
+    """Return whether the last of some decimals is right to rounding, for an error."""
     return error <= 0.5 * 10.0**-places

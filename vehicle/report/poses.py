@@ -1,4 +1,4 @@
-"""The poses of a suspension over wheel travel and rack displacement."""
+"""Poses of a suspension over wheel travel and rack displacement."""
 
 from dataclasses import dataclass
 
@@ -11,25 +11,25 @@ from ..models.positions import PositionError, arm_angles, design_height, travel_
 from ..models.reach import at_rest
 from .grid import Grid, GridAxis
 
-TRAVEL = 0.100  # to either side of the design position, where the mechanism reaches [m]
+TRAVEL = 0.100  # to either side of the design position, within the reach [m]
 TRAVEL_STEP = 0.005  # [m]
-RACK = 0.060  # to either side of its middle position, where the mechanism reaches [m]
-RACK_STEP = 0.0025  # the wheel turns a degree in it [m]
+RACK = 0.060  # to either side of its middle position, within the reach [m]
+RACK_STEP = 0.0025  # about one degree of steering [m]
 
-# Where there is no rack, every column is the same: as many as a cubic needs.
+# Equal columns for a suspension without a rack, as many as a cubic needs.
 _STILL = GridAxis.around_zero(-2.0 * RACK_STEP, 2.0 * RACK_STEP, RACK_STEP)
-# What the wheel must keep from the end of its reach, where its path turns back [m].
+# Margin to the end of the reach, where the path of the wheel turns back [m].
 _MARGIN = 0.002
 
 
 @dataclass(frozen=True)
 class Poses:
-    """Where the moving points are, and where the wheel points.
+    """Positions of the moving points, and the axis of the wheel.
 
     Attributes
     ----------
     points : dict
-        Name of a hardpoint to its positions in chassis axes [m], shape (..., 3).
+        Positions of hardpoints by name, chassis axes [m], shape (..., 3).
     spin_axis : ndarray, shape (..., 3)
         Unit vector along the axis of the wheel, pointing left at zero camber and toe.
     """
@@ -39,16 +39,7 @@ class Poses:
 
 
 def reachable_grid(model: Model) -> Grid:
-    """Return a grid of which the suspension reaches every point.
-
-    Parameters
-    ----------
-    model : Model
-
-    Returns
-    -------
-    Grid
-        As much of the usual travel and rack displacement as the mechanism allows.
+    """Return the grid of usual travel and rack displacement within the reach of a suspension.
 
     Raises
     ------
@@ -81,7 +72,7 @@ def reachable_grid(model: Model) -> Grid:
 
 
 def _travel(ends: tuple[float, float], design: float) -> GridAxis | None:
-    """Return the usual travel within a reach of the wheel; None if hardly any is."""
+    """Return the usual travel within a reach of the wheel; None if it is too small."""
     low, high = max(ends[0] - design + _MARGIN, -TRAVEL), min(ends[1] - design - _MARGIN, TRAVEL)
     if low < -TRAVEL_STEP and high > TRAVEL_STEP:
         return GridAxis.around_zero(low, high, TRAVEL_STEP)
@@ -89,7 +80,7 @@ def _travel(ends: tuple[float, float], design: float) -> GridAxis | None:
 
 
 def _common_reach(model: Model, rack: float) -> tuple[float, float] | None:
-    """Return the wheel heights that are reached with the rack at, and at either side of, zero."""
+    """Return the range of wheel heights with the rack at zero and at either side of it."""
     try:
         reaches = [travel_range(model, r).height for r in (-rack, 0.0, rack)]
     except PositionError:
@@ -98,26 +89,12 @@ def _common_reach(model: Model, rack: float) -> tuple[float, float] | None:
 
 
 def racks_of(model: Model, columns: Array) -> Array:
-    """Return where the rack is in each column of the grid; in none anywhere if there is none."""
+    """Return the rack displacement in each column of the grid; zeros without a rack."""
     return columns if model.suspension.steered() else np.zeros_like(columns)
 
 
 def poses(model: Model, travel: Array, rack: Array) -> Poses:
-    """Compute poses at every combination of travels and rack displacements.
-
-    Parameters
-    ----------
-    model : Model
-    travel : ndarray, shape (n,)
-        Wheel travel [m].
-    rack : ndarray, shape (m,)
-        Rack displacement [m].
-
-    Returns
-    -------
-    Poses
-        Arrays of shape (n, m, 3).
-    """
+    """Return poses at every combination of travels (n,) and rack displacements (m,), (n, m, 3)."""
     heights, rack = design_height(model) + travel[:, None], racks_of(model, rack)
     states, inputs = at_rest(model, arm_angles(model, heights, rack), rack)
     shown = model.suspension.hardpoints.at_design()  # without those of a steering linkage

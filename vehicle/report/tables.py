@@ -1,4 +1,4 @@
-"""The tables of the page: characteristics at design, and the input data."""
+"""Tables of the page: characteristics at design, and the input data."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -20,17 +20,17 @@ class Row:
     Attributes
     ----------
     key, group, label, unit : str
-        Of the curve.
+        Those of the curve.
     value : float
-        At design, in that unit.
+        Value at design, in that unit.
     decimals : int
-        With how many it is written.
+        Number of decimals of the written value.
     typical : str
-        Range in which it usually lies, or nothing.
+        Typical range; empty if unknown.
     source : str
-        Who says so.
+        Source of this range.
     verdict : {"", "within", "outside"}
-        How the value compares.
+        Comparison of the value with the range.
     """
 
     key: str
@@ -53,9 +53,8 @@ class InputTable:
     name : str
         As in the file; empty for keys before the first section.
     meaning : str
-        What the section is.
     rows : list of tuple of str
-        Key, value as text, and what it is.
+        Key, value as text, and meaning.
     """
 
     name: str
@@ -71,16 +70,11 @@ def summary(
     Parameters
     ----------
     drawn : list of CharacteristicCurve
-        All that are plotted.
     grid : Grid
     looks : dict
-        How each is written, by its key.
+        By the key of a curve.
     suspension : Suspension
-        What is usual is known of front wheels alone, which are steered.
-
-    Returns
-    -------
-    list of Row
+        Typical ranges exist for front wheels, which are steered.
     """
     usual = typical_ranges(suspension.suspension) if suspension.steered() else {}
     design = grid.travel.zero, grid.rack.zero
@@ -96,7 +90,7 @@ def _row(
 ) -> Row:
     shown = value * curve.factor
     plain = Row(curve.key, curve.group, curve.label, curve.unit, shown, decimals)
-    # a range in another unit than the curve's would be compared wrongly
+    # a range in another unit cannot be compared
     if usual is None or usual["unit"] != curve.unit:
         return plain
     within = usual["low"] <= round(shown, decimals) <= usual["high"]
@@ -109,22 +103,12 @@ def _row(
 
 
 def input_tables(described: Section) -> list[InputTable]:
-    """Return the input data as they are in the file, section by section.
-
-    Parameters
-    ----------
-    described : Section
-        A suspension, or a rigid axle.
-
-    Returns
-    -------
-    list of InputTable
-    """
+    """Return the input data of a suspension or a rigid axle, a table for each section."""
     return list(_tables(described, "", "above the first section"))
 
 
 def _tables(section: Section, name: str, meaning: str) -> Iterator[InputTable]:
-    """Return the table of a section's own values, then those of the sections in it."""
+    """Yield the table of a section's values, then those of the sections in it."""
     fields = type(section).model_fields
     values = {key: getattr(section, key) for key in fields}
     rows = [
@@ -140,20 +124,15 @@ def _tables(section: Section, name: str, meaning: str) -> Iterator[InputTable]:
         elif isinstance(value, Mapping) and all(isinstance(v, Section) for v in value.values()):
             for inner, named in value.items():
                 yield from _tables(named, f"{key}.{inner}", fields[key].description or "")
-        elif isinstance(value, Mapping):
-            yield from _of_bushes(value, key, fields[key].description or "")
-
-
-def _of_bushes(bushings: Mapping[str, Any], name: str, meaning: str) -> Iterator[InputTable]:
-    """Return a table for each bush."""
-    for point, table in bushings.items():
-        known = BUSH_SCHEMA["properties"]
-        rows = [(key, _text(value), known[key]["description"]) for key, value in table.items()]
-        yield InputTable(f"{name}.{point}", meaning, rows)
+        elif isinstance(value, Mapping):  # of bushes, by point
+            known = BUSH_SCHEMA["properties"]
+            for point, table in value.items():
+                rows = [(k, _text(own), known[k]["description"]) for k, own in table.items()]
+                yield InputTable(f"{key}.{point}", fields[key].description or "", rows)
 
 
 def _text(value: Any) -> str:
-    """Write a value as a person reads it; numbers in full, points with commas."""
+    """Return a value as text; numbers in full, points with commas."""
     if isinstance(value, tuple | list):
         return ", ".join(_text(item) for item in value)
     if isinstance(value, Mapping):

@@ -1,4 +1,4 @@
-"""The chapter about an axle or a car: characteristics of all wheels over the motions of a rig."""
+"""The chapter of an axle or a car: characteristics of all wheels over the motions of a rig."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
@@ -24,65 +24,34 @@ from .curves import pictures, positions_of, small_pictures, with_wanted
 # The curves of each motion; those that an axle does not have are left out.
 _DRAWN = {
     "heave": (
-        "camber",
-        "steer",
-        "track_change",
-        "wheelbase_change",
-        "roll_center_height",
-        "wheel_rate",
+        "camber", "steer", "track_change", "wheelbase_change", "roll_center_height", "wheel_rate",
         "damper_motion_ratio",
     ),
     "pitch": ("camber", "steer", "anti_dive", "anti_lift_driven", "anti_lift_braked", "anti_squat"),
     "roll": (
-        "roll_moment",
-        "roll_stiffness",
-        "roll_center_height",
-        "roll_center_lateral",
-        "axle_steer",
-        "axle_lateral",
-        "camber",
-        "inclination",
-        "steer",
-        "jacking",
-        "wheel_force",
-        "link_force",
+        "roll_moment", "roll_stiffness", "roll_center_height", "roll_center_lateral", "axle_steer",
+        "axle_lateral", "camber", "inclination", "steer", "jacking", "wheel_force", "link_force",
     ),
     "bump": (
-        "roll_center_height",
-        "track_change",
-        "axle_lateral",
-        "axle_longitudinal",
-        "axle_steer",
-        "pinion_angle",
-        "roll_steer",
-        "roll_stiffness",
-        "anti_dive",
-        "anti_lift_driven",
-        "anti_lift_braked",
-        "anti_squat",
-        "wheel_rate",
-        "damper_motion_ratio",
+        "roll_center_height", "track_change", "axle_lateral", "axle_longitudinal", "axle_steer",
+        "pinion_angle", "roll_steer", "roll_stiffness", "anti_dive", "anti_lift_driven",
+        "anti_lift_braked", "anti_squat", "wheel_rate", "damper_motion_ratio",
     ),
     "left": (
-        "wheel_force",
-        "bar_torque",
-        "roll_center_height",
-        "camber",
-        "axle_steer",
-        "axle_lateral",
+        "wheel_force", "bar_torque", "roll_center_height", "camber", "axle_steer", "axle_lateral",
     ),
     "steer": ("steer", "ackermann", "turning_circle", "steering_ratio", "camber", "rack_position"),
-}
+}  # fmt: skip
 
 
 def axle_chapter(axle: Any, goals: Sequence[Goal] = ()) -> Chapter:
-    """Return the chapter of all wheels on a rig; a rigid axle is drawn, too.
+    """Return the chapter of all wheels on a rig, with a drawing of a rigid axle.
 
     Parameters
     ----------
     axle : Axle, AxleModel, RigidAxle, RigidAxleModel, Car or CarModel
     goals : sequence of Target and Limit, optional
-        From `kintrafo.variation.goals`: those over its motions are drawn into the curves.
+        From `kintrafo.variation.goals`: those over the motions are drawn into the curves.
 
     Returns
     -------
@@ -121,7 +90,7 @@ def axle_chapter(axle: Any, goals: Sequence[Goal] = ()) -> Chapter:
 def _of_a_beam(
     assembly: Assembly,
 ) -> tuple[tuple[str, ...], tuple[Tabulated, ...], tuple[ChapterPicture, ...]]:
-    """Return a first look at an axle that nothing on the page moves: words, tables, drawings."""
+    """Return words, tables and drawings of a rigid axle, which has no interactive view."""
     found = checkup(assembly)
     assert found.axle is not None
     words = [f"Problem: {text}" for text in found.problems]
@@ -135,7 +104,7 @@ def _of_a_beam(
 
 
 def _not_on_the_page(assembly: Assembly, whole: xr.Dataset) -> xr.Dataset:
-    """Return what the page does not have: of like sides it has one wheel by itself."""
+    """Return characteristics without those of a wheel if its page has them: of equal sides."""
     if assembly.on_a_beam or assembly.axles or not assembly.symmetric:
         return whole
     own = [n for n, data in whole.items() if WHEEL in data.dims and n in KNOWN["travel"]]
@@ -143,7 +112,7 @@ def _not_on_the_page(assembly: Assembly, whole: xr.Dataset) -> xr.Dataset:
 
 
 def _input_data(assembly: Assembly) -> Iterator[Tabulated]:
-    """Yield a table of what the axle's own file says, if it says anything."""
+    """Yield a table of the axle's own sections, if it has some."""
     rows = [
         (f"[{name}] {key}", str(value))
         for name, section in assembly.own_sections.items()
@@ -159,11 +128,11 @@ def _pictures(
 ) -> Iterator[ChapterPicture]:
     for motion, found in curves.items():
         own = [goal for goal in goals if goal.over == motion]
-        # what the motion goes over, as the rack where no ratio is known, is no curve of it
+        # the axis of the motion, such as the rack without a steering ratio, is not a curve
         shown, usual = _by_axle(assembly, found, _DRAWN.get(motion, ()))
         names = with_wanted(shown, usual, own)
         words = assembly.motions[motion].words
-        if assembly.axles:  # both axles have twice as many curves: small ones are read anywhere
+        if assembly.axles:  # both axles have twice as many curves
             yield from small_pictures(shown.reset_coords(drop=True), names, words, goals=own)
             continue
         title = words[:1].upper() + words[1:]
@@ -173,7 +142,7 @@ def _pictures(
 def _by_axle(
     assembly: Assembly, found: xr.Dataset, names: Sequence[str]
 ) -> tuple[xr.Dataset, Sequence[str]]:
-    """Return curves of a car by axle, front and rear beside each other; others as they are."""
+    """Return curves of a car by axle, front before rear; those of an axle unchanged."""
     if not assembly.axles:
         return found, names
     of_axles = [n for n in names if n in found and WHEEL not in found[n].dims]

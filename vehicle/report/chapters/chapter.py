@@ -1,4 +1,4 @@
-"""A chapter of a report: words, tables, pictures, and motions to be played."""
+"""A chapter of a report: words, tables, pictures, and players of motions."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -18,9 +18,9 @@ class ChapterPicture:
     Attributes
     ----------
     source : str
-        The picture itself, as the address of an image.
+        The picture, as the address of an image.
     words : str
-        What it shows.
+        Its description.
     """
 
     source: str
@@ -30,13 +30,13 @@ class ChapterPicture:
     def of(
         cls, figure: Figure, words: str, ending: Literal["svg", "png"] = "svg"
     ) -> "ChapterPicture":
-        """Return a figure as a picture: svg, or png where it has many letters."""
+        """Return a figure as a picture: svg, or png for many letters."""
         return cls(data_uri(figure, ending), words)
 
 
 @dataclass(frozen=True)
 class Chapter:
-    """A chapter.
+    """A chapter of a report.
 
     Attributes
     ----------
@@ -46,9 +46,9 @@ class Chapter:
     tables : tuple of Tabulated
     pictures : tuple of ChapterPicture
     panels : tuple of ChapterPicture
-        Small ones, as many beside each other as there is room for.
+        Small pictures in rows.
     players : tuple of Markup
-        Parts of the page that show a car, see `kintrafo.vehicle.plots.motion.page.player`.
+        Parts of the page with a moving car, see `kintrafo.vehicle.plots.motion.page.player`.
     """
 
     title: str

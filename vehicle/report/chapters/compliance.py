@@ -1,4 +1,4 @@
-"""The chapter about compliance."""
+"""The chapter of compliance."""
 
 from collections.abc import Sequence
 
@@ -21,8 +21,8 @@ def compliance_chapter(found: xr.Dataset, goals: Sequence[Goal] = ()) -> Chapter
     found : xarray.Dataset
         From `kintrafo.compliance.linear`.
     goals : sequence of Target and Limit, optional
-        From `kintrafo.variation.goals`: those with what holds the wheels here are drawn into the
-        curves. They are about the rack in its middle.
+        From `kintrafo.variation.goals`: those with the same support of the wheels are drawn into
+        the curves. They are for the middle position of the rack.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""The curves of a chapter as pictures, with what is wanted of them."""
+"""Curves of a chapter as pictures, with targets and limits."""
 
 from collections.abc import Iterable, Sequence
 from math import ceil
@@ -18,9 +18,9 @@ from ...studies.evaluation import usual_positions
 from ...studies.goals import Goal
 from .chapter import ChapterPicture
 
-# So few beside each other are read on the width of a phone, too; and so many fill a sheet.
+# Panels in a row, for the width of a phone, and on a sheet.
 _COLUMNS, _MOST = 2, 8
-# So many positions beyond the usual ones, to either side, are more than any wheel reaches.
+# Most positions beyond the usual ones to either side, more than any wheel reaches.
 _MOST_BEYOND = 1000
 
 
@@ -32,19 +32,19 @@ def pictures(
     *,
     goals: Sequence[Goal] = (),
 ) -> tuple[ChapterPicture, ...]:
-    """Return curves in as many pictures as they need, all of which are read on any width.
+    """Return pictures of some curves, eight in each.
 
     Parameters
     ----------
     dataset : xarray.Dataset
-        Those of both wheels of an axle over ``wheel``.
+        Curves of both wheels of an axle are over ``wheel``.
     names : sequence of str
     title : str
-        Above each picture.
+        Title of each picture.
     words : str
-        What they show.
+        Description of the pictures.
     goals : sequence of Goal, optional
-        About these curves; those of others are left out.
+        Goals of other curves are left out.
     """
     count = -(-len(names) // _MOST)
     found = []
@@ -72,7 +72,7 @@ def small_pictures(
     words : str, optional
         The motion of the curves, in a chapter with several motions.
     goals : sequence of Goal, optional
-        About these curves; those of others are left out.
+        Goals of other curves are left out.
     """
     found = []
     with rc_context(STYLE):
@@ -84,21 +84,12 @@ def small_pictures(
 
 
 def with_wanted(dataset: xr.Dataset, usual: Iterable[str], goals: Iterable[Goal]) -> list[str]:
-    """Return which curves are drawn: the usual ones that there are, and what goals are about.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        As of `pictures`.
-    usual : iterable of str
-        Names, of which the file may not have the data.
-    goals : iterable of Goal
-        About curves of this dataset.
+    """Return the names of the usual curves with data, and of curves with goals.
 
     Raises
     ------
     InputError
-        If a goal is about something else.
+        If a goal is that of another curve.
     """
     there = [name for name in usual if name in dataset.data_vars]
     names = dict.fromkeys(n for n in there if bool(np.isfinite(dataset[n]).any()))
@@ -106,7 +97,7 @@ def with_wanted(dataset: xr.Dataset, usual: Iterable[str], goals: Iterable[Goal]
 
 
 def _curve(dataset: xr.Dataset, name: str) -> str:
-    """Return the curve in which a characteristic is, alone or with that of the other wheel."""
+    """Return the curve of a characteristic, of one wheel or of both."""
     of_both = (name.removesuffix(f"_{side}") for side in SIDES if name.endswith(f"_{side}"))
     for known in (name, *of_both):
         if known in dataset.data_vars:
@@ -119,10 +110,7 @@ def _curve(dataset: xr.Dataset, name: str) -> str:
 
 
 def positions_of(assembly: Assembly, over: str, goals: Iterable[Goal]) -> NDArray[np.float64]:
-    """Return the usual positions over something, as far as goals about it, and theirs [m] or [rad].
-
-    Beyond the usual ones they are as near to each other: curves are no straight lines there.
-    """
+    """Return the usual positions over an axis and those of goals, with the same steps to these."""
     usual = usual_positions(assembly, over)
     wanted = [goal.at for goal in goals if goal.over == over]
     if not wanted:
@@ -130,6 +118,6 @@ def positions_of(assembly: Assembly, over: str, goals: Iterable[Goal]) -> NDArra
     own = np.concatenate([usual[:1], *wanted])
     step = float(np.diff(usual).max())
     ends = (usual[0], min(usual[0], own.min())), (usual[-1], max(usual[-1], own.max()))
-    # of what is so far that nothing reaches it, it is enough that it is refused
+    # positions out of reach are errors anyway, so that few are enough
     beyond = (np.linspace(*way, 1 + min(ceil(np.ptp(way) / step), _MOST_BEYOND)) for way in ends)
     return np.unique(np.concatenate([usual, own, *beyond]))

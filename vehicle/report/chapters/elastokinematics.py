@@ -1,4 +1,4 @@
-"""The chapter about what bushes do to the curves over wheel travel, and over roll."""
+"""The chapter of elastokinematics: curves over wheel travel and over roll on bushes."""
 
 from collections.abc import Sequence
 
@@ -16,15 +16,15 @@ from .curves import pictures
 
 
 def elastokinematics_chapter(*found: xr.Dataset, goals: Sequence[Goal] = ()) -> Chapter:
-    """Return the chapter of wheels on their bushes, beside rigid joints.
+    """Return the chapter of wheels on bushes and with rigid joints.
 
     Parameters
     ----------
     *found : xarray.Dataset
         From `kintrafo.compliance.elastokinematics`, each over another motion.
     goals : sequence of Target and Limit, optional
-        From `kintrafo.variation.goals`: those about these curves are drawn into them. They are
-        about rigid joints, and about the rack in its middle.
+        From `kintrafo.variation.goals`: those of these curves are drawn into them. They are for
+        rigid joints and the middle position of the rack.
 
     Returns
     -------
@@ -33,7 +33,7 @@ def elastokinematics_chapter(*found: xr.Dataset, goals: Sequence[Goal] = ()) -> 
     Raises
     ------
     InputError
-        If an argument cannot be used, or goals are about curves whose rack is turned.
+        If an argument cannot be used, or the rack of curves with goals is not in the middle.
     """
     with Validator("elastokinematics_chapter") as given:
         if not found:
@@ -46,7 +46,8 @@ def elastokinematics_chapter(*found: xr.Dataset, goals: Sequence[Goal] = ()) -> 
     sheets = []
     drawn: list[ChapterPicture] = []
     for dataset, own in zip(found, wanted, strict=True):
-        columns, over = flat(dataset), _over(dataset)
+        (along,) = (name for name in dataset.sizes if name not in (DATA_SET, WHEEL))
+        columns, over = flat(dataset), dataset[along].attrs["long_name"]
         title = f"Kinematic and elastokinematic, over {over}"
         words = f"Curves over {over} with rigid joints and on the bushes"
         drawn += pictures(columns, list(map(str, columns)), title, words, goals=own)
@@ -58,10 +59,7 @@ def elastokinematics_chapter(*found: xr.Dataset, goals: Sequence[Goal] = ()) -> 
 
 
 def _about(given: Validator, dataset: xr.Dataset, goals: Sequence[Goal]) -> list[Goal]:
-    """Return the goals about curves of a dataset; by its words, since other things have that name.
-
-    A wheel rate at the contact, say, is not that of the spring alone.
-    """
+    """Return the goals of curves in a dataset, which have the same name and long name."""
     if goals and "over" not in dataset.attrs:
         given.fail(
             'goals: the dataset has no attrs["over"], the name of its motion. Compute it again, or '
@@ -81,8 +79,3 @@ def _about(given: Validator, dataset: xr.Dataset, goals: Sequence[Goal]) -> list
             " mm. Give curves with rack_position = 0, or leave the goals out."
         )
     return own
-
-
-def _over(dataset: xr.Dataset) -> str:
-    (name,) = (str(name) for name in dataset.sizes if name not in (DATA_SET, WHEEL))
-    return str(dataset[name].attrs["long_name"])

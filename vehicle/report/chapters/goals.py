@@ -1,4 +1,4 @@
-"""The chapter about targets and limits of characteristics."""
+"""The chapter of targets and limits of characteristics."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -27,7 +27,7 @@ _MEANING = (
 
 
 def goals_chapter(subject: Any, goals: Sequence[Goal]) -> Chapter:
-    """Return which targets and limits a suspension, an axle or a car meets, with its curves.
+    """Return the chapter of targets and limits that a suspension, an axle or a car meets.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def goals_chapter(subject: Any, goals: Sequence[Goal]) -> Chapter:
     Raises
     ------
     InputError, PositionError
-        As of `kintrafo.variation.judge`.
+        As from `kintrafo.variation.judge`.
     """
     with Validator("goals_chapter") as given:
         assembly = given_assembly(given, subject, cars=True)
@@ -58,7 +58,7 @@ def goals_chapter(subject: Any, goals: Sequence[Goal]) -> Chapter:
 
 
 def _drawn(assembly: Assembly, goals: Sequence[Goal], over: str) -> tuple[ChapterPicture, ...]:
-    """Return the curves that goals over something are about, with these."""
+    """Return pictures of the curves with goals over an axis."""
     own = [goal for goal in goals if goal.over == over]
     at = positions_of(assembly, over, own)
     if at.size < _SMOOTH:  # turns and rides have few usual ones
@@ -72,17 +72,12 @@ def _drawn(assembly: Assembly, goals: Sequence[Goal], over: str) -> tuple[Chapte
 
 
 def _table(goals: Sequence[Goal], verdicts: Sequence[Verdict]) -> Tabulated:
-    """Return what comes of each goal, in as few columns as the width of a phone has room for."""
+    """Return a table of the verdicts, with few columns for the width of a phone."""
     rows = []
     for goal, verdict in zip(goals, verdicts, strict=True):
         over, factor = sweep_axis(goal.over), display_of(goal.quantity.attributes()).factor
-        rows.append(
-            (
-                words_of(verdict.kind, goal.name, goal.over),
-                "met" if verdict.met else "missed",
-                "" if verdict.met else significant(factor * verdict.beyond),
-                f"{over.factor * verdict.at:g} {over.unit}",
-            )
-        )
+        words, at = words_of(verdict.kind, goal.name, goal.over), over.factor * verdict.at
+        excess = "" if verdict.met else significant(factor * verdict.beyond)
+        rows.append((words, "met" if verdict.met else "missed", excess, f"{at:g} {over.unit}"))
     columns = ("goal", "", "beyond", "worst at")
     return Tabulated("Which are met", columns, tuple(rows), frozenset({0, 1}))

@@ -1,4 +1,4 @@
-"""The chapters about a car that drives: steady turns, and a step of the steering wheel."""
+"""The chapters of a car that drives: steady turns, and a step of the steering wheel."""
 
 from typing import Any
 
@@ -13,7 +13,7 @@ from ...plots.motion.animate import played
 from .chapter import Chapter, not_valid
 from .curves import small_pictures
 
-# Speed of the steady turns [m/s], and the step between them: near the limit curves bend [m/s^2].
+# Speed of the steady turns [m/s], and their step, for the curvature near the limit [m/s^2].
 _SPEED, _STEP = 80.0 / 3.6, 0.1
 
 
@@ -45,7 +45,7 @@ def steady_turns_chapter(subject: Any) -> Chapter:
 
 
 def step_steer_chapter(subject: Any) -> Chapter:
-    """Return the chapter of a step of the steering wheel (ISO 7401), to be played.
+    """Return the chapter of a step of the steering wheel (ISO 7401), with a player.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The chapter about load cases."""
+"""The chapter of load cases."""
 
 import xarray as xr
 from matplotlib import rc_context
@@ -11,7 +11,7 @@ from .chapter import Chapter, ChapterPicture
 
 
 def loads_chapter(found: xr.Dataset) -> Chapter:
-    """Return load cases with a picture of the free bodies for each.
+    """Return the chapter of load cases, with a picture of the free bodies for each.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ def loads_chapter(found: xr.Dataset) -> Chapter:
     for case in (case for case, reason in reasons.items() if not reason):
         with rc_context(STYLE):
             drawn = free_bodies(found, case, title=f"Forces on the parts: {case}")
-            # its letters have a halo, which would be drawn as lines
+            # in svg the halo of its letters would be many lines
             pictures.append(ChapterPicture.of(drawn, f"Free bodies in the load case {case}", "png"))
     sizes = overview(found, "Sizes of the forces [N]")
     return Chapter("Load cases", tuple(words), (sizes,), tuple(pictures))

@@ -1,4 +1,4 @@
-"""The chapter about a car at rest: its data, a view of it, and the loads of its wheels."""
+"""The chapter of a car at rest: its data, a view of it, and the loads of its wheels."""
 
 from typing import Any
 
@@ -18,7 +18,7 @@ from .chapter import Chapter
 
 
 def rest_chapter(subject: Any) -> Chapter:
-    """Return the chapter of a car that rests on a level road, with a view of it.
+    """Return the chapter of a car at rest on a level road, with a view of it.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ def rest_chapter(subject: Any) -> Chapter:
     Raises
     ------
     InputError, PositionError
-        As of `kintrafo.ride.at_rest`.
+        As from `kintrafo.ride.at_rest`.
     """
     assembly = car_assembly("rest_chapter", subject, riding=False)
     model = assembly.model
@@ -59,13 +59,10 @@ def _tables(found: xr.Dataset) -> tuple[Tabulated, ...]:
     """Return a table of the wheels, with a column for each, and one of the body."""
     of_wheels, of_body = wheels_and_body(found)
     wheels = [str(name).replace("_", " ") for name in found[WHEEL].values.ravel()]
-    sheets = []
-    for title, heads, some in (
-        ("Wheels", wheels, of_wheels), ("Body", ["value"], of_body),
-    ):  # fmt: skip
-        rows = tuple((heading_of(d), *_written(d)) for d in some)
-        sheets.append(Tabulated(title, ("", *heads), rows))
-    return tuple(sheets)
+    return tuple(
+        Tabulated(title, ("", *heads), tuple((heading_of(d), *_written(d)) for d in some))
+        for title, heads, some in (("Wheels", wheels, of_wheels), ("Body", ["value"], of_body))
+    )
 
 
 def _written(data: xr.DataArray) -> list[str]:

@@ -1,4 +1,4 @@
-"""The chapter about the ride of a car: modes, responses to a rough road, and a bump."""
+"""The chapter of the ride of a car: modes, responses to a rough road, and a bump."""
 
 from typing import Any
 
@@ -23,7 +23,7 @@ _HEIGHT, _LENGTH, _AT, _SLOWLY, _DURATION = 0.04, 2.0, 2.0, 30.0 / 3.6, 3.0
 
 
 def ride_chapter(subject: Any) -> Chapter:
-    """Return the chapter of the ride of a car: modes, responses, and a bump to be played.
+    """Return the chapter of the ride of a car: modes, responses, and a player of a bump.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ def ride_chapter(subject: Any) -> Chapter:
     Raises
     ------
     InputError, PositionError, SimulationError
-        As of `kintrafo.ride.modes`, `response` and `over`.
+        As from `kintrafo.ride.modes`, `response` and `over`.
     """
     whole = car_assembly("ride_chapter", subject, riding=False)
     assembly = whole.riding()

@@ -8,7 +8,7 @@ from .chapter import Chapter
 
 
 def sheet_chapter(found: xr.Dataset) -> Chapter:
-    """Return the kinematic and compliance gradients at design, with their signs.
+    """Return the chapter of the kinematic and compliance gradients at design, with their signs.
 
     Parameters
     ----------
