@@ -295,7 +295,7 @@ def _over_travel(drawn: list[CharacteristicCurve]) -> dict[str, list[Characteris
 def _over_rack(
     drawn: list[CharacteristicCurve], marked: Marks
 ) -> tuple[list[CharacteristicCurve], list[CharacteristicCurve]]:
-    """Return the visible curves over the rack: those of steering, wheel and goals, and the others."""
+    """Return the curves over the rack that are shown: of steering, wheel and goals, and others."""
     first = only_over_rack(drawn) | {c.name for c in drawn if c.group == ORDER[0]}
     first |= {c.name for c in drawn if c.over == "rack" and marked.about(c.key)}
     along = [curve for curve in drawn if curve.over == "rack"]
