@@ -100,8 +100,7 @@ def beside_each_other(names: Mapping[str, Any], datasets: Sequence[xr.Dataset]) 
     parts = [each[common] for each in datasets]
     if not all(RACK.name in each.coords for each in datasets):  # some have no rack
         parts = [each.drop_vars(RACK.name, errors="ignore") for each in parts]
-    labels = xr.Variable(DATA_SET, list(names), {"long_name": "data set"})
-    return side_by_side(parts, labels)
+    return side_by_side(parts, xr.Variable(DATA_SET, list(names), {"long_name": "data set"}))
 
 
 def side_by_side(parts: Sequence[xr.Dataset], labels: xr.Variable) -> xr.Dataset:
@@ -172,8 +171,7 @@ def common_positions(assemblies: Sequence[Assembly], motion: str) -> Array:
     """Return the usual positions of the first assembly within the range of all [m] or [rad]."""
     grids = [assembly.usual(motion) for assembly in assemblies]
     low, high = max(grid[0] for grid in grids), min(grid[-1] for grid in grids)
-    inner = grids[0][(grids[0] > low) & (grids[0] < high)]
-    return np.union1d(inner, [low, high])
+    return np.union1d(grids[0][(grids[0] > low) & (grids[0] < high)], [low, high])
 
 
 @dataclass(frozen=True)
@@ -232,8 +230,7 @@ def differences(dataset: xr.Dataset, at: float = 0.0) -> list[Difference]:
     """
     with Validator("differences") as given:
         given.dataset(dataset, over=DATA_SET)
-    table = flat(dataset)
-    curves = {str(n): data for n, data in table.items() if DATA_SET in data.dims}
+    curves = {str(n): data for n, data in flat(dataset).items() if DATA_SET in data.dims}
     return [
         _difference(name, data, label, at)
         for name, data in curves.items()

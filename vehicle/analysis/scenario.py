@@ -89,11 +89,7 @@ class Scenario:
 
 
 def run(
-    model: AnyModel,
-    scenario: Scenario,
-    *,
-    wheels: str = BOTH,
-    **options: Any,
+    model: AnyModel, scenario: Scenario, *, wheels: str = BOTH, **options: Any
 ) -> "tuple[Simulation, xr.Dataset]":
     """Return the simulation of a scenario, and its signals over time.
 

@@ -63,10 +63,7 @@ _KINDS = {
 
 
 def sheet(
-    subject: Any,
-    bushings: Mapping[str, Any] | None = None,
-    *,
-    held: WheelSupport = "height",
+    subject: Any, bushings: Mapping[str, Any] | None = None, *, held: WheelSupport = "height"
 ) -> xr.Dataset:
     """Return the kinematic and compliance gradients at design, with definitions and signs.
 

@@ -29,9 +29,7 @@ _OF_POSITION = ("m", "rad")
 
 
 def positions(
-    subject: Any,
-    travel: ArrayLike | None = None,
-    rack: ArrayLike | None = None,
+    subject: Any, travel: ArrayLike | None = None, rack: ArrayLike | None = None
 ) -> xr.Dataset:
     """Return wheel and joint positions over travel, over the rack, or over both.
 

@@ -224,15 +224,11 @@ def _extension_travel(model: Model, reach: AngleRange) -> float | None:
         return None
     first = int(below[-1])
     height = signals["wheel_center_z"][first : first + 2]
-    crossing = np.interp(0.0, -longer[first : first + 2], height)
-    return float(crossing) - design_height(model)
+    return float(np.interp(0.0, -longer[first : first + 2], height)) - design_height(model)
 
 
 def _notes(
-    model: Model,
-    travel: tuple[float, float],
-    rest: RestFacts | None,
-    extension: float | None,
+    model: Model, travel: tuple[float, float], rest: RestFacts | None, extension: float | None
 ) -> list[str]:
     extended = model.suspension.extended()
     notes = [

@@ -74,8 +74,7 @@ def write_free_bodies(
     check_formats(paths)
     written = []
     with rc_context(STYLE):
-        words = f"{title}: forces on the parts in {case}"
-        figure = free_bodies(dataset, case, parts, title=words)
+        figure = free_bodies(dataset, case, parts, title=f"{title}: forces on the parts in {case}")
         for path in paths:
             named = path.with_name(f"{path.stem}_{case}{path.suffix}")
             written.append(save(figure, named, force=force, inputs=inputs))

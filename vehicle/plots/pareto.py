@@ -18,11 +18,7 @@ _LETTERS = 34
 
 
 def write_front(
-    found: Front,
-    path: str | Path,
-    *,
-    chosen: int = 0,
-    **how: Unpack[FigureOptions],
+    found: Front, path: str | Path, *, chosen: int = 0, **how: Unpack[FigureOptions]
 ) -> Path:
     """Write a picture of a front, with marks at the given suspension and some members.
 

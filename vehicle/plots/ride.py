@@ -56,8 +56,7 @@ def _figure(data: xr.DataArray) -> Figure:
     _make_logarithmic(axes, displayed(data))
     if _ROAD_WHEEL in data.dims:
         names = list(map(str, data[_ROAD_WHEEL].values))
-        lines = axes.get_lines()[: len(names)]
-        axes.legend(lines, names, fontsize=8, ncols=2, loc="lower center")
+        axes.legend(axes.get_lines()[: len(names)], names, fontsize=8, ncols=2, loc="lower center")
     return small(drawn)
 
 

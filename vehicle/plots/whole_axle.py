@@ -60,8 +60,7 @@ def _lines(axle: WholeAxle) -> Iterator[tuple[str, str, float, Array]]:
     for part, color in (("spring", _SPRING), ("damper", _DAMPER)):
         for side in SIDES:
             points = axle.points(side)
-            ends = points[f"{part}_top"], points[f"{part}_seat"]
-            yield f"{part}s", color, 2.0, np.array(ends)
+            yield f"{part}s", color, 2.0, np.array((points[f"{part}_top"], points[f"{part}_seat"]))
 
 
 def _draw(
@@ -80,8 +79,7 @@ def _draw(
         if {right, up} == {0, 2}:
             axes.add_patch(Ellipse(center, *size, color=_WHEEL, zorder=0))
         else:
-            corner = center - 0.5 * np.array(size)
-            axes.add_patch(Rectangle(corner, *size, color=_WHEEL, zorder=0))
+            axes.add_patch(Rectangle(center - 0.5 * np.array(size), *size, color=_WHEEL, zorder=0))
     for _, color, width, points in lines:
         seen = points[:, [right, up]] * sense
         axes.plot(*seen.T, color=color, lw=width, solid_capstyle="round")

@@ -74,13 +74,12 @@ def measure(
     axis = interpolated(sampled.spin_axis)
     axis /= np.linalg.norm(axis, axis=-1, keepdims=True)
     # from the sine, since the cosine of a small angle has no digits left
-    sine = np.linalg.norm(cross(axis, exact.spin_axis), axis=-1).max()
     return GridAccuracy(
         points=max(
             float(np.linalg.norm(interpolated(sampled.points[name]) - points, axis=-1).max())
             for name, points in exact.points.items()
         ),
-        spin_axis=float(np.arcsin(sine)),
+        spin_axis=float(np.arcsin(np.linalg.norm(cross(axis, exact.spin_axis), axis=-1).max())),
         curves=_of_curves(grid, drawn, gaps, curves(model, travel, rack, report=report), ranges),
         places=travel.size * rack.size,
     )
@@ -114,6 +113,5 @@ def _of_curves(
         low, high = ranges[curve.key]
         true = between[curve.key]
         shown = (true >= low) & (true <= high) & (near >= low) & (near <= high)
-        difference = np.abs(near - true)[shown]
-        errors[curve.key] = float(difference.max(initial=0.0)) * curve.factor
+        errors[curve.key] = float(np.abs(near - true)[shown].max(initial=0.0)) * curve.factor
     return errors

@@ -153,7 +153,6 @@ def _curve(
 ) -> CharacteristicCurve:
     words = variable.attrs
     name = str(variable.name)
-    unit = str(words.get("display_units", words.get("units", "1")))
     return CharacteristicCurve(
         name=name,
         over=over,
@@ -161,7 +160,7 @@ def _curve(
         definition=str(words.get("definition", "")),
         sign=str(words.get("sign", "")),
         group=group_of(name),
-        unit=printed(unit),
+        unit=printed(str(words.get("display_units", words.get("units", "1")))),
         factor=float(words.get("display_factor", 1.0)),
         values=values,
     )

@@ -134,8 +134,7 @@ class Grid:
             Coordinates within the grid [m].
         """
         along = self.travel.interpolate(samples, travel)
-        across = self.rack.interpolate(np.moveaxis(along, 1, 0), rack)
-        return np.moveaxis(across, 0, 1)
+        return np.moveaxis(self.rack.interpolate(np.moveaxis(along, 1, 0), rack), 0, 1)
 
     def interpolate_apart(
         self, samples: Array, gaps: Sequence[Array], travel: ArrayLike, rack: ArrayLike

@@ -112,7 +112,6 @@ def _simulate(model: Model) -> ReportedMotion:
         rack = result.inputs[:, model.input_names.index("rack_position")]
     time = GridAxis(0.0, STEP, round(DURATION / STEP) + 1)
     kept = slice(None, None, _FINER)
-    error = np.abs(time.interpolate(travel[kept], times) - travel).max()
     return ReportedMotion(
         time=time,
         travel=travel[kept],
@@ -121,7 +120,7 @@ def _simulate(model: Model) -> ReportedMotion:
         signals=[
             _time_curve(model, n, result.signals[n][kept]) for n in SIGNALS if n in result.signals
         ],
-        travel_error=float(error),
+        travel_error=float(np.abs(time.interpolate(travel[kept], times) - travel).max()),
         solver=result.solver,
     )
 

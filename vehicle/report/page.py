@@ -240,10 +240,7 @@ def write_chapters(
 
 
 def _sample(
-    model: Model,
-    report: Callable[[str], None],
-    without: Collection[str],
-    goals: Sequence[Goal],
+    model: Model, report: Callable[[str], None], without: Collection[str], goals: Sequence[Goal]
 ) -> _Samples:
     report("reach of the mechanism")
     grid = reachable_grid(model)

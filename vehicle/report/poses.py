@@ -51,11 +51,10 @@ def reachable_grid(model: Model) -> Grid:
         travel = _travel(travel_range(model).height, design)
         if travel is not None:
             return Grid(travel, _STILL)
-        problem = (
+        raise PositionError(
             f"the wheel cannot travel {TRAVEL_STEP * 1e3:g} mm up and down, so there is nothing to "
             "report. Check the hardpoints of the arm."
         )
-        raise PositionError(problem)
     for rack in np.arange(RACK, 0.5 * RACK_STEP, -RACK_STEP):
         ends = _common_reach(model, float(rack))
         if ends is None:
@@ -63,12 +62,11 @@ def reachable_grid(model: Model) -> Grid:
         travel = _travel(ends, design)
         if travel is not None:
             return Grid(travel, GridAxis.around_zero(-float(rack), float(rack), RACK_STEP))
-    message = (
+    raise PositionError(
         f"the wheel cannot travel {TRAVEL_STEP * 1e3:g} mm up and down with the rack "
         f"{RACK_STEP * 1e3:g} mm to either side, so there is nothing to report. Check the "
         "lengths of tie rod, arms and strut."
     )
-    raise PositionError(message)
 
 
 def _travel(ends: tuple[float, float], design: float) -> GridAxis | None:

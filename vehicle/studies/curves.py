@@ -76,8 +76,7 @@ class CurveBundle:
     def _part(self, curves: Curves, values: Array) -> Array:
         look = self._looks[curves.over]
         rows = [look.names.index(name) for name in curves.names]
-        columns = np.searchsorted(look.positions, curves.positions)
-        return values[rows][:, columns]
+        return values[rows][:, np.searchsorted(look.positions, curves.positions)]
 
 
 S = TypeVar("S", bound=Subject)

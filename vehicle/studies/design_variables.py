@@ -146,8 +146,7 @@ def matching(given: Validator, suspension: Subject, patterns: Any) -> dict[str, 
     for given_pattern in patterns:
         # a name without side or end is that of both sides, or of both axles of a car
         tried = (given_pattern, f"{_SIDE}{given_pattern}", f"*.{given_pattern}")
-        fitting = (p for p in tried if any(_fits(name, p) for name in known))
-        pattern = next(fitting, given_pattern)
+        pattern = next((p for p in tried if any(_fits(name, p) for name in known)), given_pattern)
         found = {name for name in known if _fits(name, pattern) and _is_meant(name, pattern, known)}
         if not found and pattern in lists:
             given.fail(f"{pattern} is a list, as of a curve; single numbers vary. Leave it out.")

@@ -251,8 +251,7 @@ def _target(given: Validator, curve: xr.DataArray, over: str, accuracy: Any) -> 
     if not values.size:
         given.fail(f"measured: {name} has no value.")
         return None
-    quantity = sweep_axis(over).known[name]
-    shown = display_of(quantity.attributes())
+    shown = display_of(sweep_axis(over).known[name].attributes())
     if accuracy is not None:
         number = given.number(
             f"accuracy of {name}", accuracy, shown.units, least=LEAST, below=GREATEST
@@ -290,13 +289,12 @@ def _fit(search: Search, x: Array, gave_up: str) -> Fit:
             name for name, part in zip(names, determined, strict=True) if part < _LEAST_DETERMINED
         ],
     }
-    deviations = search.moved(np.sqrt(variances))
     return Fit(
         suspension=search.at(x),
         start=search.suspension,
         places=search.places,
         moved=search.moved(x),
-        uncertainty=deviations,
+        uncertainty=search.moved(np.sqrt(variances)),
         determined=dict(zip(names, np.clip(determined, 0.0, 1.0).tolist(), strict=True)),
         curves=curves,
         success=not (gave_up or facts["not explained"]),

@@ -270,8 +270,7 @@ def judge(suspension: Any, wanted: Sequence[Goal]) -> list[Verdict]:
         if not given.failed:
             assembly = assembly_of(suspension)
             check_data(given, assembly, wanted)
-    looks = CurveBundle([goal.curves for goal in wanted])
-    found = looks.of(assembly) if wanted else []
+    found = CurveBundle([goal.curves for goal in wanted]).of(assembly) if wanted else []
     return [_verdict(goal, values[0]) for goal, values in zip(wanted, found, strict=True)]
 
 
@@ -328,11 +327,7 @@ def check_data(given: Validator, suspension: Any, goals: Iterable[Goal]) -> None
 
 
 def targets_of(
-    given: Validator,
-    described: Mapping[str, Any],
-    ways: Sequence[str],
-    *,
-    weighed: bool = True,
+    given: Validator, described: Mapping[str, Any], ways: Sequence[str], *, weighed: bool = True
 ) -> list[TargetValue]:
     """Return targets by the names of characteristics, in millimetres and display units.
 
@@ -387,8 +382,7 @@ class _Table:
         """Return a number in SI units."""
         value = self._given(key)
         name = f"{self.title} {key}"
-        number = self.given.number(name, value, self.unit, least=least, below=GREATEST)
-        return number / self.factor
+        return self.given.number(name, value, self.unit, least=least, below=GREATEST) / self.factor
 
     def numbers(self, key: str) -> Array:
         """Return a number for each position in SI units; one represents all."""

@@ -51,6 +51,5 @@ def evolve(
         if candidates is None:
             return  # pymoo finds no new candidate
         costs, excess = judge(candidates.get("X"))
-        judged = static.StaticProblem(problem, F=costs, G=excess)
-        evaluators.Evaluator().eval(judged, candidates)
+        evaluators.Evaluator().eval(static.StaticProblem(problem, F=costs, G=excess), candidates)
         algorithm.tell(infills=candidates)

@@ -214,8 +214,7 @@ def pareto(
     idle = judge.idle()
     if len(idle) == len(reach):
         raise InputError([f"free: nothing of {', '.join(idle)} moves an objective."], "pareto")
-    first = _first(population, len(reach), seed)
-    evolve(judge, first, judge.counts, generations, seed)
+    evolve(judge, _first(population, len(reach), seed), judge.counts, generations, seed)
     return _front(judge, idle, population)
 
 
@@ -265,8 +264,7 @@ class _Judge:
         self.seen: list[tuple[Array, Array, Array]] = []
         self._expected, self._progress = expected, progress
         # one more limit, which only impossible suspensions exceed
-        sides = 1 + sum(limit.at.size * len(limit.sides) for limit in limits)
-        self.counts = len(objectives), sides
+        self.counts = len(objectives), 1 + sum(limit.at.size * len(limit.sides) for limit in limits)
 
     def __call__(self, generation: Array) -> tuple[Array, Array]:
         """Return the costs of each candidate, and its excess over the limits."""

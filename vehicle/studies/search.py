@@ -155,8 +155,7 @@ class Search(Candidates):
             return x
         moved, back = x, np.linalg.pinv(self._slopes)
         for _ in range(_LAST_STEPS):
-            step = -back @ self.deviations(moved)
-            moved = np.clip(moved + step, -1.0, 1.0)
+            moved = np.clip(moved + -back @ self.deviations(moved), -1.0, 1.0)
             if self._is_enough(moved) and np.linalg.norm(moved) < np.linalg.norm(x):
                 return moved
         return x

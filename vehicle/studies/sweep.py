@@ -153,8 +153,7 @@ class _Cars:
         for (place, along), at in zip(self._axes.items(), places, strict=True):
             changes |= place.moved(float(along[at]) - place.value * place.to_si)
         try:
-            suspension = changed(self._suspension, changes)
-            model = model_of(suspension, wheel_loads=self.model.wheel_loads)
+            model = model_of(changed(self._suspension, changes), wheel_loads=self.model.wheel_loads)
             self._check_equations(model)
             start, self.inputs = started(model, self._scenario)
             self._starts[car] = np.array(start)
@@ -166,18 +165,16 @@ class _Cars:
 
     def _check_equations(self, model: AnyModel) -> None:
         if model.equations is not self.model.equations:
-            message = (
+            raise _OtherEquationsError(
                 f"values: some need the equations {model.equations.NAME}, and the file has "
                 f"{self.model.equations.NAME}. Give small nonzero values in the file to keys that "
                 "are zero or left out."
             )
-            raise _OtherEquationsError(message)
         if model.allowed_lengths() != self.model.allowed_lengths():
-            message = (
+            raise _OtherEquationsError(
                 "values: length_min_mm and length_max_mm end motions and move nothing. Sweep "
                 "another value, and simulate the cars with other lengths one by one."
             )
-            raise _OtherEquationsError(message)
 
     def variants(self) -> dict[str, Array]:
         """Return the parameters in which the suspensions differ."""

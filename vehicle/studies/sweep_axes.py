@@ -145,8 +145,7 @@ def sweep_axes_of(subject: Any) -> tuple[str, ...]:
     assembly = assembly_of(subject)
     if assembly.body_moves:
         return (*assembly.motions, TURNS if assembly.drives else RIDE)
-    alone = len(assembly.wheels) == 1
-    return OF_CORNERS if alone else tuple(_OF_AXLES)
+    return OF_CORNERS if len(assembly.wheels) == 1 else tuple(_OF_AXLES)
 
 
 def compliances_over(over: str) -> Mapping[str, Quantity]:

@@ -56,6 +56,5 @@ def _tables(
 def _row(data: xr.DataArray) -> tuple[str, ...]:
     (along,) = (dim for dim in data.dims if dim not in (WHEEL, AXLE))
     index = int(abs(data[along].values).argmin())
-    values = displayed(data)[..., index].ravel()
-    cells = (significant(float(value)) for value in values)
+    cells = (significant(float(value)) for value in displayed(data)[..., index].ravel())
     return long_name(data), *cells, unit_or_stroke(data.attrs), str(data.attrs.get("sign", ""))

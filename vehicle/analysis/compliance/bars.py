@@ -83,8 +83,7 @@ class Inclinations:
         # by the chain rule, with the derivatives of asin
         square = 1.0 - sine.value**2
         slope = sine.slope / np.sqrt(square)[..., None]
-        outer = slope[..., :, None] * slope[..., None, :]
-        bend = sine.bend + sine.value[..., None, None] * outer
+        bend = sine.bend + sine.value[..., None, None] * (slope[..., :, None] * slope[..., None, :])
         bend /= np.sqrt(square)[..., None, None]
         return BodyMeasures(pair, np.arcsin(sine.value), slope, bend)
 

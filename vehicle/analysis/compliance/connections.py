@@ -241,9 +241,8 @@ class _Side:
             far = curve.place(size) / size if size else 0.0
             before = np.broadcast_to(far * carried, (len(rows), _ACROSS))
             arms = (self._arm(part, bush.point) for part in (joint.first, joint.second))
-            parts = self._indices(joint.first, joint.second)
             yield (
-                parts,
+                self._indices(joint.first, joint.second),
                 (rows[:, 1], rows[:, 2], *arms, before),
                 CurvedLaw(curve, bush=bush.point, start=far * size),
             )
@@ -325,8 +324,7 @@ class _Side:
 
     def _axes(self, bush: Bush, part: str) -> Array:
         """Return the axes of a bush, which turn with a part, as rows, (n, 3, 3)."""
-        turned = self.poses.turned.get(part, np.eye(3))
-        rows = bush.axes @ np.swapaxes(turned, -1, -2)
+        rows = bush.axes @ np.swapaxes(self.poses.turned.get(part, np.eye(3)), -1, -2)
         return np.broadcast_to(rows, (len(self.poses.states), 3, 3))
 
     def _laws(self, bush: Bush, joint: PartJoint) -> list[Law | None]:

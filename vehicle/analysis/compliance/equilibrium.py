@@ -161,10 +161,9 @@ class ElasticEquilibrium:
 
     def beyond(self, state: ElasticState) -> list[str]:
         """Return messages for lengths beyond the limits of the files."""
-        strokes = self._connections.strokes(state.places)
         return [
             allowed.beyond
-            for poses, own in zip(self.poses, strokes, strict=True)
+            for poses, own in zip(self.poses, self._connections.strokes(state.places), strict=True)
             for allowed in poses.allowed_lengths()
             if (allowed.left(own) < 0.0).any()
         ]
@@ -266,8 +265,7 @@ class ElasticEquilibrium:
         state = replace(state, places=state.places.moved(np.nan_to_num(by)), forces=forces)
         if held != "spring":
             name = "lock" if held == "locked" else "road"
-            own = step[:, -state.road.shape[1] :]
-            more = getattr(state, name) + part[:, None] * own * _FORCE
+            more = getattr(state, name) + part[:, None] * step[:, -state.road.shape[1] :] * _FORCE
             state = replace(state, **{name: more})
         return state, far
 

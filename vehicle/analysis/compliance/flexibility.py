@@ -172,8 +172,7 @@ def shared(equations: BalanceEquations, unknowns: Array, bushes: Sequence[Bush])
     place, count = states.shape[-1], sum(own.shape[-1] for own in tensions)
     every = []
     for at_points, own in zip(equations.at_joints(states), tensions, strict=True):
-        nothing = np.zeros((*own.shape[:-1], count))
-        carried = np.concatenate([at_points[0], nothing], axis=-1)
+        carried = np.concatenate([at_points[0], np.zeros((*own.shape[:-1], count))], axis=-1)
         carried[..., place : place + own.shape[-1]] = own
         place += own.shape[-1]
         every.append(carried)

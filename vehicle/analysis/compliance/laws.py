@@ -41,8 +41,7 @@ class LinearLaw:
 
     def __call__(self, displacement: Array) -> tuple[Array, Array]:
         """Return force and rate."""
-        force = self.carried + self.rate * displacement
-        return force, np.full_like(displacement, self.rate)
+        return self.carried + self.rate * displacement, np.full_like(displacement, self.rate)
 
 
 @dataclass(frozen=True)
@@ -92,8 +91,7 @@ class SpringLaw:
         before, _ = force_and_rate(self.parameters, self.length)
         now, of_curve = force_and_rate(self.parameters, displacement)
         rate = self.parameters["spring_rate"]
-        force = rate * (displacement - self.length) + (before - now) - self.force
-        return force, rate + of_curve
+        return rate * (displacement - self.length) + (before - now) - self.force, rate + of_curve
 
 
 @dataclass(frozen=True)

@@ -197,8 +197,7 @@ def _under_loads(
         for how in loadings(test, wheels):
             parts = zip(how.parts, loads, strict=True)
             load = np.concatenate([part * one for part, one in parts], axis=-1)
-            moved = np.einsum("nab,nb->na", flexible, load)
-            yield test, how, np.split(moved, len(wheels), axis=-1)
+            yield test, how, np.split(np.einsum("nab,nb->na", flexible, load), len(wheels), axis=-1)
 
 
 def _of_wheels(
@@ -275,8 +274,7 @@ def quantities_under(test: RigLoad, how: Loading) -> dict[str, Quantity]:
         kinds.append(("displacement", "m", words, f"{words} of the {at}", sign))
     if test.through:
         words += " of the contact patch"
-        meaning = f"{words}, on a tyre that deflects"
-        kinds.append(("patch_displacement", "m", words, meaning, sign))
+        kinds.append(("patch_displacement", "m", words, f"{words}, on a tyre that deflects", sign))
     return {kind: _quantity(test, how, kind, *texts) for kind, *texts in kinds}
 
 

@@ -310,12 +310,11 @@ def _towards(
             continue
         step *= 0.5
         if abs(step) <= _LEAST_STEP * abs(end):
-            problem = (
+            raise PositionError(
                 f"no stable equilibrium was found under {load.words} of more than {at:.4g} "
                 f"{load.unit}: the bushes do not hold the linkage. Use smaller loads or "
                 "stiffer bushes."
             )
-            raise PositionError(problem)
     return state
 
 
@@ -324,13 +323,12 @@ def _refuse_on_tyres(suspension: ElasticEquilibrium, load: RigLoad, wanted: Arra
     soft = max(float(give_of_tyre(load, wheel) or 0.0) for wheel in suspension.wheels)
     worst = float(wanted[np.abs(wanted).argmax()]) if wanted.size else 0.0
     if abs(worst) * soft > _FARTHEST_TYRE:
-        problem = (
+        raise PositionError(
             f"under {load.words} of {worst:.4g} {load.unit} the stationary tyre deflects by "
             f"{1e3 * abs(worst) * soft:.4g} mm, more than any tyre can: "
             f"{1e3 * _FARTHEST_TYRE:g} mm: it slides before. Leave greater loads out, or correct "
             "its rates in [tyre]."
         )
-        raise PositionError(problem)
 
 
 def _refuse_beyond(
@@ -339,17 +337,15 @@ def _refuse_beyond(
     """Raise an error for loads with an impossible deflection of a bush, or damper or strut."""
     for which in np.argsort(np.abs(wanted), kind="stable"):
         if strained := suspension.overstretched(states[which]):
-            problem = (
+            raise PositionError(
                 f"under {load.words} of {wanted[which]:.4g} {load.unit} {strained}. Leave greater "
                 "loads out, or make it stiffer."
             )
-            raise PositionError(problem)
         if words := suspension.beyond(states[which]):
-            problem = (
+            raise PositionError(
                 f"under {load.words} of {wanted[which]:.4g} {load.unit} {words[0]}. Leave greater "
                 "ones out, or give the file stops that hold it before."
             )
-            raise PositionError(problem)
 
 
 def _changes_of_wheels(

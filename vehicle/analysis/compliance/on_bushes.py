@@ -102,8 +102,7 @@ def carried_at(
         Those whose energy decides statically indeterminate loads.
     """
     equations = BalanceEquations(poses)
-    unknowns = equations.solve(equations.applied([*known(poses), *pulled]))
-    every = shared(equations, unknowns, bushes)
+    every = shared(equations, equations.solve(equations.applied([*known(poses), *pulled])), bushes)
     found = {
         (joint.first, joint.second, point): at_points[which]
         for joint, at_points in zip(equations.joints, every, strict=True)
@@ -156,14 +155,14 @@ def at_height(
     if not base.found.all():
         shown = display_of(over.attributes())
         at = ", ".join(f"{shown.factor * a:.4g} {shown.units}" for a in along[~base.found][:3])
-        problem = (
+        raise PositionError(
             f"no stable equilibrium was found at a {over.long_name} of {at}: the bushes do not "
             "hold the linkage there. Make them stiffer, or leave out that position."
         )
-        raise PositionError(problem)
     if words := suspension.overstretched(base):
-        problem = f"without another load {words}. Make it stiffer, or correct loads and springs."
-        raise PositionError(problem)
+        raise PositionError(
+            f"without another load {words}. Make it stiffer, or correct loads and springs."
+        )
     return base
 
 

@@ -138,8 +138,7 @@ class Turns:
         if straight:
             near = self.equations.near_straight(self.first.value)
         elif self.first.kind == "curvature":
-            speed = float(np.sqrt(acceleration / abs(self.first.value)))
-            near, _ = self._entered(speed)
+            near, _ = self._entered(float(np.sqrt(acceleration / abs(self.first.value))))
         else:
             near, found = self._entered(_SLOW)
             near = self._faster(near, found, acceleration)
@@ -253,8 +252,7 @@ def steady_turns(
         If there is no such turn.
     """
     turns = Turns(car, first, sense)
-    steps = np.arange(1.0, int(_MOST / step), dtype=np.float64)
-    asked = step * steps if wanted is None else wanted
+    asked = step * np.arange(1.0, int(_MOST / step), dtype=np.float64) if wanted is None else wanted
     try:
         slowest = turns.begin(min(float(asked[0]), _GENTLE))
     except NoSteadyMotionError:
@@ -319,10 +317,7 @@ def turns_at(car: DrivingCar, first: SteadyCondition, accelerations: Array) -> x
 
 
 def _followed(
-    turns: Turns,
-    found: dict[float, Steady],
-    asked: Array,
-    progress: Callable[[float], None] | None,
+    turns: Turns, found: dict[float, Steady], asked: Array, progress: Callable[[float], None] | None
 ) -> tuple[dict[float, Steady], float]:
     """Return turns by lateral acceleration, and the greatest one, NaN if all wanted are found."""
     far = min(_USUAL, float(asked[-1])) if asked.size else _USUAL

@@ -31,8 +31,7 @@ class Path:
     @cached_property
     def _curve(self) -> CubicSpline:
         """The path as a function of the length of the chords between its points."""
-        steps = np.hypot(*np.diff(self.points, axis=0).T)
-        along = np.concatenate([[0.0], np.cumsum(steps)])
+        along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(self.points, axis=0).T))])
         return CubicSpline(along, self.points)
 
     @property

@@ -155,8 +155,7 @@ def sine_sweep(
     length = periods * growth / (low * np.expm1(growth))
 
     def shape(t: Array) -> tuple[Array, Array, Array]:
-        grown = np.exp(growth * t / length)
-        omega = 2.0 * np.pi * low * grown
+        omega = 2.0 * np.pi * low * np.exp(growth * t / length)
         phase = 2.0 * np.pi * low * length / growth * np.expm1(growth * t / length)
         s, c = np.sin(phase), np.cos(phase)
         return (

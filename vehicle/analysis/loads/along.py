@@ -170,8 +170,7 @@ def _on_wheels(group: PartPoses) -> list[Load]:
     tyres, inputs, still = group.tyre_forces(), group.inputs_of_wheels(), np.zeros(3)
     roads, given = [], []
     for part, wheel in group.wheels.items():
-        road = Load(WHEEL, CENTER, "road", tyres[part], still, wheel.center)
-        roads += of_wheel(part, [road])
+        roads += of_wheel(part, [Load(WHEEL, CENTER, "road", tyres[part], still, wheel.center)])
         if part in inputs:
             given += of_wheel(part, _of_inputs(inputs[part], wheel))
     return [*roads, *given]

@@ -64,16 +64,14 @@ def balanced_at_many(entries: Entries, applied: Array) -> tuple[Array, NDArray[n
     sums = np.zeros((right.shape[-2], len(right)))
     for (_, column), values in entries.items():
         sums[column] += np.abs(values)
-    sound = _sound(sums.max(axis=0), found)
-    return found[..., :-_PROBES] if several else found[..., 0], sound
+    return found[..., :-_PROBES] if several else found[..., 0], _sound(sums.max(axis=0), found)
 
 
 def dense(
     entries: Entries, shape: tuple[int, int], where: NDArray[np.bool_] | slice = slice(None)
 ) -> Array:
     """Return matrices, (positions, *shape), of their entries."""
-    count = len(next(iter(entries.values()))[where])
-    matrix = np.zeros((count, *shape))
+    matrix = np.zeros((len(next(iter(entries.values()))[where]), *shape))
     for (row, column), values in entries.items():
         matrix[:, row, column] = values[where]
     return matrix

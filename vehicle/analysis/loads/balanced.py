@@ -37,10 +37,7 @@ class BalancedLoads(NamedTuple):
 
     @classmethod
     def of(
-        cls,
-        assembly: HeldAssembly,
-        poses: Mapping[str, PartPoses],
-        known: Mapping[str, list[Load]],
+        cls, assembly: HeldAssembly, poses: Mapping[str, PartPoses], known: Mapping[str, list[Load]]
     ) -> Self:
         """Return the known loads by suffix, with inertia, and those of the joints."""
         loads: dict[str, list[Load]] = {}

@@ -119,8 +119,7 @@ def cases_of(
             }
         # an error of one wheel may be that of all
         if not given.failed:
-            of = wheel if several else ""
-            found.append(_cases_of_wheel(given, own, static_load, of))
+            found.append(_cases_of_wheel(given, own, static_load, wheel if several else ""))
     return list(zip(*found, strict=True)) if not given.failed else []
 
 
@@ -282,8 +281,7 @@ def _vector(given: Validator, title: str, table: Mapping[str, Any], key: str) ->
     """Return three numbers, zeros for a missing key."""
     if key not in table:
         return np.zeros(3)
-    unit = key.rpartition("_")[2]
-    values = given.array(f"{title} {key}", table[key], unit, dimensions=[1])
+    values = given.array(f"{title} {key}", table[key], key.rpartition("_")[2], dimensions=[1])
     if values.shape == (3,) and (np.abs(values) < GREATEST).all():
         return values
     given.fail(f"{title} {key}: three numbers are needed, x, y and z, each below {GREATEST:g}.")

@@ -284,8 +284,7 @@ def table(dataset: xr.Dataset, axes: str = "vehicle") -> xr.Dataset:
         column.attrs["long_name"] = f"{words[0]}, {name[-1]}"
     if "reason" in dataset:
         columns["reason"] = dataset["reason"]
-    meaning = "axes of points and components"
-    columns["axes"] = xr.DataArray(variable((), AXES[axes], meaning, "1"))
+    columns["axes"] = xr.DataArray(variable((), AXES[axes], "axes of points and components", "1"))
     return xr.Dataset(columns, attrs=dataset.attrs)
 
 

@@ -149,8 +149,7 @@ class CarInMotion:
         yield Load(WHEEL, CONTACT, "road", force, moment + lower, at)
         torque = self._by_shaft(end, name)
         if torque is not None:
-            nothing = np.zeros(3)
-            yield Load(WHEEL, CENTER, "shaft", nothing, torque[:, None] * left, wheel.center)
+            yield Load(WHEEL, CENTER, "shaft", np.zeros(3), torque[:, None] * left, wheel.center)
 
     def _by_shaft(self, end: str, name: str) -> Array | None:
         """Return the torque of brakes and drive on the body, if any; others load the bearing."""

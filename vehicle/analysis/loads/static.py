@@ -26,10 +26,7 @@ from .static_equilibrium import static_equilibrium
 
 
 def static(
-    subject: Any,
-    cases: Mapping[str, Any] | None = None,
-    *,
-    static_load: float | None = None,
+    subject: Any, cases: Mapping[str, Any] | None = None, *, static_load: float | None = None
 ) -> xr.Dataset:
     """Return the loads on every part in load cases, each at rest.
 

@@ -214,9 +214,8 @@ class _Search:
         """Return middle and size of the cells of each case, the nearest to design first."""
         together: dict[tuple[Any, ...], list[int]] = {}
         for row in rows:
-            free = self.loads.free[row]
             # all cases with free wheels and the same rack position have one grid
-            alone = () if free.all() else (int(row),)
+            alone = () if self.loads.free[row].all() else (int(row),)
             together.setdefault((float(self.loads.racks[row]), *alone), []).append(int(row))
         return {
             row: cells
@@ -291,8 +290,7 @@ class _Search:
         slopes = (found[:, 1 + size :] - found[:, 1 : 1 + size]).mT / (2.0 * widths)
         free = self.loads.free[rows]
         both = free[:, :, None] & free[:, None]
-        missing = np.where(free, found[:, 0], 0.0)
-        return missing, np.where(both, slopes, _LEAST_RATE * np.eye(size))
+        return np.where(free, found[:, 0], 0.0), np.where(both, slopes, _LEAST_RATE * np.eye(size))
 
     def _ended(self, rows: Rows, missing: Array, slopes: Array) -> Booleans:
         """Return which cases end, with reasons for those without equilibrium."""
@@ -304,8 +302,7 @@ class _Search:
         still = np.asarray((np.abs(missing) < most).all(axis=-1))
         for row in rows[lost]:
             self.reasons[row] = DEAD_POINT
-        rates = np.linalg.eigvals(np.nan_to_num(slopes)).real
-        stable = np.asarray((rates > 0.0).all(axis=-1))
+        stable = np.asarray((np.linalg.eigvals(np.nan_to_num(slopes)).real > 0.0).all(axis=-1))
         for row in rows[still & ~stable]:
             self.reasons[row] = _UNSTABLE
         last = still & stable  # a last step, down to rounding

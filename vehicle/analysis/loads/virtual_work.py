@@ -86,8 +86,7 @@ def _power(group: PartPoses, twists: Mapping[str, Array], loads: Sequence[Load])
     """Return the power of loads in each motion, (n, motions)."""
     total = np.zeros((len(group.states), len(group.wheels)))
     for load in (load for load in loads if load.part not in GROUND):
-        velocity = _velocity(group, twists, load.part, load.at)
-        total += (load.force[..., None, :] * velocity).sum(-1)
+        total += (load.force[..., None, :] * _velocity(group, twists, load.part, load.at)).sum(-1)
         if load.moment.any():
             total += (load.moment[..., None, :] * twists[load.part][..., :3]).sum(-1)
     return total

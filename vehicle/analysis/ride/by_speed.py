@@ -123,12 +123,11 @@ def by_speed(
     linear = linear_at_rest(assembly)
     found = responses_by_wheel(assembly, linear, FREQUENCIES)
     place = "body_acceleration" if seat is None else f"{seat}_acceleration"
-    wanted = {"acceleration": place, "load": "load", "travel": "travel"}
     spectra = {
         name: np.stack(
             [density(assembly, found[of], FREQUENCIES, v, at_reference) for v in chosen.tolist()]
         )
-        for name, of in wanted.items()
+        for name, of in {"acceleration": place, "load": "load", "travel": "travel"}.items()
     }
     at_rest = [
         linear.outputs[linear.output_names.index(f"{assembly.names_of(w).signals}tyre_force")]

@@ -101,11 +101,7 @@ def named_modes(assembly: CarAssembly, linear: Linearisation) -> dict[str, tuple
 
 
 def response(
-    subject: Any,
-    speed: float,
-    roughness: str | float = "B",
-    *,
-    frequency: ArrayLike | None = None,
+    subject: Any, speed: float, roughness: str | float = "B", *, frequency: ArrayLike | None = None
 ) -> xr.Dataset:
     """Return the response of a car to a rough road by its linear equations.
 
@@ -146,8 +142,7 @@ def response(
             given.fail("frequency: more than 0 Hz is needed.")
         if not given.failed and (frequencies.size < 2 or (np.diff(frequencies) <= 0.0).any()):
             given.fail("frequency: two or more are needed, each above the one before it.")
-    linear = linear_at_rest(assembly)
-    found = responses_by_wheel(assembly, linear, frequencies)
+    found = responses_by_wheel(assembly, linear_at_rest(assembly), frequencies)
     variables: dict[str, Any] = {}
     for name, (words, unit) in _described(assembly).items():
         rows = found[name]
@@ -213,18 +208,13 @@ def _outputs(
             for k in body
         }
         found[name] = sum((arms[k] * s2 * position[k] for k in body), np.zeros_like(s2))
-    travels = assembly.travel_slopes(linear.state)
-    rows = wheel_outputs(assembly, signals, position, travels)
+    rows = wheel_outputs(assembly, signals, position, assembly.travel_slopes(linear.state))
     single = len(assembly.wheels) == 1
     return found | {name: (row[0] if single else np.stack(row)) for name, row in rows.items()}
 
 
 def density(
-    assembly: CarAssembly,
-    rows: Responses,
-    frequencies: Array,
-    speed: float,
-    at_reference: float,
+    assembly: CarAssembly, rows: Responses, frequencies: Array, speed: float, at_reference: float
 ) -> Array:
     """Return the spectral density of an output from its responses to the road under each wheel."""
     track, behind = assembly.track, assembly.behind()

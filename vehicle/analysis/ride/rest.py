@@ -51,8 +51,7 @@ def at_rest(subject: Any) -> xr.Dataset:
 
 def of_state(assembly: CarAssembly, state: Any) -> xr.Dataset:
     """Return the dataset of `at_rest` for a state of rest."""
-    model = assembly.model
-    signals = model.signals(state)
+    signals = assembly.model.signals(state)
     values: dict[str, list[float]] = {"load": [], "travel": [], "camber": [], "toe": []}
     travels = assembly.travels(state[None])
     for wheel in assembly.wheels:

@@ -127,8 +127,7 @@ def run(
     states, inputs = result.y.T, result.inputs
     car = riding_car(assembly, states[0], inputs[0])
     way = speed * result.t
-    places = np.stack([way, 0.0 * way], axis=-1)
-    return Run(car, motion, states, inputs, places, way, road)
+    return Run(car, motion, states, inputs, np.stack([way, 0.0 * way], axis=-1), way, road)
 
 
 def check_times(duration: float, settle: float, output_step: float) -> None:
@@ -172,11 +171,10 @@ def _simulated(
         wheel: road.over_time(wheel.rpartition("_")[2], speed, behind[wheel], end)
         for wheel in assembly.wheels
     }
-    start = equilibrium(model, road_height={w: float(h(0.0)) for w, h in heights.items()})
     return simulate(
         model,
         (0.0, end),
-        start,
+        equilibrium(model, road_height={w: float(h(0.0)) for w, h in heights.items()}),
         inputs={assembly.names_of(wheel).road: heights[wheel] for wheel in assembly.wheels},
         t_eval=np.linspace(0.0, end, max(round(end / step), 1) + 1),
         **({"method": "DormandPrince"} | options),

@@ -58,8 +58,7 @@ class Chart:
     @property
     def data(self) -> dict[str, Any]:
         """The data with which a page moves its line."""
-        names = ("box", "times", "lines", "decimals", "unit")
-        return {name: getattr(self, name) for name in names}
+        return {name: getattr(self, name) for name in ("box", "times", "lines", "decimals", "unit")}
 
 
 def charts_of(motion: xr.Dataset, rows: NDArray[np.intp]) -> list[Chart]:

@@ -36,14 +36,13 @@ def player(scene: CarScene, charts: Sequence[Chart] = ()) -> Markup:
     charts : sequence of Chart, optional
         Curves with a line at the shown time.
     """
-    data = _data(scene) | {"charts": [chart.data for chart in charts]}
     text = page_environment(__package__).get_template("player.html.jinja").render(
         moves=len(scene.times) > 1,
         turns=scene.turns and len(scene.times) > 1,
         last=len(scene.times) - 1,
         whole=scene.centers.shape[1] > 1,
         charts=charts,
-        data=embedded(data),
+        data=embedded(_data(scene) | {"charts": [chart.data for chart in charts]}),
     )  # fmt: skip
     return Markup(text)  # noqa: S704 (the template escapes)
 

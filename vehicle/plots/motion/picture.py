@@ -91,8 +91,7 @@ class Drawer:
 
     def _follow(self, index: int) -> None:
         axes, scene = self._axes, self._scene
-        middle = np.array([*scene.outline[index].mean(axis=(0, 1))[:2], LOOKED_AT])
-        self._from = middle
+        self._from = np.array([*scene.outline[index].mean(axis=(0, 1))[:2], LOOKED_AT])
         start_frame(axes, np.array([-1.0, -0.9]) * self._half, np.array([1.0, 1.1]) * self._half)
         self._road(index)
         items = [*self._bodywork(index), *self._links(index), *self._rolling(index), *self._cones()]

@@ -122,12 +122,11 @@ def scene_of(run: Run, rows: NDArray[np.intp], *, cones: xr.Dataset | None = Non
         return found
 
     pairs = [*skeleton.springs, *skeleton.guides]
-    outline = _outline(car, spinning, states, inputs) + onward[:, None]
     return CarScene(
         times=motion["time"].values,
         parts={name: at for name, at in places.items() if name not in hidden},
         springs=[np.stack([end(a), end(b)], axis=1) for a, b in pairs],
-        outline=outline,
+        outline=_outline(car, spinning, states, inputs) + onward[:, None],
         centers=centers,
         axes=axes,
         spokes=spokes,
@@ -198,9 +197,8 @@ def _wheels(
     across = cross(along, UP)
     across /= np.linalg.norm(across, axis=-1, keepdims=True)
     turned = model.evaluate("orientations", states, inputs)[:, bodies]
-    centers = model.evaluate("positions", states, inputs)[:, bodies]
     return (
-        centers,
+        model.evaluate("positions", states, inputs)[:, bodies],
         np.einsum("nwij,wj->nwi", turned, along),
         np.einsum("nwij,wj->nwi", turned, across),
     )
@@ -252,8 +250,7 @@ def _outline(car: MovingCar, spinning: list[int], states: Array, inputs: Array) 
         x = front + (front - rear) * _OUTLINE[:, 0]
         z = ground + (front - rear) * _OUTLINE[:, 1]
         widths = [half, -half]
-    sides = [np.stack([x, y, z], axis=-1) for y in widths]
-    arms = np.array(sides) - design[row]
+    arms = np.array([np.stack([x, y, z], axis=-1) for y in widths]) - design[row]
     turned = model.evaluate("orientations", states, inputs)[:, row]
     centers = model.evaluate("positions", states, inputs)[:, row]
     found: Array = centers[:, None, None] + np.einsum("nij,skj->nski", turned, arms)
@@ -277,8 +274,7 @@ def _words(motion: xr.Dataset) -> list[str]:
     for name, (words, digits) in _READ.items():
         if name in motion:
             unit = _UNITS.get(unit := display_of(motion[name].attrs).units, f" {unit}")
-            values = displayed(motion[name])
             # without a negative zero, with the minus sign of typesetting
-            texts = (f"{round(float(v), digits) + 0.0:.{digits}f}" for v in values)
+            texts = (f"{round(float(v), digits) + 0.0:.{digits}f}" for v in displayed(motion[name]))
             columns.append([f"{words}{text.replace('-', '−')}{unit}" for text in texts])
     return ["    ".join(row) for row in zip(*columns, strict=True)]

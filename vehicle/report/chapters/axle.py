@@ -119,8 +119,7 @@ def _input_data(assembly: Assembly) -> Iterator[Tabulated]:
         for key, value in section.model_dump(exclude_none=True).items()
     ]
     if assembly.own_sections:
-        title = "Input data of the axle"
-        yield Tabulated(title, ("key", "value"), tuple(rows), frozenset({0, 1}))
+        yield Tabulated("Input data of the axle", ("key", "value"), tuple(rows), frozenset({0, 1}))
 
 
 def _pictures(

@@ -25,12 +25,7 @@ _MOST_BEYOND = 1000
 
 
 def pictures(
-    dataset: xr.Dataset,
-    names: Sequence[str],
-    title: str,
-    words: str,
-    *,
-    goals: Sequence[Goal] = (),
+    dataset: xr.Dataset, names: Sequence[str], title: str, words: str, *, goals: Sequence[Goal] = ()
 ) -> tuple[ChapterPicture, ...]:
     """Return pictures of some curves, eight in each.
 

@@ -34,8 +34,7 @@ def rest_chapter(subject: Any) -> Chapter:
         As from `kintrafo.ride.at_rest`.
     """
     assembly = car_assembly("rest_chapter", subject, riding=False)
-    model = assembly.model
-    rest = equilibrium(model)
+    rest = equilibrium(assembly.model)
     state, inputs = np.asarray(rest), np.asarray(rest.inputs)
     found = of_state(assembly, state)
     loads = np.atleast_1d(found["load"].values)
@@ -46,11 +45,10 @@ def rest_chapter(subject: Any) -> Chapter:
     car = riding_car(assembly, state, inputs)
     run = Run(car, motion, state[None], inputs[None], np.zeros((1, 2)))
     facts = tuple(assembly.described().items())
-    described = Tabulated("Description", ("", "value"), facts, frozenset({0, 1}))
     return Chapter(
         title="The car at rest",
         words=(assembly.words,),
-        tables=(described, *_tables(found)),
+        tables=(Tabulated("Description", ("", "value"), facts, frozenset({0, 1})), *_tables(found)),
         players=(player(scene_of(run, np.array([0]))),),
     )
 

@@ -43,8 +43,7 @@ class BrakingManoeuvre(SimulatedManoeuvre):
         if self.pedal is not None:
             return self.pedal
         assert self.deceleration_m_per_s2 is not None
-        radius = sum(car.radii) / len(car.radii)
-        most = car.brake_torque / (car.mass * radius)
+        most = car.brake_torque / (car.mass * (sum(car.radii) / len(car.radii)))
         if self.deceleration_m_per_s2 > most:
             problem = (
                 f"deceleration_m_per_s2 = {self.deceleration_m_per_s2:g} m/s^2: the brakes of this "

@@ -154,8 +154,7 @@ class DoubleLaneChange(TurningManoeuvre):
         return in_metres(self.car_width_mm, "mm")
 
     def _width(self, lane: LaneSection) -> float:
-        wanted = lane.width_of_car * self._car_width + lane.width_more_m
-        return max(wanted, lane.least_width_m)
+        return max(lane.width_of_car * self._car_width + lane.width_more_m, lane.least_width_m)
 
     def placed(self) -> dict[str, Lane]:
         """Return the lanes along the road, the first one in its middle."""
