@@ -11,11 +11,11 @@ import { colour, onSchemeChange } from "./theme.js";
 const HEIGHT = 172;
 const PRINTED = 330; // width on paper, where two charts are beside each other
 const MARGIN = 0.07; // above and below a curve, as part of its range
-const MOST_FLATTENED = 2.5; // by what a curve may be flattened to show the reference beside it
+const MOST_FLATTENED = 2.5; // greatest factor by which the reference beside a curve flattens it
 const NEXT_TO = 1e-9; // how far from a jump its two sides are drawn [m]
 const FONT = "11px system-ui, sans-serif";
 
-/** What a chart is drawn over. */
+/** Abscissae of charts. */
 function abscissas({ grid, motion }) {
   const millimetres = (axis) => ({
     values: Array.from(axis.values, (v) => v * 1e3),
@@ -53,7 +53,7 @@ export function connectCharts(data, position, move) {
   return charts;
 }
 
-/** How to get a curve, and one value of it, in the unit of the reader. */
+/** Functions of a curve and of one value of it, in display units. */
 function sampler(curve, grid, motion) {
   const scaled = (values) => Array.from(values, (v) => inUnit(curve, v));
   if (curve.over === "time") {
@@ -75,7 +75,7 @@ function sampler(curve, grid, motion) {
     overRack ? grid.overRack(curve.values, travel) : grid.overTravel(curve.values, rack);
   return {
     moving: overRack ? "travel" : "rack",
-    // a jump of the line, and of the one at design behind it, has a point on either side
+    // a jump of the line, and of the one at design, has a point on either side
     places: (position) => {
       const jumps = [held(position), 0].flatMap((at) => grid.closings(curve, curve.over, at));
       const sides = jumps.flatMap((at) => [at - NEXT_TO, at + NEXT_TO]);
@@ -104,7 +104,7 @@ class Chart {
     this.host = figure.querySelector(".plot");
     this.marker = element("div", "marker");
     this.tip = element("div", "tip");
-    this.goals = curve.goals ?? []; // what moves over time has none
+    this.goals = curve.goals ?? []; // curves over time have none
     this.marks = shape("svg", { class: "marks" });
     this.position = null;
     this.shown = null;
@@ -119,7 +119,7 @@ class Chart {
     if (this.#visible) this.#draw();
   }
 
-  /** Build anew, with the colours of the present scheme. */
+  /** Build the chart with the colours of the present scheme. */
   rebuild() {
     this.#plot?.destroy();
     this.#plot = null;
@@ -127,7 +127,7 @@ class Chart {
     if (this.#visible) this.#draw();
   }
 
-  /** Leave a drawing of the chart for the printer, wherever it is on the page. */
+  /** Put a drawing of the chart on the page for the printer. */
   print() {
     this.rebuild();
     this.#draw(PRINTED);
@@ -158,7 +158,7 @@ class Chart {
       const where = places(this.position);
       const drawn = (position) => line(position, where).map((v) => this.#inRange(v));
       this.line = drawn(this.position);
-      // where the curve moves, the one at design stays behind it, faintly
+      // a curve that moves has the one at design behind it, faintly
       this.reference = moving ? drawn({ travel: 0, rack: 0, time: 0 }) : this.line.map(() => null);
       const abscissas = Array.from(where, (v) => v * this.along.factor);
       this.#plot.batch(() => this.#plot.setData([abscissas, this.reference, this.line]));
@@ -168,7 +168,7 @@ class Chart {
     this.#place();
   }
 
-  /** Beyond the plotted range, at a pole for example, the line is interrupted. */
+  /** Interrupt the line beyond the plotted range, as at a pole. */
   #inRange(value) {
     const [low, high] = this.curve.range;
     return value >= low && value <= high ? value : null;
@@ -249,8 +249,7 @@ class Chart {
     this.move(this.along.key, this.#plot.posToVal(at, "x") / this.along.factor);
   }
 
-  /** Around the curve and what is marked, and around the reference too if that does not press the
-   *  curve flat. */
+  /** Range of the curve and its marks, and of the reference if the curve does not become flat. */
   #valueRange() {
     const { least } = this.curve;
     let [low, high] = extent(this.line, least);
@@ -298,7 +297,7 @@ class Chart {
   }
 }
 
-/** Least and greatest value, at least so far apart. */
+/** Least and greatest value, with a least distance. */
 function extent(values, least) {
   const known = values.filter((value) => value !== null);
   if (known.length === 0) return [-least / 2, least / 2];
@@ -320,7 +319,7 @@ function roomFor(_, labels) {
   return Math.max(46, 6.5 * longest + 9);
 }
 
-/** A tick as short as it can be written. */
+/** The shortest text of a tick. */
 function plain(value) {
   return number(value, decimalsOf(value));
 }

@@ -4,7 +4,7 @@ import { quantity } from "./format.js";
 
 const byId = (id) => document.getElementById(id);
 
-/** A slider over one axis of the grid; it counts in millimetres. */
+/** A slider over one axis of the grid, in millimetres. */
 function slider(id, axis, onInput) {
   const input = byId(id);
   input.min = (axis.first * 1e3).toFixed(1);

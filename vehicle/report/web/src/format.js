@@ -1,4 +1,4 @@
-// Numbers for people: fixed decimals, a true minus sign, "–" where a quantity is not defined.
+// Printed numbers: fixed decimals, a true minus sign, "–" if a quantity is not defined.
 
 export function number(value, decimals, { signed = false } = {}) {
   if (!Number.isFinite(value)) return "–";
@@ -13,14 +13,13 @@ export function quantity(value, decimals, unit, options) {
   return unit && text !== "–" ? `${text}\u00a0${unit}` : text;
 }
 
-/** A value of a curve as it is read: with the sign of doubt where it is interpolated between its
- *  samples, and that may change the last digit. */
+/** A value of a curve in display units; with "≈" if interpolation may change the last digit. */
 export function reading(curve, value, sampled, { unit = curve.unit } = {}) {
   const text = quantity(value, curve.decimals, unit);
   return curve.approximate && !sampled && text !== "–" ? `≈\u00a0${text}` : text;
 }
 
-/** A sample in the unit of the reader; some curves are sampled as one over their values. */
+/** A sample in display units; some curves are sampled as one over their values. */
 export function inUnit({ reciprocal, factor }, sample) {
   return (reciprocal ? 1 / sample : sample) * factor;
 }

@@ -4,7 +4,7 @@ import { Vector3 } from "three";
 
 export const UP = new Vector3(0, 1, 0); // the axis of three's cylinders and of the wheel's own axes
 
-/** Stretch a solid of unit length between two points; it is not seen where they coincide. */
+/** Stretch a solid of unit length between two points; hidden if they coincide. */
 export function place(mesh, from, to, radius) {
   const along = to.clone().sub(from);
   const length = along.length();

@@ -1,8 +1,8 @@
-// Interpolation on the grid: cubic in each direction. grid.py does the same arithmetic, and
-// measures its error against the compiled model when the page is written.
+// Interpolation on the grid, cubic in each direction. grid.py has the same arithmetic, and measures
+// its error against the compiled model when the page is written.
 
 const ORDER = 4;
-const HIT = 1e-6; // in steps of the grid: what is so near to a sample is rounded to it
+const HIT = 1e-6; // places as near to a sample as this are rounded to it [steps of the grid]
 
 /** Equally spaced values of one coordinate. */
 export class Axis {
@@ -37,7 +37,7 @@ export class Axis {
     };
   }
 
-  /** Whether a value at a place is one of the samples, which are computed. */
+  /** Whether a value at a place is a sample, without interpolation. */
   hits(where) {
     const place = this.place(where);
     return Math.abs(place - Math.round(place)) < HIT;
@@ -57,12 +57,12 @@ export class Grid {
     this.rack = new Axis(rack);
   }
 
-  /** Whether a position is one of those that were computed. */
+  /** Whether a position is a sample. */
   hits(travel, rack) {
     return this.travel.hits(travel) && this.rack.hits(rack);
   }
 
-  /** One interpolated value; with `size` components a sample, that of one component. */
+  /** One interpolated value; of samples with `size` components, that of one component. */
   at(samples, travel, rack, size = 1, component = 0) {
     const t = this.travel.weights(travel);
     const r = this.rack.weights(rack);
@@ -76,7 +76,7 @@ export class Grid {
     return sum;
   }
 
-  /** One interpolated value of a curve, which may jump where one of its gaps closes. */
+  /** One interpolated value of a curve, which may have a jump where one of its gaps closes. */
   valueAt({ values, gaps }, travel, rack) {
     const plain = this.at(values, travel, rack);
     if (gaps.length === 0) return plain;
@@ -86,14 +86,14 @@ export class Grid {
     return this.#oneSided(values, same, travel, rack) ?? plain;
   }
 
-  /** Which samples take part in the plain interpolation of a place. */
+  /** Samples in the plain interpolation of a place. */
   #neighbours(travel, rack) {
     const [t, r] = [this.travel.weights(travel).first, this.rack.weights(rack).first];
     const four = [0, 1, 2, 3];
     return four.flatMap((i) => four.map((k) => (t + i) * this.rack.count + r + k));
   }
 
-  /** A value from the points alone that are on the same side of a jump; null if there is none. */
+  /** A value from the points on the same side of a jump; null if there is none. */
   #oneSided(values, same, travel, rack) {
     const index = (line, column) => line * this.rack.count + column;
     const lines = Array.from({ length: this.travel.count }, (_, line) => line);
@@ -115,7 +115,7 @@ export class Grid {
     return combined(column - across.first, found);
   }
 
-  /** Where a gap closes between neighbours of an axis, the other coordinate held. */
+  /** The place at which a gap closes between neighbours of an axis, the other coordinate held. */
   closings({ gaps }, over, held) {
     const axis = this[over];
     const at = (gap, where) =>
@@ -149,7 +149,7 @@ export class Grid {
   }
 }
 
-/** Up to four neighbours, all of them marked, as near to a place as there are; null for none. */
+/** The nearest neighbours of a place, up to four, all of them marked; null if there are none. */
 function run(marked, place) {
   let nearest = null;
   marked.forEach((flag, i) => {
@@ -167,7 +167,7 @@ function indices({ first, last }) {
   return Array.from({ length: last - first + 1 }, (_, k) => first + k);
 }
 
-/** Lagrange's polynomial through neighbouring values, at a place counted from the first of them. */
+/** Lagrange's polynomial of neighbouring values, at a distance from the first in steps. */
 function combined(s, values) {
   return values.reduce((sum, value, k) => {
     const weight = values.reduce(

@@ -1,8 +1,8 @@
-// What guides and springs the wheel, as the page's data describe it by the names of points.
+// Links and springs of the wheel, by the names of points as in the data of the page.
 
 import { nearestOnLine } from "./geometry.js";
 
-/** A point of a name; or, of three, the one nearest to the first on the line through the others. */
+/** A point by name; of three names, the foot of the first on the line through the others. */
 function at(place, points) {
   return Array.isArray(place) ? nearestOnLine(...place.map((n) => points[n])) : points[place];
 }
@@ -35,18 +35,18 @@ export class Linkage {
     mechanism.poseSpring(seat.clone().addScaledVector(axis, along(spring, mechanism.design)), top);
   }
 
-  /** The two ends of the knuckle, which holds the wheel between them. */
+  /** The two ends of the knuckle, with the wheel between them. */
   upright(points) {
     return this.#data.upright.map((place) => at(place, points));
   }
 
-  /** Two points on the axis about which the wheel is steered; null where none are on it. */
+  /** Two points on the steering axis; null if there are none. */
   steeringAxis(points) {
     return this.#data.steering_axis?.map((name) => points[name]) ?? null;
   }
 }
 
-/** How far from its foot, in metres: its part of the length at design. */
+/** Distance from the foot, a part of the length at design [m]. */
 function along({ foot, top, part }, design) {
   return part * at(foot, design).distanceTo(design[top]);
 }

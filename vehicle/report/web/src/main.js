@@ -1,10 +1,9 @@
-// The report's page comes alive: one position, shown by the 3D view, the charts and the table.
+// The page of a report: one position, in the 3D view, the charts and the table.
 //
-// For scripts there is `window.kintrafo`, in SI units but for the values of the curves, which are in
-// the units of the page:
+// For scripts there is `window.kintrafo`, in SI units; values of curves are in those of the page:
 //   state()  { travel, rack, time, playing, byHand, wheelCenter, curves: { name: value } };
 //            wheelCenter is that of the drawn wheel, null without WebGL
-//   set({ travel, rack }) or set({ time })   moves as the sliders do
+//   set({ travel, rack }) or set({ time })   moves like the sliders
 //   play(), pause(), look("corner" | "front" | "side" | "top")
 
 import { connectCharts } from "./charts.js";
@@ -50,7 +49,7 @@ function makeView() {
   return made;
 }
 
-/** The column of the summary that follows the position. */
+/** The column of the summary at the present position. */
 function connectTable() {
   const cells = [...document.querySelectorAll("[data-now]")].map((cell) => [
     cell,

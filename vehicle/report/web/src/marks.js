@@ -1,16 +1,16 @@
-// Targets and limits in a chart, on the screen and on paper: a target is a point with what matters
-// of it to either side; of limits, arrows stand beyond. Their colours are in the style sheet.
+// Targets and limits in a chart, on the screen and on paper: a target is a point with its `within`
+// to either side; a limit has arrows on its far side. Their colours are in the style sheet.
 
 const POINT = 3; // radius of a target [px]
-const CAP = 3; // half of the line at the end of what matters [px]
+const CAP = 3; // half of the line at the end of `within` [px]
 const CARET = { width: 4.5, height: 7 }; // half the width of an arrow, whose tip is the limit [px]
 
-/** Least and greatest value that is marked. */
+/** Least and greatest marked value. */
 export function marked(goals) {
   return goals.flatMap(({ value, within }) => value.flatMap((v) => [v - within, v + within]));
 }
 
-/** Where a chart has a value over its abscissa [px], which may be on the vertical axis. */
+/** The place of a value in a chart [px]; the abscissa may be on the vertical axis. */
 export function placed(plot, x, y) {
   const [along, value] = [plot.valToPos(x, "x"), plot.valToPos(y, "y")];
   return plot.scales.x.ori === 1 ? [value, along] : [along, value];
@@ -42,7 +42,7 @@ function target(places, upright) {
 }
 
 function limit(places, { kind }, upright) {
-  // away from what is allowed: to the left or to the right, else pixels count downwards
+  // away from the allowed range: to the left or to the right, else pixels count downwards
   const away = (kind === "least") === upright ? -CARET.height : CARET.height;
   const { width } = CARET;
   const body = upright ? `l${away} ${width}v${-2 * width}z` : `l${width} ${away}h${-2 * width}z`;

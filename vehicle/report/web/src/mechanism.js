@@ -23,7 +23,7 @@ import { UP, nearestOnLine, place } from "./geometry.js";
 import { Linkage } from "./linkage.js";
 import { colour } from "./theme.js";
 
-// Drawing only: what the model does not know about the shape of its bodies [m].
+// Shapes of bodies in the drawing, which the model does not have [m].
 const ARM = 0.012;
 const BAR = 0.013;
 const ROD = 0.009;
@@ -87,7 +87,7 @@ export class Mechanism extends Group {
     this.lines.path.color.set(colour("accent"));
   }
 
-  /** Make the wheel solid, or let the linkage be seen through it. */
+  /** Make the wheel solid, or transparent. */
   lookThroughWheel(through) {
     for (const name of ["tyre", "rim"]) {
       const material = this.materials[name];
@@ -98,7 +98,7 @@ export class Mechanism extends Group {
     }
   }
 
-  /** Put everything where it is: points by name and the wheel's axis, all as Vector3. */
+  /** Move all parts to points by name and the axis of the wheel, as Vector3. */
   pose(points, spinAxis, spin, roadHeight) {
     this.linkage.pose(this, points);
     this.#poseKnuckle(points);
@@ -156,7 +156,7 @@ export class Mechanism extends Group {
     for (const name of names) this.#cylinder(name, material, BAR);
   }
 
-  /** Tube and piston, with a spring around them or beside. */
+  /** Tube and piston, with a spring around or beside them. */
   buildSpringAndDamper() {
     this.#cylinder("tube", "strut", TUBE);
     this.#cylinder("piston", "strut", PISTON);
@@ -202,7 +202,7 @@ export class Mechanism extends Group {
     return wheel;
   }
 
-  /** A spoke near the outer face: spinning can be seen. */
+  /** A spoke near the outer face, to show the spin. */
   #spoke(k, rim, width) {
     const outboard = this.data.side_sign; // the wheel's own y axis points left
     const spoke = new Mesh(new BoxGeometry(0.045, 0.018, rim), this.materials.rim);
@@ -234,7 +234,7 @@ export class Mechanism extends Group {
     this.#solids[tip].position.copy(points[tip]);
   }
 
-  /** Tube from its foot to so far along [m], and piston from there to the mount. */
+  /** Tube from its foot to a distance along the axis [m], and piston from there to the mount. */
   poseDamper(foot, top, tube) {
     const along = top.clone().sub(foot).normalize();
     const end = foot.clone().addScaledVector(along, tube);
@@ -297,7 +297,7 @@ export class Mechanism extends Group {
   }
 }
 
-/** A spring of unit length; stretching it flattens its wire, which nobody sees. */
+/** A spring of unit length; stretching it flattens its wire slightly. */
 function coil() {
   const points = [];
   const count = Math.round(TURNS * 16);

@@ -1,4 +1,4 @@
-// Read the data that the page carries: JSON, with arrays as base64 of 32-bit differences.
+// Read the data of the page: JSON, with arrays as base64 of 32-bit differences.
 
 /** The data of this page, arrays decoded to 64-bit floats. */
 export function readPayload() {

@@ -1,8 +1,8 @@
-// The one position that all parts of the page show, and who is told when it changes.
+// The one position in all parts of the page, and the listeners to its changes.
 
 /**
- * Wheel travel [m], rack displacement [m], time [s] and spin angle [rad]. It is either set by hand
- * (`byHand`), or taken from the simulated second at its time.
+ * Wheel travel [m], rack displacement [m], time [s] and spin angle [rad], set by hand (`byHand`) or
+ * from the simulated second.
  */
 export class Position {
   #listeners = [];
@@ -24,7 +24,7 @@ export class Position {
     this.#tell();
   }
 
-  /** The design position, before anything has moved. */
+  /** The design position. */
   toDesign() {
     Object.assign(this, { time: 0, spin: 0 });
     this.setByHand({ travel: 0, rack: 0 });

@@ -1,5 +1,5 @@
-// A printed report is a document: a picture of the mechanism and every chart, at the position that
-// is shown, in light colours. What is on the screen comes back afterwards.
+// Printing: a picture of the mechanism and all charts at the present position, in light colours;
+// the screen is restored afterwards.
 
 import { quantity } from "./format.js";
 import { marks, placed, shape } from "./marks.js";
@@ -34,7 +34,7 @@ function showPicture(view, { travel, rack, time, byHand }) {
   if (view) image.src = view.picture(PICTURE);
 }
 
-/** A chart as a drawing that keeps its lines sharp on paper, in the size of what was plotted. */
+/** A chart as a vector drawing, of the size of the plot. */
 export function drawing(plot, { lines, goals, marker }) {
   const { width, height } = plot;
   const upright = plot.scales.x.ori === 1;
@@ -70,7 +70,7 @@ function ticks(plot, index) {
 }
 
 function path(plot, values) {
-  let pen = "M"; // a line that is interrupted begins anew
+  let pen = "M"; // an interrupted line begins again
   return plot.data[0]
     .map((x, i) => {
       if (values[i] === null) {

@@ -1,4 +1,4 @@
-// Colours live in the style sheet; canvases ask for them here and redraw when the scheme changes.
+// Colours of the style sheet, for canvases, which are redrawn when the scheme changes.
 
 const scheme = window.matchMedia("(prefers-color-scheme: dark)");
 

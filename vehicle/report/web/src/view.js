@@ -54,7 +54,7 @@ export class View {
     new ResizeObserver(() => this.#resize()).observe(host);
   }
 
-  /** Put the mechanism where the position says. */
+  /** Move the mechanism to the position. */
   update() {
     const { grid, travel, rack, spin, byHand } = this.position;
     const points = {};
@@ -64,7 +64,7 @@ export class View {
     const axis = new Vector3(
       ...grid.vectorAt(this.data.spin_axis.values, travel, rack),
     ).normalize();
-    // by hand the plate lifts the wheel, as on a test rig; in the simulation it is the road
+    // by hand the plate lifts the wheel, as on a test rig; in the simulation the road does
     const plate = byHand ? travel : 0;
     this.mechanism.pose(points, axis, spin, this.data.road_height + plate);
     if (rack !== this.#pathAt) this.#showPath(rack);
@@ -80,13 +80,13 @@ export class View {
     );
   }
 
-  /** Where the drawn wheel is, in the axes of the chassis [m]. */
+  /** The centre of the drawn wheel in the axes of the chassis [m]. */
   wheelCenter() {
     this.scene.updateMatrixWorld();
     return new Vector3().setFromMatrixPosition(this.mechanism.wheel.matrixWorld).toArray();
   }
 
-  /** Look from a named side; from those where the wheel hides the linkage, through it. */
+  /** Look from a named side; the wheel becomes transparent if it hides the linkage. */
   look(from) {
     this.moved = false;
     this.lookingFrom = from;
@@ -104,7 +104,7 @@ export class View {
     };
     const target = new Vector3(...this.data.middle);
     const away = new Vector3(...directions[from]).normalize();
-    // the vertical field of view is given: a narrow window needs more distance
+    // the vertical field of view is constant: a narrow window needs more distance
     const distance = this.data.size * 2.05 * Math.max(1, 1.16 / this.camera.aspect);
     this.controls.target.copy(target);
     this.camera.position.copy(target).addScaledVector(away, distance);
@@ -150,14 +150,14 @@ export class View {
     this.scene.add(this.floor);
   }
 
-  /** Take the colours of the present scheme. */
+  /** Set the colours of the present scheme. */
   recolour() {
     this.mechanism.recolour();
     this.#ground();
     this.render();
   }
 
-  /** The view as it is, as the address of a picture of so many pixels. */
+  /** The present view as the address of a picture with a number of pixels. */
   picture({ width, height }) {
     const { aspect } = this.camera;
     const ratio = this.renderer.getPixelRatio();
@@ -179,7 +179,7 @@ export class View {
 
   #resize() {
     const width = this.host.clientWidth;
-    // on a phone the style leaves room for words below the picture
+    // on a phone the style has room for words below the picture
     const height = this.host.clientHeight - parseFloat(getComputedStyle(this.host).paddingBottom);
     if (width === 0 || height <= 0) return;
     this.renderer.setSize(width, height);
@@ -193,7 +193,7 @@ export class View {
 
   #listen() {
     const canvas = this.renderer.domElement;
-    // before OrbitControls sees it: what grabs the wheel does not turn the view
+    // before OrbitControls: dragging the wheel does not turn the view
     canvas.addEventListener("pointerdown", (event) => this.#grab(event), { capture: true });
     canvas.addEventListener("pointermove", (event) => this.#drag(event));
     for (const end of ["pointerup", "pointercancel"]) {
