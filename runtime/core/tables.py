@@ -165,6 +165,32 @@ class Table:
             if (found := heading.among(by_key))
         ]
 
+    def problems_of(self, columns: Sequence[Column], units: Mapping[str, str]) -> list[str]:
+        """Return errors of repeated columns, and of units that do not fit the SI units of names."""
+        names = [column.name for column in columns]
+        repeated = [
+            f"{name} is in {names.count(name)} columns. Keep one of them."
+            for name in dict.fromkeys(names)
+            if names.count(name) > 1
+        ]
+        found = [self.unit_problem(column, units[column.name]) for column in columns]
+        return repeated + [problem for problem in found if problem]
+
+    def values_of(
+        self, columns: Sequence[Column], units: Mapping[str, str], may_be_empty: Sequence[int] = ()
+    ) -> dict[str, Array]:
+        """Return the numbers of columns by name, in the SI units of the names; see `numbers`."""
+        table = self.numbers([column.at for column in columns], may_be_empty)
+        return {
+            column.name: table[:, at] * in_si(self.unit_for(column, units[column.name]) or "")[1]
+            for at, column in enumerate(columns)
+        }
+
+    def without(self, columns: Iterable[Column]) -> list[ColumnHeading]:
+        """Return the headings of all other columns."""
+        read = {column.at for column in columns}
+        return [heading for i, heading in enumerate(self.headings) if i not in read]
+
     def unit_problem(self, column: Column, unit: str) -> str:
         """Return why a column's unit does not fit a quantity in an SI unit; empty if it does."""
         given, heading = self.unit_for(column, unit), self.headings[column.at]

@@ -12,7 +12,6 @@ from ...core.errors import InputError
 from ...core.named_types import Array
 from ...core.suggestions import nearest, suggestion
 from ...core.tables import Table, read_table
-from ...core.units import in_si
 from ...core.validator import Validator
 from ...simulation.interpolation import Between, Samples
 from ..corner.wheel_loads import UNITS
@@ -100,14 +99,9 @@ def measured(path: str | Path, *, speed: float | None = None) -> Measurement:
     sheet = read_table(path)
     columns = sheet.columns(_UNITS)
     _check(sheet)
-    table = sheet.numbers([column.at for column in columns])
-    values = {
-        column.name: table[:, at] * in_si(sheet.unit_for(column, _UNITS[column.name]) or "")[1]
-        for at, column in enumerate(columns)
-    }
+    values = sheet.values_of(columns, _UNITS)
     times = _times(values, [line for line, _ in sheet.rows], speed, sheet.source)
-    read = {column.at for column in columns}
-    left_out = tuple(name for i, name in enumerate(sheet.names) if i not in read)
+    left_out = tuple(heading.text for heading in sheet.without(columns))
     values = {name: column for name, column in values.items() if name not in _ABSCISSAE}
     return Measurement(times, values, left_out)
 
@@ -115,23 +109,13 @@ def measured(path: str | Path, *, speed: float | None = None) -> Measurement:
 def _check(sheet: Table) -> None:
     columns = sheet.columns(_UNITS)
     names = [column.name for column in columns]
-    read = {column.at for column in columns}
-    others = [heading for i, heading in enumerate(sheet.headings) if i not in read]
+    others = sheet.without(columns)
     problems = [
         f"column {heading.text!r} is not known. {suggestion(heading.label, _COLUMNS)}"
         for heading in others
         if _resembles(heading.label)
     ]
-    problems += [
-        f"{name} is in {names.count(name)} columns. Keep one of them."
-        for name in dict.fromkeys(names)
-        if names.count(name) > 1
-    ]
-    problems += [
-        problem
-        for column in columns
-        if (problem := sheet.unit_problem(column, _UNITS[column.name]))
-    ]
+    problems += sheet.problems_of(columns, _UNITS)
     if not problems and sum(name in _ABSCISSAE for name in names) != 1:
         problems.append(
             f"one column time_s, time_ms or distance_m is needed; the first line has {sheet.names}."

@@ -11,7 +11,6 @@ from ...core.errors import InputError
 from ...core.named_types import Array
 from ...core.suggestions import nearest
 from ...core.tables import Column, Table, read_table
-from ...core.units import in_si
 from ...core.validator import Validator
 from ..assembly.assembly import Assembly
 from ..assembly.by_wheel import flat
@@ -100,14 +99,8 @@ def measured_curves(path: str | Path) -> xr.Dataset:
     places = [
         column.name for column in columns if column.name in _ALONG and column.name not in moved
     ]
-    numbers = sheet.numbers(
-        [column.at for column in columns],
-        may_be_empty=[column.at for column in columns if column.name in curves],
-    )
-    table = {
-        column.name: numbers[:, at] * in_si(sheet.unit_for(column, units[column.name]) or "")[1]
-        for at, column in enumerate(columns)
-    }
+    may_be_empty = [column.at for column in columns if column.name in curves]
+    table = sheet.values_of(columns, units, may_be_empty)
     varying, held = _separated(sheet, {name: table[name] for name in places})
     along = _ALONG[varying]
     data = {
@@ -122,8 +115,8 @@ def measured_curves(path: str | Path) -> xr.Dataset:
         raise InputError([problem], sheet.source)
     coordinates = {varying: xr.Variable(varying, table[varying], along.attributes())}
     coordinates |= {name: xr.Variable((), at, _ALONG[name].attributes()) for name, at in held}
-    read = {column.at for column in columns if column.name in (*places, *data)}
-    left = ", ".join(name for i, name in enumerate(sheet.names) if i not in read)
+    read = [column for column in columns if column.name in (*places, *data)]
+    left = ", ".join(heading.text for heading in sheet.without(read))
     return xr.Dataset(data, coordinates, {"title": "measured curves", "left_out": left})
 
 
@@ -246,14 +239,7 @@ def _curves(assembly: Assembly, measured: xr.Dataset, held_by: WheelSupport) -> 
 
 def _check(sheet: Table, columns: Sequence[Column], units: Mapping[str, str]) -> None:
     names = [column.name for column in columns]
-    problems = [
-        f"{name} is in {names.count(name)} columns. Keep one of them."
-        for name in dict.fromkeys(names)
-        if names.count(name) > 1
-    ]
-    problems += [
-        problem for column in columns if (problem := sheet.unit_problem(column, units[column.name]))
-    ]
+    problems = sheet.problems_of(columns, units)
     if {*names}.isdisjoint(_ALONG):
         problems.append(
             f"one column {TRAVEL.name} [mm] or {RACK.name} [mm] is needed; the first line has "
@@ -261,9 +247,8 @@ def _check(sheet: Table, columns: Sequence[Column], units: Mapping[str, str]) ->
         )
     of_turns = _moved(units) if LATERAL_ACCELERATION.name in names else {}
     if {*names}.isdisjoint(_EVERY) and not of_turns and not problems:
-        read = {column.at for column in columns}
-        others = [h.label for i, h in enumerate(sheet.headings) if i not in read]
-        hints = [f"Did you mean {h}?" for h in (nearest(name, _EVERY) for name in others) if h]
+        likely = (nearest(heading.label, _EVERY) for heading in sheet.without(columns))
+        hints = [f"Did you mean {name}?" for name in likely if name]
         problems.append(
             " ".join([f"no characteristic is among the columns {sheet.names}.", *hints[:1]])
         )

@@ -11,7 +11,6 @@ from ...core.errors import InputError
 from ...core.legible import legible, short
 from ...core.optional import require
 from ...core.tables import read_table
-from ...core.units import in_si
 from ...core.validator import Validator
 from .road import Road
 
@@ -83,11 +82,7 @@ def _table(path: str | Path) -> tuple[Array, Array, Array]:
     sheet = read_table(path)
     columns = sheet.columns(_UNITS)
     _check(sheet, [column.name for column in columns])
-    table = sheet.numbers([column.at for column in columns])
-    values = {
-        column.name: table[:, at] * in_si(sheet.unit_for(column, _UNITS[column.name]) or "")[1]
-        for at, column in enumerate(columns)
-    }
+    values = sheet.values_of(columns, _UNITS)
     distance = values["distance"]
     wrong = np.flatnonzero(np.diff(distance) <= 0.0)
     if wrong.size:

@@ -8,7 +8,6 @@ import numpy as np
 
 from ...core.errors import InputError
 from ...core.tables import read_table
-from ...core.units import in_si
 from ...core.validator import Validator
 from .tyre import Array
 
@@ -66,23 +65,10 @@ def measured(data: "str | Path | Mapping[str, Any]") -> Measured:
         given.path("data", data)
     sheet = read_table(data)
     columns = sheet.columns(_ALL)
-    names = [column.name for column in columns]
-    problems = [
-        f"{name} is in {names.count(name)} columns. Keep one of them."
-        for name in dict.fromkeys(names)
-        if names.count(name) > 1
-    ]
-    problems += [p for column in columns if (p := sheet.unit_problem(column, _ALL[column.name]))]
-    if problems:
+    if problems := sheet.problems_of(columns, _ALL):
         raise InputError(problems, sheet.source)
-    table = sheet.numbers([column.at for column in columns])
-    values = {
-        column.name: table[:, at] * in_si(sheet.unit_for(column, _ALL[column.name]) or "")[1]
-        for at, column in enumerate(columns)
-    }
-    read = {column.at for column in columns}
-    others = tuple(name for i, name in enumerate(sheet.names) if i not in read)
-    return _checked(values, sheet.source, others)
+    others = tuple(heading.text for heading in sheet.without(columns))
+    return _checked(sheet.values_of(columns, _ALL), sheet.source, others)
 
 
 def _of_arrays(data: Mapping[str, Any]) -> dict[str, Array]:
