@@ -19,16 +19,9 @@ from ..models.positions import PositionError
 from .wheel_facts import RestFacts, WheelFacts, facts_of, without_friction
 
 __all__ = [
-    "USUAL_HOP",
-    "USUAL_RIDE",
-    "AxleFacts",
-    "Checkup",
-    "RestFacts",
-    "WheelFacts",
-    "as_dict",
-    "checkup",
-    "without_friction",
-]
+    "USUAL_HOP", "USUAL_RIDE", "AxleFacts", "Checkup", "RestFacts", "WheelFacts", "as_dict",
+    "checkup", "without_friction",
+]  # fmt: skip
 
 # Natural frequency of the body of a comfortable passenger car [Hz]: Audi, Self-Study Programme 242,
 # page 9.

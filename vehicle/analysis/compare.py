@@ -249,11 +249,5 @@ def _difference(name: str, data: xr.DataArray, label: str, at: float) -> Differe
     worst = int(np.nanargmax(np.abs(change))) if both.any() else design
     if not abs(positions[design] - at) <= _AT_DESIGN:
         first, other = np.full((2, positions.size), np.nan)
-    return Difference(
-        name=name,
-        data_set=label,
-        first=float(first[design]),
-        other=float(other[design]),
-        largest=float(change[worst]),
-        where=float(positions[worst]),
-    )
+    numbers = (first[design], other[design], change[worst], positions[worst])
+    return Difference(name, label, *map(float, numbers))

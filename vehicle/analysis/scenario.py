@@ -17,12 +17,7 @@ from ...simulation.simulate import simulate
 from ...systems.state import State
 from ..assembly.assembly import Assembly
 from ..assembly.by_wheel import together, wheel_that_begins
-from ..assembly.equilibrium import (
-    each_wheel,
-    equilibrium,
-    refuse_missing_loads,
-    state_at_heights,
-)
+from ..assembly.equilibrium import each_wheel, equilibrium, refuse_missing_loads, state_at_heights
 from ..assembly.of import AnyModel, assembly_of, given_model
 from ..corner.wheel_loads import UNITS
 

@@ -20,13 +20,9 @@ TYRE_WIDTH = 0.205  # of the drawing only [m]
 TYRE_RADIUS = 0.300
 
 _COLOURS = {
-    "arm": BLUE,
-    "upper arm": GREEN,
-    "rocker": "#cc79a7",
-    "strut": "black",
-    "rod": ORANGE,
+    "arm": BLUE, "upper arm": GREEN, "rocker": "#cc79a7", "strut": "black", "rod": ORANGE,
     "push rod": "#56b4e9",
-}
+}  # fmt: skip
 
 
 def write_overview(model: Model, path: Path, travel: float = 0.08, *, force: bool = False) -> None:

@@ -43,13 +43,9 @@ def write_tyre(tyre: Tyre, path: str | Path, **how: Unpack[FigureOptions]) -> Pa
     """
     drawn = _Curves(tyre)
     panels: dict[str, Callable[[Axes], None]] = {
-        "side": drawn.side,
-        "along": drawn.along,
-        "moment": drawn.moment,
-        "combined": drawn.combined,
-        "camber": drawn.camber,
-        "stiffness": drawn.stiffness,
-    }
+        "side": drawn.side, "along": drawn.along, "moment": drawn.moment,
+        "combined": drawn.combined, "camber": drawn.camber, "stiffness": drawn.stiffness,
+    }  # fmt: skip
     return write_panels(lambda axes, name: panels[name](axes), [*panels], path, height=3.2, **how)
 
 

@@ -128,14 +128,8 @@ def _simulate(model: Model) -> ReportedMotion:
 def _time_curve(model: Model, name: str, values: Array) -> TimeCurve:
     signal = model.equations.SIGNALS[name]
     words = attributes(signal["meaning"], signal["unit"])
-    return TimeCurve(
-        name=name,
-        label=words["long_name"],
-        sign=words["sign"],
-        unit=printed(words["display_units"]),
-        factor=words["display_factor"],
-        values=values,
-    )
+    unit, factor = printed(words["display_units"]), words["display_factor"]
+    return TimeCurve(name, words["long_name"], words["sign"], unit, factor, values)
 
 
 def _shown(motion: ReportedMotion, grid: Grid) -> ReportedMotion | NoMotion:

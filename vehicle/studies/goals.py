@@ -434,11 +434,7 @@ def _tables(
             continue
         shown = display_of(known[name].attributes())
         unit, factor = sweep_axis(over).unit, sweep_axis(over).factor
-        at = given.array(
-            f"{title} {at_key}",
-            table.get(at_key, factor * sweep_axis(over).at),
-            unit,
-            dimensions=[0, 1],
-        )
+        asked = table.get(at_key, factor * sweep_axis(over).at)
+        at = given.array(f"{title} {at_key}", asked, unit, dimensions=[0, 1])
         positions = np.atleast_1d(at) / factor
         yield name, _Table(given, title, table, over, positions, shown.units, shown.factor)

@@ -30,14 +30,8 @@ _RELATIVE_STEP = 1e-3
 _SIZE_OF_ZERO = {"kg m^2": 1e-3}
 # Weights of differences of fourth and of second order, by the number of steps: with neighbours on
 # both sides, and on one side if the other is impossible, as below a mass of zero.
-_BOTH_SIDES = (
-    {-2: 1 / 12, -1: -8 / 12, 1: 8 / 12, 2: -1 / 12},
-    {-1: -1 / 2, 1: 1 / 2},
-)
-_ONE_SIDE = (
-    {0: -25 / 12, 1: 4.0, 2: -3.0, 3: 4 / 3, 4: -1 / 4},
-    {0: -3 / 2, 1: 2.0, 2: -1 / 2},
-)
+_BOTH_SIDES = ({-2: 1 / 12, -1: -8 / 12, 1: 8 / 12, 2: -1 / 12}, {-1: -1 / 2, 1: 1 / 2})
+_ONE_SIDE = ({0: -25 / 12, 1: 4.0, 2: -3.0, 3: 4 / 3, 4: -1 / 4}, {0: -3 / 2, 1: 2.0, 2: -1 / 2})
 # If both orders differ by more than these parts of the derivative, and of the greatest one of the
 # curve, there is a kink without a derivative, such as the contact of a stop. Those of smooth curves
 # differ by some (0.5 mm / 300 mm)^2 = 3e-6 of it.

@@ -89,18 +89,10 @@ def sweep(
         if progress is not None:
             progress((car + 1) / cars.count)
     found = ensemble(
-        cars.model,
-        cars.variants(),
-        (0.0, scenario.duration),
-        cars.starts(),
-        inputs=cars.inputs,
-        signals=signals,
-        reductions=reductions,
-        t_eval=scenario.times(),
-        rtol=rtol,
-        atol=atol,
+        cars.model, cars.variants(), (0.0, scenario.duration), cars.starts(), inputs=cars.inputs,
+        signals=signals, reductions=reductions, t_eval=scenario.times(), rtol=rtol, atol=atol,
         max_steps=max_steps,
-    )
+    )  # fmt: skip
     return cars.over_the_grid(found)
 
 

@@ -53,12 +53,9 @@ class Bars:
         )
         bend = np.zeros((len(one), 1, 12, 12))
         bend[:, 0, :6, :6], bend[:, 0, 6:, 6:] = bent, -also
-        return BodyMeasures(
-            np.array([[self.left.body, self.right.body]]),
-            (one - other)[:, None],
-            np.concatenate([first, -second], axis=-1)[:, None],
-            bend,
-        )
+        slope = np.concatenate([first, -second], axis=-1)[:, None]
+        bodies = np.array([[self.left.body, self.right.body]])
+        return BodyMeasures(bodies, (one - other)[:, None], slope, bend)
 
 
 @dataclass(frozen=True)

@@ -240,11 +240,7 @@ def _of_beam(
     middle, apart = 0.5 * (one + other), one - other
     line = (left.center - right.center)[:, :2]
     turn = (line[:, 0] * apart[:, 1] - line[:, 1] * apart[:, 0]) / (line**2).sum(-1)
-    values = {
-        "axle_steer": turn,
-        "axle_lateral": middle[:, 1],
-        "axle_longitudinal": middle[:, 0],
-    }
+    values = {"axle_steer": turn, "axle_lateral": middle[:, 1], "axle_longitudinal": middle[:, 0]}
     return {
         quantity.name: xr.Variable(TRAVEL.name, values[kind], quantity.attributes())
         for kind, quantity in quantities_of_beam(test, how).items()

@@ -133,12 +133,8 @@ class Distances:
         bend += bend.mT
         bend[..., _ROTATED[0], _ROTATED[0]] += second_by_rotation(apart - start, along)
         bend[..., _ROTATED[1], _ROTATED[1]] += second_by_rotation(end, along)
-        return BodyMeasures(
-            self.bodies,
-            np.einsum("nfi,nfi->nf", along, apart),
-            _times(turning, apart) + _times(parting, along),
-            bend,
-        )
+        slope = _times(turning, apart) + _times(parting, along)
+        return BodyMeasures(self.bodies, np.einsum("nfi,nfi->nf", along, apart), slope, bend)
 
 
 @dataclass(frozen=True)
@@ -211,12 +207,8 @@ class Angles:
         bend += bend.mT
         for part in _ROTATED:
             bend[..., part, part] += second_by_rotation(one, other)
-        return BodyMeasures(
-            self.bodies,
-            np.einsum("nfi,nfi->nf", one, other),
-            _times(by_first, other) + _times(by_second, one),
-            bend,
-        )
+        slope = _times(by_first, other) + _times(by_second, one)
+        return BodyMeasures(self.bodies, np.einsum("nfi,nfi->nf", one, other), slope, bend)
 
 
 @dataclass(frozen=True)

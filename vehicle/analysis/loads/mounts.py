@@ -97,12 +97,9 @@ def with_totals(dataset: xr.Dataset, *, several: bool = False) -> xr.Dataset:
     more = xr.Dataset(further).drop_vars(MOUNT, errors="ignore").assign_coords(labels)
     own = dataset.drop_dims(MOUNT)
     loads = xr.concat(
-        [own[[*further]], more],
-        "load",
-        coords="minimal",
-        compat="override",
+        [own[[*further]], more], "load", coords="minimal", compat="override",
         combine_attrs="override",
-    )
+    )  # fmt: skip
     return own.drop_dims("load").merge(loads).assign_attrs(dataset.attrs)
 
 
