@@ -160,13 +160,7 @@ def optimise(
 
 
 def _solved(search: Search) -> tuple[Array, str]:
-    """Return the values that SciPy's solvers find, and a reason if they did not converge.
-
-    Raises
-    ------
-    MetError
-        Where all targets are met and all limits kept.
-    """
+    """Return values by SciPy's solvers, and a reason if they did not converge; see `MetError`."""
     start = np.zeros(len(search.places))
     found, gave_up = least(search)
     if not search.limits or (search.room(found) >= 0.0).all():

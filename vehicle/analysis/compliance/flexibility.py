@@ -234,14 +234,9 @@ def _of_joint(
 class _Forces:
     """Loads of joints and springs under unit loads, and in each indeterminate tension.
 
-    Attributes
-    ----------
-    carried : list of ndarray, each of shape (n, touching points, 6, loads + tensions)
-        Loads on each joint: under unit forces and moments in chassis axes and a unit torque of the
-        bar, with springs as supports; then in tensions of one joint, of several, and of stops.
-    spring : ndarray, shape (n, springs, loads + tensions)
-        The force of each spring.
-    tensions : int
+    ``carried`` has the loads on each joint, (n, touching points, 6, loads + tensions): under unit
+    forces and moments in chassis axes and a unit torque of the bar, with springs as supports; then
+    in tensions of one joint, of several, and of stops. ``spring`` has the force of each spring.
     """
 
     def __init__(self, side: Side, stopped: Sequence[str]) -> None:
