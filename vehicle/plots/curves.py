@@ -176,7 +176,15 @@ def write_overview(
 
 
 def check_formats(paths: Sequence[str | Path] = (), formats: Sequence[str] = ()) -> None:
-    """Raise an `InputError` for files or formats other than png, svg and pdf."""
+    """Raise an `InputError` for files or formats other than png, svg and pdf.
+
+    Parameters
+    ----------
+    paths : sequence of str or pathlib.Path, optional
+        Pages of curves.
+    formats : sequence of str, optional
+        Formats of figures.
+    """
     with Validator("figures") as given:
         for name, listed in (("paths", paths), ("formats", formats)):
             if not isinstance(listed, list | tuple):
