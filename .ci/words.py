@@ -1,9 +1,8 @@
 """Find words in the project's prose that readers of the field do not use.
 
 Prose is the text of Markdown files and of templates, and every string of the sources that has a
-space in it: docstrings, messages, help. In the folders that `.ci/words.toml` lists, docstrings and
-comments have patterns of their own: ``python .ci/words.py runtime/core`` tries these on a folder
-that is not listed yet. Each pattern has the words to write instead.
+space in it: docstrings, messages, help. Markdown has patterns of its own in `.ci/words.toml`, and
+so have docstrings and comments of Python sources. Each pattern has the words to write instead.
 """
 
 import ast
@@ -22,7 +21,6 @@ TEMPLATES = ("*.jinja", "*.in")
 def main() -> int:
     """Print every finding; return the exit code."""
     listed = tomllib.loads((ROOT / ".ci/words.toml").read_text(encoding="utf-8"))
-    folders = [ROOT / name for name in (*listed.pop("docstrings_of"), *sys.argv[1:])]
     rules = {
         scope: [(re.compile(p, re.IGNORECASE | re.MULTILINE), words) for p, words in found.items()]
         for scope, found in listed.items()
@@ -31,9 +29,10 @@ def main() -> int:
     for path, line, text in prose():
         applied = rules["everywhere"] + (rules["pages"] if path.suffix == ".md" else [])
         count += report(path, line, text, applied)
-    for path in sources(folders):
-        for line, text in (*docstrings(path), *comments(path)):
-            count += report(path, line, text, rules["docstrings"])
+    for folder in (*SOURCES, ".ci"):
+        for path in sorted((ROOT / folder).rglob("*.py")):
+            for line, text in (*docstrings(path), *comments(path)):
+                count += report(path, line, text, rules["docstrings"])
     return min(count, 1)
 
 
@@ -80,12 +79,6 @@ def strings(path: Path) -> Iterator[tuple[Path, int, str]]:
     for node in ast.walk(tree):
         if isinstance(node, ast.Constant) and isinstance(node.value, str) and " " in node.value:
             yield path, node.lineno, re.sub(r"`+[^`\n]+`+", "`code`", node.value)
-
-
-def sources(folders: list[Path]) -> Iterator[Path]:
-    """Yield the Python files of folders; a folder may be a file."""
-    for folder in folders:
-        yield from sorted(folder.rglob("*.py")) if folder.is_dir() else [folder]
 
 
 def docstrings(path: Path) -> Iterator[tuple[int, str]]:
