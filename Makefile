@@ -4,7 +4,7 @@
 	benchmark benchmark-andrews benchmark-axles benchmark-bits benchmark-braking benchmark-bushes benchmark-car-peers benchmark-cluster benchmark-derivatives benchmark-drive benchmark-ensemble benchmark-export benchmark-growth benchmark-loads benchmark-loops benchmark-microcontroller benchmark-page benchmark-peers benchmark-real-time benchmark-ride benchmark-speed benchmark-stiff benchmark-studies format-page front-axle-page report-assets
 PYTHON := .venv/bin/python
 
-EMITTED := $(wildcard generated/*.pyx generated/c/* generated/units/* runtime/targets/fmi/core/* runtime/equations/*.pyx runtime/simulation/*.pyx runtime/simulation/native/*.pyx runtime/simulation/*/*.[ch])
+EMITTED := $(wildcard generated/*.pyx generated/c/* generated/fmu/* runtime/targets/fmi/core/* runtime/equations/*.pyx runtime/simulation/*.pyx runtime/simulation/native/*.pyx runtime/simulation/*/*.[ch])
 
 help: ## Show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -98,7 +98,7 @@ benchmark-ensemble: build ## Many cars at once, in lanes and on all cores, and i
 	@.venv/bin/pip install -q -e ".[peers]" --no-build-isolation
 	@PYTHONPATH=tests $(PYTHON) -m benchmarks.ensemble --out out/benchmark --page docs/simulation/ensembles.md $(ARGS)
 
-benchmark-export: build ## Units of FMI: sizes, seconds, and steps above their arithmetic
+benchmark-export: build ## FMUs: sizes, seconds, and steps above their arithmetic
 	@$(PYTHON) -m benchmarks.export --page docs/simulation/export.md
 
 benchmark-microcontroller: build ## Exported C on an emulated Cortex-M7: bits, instructions, stack

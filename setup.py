@@ -14,12 +14,14 @@ import subprocess
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from copy import copy
 from pathlib import Path
 from typing import Any
 
 from Cython.Build import cythonize
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
+from setuptools.errors import CompileError
 from setuptools.modified import newer, newer_group
 
 GENERATED = Path("generated")
@@ -33,14 +35,15 @@ LANES = Path("runtime/simulation/lanes")
 OPTIONS = runpy.run_path(str(LANES / "options.py"))
 WIDTHS, SCHEDULED = OPTIONS["OF_WIDTH"], OPTIONS["SCHEDULED"]
 
-# Libraries of units of FMI, for one platform only, see runtime/targets/fmi/binaries.py. They share
-# objects with the modules; functions that FMI does not call are neither visible nor kept.
+# Libraries of functional mock-up units (FMUs), for one platform only, see
+# runtime/targets/fmi/binaries.py. They share objects with the modules; functions that FMI does not
+# call are neither visible nor kept.
 FMI = Path("runtime/targets/fmi")
 FILES = runpy.run_path(str(FMI / "files.py"))
-UNITS = (sys.platform, platform.machine()) == ("linux", "x86_64")
+FOR_FMUS = (sys.platform, platform.machine()) == ("linux", "x86_64")
 COMMON = FILES["common_files"](FMI, NATIVE, FILES["HEADERS"])
-UNIT_OBJECTS = "units"
-SECTIONS = ["-ffunction-sections", "-fdata-sections"] if UNITS else []
+FMU_OBJECTS = "fmu"
+SECTIONS = ["-ffunction-sections", "-fdata-sections"] if FOR_FMUS else []
 EXPORTED = "{ global: fmi2*; fmi3*; local: *; };\n"
 
 # Where SUNDIALS may be: in the place that the user names, or built here by `.ci/sundials`, or in
@@ -145,30 +148,30 @@ class Lanes(Extension):
         return [path for paths in made for path in paths]
 
 
-class Unit(Extension):
-    """The library of a model for units of FMI, without numbers.
+class FmuLibrary(Extension):
+    """The library of a model for FMUs, without numbers.
 
     Parameters
     ----------
     name : str
         Of the model.
     emitted : sequence of str
-        C files of its equations, which are compiled with its module before.
+        C files of its equations, which are compiled before, with its module.
     """
 
     def __init__(self, name: str, emitted: Sequence[str]) -> None:
-        self.tables = {f: GENERATED / f"units/{name}_{f}" for f in ("model.c", "numbers.c")}
+        self.tables = {f: GENERATED / f"fmu/{name}_{f}" for f in ("model.c", "numbers.c")}
         self.model, self.equations = name, {Path(file).name: Path(file) for file in emitted}
         files = [*COMMON.values(), *self.tables.values(), *self.equations.values()]
         super().__init__(
-            f"kintrafo.generated._{name}_unit",
+            f"kintrafo.generated._{name}_fmu",
             [],
             depends=[path.as_posix() for path in files],
-            optional=True,  # without it, a compiler is needed where a unit is written
+            optional=True,  # without it, the export of an FMU needs a compiler
         )
 
     def link(self, compiler: Any, folder: str, common: Sequence[str], path: str) -> None:
-        """Write the library, marked by a hash of its sources.
+        """Write the library with a hash of its sources as its token.
 
         Parameters
         ----------
@@ -177,53 +180,54 @@ class Unit(Extension):
         folder : str
             Of objects.
         common : sequence of str
-            Objects that all units have.
+            Objects that all libraries have.
         path : str
             Of the library.
         """
         equations = {f"{FILES['EQUATIONS']}/{n}": p for n, p in self.equations.items()}
         files = {**COMMON, **equations, **self.tables}
         texts = {name: path.read_text(encoding="utf-8") for name, path in files.items()}
-        own = Path(folder) / UNIT_OBJECTS / self.model
+        own = Path(folder) / FMU_OBJECTS / self.model
         for name in (*self.tables, *equations):  # headers are where the tables include them
             (own / name).parent.mkdir(parents=True, exist_ok=True)
             (own / name).write_text(texts[name], encoding="utf-8")
-        tables = compile_unit(compiler, [(own / name).as_posix() for name in self.tables], "")
+        tables = compile_for_fmus(compiler, [(own / name).as_posix() for name in self.tables], "")
         # the objects of the module, which is built before
         sources = [p.as_posix() for p in self.equations.values() if p.suffix == ".c"]
         objects = compiler.object_filenames(sources, output_dir=folder)
         old = [source for source, made in zip(sources, objects, strict=True) if newer(source, made)]
         if old:
-            compile_unit(compiler, old, folder)
+            compile_for_fmus(compiler, old, folder)
         exported = own / "exported.map"
         exported.write_text(EXPORTED, encoding="utf-8")
-        compiler.link_shared_object(
-            [*common, *tables, *objects], path, libraries=["m"],
-            extra_postargs=["-Wl,--gc-sections", f"-Wl,--version-script={exported}", "-s"],
-        )  # fmt: skip
+        # Python's own command for modules may add folders of this machine for a search at run time
+        linker = copy(compiler)
+        linker.linker_so = [w for w in compiler.linker_so if not w.startswith("-Wl,-rpath")]
+        options = ["-Wl,--gc-sections,--no-undefined", f"-Wl,--version-script={exported}", "-s"]
+        linker.link_shared_object(
+            [*common, *tables, *objects], path, libraries=["m"], extra_postargs=options
+        )
         library = Path(path)
         library.write_bytes(FILES["filled"](library.read_bytes(), FILES["digest"](texts)))
 
 
-def compile_unit(compiler: Any, sources: Sequence[str], folder: str) -> list[str]:
-    """Compile C files of units, and return the objects."""
+def compile_for_fmus(compiler: Any, sources: Sequence[str], folder: str) -> list[str]:
+    """Compile C files of libraries for FMUs, and return the objects."""
     headers = [FMI / "core", FMI / "headers", NATIVE, SOURCES]
     return compiler.compile(
         [*sources],
         output_dir=folder,
         include_dirs=[path.as_posix() for path in headers],
-        extra_postargs=[*FLAGS, *SECTIONS],
+        extra_postargs=[*FLAGS, *SECTIONS, "-fno-lto"],  # see runtime/targets/fmi/binaries.py
     )
 
 
-def units(wrappers: Iterable[Path]) -> Iterator[Unit]:
-    """Yield the units of the models, if this machine can run them."""
-    for wrapper in wrappers if UNITS else ():
+def fmu_libraries(wrappers: Iterable[Path]) -> Iterator[FmuLibrary]:
+    """Yield the libraries of the models for FMUs, if this machine can run them."""
+    for wrapper in wrappers if FOR_FMUS else ():
         name = wrapper.stem.removeprefix("_")
-        if not (GENERATED / f"units/{name}_model.c").exists():
-            continue  # compiled where a unit is written
         manifest = json.loads((GENERATED / f"{name}.json").read_text(encoding="utf-8"))
-        yield Unit(name, [(SOURCES / source).as_posix() for source in manifest["sources"]])
+        yield FmuLibrary(name, [(SOURCES / source).as_posix() for source in manifest["sources"]])
 
 
 def _headers(*folders: Path) -> list[str]:
@@ -326,15 +330,17 @@ class Build(build_ext):
             sys.exit(f"kintrafo: its equations are C, and there is no compiler {program}. {REMEDY}")
         if not any((Path(folder) / "Python.h").exists() for folder in self.include_dirs):
             sys.exit(f"kintrafo: Python's own header Python.h is not installed. {REMEDY}")
-        units = [extension for extension in self.extensions if isinstance(extension, Unit)]
-        modules = [extension for extension in self.extensions if extension not in units]
+        of_fmus = [ext for ext in self.extensions if isinstance(ext, FmuLibrary)]
+        modules = [ext for ext in self.extensions if ext not in of_fmus]
         self._build(modules)
-        if any(map(self._is_old, units)):
+        if any(map(self._is_old, of_fmus)):
             sources = [path.as_posix() for path in COMMON.values() if path.suffix == ".c"]
-            with ThreadPoolExecutor(os.cpu_count()) as pool:
-                objects = pool.map(self._common_object, sources)
-                self.unit_objects = [made for made in objects if made]
-        self._build(units)
+            try:
+                with ThreadPoolExecutor(os.cpu_count()) as pool:
+                    self.fmu_objects = list(pool.map(self._common_object, sources))
+            except CompileError:
+                return  # the libraries are optional
+        self._build(of_fmus)
 
     def _build(self, extensions: list[Extension]) -> None:
         """Build some of the extension modules."""
@@ -343,7 +349,7 @@ class Build(build_ext):
         self.extensions = every
 
     def _common_object(self, source: str) -> str:
-        return compile_unit(self.compiler, [source], f"{self.build_temp}/{UNIT_OBJECTS}")[0]
+        return compile_for_fmus(self.compiler, [source], f"{self.build_temp}/{FMU_OBJECTS}")[0]
 
     def _is_old(self, ext: Extension) -> bool:
         """Return whether an extension module is missing, or older than one of its files."""
@@ -357,8 +363,8 @@ class Build(build_ext):
             return
         # where the build of an optional one fails, an old one is not what these sources say
         Path(path).unlink(missing_ok=True)
-        if isinstance(ext, Unit):
-            ext.link(self.compiler, self.build_temp, self.unit_objects, path)
+        if isinstance(ext, FmuLibrary):
+            ext.link(self.compiler, self.build_temp, self.fmu_objects, path)
             return
         if isinstance(ext, Lanes):
             ext.extra_objects = ext.compile(self.compiler, self.build_temp)
@@ -369,7 +375,7 @@ class Build(build_ext):
         super().run()
         for extension in self.extensions:
             if extension.optional and not Path(self.get_ext_fullpath(extension.name)).exists():
-                without = {Lanes: "ensembles", Unit: "it"}.get(type(extension), "SUNDIALS")
+                without = {Lanes: "ensembles", FmuLibrary: "it"}.get(type(extension), "SUNDIALS")
                 print(
                     f"kintrafo: {extension.name} was not built; going on without {without}",
                     file=sys.stderr,
@@ -393,7 +399,7 @@ for module in MODULES:
     module.optional = SOLVER is not None and module.name == SOLVER.name
 # the longest first, so that no core waits for it at the end
 WRAPPERS = sorted(GENERATED.glob("*.pyx"))
-MODULES = [*lanes_extensions(WRAPPERS), *MODULES, *units(WRAPPERS)]
+MODULES = [*lanes_extensions(WRAPPERS), *MODULES, *fmu_libraries(WRAPPERS)]
 README = runpy.run_path(".ci/long_description.py")
 REPOSITORY, _ = README["repository_and_revision"]()
 setup(

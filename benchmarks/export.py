@@ -1,6 +1,6 @@
 """Size and time of exports, and the time of communication steps beyond their arithmetic.
 
-``make benchmark-export`` measures the units of the reference car, called from C and by FMPy, and
+``make benchmark-export`` measures the FMUs of the reference car, called from C and by FMPy, and
 its right-hand side in JAX.
 """
 
@@ -40,7 +40,7 @@ LENGTH, STEPS = 1e-5, 2000
 
 
 def written(folder: Path) -> dict[int, tuple[float, float, int]]:
-    """Write the units; return seconds of the command and of `export_model`, and bytes."""
+    """Write the FMUs; return seconds of the command and of `export_model`, and bytes."""
     model = Model(CAR)
     found = {}
     for version in VERSIONS:
@@ -64,7 +64,7 @@ def _of_children() -> float:
 
 
 def with_windows(folder: Path) -> str:
-    """Return size and time of a unit with both libraries, if there is a compiler for Windows."""
+    """Return size and time of an FMU with both libraries, if there is a compiler for Windows."""
     path, begin = folder / "both.fmu", _of_children()
     try:
         export_model(Model(CAR), path, "fmu", platforms=["linux", "windows"])
@@ -72,7 +72,7 @@ def with_windows(folder: Path) -> str:
         return f"No library for Windows: {error}"
     size, taken = path.stat().st_size / 1e3, _of_children() - begin
     return (
-        f"With libraries for Linux and Windows a unit has {size:.0f} kB; the compiler takes "
+        f"With libraries for Linux and Windows an FMU has {size:.0f} kB; the compiler takes "
         f"{taken:.1f} s for that of Windows."
     )
 
@@ -114,15 +114,15 @@ def by_fmpy(folder: Path, rounds: int) -> list[float]:
         place = str(folder / f"fmi{version}")
         known = read_model_description(place)
         name = known.coSimulation.modelIdentifier
-        unit = kind(guid=known.guid, unzipDirectory=place, modelIdentifier=name)
-        unit.instantiate()
+        fmu = kind(guid=known.guid, unzipDirectory=place, modelIdentifier=name)
+        fmu.instantiate()
         if version == 2:
-            unit.setupExperiment()
-        unit.enterInitializationMode()
-        unit.exitInitializationMode()
+            fmu.setupExperiment()
+        fmu.enterInitializationMode()
+        fmu.exitInitializationMode()
         times = iter(LENGTH * k for k in range(STEPS * rounds))
-        found.append(1e6 * min(_seconds(unit.doStep, times) for _ in range(rounds)))
-        unit.freeInstance()
+        found.append(1e6 * min(_seconds(fmu.doStep, times) for _ in range(rounds)))
+        fmu.freeInstance()
     return found
 
 

@@ -48,8 +48,8 @@ def _references(values: Any) -> Any:
     return (ct.c_uint32 * len(values))(*values)
 
 
-class Unit:
-    """An unpacked file."""
+class Fmu:
+    """An unpacked functional mock-up unit."""
 
     def __init__(self, path: Path, folder: Path) -> None:
         with zipfile.ZipFile(path) as archive:
@@ -80,22 +80,22 @@ class Instance:
     """An instance, with all that it says."""
 
     def __init__(
-        self, unit: Unit, kind: str, *, token: str | None = None, logging: bool = False
+        self, fmu: Fmu, kind: str, *, token: str | None = None, logging: bool = False
     ) -> None:
-        self.unit, self.messages = unit, list[str]()
+        self.fmu, self.messages = fmu, list[str]()
         self.kind = kind
-        self._two = unit.version == 2
-        named = (b"one", (unit.token if token is None else token).encode())
+        self._two = fmu.version == 2
+        named = (b"one", (fmu.token if token is None else token).encode())
         if self._two:
             self._log: Any = _LOG2(lambda _, __, ___, ____, text: self._note(text))
             self._callbacks = _Callbacks(self._log, None, None, None, None)
-            make = unit.library.fmi2Instantiate
+            make = fmu.library.fmi2Instantiate
             make.restype = ct.c_void_p
             which = ct.c_int(kind == "CoSimulation")
             made = make(named[0], which, named[1], b"", ct.byref(self._callbacks), 0, int(logging))
         else:
             self._log = _LOG3(lambda _, __, ___, text: self._note(text))
-            make = getattr(unit.library, f"fmi3Instantiate{kind}")
+            make = getattr(fmu.library, f"fmi3Instantiate{kind}")
             make.restype = ct.c_void_p
             flags: list[Any] = [ct.c_bool(False), ct.c_bool(logging)]
             if kind == "CoSimulation":
@@ -115,7 +115,7 @@ class Instance:
     def call(self, two: str, three: str | None = None, *arguments: Any) -> int:
         """Call a function by what it is called in each version."""
         name = f"fmi2{two}" if self._two else f"fmi3{two if three is None else three}"
-        status: int = getattr(self.unit.library, name)(self.handle, *arguments)
+        status: int = getattr(self.fmu.library, name)(self.handle, *arguments)
         return status
 
     def free(self) -> None:
@@ -142,7 +142,7 @@ class Instance:
     # -- values ---------------------------------------------------------------------------------
 
     def _of(self, names: Any) -> Any:
-        return _references([self.unit.references.get(n, n) for n in names])
+        return _references([self.fmu.references.get(n, n) for n in names])
 
     def get(self, *names: Any) -> list[float]:
         """Return values by name."""

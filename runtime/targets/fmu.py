@@ -1,4 +1,4 @@
-"""A functional mock-up unit of FMI 2.0 or 3.0: Model Exchange and Co-Simulation in one file."""
+"""A functional mock-up unit (FMU) of FMI 2.0 or 3.0: Model Exchange and Co-Simulation together."""
 
 import zipfile
 from collections.abc import Mapping, Sequence
@@ -41,14 +41,14 @@ def write(
     fmi: int = 2,
     platforms: Sequence[str] = binaries.HERE,
 ) -> Path:
-    """Write a unit; see `export_model`."""
+    """Write an FMU; see `export_model`."""
     with replacing(path, force=force, inputs=read) as temporary:
         _pack(temporary, contents(emitted, int(fmi), tuple(dict.fromkeys(platforms))))
     return path
 
 
 def contents(emitted: Emitted, fmi: int, platforms: Sequence[str]) -> dict[str, bytes]:
-    """Return the contents of a unit by path."""
+    """Return the contents of an FMU by path."""
     version: Any = VERSIONS[fmi]
     known = ModelDescription(emitted)
     token = known.token(fmi)

@@ -1,1 +1,1 @@
-"""Parts of a functional mock-up unit: description, sources and libraries."""
+"""Parts of a functional mock-up unit (FMU): description, sources and libraries."""

@@ -1,24 +1,21 @@
 """Write the tables of the models that come with the project, for ``make generate``.
 
-They are compiled with the project, so that a unit of these models needs no compiler.
+They are compiled with the project, so that the export of an FMU of these models needs no compiler.
 """
 
 import json
 import sys
 from pathlib import Path
 
-from .files import COMPILED_LATER
 from .tables import any_tables
 
 
 def main(models: Path) -> None:
-    """Write those of manifests in a folder into its folder ``units``, and remove others."""
-    folder = models / "units"
+    """Write the tables for all manifests in a folder into its folder ``fmu``; remove all others."""
+    folder = models / "fmu"
     folder.mkdir(exist_ok=True)
     written = set()
     for manifest in sorted(models.glob("*.json")):
-        if manifest.stem in COMPILED_LATER:
-            continue
         content = json.loads(manifest.read_text(encoding="utf-8"))
         for name, text in any_tables(content).items():
             path = folder / f"{manifest.stem}_{name}"

@@ -1,4 +1,4 @@
-"""Shared libraries of a unit, which are compiled once for a model and filled with its numbers.
+"""Shared libraries of FMUs, each compiled once for a model and filled with numbers for each export.
 
 Those of models that come with the project are compiled with it.
 """
@@ -29,6 +29,7 @@ _MORE = (
     "-ffunction-sections",
     "-fdata-sections",
     "-Wl,--gc-sections",
+    "-fno-lto",  # else a compiler folds the numbers as constants
 )
 _MINGW = "x86_64-w64-mingw32-gcc"
 _NO_COMPILER = (
@@ -58,7 +59,7 @@ def shipped(sources: Mapping[str, str], name: str) -> bytes | None:
 
     Return None if there is none, or if it was compiled from other sources.
     """
-    file = files(generated) / f"_{name}_unit{get_config_var('EXT_SUFFIX')}"
+    file = files(generated) / f"_{name}_fmu{get_config_var('EXT_SUFFIX')}"
     if not file.is_file():
         return None
     content = file.read_bytes()
@@ -69,7 +70,7 @@ def _compiled(sources: Mapping[str, str], name: str, platform: str) -> bytes:
     """Return the library of a model from the cache, or compile it."""
     compiler = _compiler(platform)
     text = "\0".join((digest(sources), *compiler.command, compiler.version))
-    folder = cache_folder() / f"unit_{name}-{hashlib.sha256(text.encode()).hexdigest()[:16]}"
+    folder = cache_folder() / f"fmu_{name}-{hashlib.sha256(text.encode()).hexdigest()[:16]}"
     file = f"{name}{'.dll' if platform == 'windows' else '.so'}"
     if damage(folder):
         with appearing(folder) as temporary:

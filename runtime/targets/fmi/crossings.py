@@ -1,4 +1,4 @@
-"""Zero crossings that a unit reports as events."""
+"""Zero crossings that an FMU reports as events."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass

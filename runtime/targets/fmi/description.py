@@ -1,4 +1,4 @@
-"""The variables of a unit, and the rest of its description, for any version of FMI."""
+"""The variables of an FMU, and the rest of its description, for any version of FMI."""
 
 import hashlib
 import math
@@ -65,7 +65,7 @@ class Variable:
 
 @dataclass(frozen=True)
 class ModelDescription:
-    """The description of a unit.
+    """The description of an FMU.
 
     Attributes
     ----------

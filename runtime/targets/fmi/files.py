@@ -1,4 +1,4 @@
-"""The C files that are the same in every unit, and the mark in a compiled library.
+"""The C files that are the same in every FMU, and the mark in a compiled library.
 
 `setup.py` reads this file, too: it imports only the standard library.
 """
@@ -14,7 +14,7 @@ _MARK_SIZE, _TOKEN_SIZE = 32, 64
 EQUATIONS = "equations"
 """Folder of the emitted files."""
 
-_CORE = ("dead_points.c", "derivatives.c", "model.h", "steps.c", "unit.c", "unit.h")
+_CORE = ("dead_points.c", "derivatives.c", "instance.c", "instance.h", "model.h", "steps.c")
 # The integrators that do not need SUNDIALS.
 _NATIVE = (
     "dormand_prince.c", "dormand_prince.h", "eigenvalues.c", "eigenvalues.h", "fixed_step.c",
@@ -28,13 +28,9 @@ HEADERS = {
 }
 """The C file of each version of FMI, and the headers of the standard that it includes."""
 
-COMPILED_LATER = ("andrews", "excavator", "excavator_lifting", "front_axle")
-"""Models that come with the project without a library: no file of a vehicle has their equations,
-and wheels are to remain below 10 MB."""
-
 
 def common_files(here: Any, native: Any, fronts: Iterable[str]) -> dict[str, Any]:
-    """Return the files of every unit by path below ``sources``, with fronts from `HEADERS`.
+    """Return the files of every FMU by path below ``sources``, with fronts from `HEADERS`.
 
     `here` is this folder, and `native` that of the integrators in C.
     """
@@ -62,7 +58,9 @@ def filled(content: bytes, token: str, values: Sequence[float] = ()) -> bytes:
 
 
 def token_of(content: bytes) -> str:
-    """Return the token of a library."""
+    """Return the token of a library; an empty text for a file without the mark."""
+    if MARK.encode() not in content:
+        return ""
     at = _behind_mark(content)
     return content[at : at + _TOKEN_SIZE].rstrip(b"\0").decode("ascii", errors="replace")
 

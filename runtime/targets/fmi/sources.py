@@ -1,4 +1,4 @@
-"""The C sources of a unit."""
+"""The C sources of an FMU."""
 
 from collections.abc import Iterable, Mapping
 from importlib.resources import files

@@ -20,7 +20,7 @@ def tables(manifest: Mapping[str, Any], token: str, values: Sequence[float]) -> 
     manifest : mapping
         Of the equations.
     token : str
-        The token of the description of the unit.
+        The token of the description of the FMU.
     values : sequence of float
         Parameters, initial state and initial inputs.
     """

@@ -18,11 +18,10 @@ from folders import ROOT
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.targets.emitted import Emitted
 from kintrafo.targets.fmi import binaries
-from kintrafo.targets.fmi.files import COMPILED_LATER
 from kintrafo.targets.fmi.sources import library_files
 from kintrafo.targets.fmi.tables import any_tables
 from kintrafo.targets.fmi.units import powers
-from mockup import DISCARD, ERROR, OK, Unit
+from mockup import DISCARD, ERROR, OK, Fmu
 from own_models import STRICT, UNOPTIMISED
 from own_yokes import WHEEL_ON_A_YOKE
 
@@ -36,16 +35,16 @@ SHORT = {"rocker_pin_x": 0.05, "rocker_pin_y": 0.2}
 
 
 @pytest.fixture(scope="module")
-def unit(tmp_path_factory):
+def fmu(tmp_path_factory):
     """Export a system and unpack it, once for each version."""
     known = {}
 
     def of(name, version):
         if (name, version) not in known:
-            folder = tmp_path_factory.mktemp("unit")
+            folder = tmp_path_factory.mktemp("fmu")
             path = folder / f"{name}.fmu"
             kintrafo.export_model(system_named(name), path, "fmu", fmi=version, state=start(name))
-            known[name, version] = Unit(path, folder / "unpacked")
+            known[name, version] = Fmu(path, folder / "unpacked")
         return known[name, version]
 
     return of
@@ -111,11 +110,11 @@ def test_fmpy_simulates_as_simulate_does(tmp_path, version, kind):
 
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("version", VERSIONS)
-def test_a_car_over_a_step_of_the_road_moves_as_by_simulate(unit, version, kind):
+def test_a_car_over_a_step_of_the_road_moves_as_by_simulate(fmu, version, kind):
     """FMPy accepts its description, and integrates it by CVode or calls its own steps."""
     fmpy = pytest.importorskip("fmpy")
     validation = pytest.importorskip("fmpy.validation")
-    folder = str(unit("quarter_car", version).folder)
+    folder = str(fmu("quarter_car", version).folder)
     assert validation.validate_fmu(folder) == []
     times, road = np.linspace(0.0, 0.2, 11), {"road_height": 0.02}
     motion = truth("quarter_car", times, inputs=road)
@@ -132,12 +131,12 @@ def test_a_car_over_a_step_of_the_road_moves_as_by_simulate(unit, version, kind)
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_nothing_breaks_the_rules_that_the_schema_has_not(unit, version):
+def test_nothing_breaks_the_rules_that_the_schema_has_not(fmu, version):
     """Rules of causality, variability, starts and references, by another tool."""
     operations = pytest.importorskip("fmu_manipulation_toolbox.operations")
     checker = pytest.importorskip("fmu_manipulation_toolbox.checker")
     for name in (*NAMES, "quarter_car"):
-        read = operations.FMU(str(unit(name, version).folder.with_name(f"{name}.fmu")))
+        read = operations.FMU(str(fmu(name, version).folder.with_name(f"{name}.fmu")))
         schema, rules = checker.OperationGenericCheck(), checker.OperationSemanticCheck()
         for check in (schema, rules):
             read.apply_operation(check)
@@ -157,7 +156,7 @@ def test_fmpy_builds_the_sources(tmp_path, version):
     assert not (tmp_path / "bar/binaries").exists()
     (tmp_path / "build").mkdir()
     build.build_platform_binary(tmp_path / "bar", tmp_path / "build", configuration="Debug")
-    found = Unit(path, tmp_path / "bar").instance()
+    found = Fmu(path, tmp_path / "bar").instance()
     assert found.initialise() == OK
     assert found.step(0.0, 0.1) == OK
     wanted = truth("four_bar", np.array([0.0, 0.1])).y[0, -1]
@@ -165,8 +164,8 @@ def test_fmpy_builds_the_sources(tmp_path, version):
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_the_sources_compile_silently(unit, version, tmp_path):
-    sources = sorted(map(str, unit("four_bar", version).folder.glob("sources/**/*.c")))
+def test_the_sources_compile_silently(fmu, version, tmp_path):
+    sources = sorted(map(str, fmu("four_bar", version).folder.glob("sources/**/*.c")))
     flags = ["-std=c11", UNOPTIMISED, *STRICT, "-fsyntax-only"]
     subprocess.run(["cc", *flags, *sources], check=True, cwd=tmp_path)
 
@@ -176,11 +175,11 @@ def test_the_sources_compile_silently(unit, version, tmp_path):
 
 @pytest.mark.parametrize("version", VERSIONS)
 @pytest.mark.parametrize("name", NAMES)
-def test_values_are_the_same_bits(unit, name, version):
+def test_values_are_the_same_bits(fmu, name, version):
     """Derivatives and outputs at the start are what the equations give."""
     system, at = system_named(name), start(name)
     inputs = getattr(at, "inputs", system.inputs())
-    instance = unit(name, version).instance("ModelExchange")
+    instance = fmu(name, version).instance("ModelExchange")
     assert instance.initialise() == OK
     states, rates, given, signals = variables(name)
     assert instance.get(*states) == at.tolist()
@@ -193,8 +192,8 @@ def test_values_are_the_same_bits(unit, name, version):
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_the_description_tells_units_starts_and_meanings(unit, version):
-    known = unit("reference_car", version)
+def test_the_description_tells_units_starts_and_meanings(fmu, version):
+    known = fmu("reference_car", version)
     system = system_named("reference_car")
     for name, entry in system.equations.PARAMETERS.items():
         variable = f"parameters.{name}"
@@ -231,11 +230,11 @@ def test_units_are_powers_of_base_units(unit_text, wanted):
 
 @pytest.mark.parametrize("version", VERSIONS)
 @pytest.mark.parametrize("name", NAMES)
-def test_derivatives_are_those_of_the_linearisation(unit, name, version):
+def test_derivatives_are_those_of_the_linearisation(fmu, name, version):
     """By differences of central values as well, which share no code with the Jacobians."""
     system, at = system_named(name), start(name)
     linear = kintrafo.linearise(system, at, getattr(at, "inputs", None))
-    instance = unit(name, version).instance("ModelExchange")
+    instance = fmu(name, version).instance("ModelExchange")
     assert instance.initialise() == OK
     states, rates, given, signals = variables(name)
     unknowns, knowns = [*rates, *signals], [*states, *given]
@@ -264,8 +263,8 @@ def test_derivatives_are_those_of_the_linearisation(unit, name, version):
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_derivatives_of_other_variables_are_refused(unit, version):
-    instance = unit("four_bar", version).instance("ModelExchange")
+def test_derivatives_of_other_variables_are_refused(fmu, version):
+    instance = fmu("four_bar", version).instance("ModelExchange")
     instance.initialise()
     instance.derivative(["parameters.crank_mass"], ["crank_angle"], [1.0])
     assert instance.status == ERROR
@@ -280,12 +279,12 @@ def test_derivatives_of_other_variables_are_refused(unit, version):
 
 @pytest.mark.parametrize("version", VERSIONS)
 def test_derivatives_by_parameters(tmp_path, version):
-    """Those of `kintrafo.derivative`, and of central differences over the unit's own parameters."""
+    """Those of `kintrafo.derivative`, and of central differences over the FMU's own parameters."""
     module = kintrafo.compile(FOUR_BAR, parameter_derivatives=True)
     system = kintrafo.System(module)
     path, start_values = tmp_path / "a.fmu", {"crank_angle": 0.3, "crank_angle_rate": 1.5}
     kintrafo.export_model(system, path, "fmu", fmi=version)
-    known = Unit(path, tmp_path / "unpacked")
+    known = Fmu(path, tmp_path / "unpacked")
     names = [*system.parameters]
     knowns = ["crank_angle", *(f"parameters.{name}" for name in names)]
     _, rates, _, signals = variables("four_bar")
@@ -333,7 +332,7 @@ def test_parameters_that_cannot_move_alone_are_refused(tmp_path):
         n for n, e in system.equations.PARAMETERS.items() if e["unit"] == "m" and np.isfinite(by[n])
     )
     kintrafo.export_model(system, tmp_path / "a.fmu", "fmu")
-    instance = Unit(tmp_path / "a.fmu", tmp_path / "unpacked").instance("ModelExchange")
+    instance = Fmu(tmp_path / "a.fmu", tmp_path / "unpacked").instance("ModelExchange")
     assert instance.initialise() == OK
     rates = variables_of(system)[1]
     found = instance.derivative(rates, [f"parameters.{free}"], [1.0])
@@ -353,9 +352,9 @@ def test_parameters_that_cannot_move_alone_are_refused(tmp_path):
 
 @pytest.mark.parametrize("version", VERSIONS)
 @pytest.mark.parametrize(("step", "implicit"), [(0.0, 0.0), (1e-4, 0.0), (1e-4, 1.0)])
-def test_steps_follow_the_motion(unit, version, step, implicit):
+def test_steps_follow_the_motion(fmu, version, step, implicit):
     """Errors of Dormand and Prince are by the tolerance, of RK4 and RODASP by the step."""
-    instance = unit("reference_car", version).instance()
+    instance = fmu("reference_car", version).instance()
     wheel = {"beta1_rate": 0.3, "solver.step": step, "solver.implicit": implicit}
     assert instance.initialise(tolerance=1e-12, **wheel) == OK
     times = np.linspace(0.0, 0.3, 31)
@@ -376,9 +375,9 @@ def test_steps_follow_the_motion(unit, version, step, implicit):
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_inputs_go_on_by_their_derivatives(unit, version):
+def test_inputs_go_on_by_their_derivatives(fmu, version):
     """A rack that moves is given once, by place and velocity: within a step it goes on so."""
-    instance = unit("reference_car", version).instance()
+    instance = fmu("reference_car", version).instance()
     assert instance.initialise(tolerance=1e-12, rack_velocity=0.1) == OK
     for k in range(5):
         assert instance.step(0.02 * k, 0.02) == OK
@@ -390,9 +389,9 @@ def test_inputs_go_on_by_their_derivatives(unit, version):
     instance.free()
 
 
-def test_slopes_of_inputs(unit):
+def test_slopes_of_inputs(fmu):
     """FMI 2.0 sets them by order; those that the model takes are inputs themselves."""
-    instance = unit("reference_car", 2).instance()
+    instance = fmu("reference_car", 2).instance()
     assert instance.initialise(tolerance=1e-12) == OK
     given = {"road_height": 2, "rack_position": 2}
     assert instance.slopes(given, [4.0, 0.2]) == OK
@@ -415,14 +414,14 @@ def test_slopes_of_inputs(unit):
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_a_motion_that_ends_is_told(unit, version):
+def test_a_motion_that_ends_is_told(fmu, version):
     """A crank that is driven to its dead point: the step says when and why, nothing crashes."""
     system = kintrafo.System(system_named("four_bar").equations, SHORT)
     torque = {"crank_torque": 10.0}
     with pytest.raises(kintrafo.SimulationError) as refused:
         kintrafo.simulate(system, (0.0, 2.0), system.state(), inputs=torque, method="DormandPrince")
     ends = refused.value.time
-    instance = unit("four_bar", version).instance()
+    instance = fmu("four_bar", version).instance()
     assert instance.initialise(**torque, **parameters(SHORT)) == OK
     time, length = 0.0, 0.01
     while instance.step(time, length) == OK:
@@ -443,7 +442,7 @@ def test_a_motion_that_ends_is_told(unit, version):
 
 
 def integrated(instance, end, length):
-    """Return when the unit ends a motion that an importer integrates by Runge and Kutta."""
+    """Return when the FMU ends a motion that an importer integrates by Runge and Kutta."""
     assert not instance.update()
     assert instance.call("EnterContinuousTimeMode") == OK
     count = len(instance.array("GetContinuousStates", None, 2))
@@ -468,7 +467,7 @@ def integrated(instance, end, length):
 
 @pytest.mark.parametrize("version", VERSIONS)
 @pytest.mark.parametrize(("torque", "rate"), [(10.0, 0.0), (-5.5, -5.8), (4.3, -5.6), (1.0, 1.0)])
-def test_steps_of_an_importer_do_not_pass_a_dead_point(unit, version, torque, rate):
+def test_steps_of_an_importer_do_not_pass_a_dead_point(fmu, version, torque, rate):
     """Behind it the equations have another motion, which a solver sees nothing wrong with."""
     system = kintrafo.System(system_named("four_bar").equations, SHORT)
     given = {"crank_torque": torque, "crank_angle_rate": rate}
@@ -480,14 +479,14 @@ def test_steps_of_an_importer_do_not_pass_a_dead_point(unit, version, torque, ra
         ends = refused.time
     assert (ends == 0.5) == (torque == 1.0)  # which turns before it
     for length in (1e-3, 4e-3):
-        instance = unit("four_bar", version).instance("ModelExchange")
+        instance = fmu("four_bar", version).instance("ModelExchange")
         assert instance.initialise(**given, **parameters(SHORT)) == OK
         assert integrated(instance, 0.5, length) == pytest.approx(ends, abs=1.5 * length)
         assert ends == 0.5 or "cannot close" in instance.message
         instance.free()
 
 
-def test_a_motion_from_rest_near_a_dead_point(unit):
+def test_a_motion_from_rest_near_a_dead_point(fmu):
     """A spring that is short pulls away from it, a long one pushes into it."""
     equations = system_named("four_bar").equations
     at = -1.2319890578876  # the crank's dead point [rad]
@@ -500,11 +499,11 @@ def test_a_motion_from_rest_near_a_dead_point(unit):
                 kintrafo.simulate(system, (0.0, ends), state)
             ends = refused.value.time
         for length in (1e-3, 4e-3):
-            instance = unit("four_bar", 2).instance("ModelExchange")
+            instance = fmu("four_bar", 2).instance("ModelExchange")
             assert instance.initialise(crank_angle=state[0], **parameters(values)) == OK
             assert integrated(instance, 0.1, length) == pytest.approx(ends, abs=1.5 * length)
             instance.free()
-    instance = unit("four_bar", 2).instance("ModelExchange")
+    instance = fmu("four_bar", 2).instance("ModelExchange")
     assert instance.initialise(crank_angle=at + 1e-13, **parameters(SHORT)) == OK
     assert integrated(instance, 0.1, 1e-3) == 1e-3
     assert "begins in a dead point: the loop ground" in instance.message
@@ -512,8 +511,8 @@ def test_a_motion_from_rest_near_a_dead_point(unit):
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_events_have_indicators(unit, version):
-    known = unit("reference_car", version)
+def test_events_have_indicators(fmu, version):
+    known = fmu("reference_car", version)
     names = [n for n in known.references if n.startswith(("events.", "margins."))]
     system = system_named("reference_car")
     instance = known.instance("ModelExchange", logging=True)
@@ -537,8 +536,8 @@ def test_events_have_indicators(unit, version):
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_a_state_that_is_refused_is_discarded(unit, version):
-    instance = unit("four_bar", version).instance("ModelExchange")
+def test_a_state_that_is_refused_is_discarded(fmu, version):
+    instance = fmu("four_bar", version).instance("ModelExchange")
     assert instance.initialise(**parameters(SHORT)) == OK
     assert not instance.update()
     instance.call("EnterContinuousTimeMode")
@@ -560,8 +559,8 @@ def test_a_state_that_is_refused_is_discarded(unit, version):
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_what_is_saved_goes_on_with_the_same_bits(unit, version):
-    instance = unit("reference_car", version).instance()
+def test_what_is_saved_goes_on_with_the_same_bits(fmu, version):
+    instance = fmu("reference_car", version).instance()
     assert instance.initialise(beta1_rate=0.5) == OK
     assert instance.step(0.0, 0.05) == OK
     saved = instance.save()
@@ -570,7 +569,7 @@ def test_what_is_saved_goes_on_with_the_same_bits(unit, version):
         assert instance.step(0.05 + 0.01 * k, 0.01) == OK
     wanted = instance.get("beta1", "beta5", "tyre_force")
     assert instance.restore(saved) == OK
-    other = unit("reference_car", version).instance()
+    other = fmu("reference_car", version).instance()
     assert other.restore(other.from_bytes(content)) == OK
     for one in (instance, other):
         for k in range(3):
@@ -585,8 +584,8 @@ def test_what_is_saved_goes_on_with_the_same_bits(unit, version):
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_a_reset_in_the_middle_begins_anew(unit, version):
-    fresh, used = (unit("reference_car", version).instance() for _ in range(2))
+def test_a_reset_in_the_middle_begins_anew(fmu, version):
+    fresh, used = (fmu("reference_car", version).instance() for _ in range(2))
     assert used.initialise(beta1_rate=0.5, **{"parameters.wheel_mass": 30.0}) == OK
     assert used.step(0.0, 0.03) == OK
     assert used.call("Reset") == OK
@@ -598,13 +597,13 @@ def test_a_reset_in_the_middle_begins_anew(unit, version):
         one.free()
 
 
-def test_a_thousand_instances_need_little_memory(unit):
+def test_a_thousand_instances_need_little_memory(fmu):
     def resident():
         with Path("/proc/self/statm").open() as file:
             return int(file.read().split()[1]) * 4096
 
     before = resident()
-    some = [unit("reference_car", 2).instance() for _ in range(1000)]
+    some = [fmu("reference_car", 2).instance() for _ in range(1000)]
     assert all(one.initialise() == OK for one in some)
     assert all(one.step(0.0, 0.001) == OK for one in some)
     used = resident() - before
@@ -614,10 +613,10 @@ def test_a_thousand_instances_need_little_memory(unit):
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_parameters_are_those_that_are_set(unit, version):
+def test_parameters_are_those_that_are_set(fmu, version):
     """The library serves any parameter set: constants are made of what is set."""
     system = kintrafo.System(system_named("four_bar").equations, {"crank_mass": 2.0})
-    instance = unit("four_bar", version).instance("ModelExchange")
+    instance = fmu("four_bar", version).instance("ModelExchange")
     assert instance.initialise(**{"parameters.crank_mass": 2.0}) == OK
     _, rates, *_ = variables("four_bar")
     wanted = system.evaluate("rhs", system.design_state)
@@ -642,8 +641,8 @@ def test_parameters_are_those_that_are_set(unit, version):
         ({"solver.implicit": 1.0}, "solver.implicit = 1 needs fixed steps: give solver.step"),
     ],
 )
-def test_parameters_out_of_range(unit, version, values, words):
-    instance = unit("four_bar", version).instance()
+def test_parameters_out_of_range(fmu, version, values, words):
+    instance = fmu("four_bar", version).instance()
     assert instance.initialise(**values) == ERROR
     assert words in instance.message
     assert instance.step(0.0, 0.1) == ERROR
@@ -655,7 +654,7 @@ def test_parameters_out_of_range(unit, version, values, words):
     ("values", "fine"),
     [({"ixx": 0.05}, True), ({"ixx": 1.0}, False), ({"ixy": 0.5}, False), ({"ixx": -0.01}, False)],
 )
-def test_inertia_of_no_body(unit, values, fine):
+def test_inertia_of_no_body(fmu, values, fine):
     """As `prepare` of Python refuses it, which looks at the principal moments."""
     system = system_named("reference_car")
     body = next(n for n in system.parameters if n.endswith("_inertia_xx")).removesuffix(
@@ -668,14 +667,14 @@ def test_inertia_of_no_body(unit, values, fine):
     except kintrafo.ParameterError:
         accepted = False
     assert accepted == fine
-    instance = unit("reference_car", 2).instance("ModelExchange")
+    instance = fmu("reference_car", 2).instance("ModelExchange")
     status = instance.initialise(**{f"parameters.{n}": v for n, v in named.items()})
     assert (status == OK) == fine, instance.message
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_calls_that_make_no_sense(unit, version):
-    known = unit("four_bar", version)
+def test_calls_that_make_no_sense(fmu, version):
+    known = fmu("four_bar", version)
     assert known.instance(token="{of another}").handle is None
     instance = known.instance()
     assert instance.step(0.0, 0.1) == ERROR
@@ -710,9 +709,9 @@ def test_calls_that_make_no_sense(unit, version):
     assert nobody.call("Terminate") == ERROR
 
 
-def test_every_function_of_fmi_3_is_there(unit):
-    library = unit("four_bar", 3).library
-    header = (unit("four_bar", 3).folder / "sources/fmi3Functions.h").read_text()
+def test_every_function_of_fmi_3_is_there(fmu):
+    library = fmu("four_bar", 3).library
+    header = (fmu("four_bar", 3).folder / "sources/fmi3Functions.h").read_text()
     names = {line.split()[1] for line in header.splitlines() if line.startswith("#define fmi3")}
     wanted = {n for n in names if f"fmi3FullName({n})" in header}
     assert len(wanted) > 70
@@ -786,10 +785,10 @@ def test_every_shipped_model_can_be_exported(tmp_path, name):
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_casadi_has_the_equations_with_their_derivatives(unit, version):
+def test_casadi_has_the_equations_with_their_derivatives(fmu, version):
     casadi = pytest.importorskip("casadi")
     system, at, torque = system_named("four_bar"), [0.3, 0.2], [2.0]
-    dae = casadi.DaeBuilder("bar", str(unit("four_bar", version).folder))
+    dae = casadi.DaeBuilder("bar", str(fmu("four_bar", version).folder))
     assert dae.x() == list(system.state_names)
     assert dae.u() == list(system.input_names)
     assert dae.y() == list(system.signal_names)
@@ -837,23 +836,19 @@ def test_another_processor_has_no_library(tmp_path, monkeypatch):
 # -- models that come with the project ------------------------------------------------------------
 
 
-SHIPPED = sorted(EMITTED.keys() - {*COMPILED_LATER})
-
-
 def test_tables_of_shipped_models_are_committed():
     """Where this fails, run ``make generate``."""
     wanted = {
         f"{name}_{file}": text
         for name, module in EMITTED.items()
-        if name in SHIPPED
         for file, text in any_tables(module.equations.manifest).items()
     }
-    found = {path.name: path.read_text() for path in (ROOT / "generated/units").iterdir()}
+    found = {path.name: path.read_text() for path in (ROOT / "generated/fmu").iterdir()}
     assert found.keys() == wanted.keys()
     assert [name for name in wanted if found[name] != wanted[name]] == []
 
 
-@pytest.mark.parametrize("name", SHIPPED)
+@pytest.mark.parametrize("name", sorted(EMITTED))
 def test_a_shipped_library_is_used_for_its_sources_only(name):
     """Where this fails, run ``make build``: what was built is not what the sources say."""
     system = kintrafo.System(EMITTED[name])
@@ -861,10 +856,11 @@ def test_a_shipped_library_is_used_for_its_sources_only(name):
     library = binaries.shipped(sources, name)
     assert library is not None
     assert len(library) < 1_500_000
+    assert f"{sys.base_prefix}/lib".encode() not in library  # where Python is here
     changed = dict(sources)
     changed["model.c"] += " "
     assert binaries.shipped(changed, name) is None
-    renamed = {f"{path}x" if path == "unit.h" else path: text for path, text in sources.items()}
+    renamed = {f"{path}x" if path == "instance.h" else path: text for path, text in sources.items()}
     assert binaries.shipped(renamed, name) is None
     assert binaries.shipped(sources, f"{name}_of_another_name") is None
 
@@ -874,7 +870,7 @@ def test_a_shipped_library_computes_what_a_compiled_one_does(tmp_path, monkeypat
     path, motions = tmp_path / "a.fmu", []
     for folder in ("shipped", "compiled"):
         kintrafo.export_model(system_named("four_bar"), path, "fmu", force=True)
-        instance = Unit(path, tmp_path / folder).instance()
+        instance = Fmu(path, tmp_path / folder).instance()
         assert instance.initialise(crank_torque=2.0) == OK
         motions.append([])
         for k in range(5):
@@ -886,14 +882,14 @@ def test_a_shipped_library_computes_what_a_compiled_one_does(tmp_path, monkeypat
 
 
 @pytest.mark.parametrize("name", ["reference_car", "rigid_axle", "four_bar"])
-def test_a_unit_of_a_shipped_model_needs_no_compiler(tmp_path, name):
+def test_an_fmu_of_a_shipped_model_needs_no_compiler(tmp_path, name):
     """A person without one exports it; FMPy simulates it as `simulate` does."""
     fmpy = pytest.importorskip("fmpy")
     folder, cache = str(tmp_path), tmp_path / "cache"
     alone = {"PATH": folder, "HOME": folder, "KINTRAFO_CACHE": str(cache)}
     command = [sys.executable, "-m", "kintrafo", "export", name, "--to", "fmu"]
     subprocess.run(command, check=True, cwd=tmp_path, env=alone)
-    assert [*cache.glob("unit_*")] == []  # nothing was compiled
+    assert [*cache.glob("fmu_*")] == []  # nothing was compiled
     system = system_named(name)
     times = np.linspace(0.0, 0.1, 3)
     found = fmpy.simulate_fmu(
@@ -961,7 +957,7 @@ def test_windows_computes_the_same_bits(tmp_path):
         (MINGW, "binaries/win64/four_bar.dll", ["wine"]),
     ):
         program = tmp_path / f"{compiler}.exe"
-        files = [f"-I{tmp_path / 'sources'}", str(ROOT / "tests/unit_steps.c"), "-o", str(program)]
+        files = [f"-I{tmp_path / 'sources'}", str(ROOT / "tests/fmu_steps.c"), "-o", str(program)]
         linked = ["-ldl"] if compiler == "cc" else []
         subprocess.run([compiler, "-std=c11", *files, *linked], check=True)
         command = [*before, str(program), str(tmp_path / library), *given]
@@ -973,14 +969,14 @@ def test_windows_computes_the_same_bits(tmp_path):
 
 
 @pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc")
-def test_no_access_is_beyond_what_is_kept(unit, tmp_path):
+def test_no_access_is_beyond_what_is_kept(fmu, tmp_path):
     """With sanitizers: every access, leak and undefined operation ends the program."""
-    known = unit("four_bar", 2)
+    known = fmu("four_bar", 2)
     sources = sorted(map(str, known.folder.glob("sources/**/*.c")))
     program = tmp_path / "driver"
     flags = ["-std=c11", "-O0", "-fsanitize=address,undefined", "-fno-sanitize-recover=undefined"]
     include = f"-I{known.folder / 'sources'}"
-    driver = str(ROOT / "tests/unit_driver.c")
+    driver = str(ROOT / "tests/fmu_driver.c")
     made = ["gcc", *flags, include, driver, *sources, "-o", str(program), "-lm"]
     subprocess.run(made, check=True)
     called = [str(program), known.token, str(len(known.references))]

@@ -6,7 +6,7 @@
  * before zero has been accelerated, and the accelerations at both ends of the step show by how much. A change of
  * speed that they do not explain is a dead point.
  */
-#include "unit.h"
+#include "instance.h"
 
 #include "trust.h"
 
@@ -47,7 +47,7 @@ static void move_inputs(double lapse, double *inputs)
 }
 
 /* Compute the state after a lapse with some rates, and the margins there. */
-static void put_ahead(unit *u, double lapse, const double *state, const double *rates, double *margins)
+static void put_ahead(ku_instance *u, double lapse, const double *state, const double *rates, double *margins)
 {
     const km_model *m = &km_this;
     for (int i = 0; i < m->states; ++i) {
@@ -60,7 +60,7 @@ static void put_ahead(unit *u, double lapse, const double *state, const double *
  * Evaluate the margins of a point and of the motion after one lapse and two; return whether the model accepts them.
  * Heun's rule and the midpoint rule are exact for constant accelerations, also at rest.
  */
-static int look(unit *u, double lapse, const double *state, const double *inputs, double *margins)
+static int look(ku_instance *u, double lapse, const double *state, const double *inputs, double *margins)
 {
     const km_model *m = &km_this;
     double *first = u->way.rates, *second = u->way.rates_ahead;
@@ -109,7 +109,7 @@ static int passed(ku_height before, ku_height now, double step)
     return (near && now.speed - before.speed > EXPLAINED * step * greater) || fell(before, now, step);
 }
 
-void ku_usual_margins(unit *u, double *usual)
+void ku_usual_margins(ku_instance *u, double *usual)
 {
     const km_model *m = &km_this;
     memset(u->way.inputs_ahead, 0, (size_t)m->inputs * sizeof *u->way.inputs_ahead);
@@ -121,7 +121,7 @@ void ku_usual_margins(unit *u, double *usual)
 }
 
 /* Store the point from which the motion continues. */
-void ku_mark(unit *u)
+void ku_mark(ku_instance *u)
 {
     const km_model *m = &km_this;
     u->way.time = *u->now.time;
@@ -131,7 +131,7 @@ void ku_mark(unit *u)
 }
 
 /* Return whether a step has passed the dead point of a guard, or the motion begins in it, and report that. */
-static int ended(const unit *u, int guard, const double *before, const double *now, double lapse, double step)
+static int ended(const ku_instance *u, int guard, const double *before, const double *now, double lapse, double step)
 {
     const char *meaning = km_this.guard[guard].meaning;
     if (u->way.begins && !(before[guard] > KT_NOTHING * u->way.usual[guard])) {
@@ -145,7 +145,7 @@ static int ended(const unit *u, int guard, const double *before, const double *n
     return 1;
 }
 
-int ku_completed(unit *u, int *over)
+int ku_completed(ku_instance *u, int *over)
 {
     const km_model *m = &km_this;
     int status = ku_ready(u);

@@ -1,5 +1,5 @@
 /* Exact partial derivatives: from the emitted Jacobians, and along directions of the parameters. */
-#include "unit.h"
+#include "instance.h"
 
 #include <math.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 #define STEP 1.0e-6
 
 /* Evaluate the Jacobians that are not known at the present values. */
-static int know(unit *u)
+static int know(ku_instance *u)
 {
     const km_model *m = &km_this;
     int status = ku_ready(u);
@@ -26,7 +26,7 @@ static int know(unit *u)
 }
 
 /* Return a derivative of a rate or a signal by a state or an input. */
-static double entry(const unit *u, int of_signal, int row, int by_input, int column)
+static double entry(const ku_instance *u, int of_signal, int row, int by_input, int column)
 {
     const km_model *m = &km_this;
     int width = by_input ? m->inputs : m->states;
@@ -41,7 +41,7 @@ static double entry(const unit *u, int of_signal, int row, int by_input, int col
 }
 
 /* Find the row of an unknown; report an error if it has none. */
-static int row_of(const unit *u, unsigned reference, int *of_signal, int *row)
+static int row_of(const ku_instance *u, unsigned reference, int *of_signal, int *row)
 {
     const km_model *m = &km_this;
     int place;
@@ -62,7 +62,7 @@ static int row_of(const unit *u, unsigned reference, int *of_signal, int *row)
                   "state, nor an output, nor an event indicator of one.", reference);
 }
 
-static int column_of(const unit *u, unsigned reference, enum ku_block *block, int *column)
+static int column_of(const ku_instance *u, unsigned reference, enum ku_block *block, int *column)
 {
     *block = ku_find(reference, column);
     if (*block == KU_PARAMETER && !km_this.prepare_tangent) {
@@ -86,7 +86,7 @@ static int is_geometry(const char *unit)
 }
 
 /* Return the assumption of the equations that a direction breaks; NULL: none. */
-static const km_assumption *left_by(unit *u, const double *direction)
+static const km_assumption *left_by(ku_instance *u, const double *direction)
 {
     const km_model *m = &km_this;
     double *values = u->tangents.parameters, size = 0.0, length = 0.0;
@@ -108,7 +108,7 @@ static const km_assumption *left_by(unit *u, const double *direction)
 
 /* The same for the direction that follows the parameters: only for parameters that cannot change alone, which could
    be too small beside the others. */
-static const km_assumption *broken(unit *u)
+static const km_assumption *broken(ku_instance *u)
 {
     const km_model *m = &km_this;
     const double *direction = u->tangents.parameters + m->parameters;
@@ -122,7 +122,7 @@ static const km_assumption *broken(unit *u)
 }
 
 /* Evaluate the changes of rates and signals along the direction that follows the parameters. */
-static int follow(unit *u)
+static int follow(ku_instance *u)
 {
     const km_model *m = &km_this;
     ku_tangents *t = &u->tangents;
@@ -147,7 +147,7 @@ static int follow(unit *u)
 }
 
 /* Return the change of an unknown along it; the level of an indicator may be a parameter. */
-static double followed(const unit *u, unsigned unknown, int of_signal, int row)
+static double followed(const ku_instance *u, unsigned unknown, int of_signal, int row)
 {
     const km_model *m = &km_this;
     int place;
@@ -158,7 +158,7 @@ static double followed(const unit *u, unsigned unknown, int of_signal, int row)
     return slope;
 }
 
-static void clear_direction(unit *u)
+static void clear_direction(ku_instance *u)
 {
     const km_model *m = &km_this;
     if (m->prepare_tangent) {
@@ -167,7 +167,7 @@ static void clear_direction(unit *u)
 }
 
 /* Add the effect of parameters: of all along a direction, or of each separately at its own place. */
-static int add_parameters(unit *u, const unsigned *unknowns, size_t rows, const unsigned *knowns,
+static int add_parameters(ku_instance *u, const unsigned *unknowns, size_t rows, const unsigned *knowns,
                           size_t columns, const double *seed, double *found, int transposed)
 {
     int status = KU_OK, any = 0, of_signal, row;
@@ -203,7 +203,7 @@ static int add_parameters(unit *u, const unsigned *unknowns, size_t rows, const 
 
 /* -- all -------------------------------------------------------------------------------------- */
 
-int ku_derivative(unit *u, const unsigned *unknowns, size_t rows, const unsigned *knowns,
+int ku_derivative(ku_instance *u, const unsigned *unknowns, size_t rows, const unsigned *knowns,
                   size_t columns, const double *seed, double *found, int transposed)
 {
     int status = know(u), of_signal, row, column;

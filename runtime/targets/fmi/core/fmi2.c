@@ -1,6 +1,6 @@
 /* The functions of FMI 2.0, as calls of an instance. */
 #include "fmi2Functions.h"
-#include "unit.h"
+#include "instance.h"
 
 #include <stdlib.h>
 
@@ -9,7 +9,7 @@ enum { LINE = 2000 };
 /*
  * The message is the format itself, without conversions: importers that ignore further arguments show it, too.
  */
-static void report(const unit *u, int status, const char *category, const char *message)
+static void report(const ku_instance *u, int status, const char *category, const char *message)
 {
     const fmi2CallbackFunctions *functions = u->front;
     char line[LINE];
@@ -28,13 +28,13 @@ static void report(const unit *u, int status, const char *category, const char *
 
 /* Return from a function that is called without an instance, or in a wrong state. */
 #define NEEDS(modes)                                                              \
-    unit *u = c;                                                                  \
+    ku_instance *u = c;                                                           \
     if (!u || !ku_may(u, __func__, modes)) {                                      \
         return fmi2Error;                                                         \
     }
 
 #define NEEDS_KIND(cosimulates, modes)                                            \
-    unit *u = c;                                                                 \
+    ku_instance *u = c;                                                           \
     if (!u || !ku_is(u, __func__, cosimulates) || !ku_may(u, __func__, modes)) {  \
         return fmi2Error;                                                         \
     }
@@ -119,7 +119,7 @@ fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nv
 }
 
 /* All variables are real numbers: there are none of other types. */
-static fmi2Status of_another_type(unit *u, const char *function, size_t count)
+static fmi2Status of_another_type(ku_instance *u, const char *function, size_t count)
 {
     if (count) {
         ku_say(u, KU_ERROR, "%s: there are no variables of this type, all are Real.", function);
@@ -311,7 +311,7 @@ fmi2Status fmi2CancelStep(fmi2Component c)
     return fmi2Error;
 }
 
-static fmi2Status no_such_status(unit *u, const char *function)
+static fmi2Status no_such_status(ku_instance *u, const char *function)
 {
     ku_say(u, KU_DISCARD, "%s: there is no such status, fmi2DoStep returns when it is done.", function);
     return fmi2Discard;

@@ -1,6 +1,6 @@
 /* The functions of FMI 3.0, as calls of an instance. */
 #include "fmi3Functions.h"
-#include "unit.h"
+#include "instance.h"
 
 #include <stdlib.h>
 
@@ -9,7 +9,7 @@ typedef struct {
     fmi3InstanceEnvironment environment;
 } callbacks;
 
-static void report(const unit *u, int status, const char *category, const char *message)
+static void report(const ku_instance *u, int status, const char *category, const char *message)
 {
     const callbacks *known = u->front;
     if (known->log) {
@@ -19,13 +19,13 @@ static void report(const unit *u, int status, const char *category, const char *
 
 /* Return from a function that is called without an instance, or in a wrong state. */
 #define NEEDS(modes)                                                              \
-    unit *u = instance;                                                           \
+    ku_instance *u = instance;                                                    \
     if (!u || !ku_may(u, __func__, modes)) {                                      \
         return fmi3Error;                                                         \
     }
 
 #define NEEDS_KIND(cosimulates, modes)                                            \
-    unit *u = instance;                                                          \
+    ku_instance *u = instance;                                                    \
     if (!u || !ku_is(u, __func__, cosimulates) || !ku_may(u, __func__, modes)) {  \
         return fmi3Error;                                                         \
     }
@@ -52,7 +52,7 @@ static fmi3Instance open_one(fmi3String name, fmi3String token, int co_simulatio
     }
     known->log = log;
     known->environment = environment;
-    unit *u = ku_open(name, token, co_simulation, logging, report, known);
+    ku_instance *u = ku_open(name, token, co_simulation, logging, report, known);
     if (!u) {
         free(known);
     }
@@ -98,7 +98,7 @@ fmi3Instance fmi3InstantiateScheduledExecution(
 
 void fmi3FreeInstance(fmi3Instance instance)
 {
-    unit *u = instance;
+    ku_instance *u = instance;
     if (u) {
         free(u->front);
         ku_close(u);
@@ -140,7 +140,7 @@ fmi3Status fmi3Reset(fmi3Instance instance)
 
 /* -- values ----------------------------------------------------------------------------------- */
 
-static int same_count(unit *u, const char *function, size_t references, size_t values)
+static int same_count(ku_instance *u, const char *function, size_t references, size_t values)
 {
     if (references == values) {
         return 1;
@@ -171,7 +171,7 @@ fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference valueR
 }
 
 /* All variables are Float64: there are none of other types. */
-static fmi3Status of_another_type(unit *u, const char *function, size_t count)
+static fmi3Status of_another_type(ku_instance *u, const char *function, size_t count)
 {
     if (count) {
         ku_say(u, KU_ERROR, "%s: there are no variables of this type, all are Float64.", function);

@@ -1,5 +1,5 @@
 /* Co-Simulation: steps of a solver from one communication point to the next. */
-#include "unit.h"
+#include "instance.h"
 
 #include "number.h"
 #include "worker.h"
@@ -23,7 +23,7 @@ const kt_solver *kt_solver_of(int method)
 
 /* -- memory ----------------------------------------------------------------------------------- */
 
-static int make_memory(unit *u)
+static int make_memory(ku_instance *u)
 {
     const km_model *m = &km_this;
     size_t inputs = (size_t)m->inputs;
@@ -36,9 +36,9 @@ static int make_memory(unit *u)
     return u->splines && u->breaks && u->coefficients && u->usual && u->tolerances && u->courses;
 }
 
-static void find_courses(unit *u);
+static void find_courses(ku_instance *u);
 
-static int method_of(const unit *u)
+static int method_of(const ku_instance *u)
 {
     if (*u->now.step == 0.0) {
         return KT_DORMAND_PRINCE;
@@ -46,7 +46,7 @@ static int method_of(const unit *u)
     return *u->now.implicit == 0.0 ? KT_RK4 : KT_RODASP;
 }
 
-int ku_open_steps(unit *u)
+int ku_open_steps(ku_instance *u)
 {
     const km_model *m = &km_this;
     ku_close_steps(u);
@@ -78,7 +78,7 @@ int ku_open_steps(unit *u)
     return u->motion ? KU_OK : ku_say(u, KU_ERROR, "there is no memory for the solver.");
 }
 
-void ku_close_steps(unit *u)
+void ku_close_steps(ku_instance *u)
 {
     kt_close_motion(u->motion);
     kt_free(&u->result);
@@ -110,7 +110,7 @@ static int rate_of(int input)
 }
 
 /* Return the place of a derivative of an input: an input of its own, or a slope; NULL beyond those. */
-static double *derivative_at(unit *u, int input, int order)
+static double *derivative_at(ku_instance *u, int input, int order)
 {
     int base = input;
     for (int k = 0; k < order; ++k) {
@@ -125,7 +125,7 @@ static double *derivative_at(unit *u, int input, int order)
 }
 
 /* Note the inputs that are no derivatives, and the places of their derivatives. */
-static void find_courses(unit *u)
+static void find_courses(ku_instance *u)
 {
     const km_model *m = &km_this;
     u->course_count = 0;
@@ -142,7 +142,7 @@ static void find_courses(unit *u)
     }
 }
 
-int ku_set_slopes(unit *u, const unsigned *references, size_t count, const int *orders,
+int ku_set_slopes(ku_instance *u, const unsigned *references, size_t count, const int *orders,
                   const double *values)
 {
     for (size_t i = 0; i < count; ++i) {
@@ -183,7 +183,7 @@ static int derivatives_of(const ku_course *c, double *found)
 }
 
 /* Extrapolate inputs with their known derivatives, by polynomials over the step. */
-static void lay_splines(unit *u, double time, double end)
+static void lay_splines(ku_instance *u, double time, double end)
 {
     int count = 0;
     u->breaks[0] = time;
@@ -206,7 +206,7 @@ static void lay_splines(unit *u, double time, double end)
 }
 
 /* Set the inputs to their values at a time. */
-static void move_inputs(unit *u, double length)
+static void move_inputs(ku_instance *u, double length)
 {
     for (int i = 0; u->problem.spline_count && i < u->course_count; ++i) {
         const ku_course *course = &u->courses[i];
@@ -228,7 +228,7 @@ static void move_inputs(unit *u, double length)
 
 /* -- a step ----------------------------------------------------------------------------------- */
 
-static int explain(unit *u, int outcome)
+static int explain(ku_instance *u, int outcome)
 {
     const km_model *m = &km_this;
     const kt_result *r = &u->result;
@@ -270,7 +270,7 @@ static int explain(unit *u, int outcome)
 }
 
 /* Integrate the states over a step; the time that was reached is noted. */
-static int integrate(unit *u, double end)
+static int integrate(ku_instance *u, double end)
 {
     const double times[2] = {*u->now.time, end};
     /* the fixed step, or the planned first one */
@@ -283,9 +283,9 @@ static int integrate(unit *u, double end)
 }
 
 /* Start the next step without data of the last one. */
-void ku_begin_anew(unit *u) { u->result.output.rows = 0; }
+void ku_begin_anew(ku_instance *u) { u->result.output.rows = 0; }
 
-int ku_step(unit *u, double time, double length)
+int ku_step(ku_instance *u, double time, double length)
 {
     double now = *u->now.time;
     if (!(fabs(time - now) <= RESOLVED * greater(1.0, fabs(now)))) {

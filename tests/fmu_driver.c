@@ -1,5 +1,5 @@
 /*
- * Calls all that a unit of FMI 2.0 keeps memory for, with values that are fine and such that are not: to be
+ * Calls all that an FMU of FMI 2.0 keeps memory for, with values that are fine and such that are not: to be
  * compiled with its sources by a compiler that looks at every access. Called with the token and how many variables there are.
  */
 #include "fmi2Functions.h"

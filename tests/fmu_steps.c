@@ -1,5 +1,5 @@
 /*
- * Loads the library of a unit of FMI 2.0 and prints the bits of all it computes, by both kinds: to be compiled for
+ * Loads the library of an FMU of FMI 2.0 and prints the bits of all it computes, by both kinds: to be compiled for
  * Linux, and for Windows. Called with the library, the token, and the numbers of states, variables and parameters.
  */
 #include "fmi2Functions.h"

@@ -1,5 +1,5 @@
 /* Creation and deletion of an instance, and its values. */
-#include "unit.h"
+#include "instance.h"
 
 #include "trust.h"
 
@@ -19,7 +19,7 @@ enum { MESSAGE = 2000, NOT_FINITE_BIT = 30, LAST_GUARD_BIT = 29 };
 
 /* -- messages --------------------------------------------------------------------------------- */
 
-static void tell(const unit *u, int status, const char *format, va_list arguments)
+static void tell(const ku_instance *u, int status, const char *format, va_list arguments)
 {
     vsnprintf(u->message, MESSAGE, format, arguments);
     static const char *const CATEGORIES[] = {
@@ -30,7 +30,7 @@ static void tell(const unit *u, int status, const char *format, va_list argument
     }
 }
 
-int ku_say(const unit *u, int status, const char *format, ...)
+int ku_say(const ku_instance *u, int status, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -52,11 +52,11 @@ static const char *mode_name(int mode)
     }
 }
 
-int ku_mode(const unit *u) { return (int)*u->now.mode; }
+int ku_mode(const ku_instance *u) { return (int)*u->now.mode; }
 
-void ku_enter(unit *u, int mode) { *u->now.mode = mode; }
+void ku_enter(ku_instance *u, int mode) { *u->now.mode = mode; }
 
-int ku_may(const unit *u, const char *function, int modes)
+int ku_may(const ku_instance *u, const char *function, int modes)
 {
     if (ku_mode(u) & modes) {
         return 1;
@@ -66,7 +66,7 @@ int ku_may(const unit *u, const char *function, int modes)
     return 0;
 }
 
-int ku_is(const unit *u, const char *function, int co_simulation)
+int ku_is(const ku_instance *u, const char *function, int co_simulation)
 {
     if (u->co_simulation == co_simulation) {
         return 1;
@@ -143,11 +143,11 @@ static size_t size_of_all(void)
         + size_of_tangents() + 1;
 }
 
-unit *ku_open(const char *label, const char *token, int co_simulation, int logging,
-              ku_report report, void *front)
+ku_instance *ku_open(const char *label, const char *token, int co_simulation, int logging,
+                     ku_report report, void *front)
 {
     const km_model *m = &km_this;
-    unit *u = calloc(1, sizeof *u);
+    ku_instance *u = calloc(1, sizeof *u);
     const char *known = label ? label : "";
     if (!u) {
         return NULL;
@@ -192,7 +192,7 @@ unit *ku_open(const char *label, const char *token, int co_simulation, int loggi
     return u;
 }
 
-void ku_close(unit *u)
+void ku_close(ku_instance *u)
 {
     ku_close_steps(u);
     free(u->memory);
@@ -201,7 +201,7 @@ void ku_close(unit *u)
     free(u);
 }
 
-void ku_reset(unit *u)
+void ku_reset(ku_instance *u)
 {
     const km_model *m = &km_this;
     ku_close_steps(u);
@@ -221,7 +221,7 @@ void ku_reset(unit *u)
     ku_forget(u);
 }
 
-int ku_start(unit *u, double time, int tolerance_defined, double tolerance)
+int ku_start(ku_instance *u, double time, int tolerance_defined, double tolerance)
 {
     if (!isfinite(time)) {
         return ku_say(u, KU_ERROR, "start time = %g s: a finite number is needed.", time);
@@ -236,7 +236,7 @@ int ku_start(unit *u, double time, int tolerance_defined, double tolerance)
     return KU_OK;
 }
 
-int ku_begin(unit *u)
+int ku_begin(ku_instance *u)
 {
     int status = ku_ready(u);
     if (status == KU_OK && u->co_simulation) {
@@ -250,7 +250,7 @@ int ku_begin(unit *u)
 
 /* -- parameters ------------------------------------------------------------------------------- */
 
-static int in_range(const unit *u, int i)
+static int in_range(const ku_instance *u, int i)
 {
     const km_parameter *p = &km_this.parameter[i];
     double value = u->now.parameters[i];
@@ -276,7 +276,7 @@ static int in_range(const unit *u, int i)
  * Principal moments are possible if the matrix tr(J) / 2 - J is positive semidefinite: its eigenvalues are
  * half of the difference of the sum of two moments and the third. So no principal minor may be negative.
  */
-static int of_a_body(const unit *u, const km_inertia *t)
+static int of_a_body(const ku_instance *u, const km_inertia *t)
 {
     double j[6];
     for (int i = 0; i < 6; ++i) {
@@ -289,7 +289,7 @@ static int of_a_body(const unit *u, const km_inertia *t)
         && third >= 0.0;
 }
 
-static int inertia_is_possible(const unit *u)
+static int inertia_is_possible(const ku_instance *u)
 {
     const km_model *m = &km_this;
     for (int i = 0; i < m->tensors; ++i) {
@@ -304,7 +304,7 @@ static int inertia_is_possible(const unit *u)
     return 1;
 }
 
-static int solver_is_possible(const unit *u)
+static int solver_is_possible(const ku_instance *u)
 {
     double step = *u->now.step, implicit = *u->now.implicit;
     if (!(step >= 0.0 && isfinite(step))) {
@@ -322,7 +322,7 @@ static int solver_is_possible(const unit *u)
     return 0;
 }
 
-int ku_ready(unit *u)
+int ku_ready(ku_instance *u)
 {
     const km_model *m = &km_this;
     if (*u->now.ready) {
@@ -353,12 +353,12 @@ int ku_ready(unit *u)
 
 /* -- evaluation ------------------------------------------------------------------------------- */
 
-void ku_forget(unit *u)
+void ku_forget(ku_instance *u)
 {
     u->rates_known = u->signals_known = u->margins_known = u->jacobian_known = u->linearised_known = 0;
 }
 
-int ku_refused(unit *u, const char *what, int word)
+int ku_refused(ku_instance *u, const char *what, int word)
 {
     const km_model *m = &km_this;
     double *margins = u->margins;
@@ -376,7 +376,7 @@ int ku_refused(unit *u, const char *what, int word)
                   what, *u->now.time);
 }
 
-static int know(unit *u, int *known, km_function function, double *out, const char *what)
+static int know(ku_instance *u, int *known, km_function function, double *out, const char *what)
 {
     int status = ku_ready(u);
     if (status != KU_OK || *known || !function) {
@@ -390,14 +390,14 @@ static int know(unit *u, int *known, km_function function, double *out, const ch
     return KU_OK;
 }
 
-int ku_know_rates(unit *u) { return know(u, &u->rates_known, km_this.rates, u->rates, "derivatives"); }
+int ku_know_rates(ku_instance *u) { return know(u, &u->rates_known, km_this.rates, u->rates, "derivatives"); }
 
-int ku_know_signals(unit *u)
+int ku_know_signals(ku_instance *u)
 {
     return know(u, &u->signals_known, km_this.signals_of, u->signals, "outputs");
 }
 
-int ku_know_margins(unit *u)
+int ku_know_margins(ku_instance *u)
 {
     int status = ku_ready(u);
     if (status == KU_OK && !u->margins_known) {
@@ -427,7 +427,7 @@ enum ku_block ku_find(unsigned reference, int *place)
     return KU_NOTHING;
 }
 
-static double event_value(const unit *u, int i)
+static double event_value(const ku_instance *u, int i)
 {
     const km_event *e = &km_this.event[i];
     if (e->signal < 0) {
@@ -444,12 +444,12 @@ static double event_value(const unit *u, int i)
 }
 
 /* Evaluate the function whose zeros are an event. */
-static int know_event(unit *u, int i)
+static int know_event(ku_instance *u, int i)
 {
     return km_this.event[i].signal < 0 ? ku_know_margins(u) : ku_know_signals(u);
 }
 
-static int get(unit *u, unsigned reference, double *value)
+static int get(ku_instance *u, unsigned reference, double *value)
 {
     int place, status = KU_OK;
     switch (ku_find(reference, &place)) {
@@ -489,7 +489,7 @@ static int get(unit *u, unsigned reference, double *value)
     return status;
 }
 
-int ku_get(unit *u, const unsigned *references, size_t count, double *values)
+int ku_get(ku_instance *u, const unsigned *references, size_t count, double *values)
 {
     for (size_t i = 0; i < count; ++i) {
         int status = get(u, references[i], &values[i]);
@@ -501,7 +501,7 @@ int ku_get(unit *u, const unsigned *references, size_t count, double *values)
 }
 
 /* Return whether a variable can be set now; report an error if not. */
-static int can_be_set(const unit *u, unsigned reference, double value)
+static int can_be_set(const ku_instance *u, unsigned reference, double value)
 {
     const km_model *m = &km_this;
     int place, setting_up = (ku_mode(u) & KU_SET_UP) != 0;
@@ -531,7 +531,7 @@ static int can_be_set(const unit *u, unsigned reference, double value)
 }
 
 /* Set a variable; return whether its value has changed. */
-static int set(unit *u, unsigned reference, double value)
+static int set(ku_instance *u, unsigned reference, double value)
 {
     int place;
     double *at;
@@ -558,7 +558,7 @@ static int set(unit *u, unsigned reference, double value)
     return changed;
 }
 
-int ku_set(unit *u, const unsigned *references, size_t count, const double *values)
+int ku_set(ku_instance *u, const unsigned *references, size_t count, const double *values)
 {
     for (size_t i = 0; i < count; ++i) { /* all or none are set */
         if (!can_be_set(u, references[i], values[i])) {
@@ -578,7 +578,7 @@ int ku_set(unit *u, const unsigned *references, size_t count, const double *valu
 
 /* -- arrays of states ------------------------------------------------------------------------- */
 
-static int counted(const unit *u, const char *what, size_t count, int expected)
+static int counted(const ku_instance *u, const char *what, size_t count, int expected)
 {
     if (count == (size_t)expected) {
         return 1;
@@ -587,7 +587,7 @@ static int counted(const unit *u, const char *what, size_t count, int expected)
     return 0;
 }
 
-int ku_set_time(unit *u, double time)
+int ku_set_time(ku_instance *u, double time)
 {
     if (!isfinite(time)) {
         return ku_say(u, KU_ERROR, "time = %g s: a finite number is needed.", time);
@@ -596,7 +596,7 @@ int ku_set_time(unit *u, double time)
     return KU_OK;
 }
 
-int ku_set_states(unit *u, const double *states, size_t count)
+int ku_set_states(ku_instance *u, const double *states, size_t count)
 {
     if (!counted(u, "continuous states", count, km_this.states)) {
         return KU_ERROR;
@@ -606,7 +606,7 @@ int ku_set_states(unit *u, const double *states, size_t count)
     return KU_OK;
 }
 
-int ku_get_states(unit *u, double *states, size_t count)
+int ku_get_states(ku_instance *u, double *states, size_t count)
 {
     if (!counted(u, "continuous states", count, km_this.states)) {
         return KU_ERROR;
@@ -615,7 +615,7 @@ int ku_get_states(unit *u, double *states, size_t count)
     return KU_OK;
 }
 
-int ku_get_rates(unit *u, double *rates, size_t count)
+int ku_get_rates(ku_instance *u, double *rates, size_t count)
 {
     if (!counted(u, "derivatives", count, km_this.states)) {
         return KU_ERROR;
@@ -625,7 +625,7 @@ int ku_get_rates(unit *u, double *rates, size_t count)
     return status;
 }
 
-int ku_get_nominals(unit *u, double *nominals, size_t count)
+int ku_get_nominals(ku_instance *u, double *nominals, size_t count)
 {
     if (!counted(u, "nominal values", count, km_this.states)) {
         return KU_ERROR;
@@ -638,7 +638,7 @@ int ku_get_nominals(unit *u, double *nominals, size_t count)
 
 /* -- events ----------------------------------------------------------------------------------- */
 
-int ku_get_events(unit *u, double *values, size_t count)
+int ku_get_events(ku_instance *u, double *values, size_t count)
 {
     if (!counted(u, "event indicators", count, km_this.events)) {
         return KU_ERROR;
@@ -653,7 +653,7 @@ int ku_get_events(unit *u, double *values, size_t count)
     return KU_OK;
 }
 
-int ku_update(unit *u, int *over)
+int ku_update(ku_instance *u, int *over)
 {
     const km_model *m = &km_this;
     int status = ku_know_margins(u);
@@ -680,13 +680,13 @@ int ku_update(unit *u, int *over)
 /* -- saved instances -------------------------------------------------------------------------- */
 
 /* Discard the solver's data of earlier steps, so that a motion continues as after a restored state. */
-static int forget_the_way(unit *u)
+static int forget_the_way(ku_instance *u)
 {
     ku_close_steps(u);
     return u->co_simulation && ku_mode(u) == KU_STEPPING ? ku_open_steps(u) : KU_OK;
 }
 
-void *ku_save(unit *u, void *into)
+void *ku_save(ku_instance *u, void *into)
 {
     if (forget_the_way(u) != KU_OK) {
         return NULL;
@@ -699,7 +699,7 @@ void *ku_save(unit *u, void *into)
     return saved;
 }
 
-int ku_restore(unit *u, const void *saved)
+int ku_restore(ku_instance *u, const void *saved)
 {
     memcpy(u->now.all, saved, number_count() * sizeof(double));
     u->before_known = u->stopped = u->way.known = 0;
@@ -720,7 +720,7 @@ enum { TOKEN = 64 };
 
 size_t ku_size(void) { return sizeof MARK + TOKEN + number_count() * sizeof(double); }
 
-int ku_serialise(unit *u, const void *saved, unsigned char *bytes, size_t size)
+int ku_serialise(ku_instance *u, const void *saved, unsigned char *bytes, size_t size)
 {
     char token[TOKEN] = {0};
     if (!saved || !bytes || size < ku_size()) {
@@ -734,7 +734,7 @@ int ku_serialise(unit *u, const void *saved, unsigned char *bytes, size_t size)
     return KU_OK;
 }
 
-void *ku_deserialise(unit *u, const unsigned char *bytes, size_t size)
+void *ku_deserialise(ku_instance *u, const unsigned char *bytes, size_t size)
 {
     size_t numbers = number_count() * sizeof(double);
     char token[TOKEN] = {0};

@@ -3,8 +3,8 @@
  *
  * fmi2.c and fmi3.c are the two fronts. Statuses have the same numbers in both.
  */
-#ifndef KINTRAFO_FMU_UNIT_H
-#define KINTRAFO_FMU_UNIT_H
+#ifndef KINTRAFO_FMU_INSTANCE_H
+#define KINTRAFO_FMU_INSTANCE_H
 
 #include "integrate.h"
 #include "model.h"
@@ -42,8 +42,8 @@ typedef struct {
     double *one, *bound; /* directions of one parameter, and of those that cannot change alone */
 } ku_tangents;
 
-typedef struct unit unit;
-typedef void (*ku_report)(const unit *u, int status, const char *category, const char *message);
+typedef struct ku_instance ku_instance;
+typedef void (*ku_report)(const ku_instance *u, int status, const char *category, const char *message);
 
 /* Numbers of a saved instance, all doubles, so that they can be serialised. */
 typedef struct {
@@ -53,7 +53,7 @@ typedef struct {
     double *parameters, *state, *inputs, *slopes, *step, *implicit;
 } ku_numbers;
 
-struct unit {
+struct ku_instance {
     ku_report report;
     void *front; /* of fmi2.c or fmi3.c */
     char *label;
@@ -87,85 +87,85 @@ enum ku_block {
 /* -- creation and deletion -------------------------------------------------------------------- */
 
 /* NULL without memory, or if the token is that of another model, which is reported to `front`. */
-unit *ku_open(const char *label, const char *token, int co_simulation, int logging,
-              ku_report report, void *front);
-void ku_close(unit *u);
-void ku_reset(unit *u);
+ku_instance *ku_open(const char *label, const char *token, int co_simulation, int logging,
+                     ku_report report, void *front);
+void ku_close(ku_instance *u);
+void ku_reset(ku_instance *u);
 
 /* Report a message, formatted as by printf, and return the status. */
-int ku_say(const unit *u, int status, const char *format, ...);
+int ku_say(const ku_instance *u, int status, const char *format, ...);
 
 /* Return whether a function may be called now; an error is reported if not. */
-int ku_may(const unit *u, const char *function, int modes);
+int ku_may(const ku_instance *u, const char *function, int modes);
 
 /* Return whether the instance is one for Co-Simulation, or for Model Exchange, likewise. */
-int ku_is(const unit *u, const char *function, int co_simulation);
+int ku_is(const ku_instance *u, const char *function, int co_simulation);
 
-int ku_mode(const unit *u);
-void ku_enter(unit *u, int mode);
+int ku_mode(const ku_instance *u);
+void ku_enter(ku_instance *u, int mode);
 
-int ku_start(unit *u, double time, int tolerance_defined, double tolerance);
-int ku_begin(unit *u); /* after initialisation */
+int ku_start(ku_instance *u, double time, int tolerance_defined, double tolerance);
+int ku_begin(ku_instance *u); /* after initialisation */
 
 /* -- values ----------------------------------------------------------------------------------- */
 
-int ku_get(unit *u, const unsigned *references, size_t count, double *values);
-int ku_set(unit *u, const unsigned *references, size_t count, const double *values);
-int ku_set_time(unit *u, double time);
-int ku_set_states(unit *u, const double *states, size_t count);
-int ku_get_states(unit *u, double *states, size_t count);
-int ku_get_rates(unit *u, double *rates, size_t count);
-int ku_get_nominals(unit *u, double *nominals, size_t count);
-int ku_get_events(unit *u, double *values, size_t count);
-int ku_set_slopes(unit *u, const unsigned *references, size_t count, const int *orders,
+int ku_get(ku_instance *u, const unsigned *references, size_t count, double *values);
+int ku_set(ku_instance *u, const unsigned *references, size_t count, const double *values);
+int ku_set_time(ku_instance *u, double time);
+int ku_set_states(ku_instance *u, const double *states, size_t count);
+int ku_get_states(ku_instance *u, double *states, size_t count);
+int ku_get_rates(ku_instance *u, double *rates, size_t count);
+int ku_get_nominals(ku_instance *u, double *nominals, size_t count);
+int ku_get_events(ku_instance *u, double *values, size_t count);
+int ku_set_slopes(ku_instance *u, const unsigned *references, size_t count, const int *orders,
                   const double *values);
 
 /* The block of a reference, and its index there. */
 enum ku_block ku_find(unsigned reference, int *place);
 
 /* Compute the constants if parameters were changed; errors are reported. */
-int ku_ready(unit *u);
+int ku_ready(ku_instance *u);
 
 /* Evaluate the results that are not known at the present values. */
-int ku_know_rates(unit *u);
-int ku_know_signals(unit *u);
-int ku_know_margins(unit *u);
-void ku_forget(unit *u);
+int ku_know_rates(ku_instance *u);
+int ku_know_signals(ku_instance *u);
+int ku_know_margins(ku_instance *u);
+void ku_forget(ku_instance *u);
 
 /* Report the guards that refuse the present values, from a status word of the model. */
-int ku_refused(unit *u, const char *what, int word);
+int ku_refused(ku_instance *u, const char *what, int word);
 
 /* -- derivatives ------------------------------------------------------------------------------ */
 
 /* Along a direction of the knowns; or, transposed, of a weighted sum of the unknowns. */
-int ku_derivative(unit *u, const unsigned *unknowns, size_t rows, const unsigned *knowns,
+int ku_derivative(ku_instance *u, const unsigned *unknowns, size_t rows, const unsigned *knowns,
                   size_t columns, const double *seed, double *found, int transposed);
 
 /* -- events ----------------------------------------------------------------------------------- */
 
 /* Report the events that have occurred; `over` becomes 1 if the model ends here, else 0. */
-int ku_update(unit *u, int *over);
+int ku_update(ku_instance *u, int *over);
 
 /* End of a step of the importer; `over` becomes 1 if it has passed a dead point, else 0. */
-int ku_completed(unit *u, int *over);
-void ku_mark(unit *u);
+int ku_completed(ku_instance *u, int *over);
+void ku_mark(ku_instance *u);
 
 /* Evaluate the margins at the design position, which are their usual sizes. */
-void ku_usual_margins(unit *u, double *usual);
+void ku_usual_margins(ku_instance *u, double *usual);
 
 /* -- saved instances -------------------------------------------------------------------------- */
 
-void *ku_save(unit *u, void *into);
-int ku_restore(unit *u, const void *saved);
+void *ku_save(ku_instance *u, void *into);
+int ku_restore(ku_instance *u, const void *saved);
 size_t ku_size(void);
-int ku_serialise(unit *u, const void *saved, unsigned char *bytes, size_t size);
-void *ku_deserialise(unit *u, const unsigned char *bytes, size_t size);
+int ku_serialise(ku_instance *u, const void *saved, unsigned char *bytes, size_t size);
+void *ku_deserialise(ku_instance *u, const unsigned char *bytes, size_t size);
 
 /* -- Co-Simulation ---------------------------------------------------------------------------- */
 
-int ku_open_steps(unit *u);
-void ku_close_steps(unit *u);
-void ku_begin_anew(unit *u);
-int ku_step(unit *u, double time, double length);
+int ku_open_steps(ku_instance *u);
+void ku_close_steps(ku_instance *u);
+void ku_begin_anew(ku_instance *u);
+int ku_step(ku_instance *u, double time, double length);
 
 #endif
