@@ -17,7 +17,7 @@ _MOST_PROBLEMS, _LONGEST = 100, 2000
 
 
 class KintrafoError(Exception):
-    """Base of every exception that kintrafo raises on purpose."""
+    """An error that kintrafo raises on purpose: the base of all others."""
 
 
 class InputError(KintrafoError, ValueError):
@@ -41,6 +41,7 @@ class InputError(KintrafoError, ValueError):
 
     Examples
     --------
+    >>> from kintrafo import InputError
     >>> print(InputError(["[tyre] rate_N_per_m is missing."], "my_car.toml"))
     my_car.toml: 1 problem
       - [tyre] rate_N_per_m is missing.

@@ -41,7 +41,7 @@ def write(
     inputs: Paths = (),
     sheets: Mapping[str, xr.Dataset] | None = None,
 ) -> Path:
-    """Write a dataset to a file, whose ending determines the format.
+    """Write a dataset to a file, whose ending determines the format, and return its path.
 
     Parameters
     ----------
@@ -93,7 +93,13 @@ def write(
 
 
 def check_format(path: str | Path) -> str:
-    """Return the ending of a file's name; refuse one of which no file can be written."""
+    """Return the ending of a file's name, such as ``".csv"``.
+
+    Raises
+    ------
+    InputError
+        If it is not the ending of a format of `write`.
+    """
     with Validator("export") as given:
         given.path("path", path)
     ending = Path(path).suffix.lower()

@@ -59,7 +59,9 @@ def ensemble(
     kept: str | Path | None = None,
     progress: bool = False,
 ) -> xr.Dataset:
-    """Simulate many systems of one model, each with parameters, start and inputs of its own.
+    """Return simulations of many systems of one model.
+
+    Each system may have parameters, an initial state and inputs of its own.
 
     Dormand and Prince's method of order 5 integrates them in the lanes of vectors, each with a step
     size of its own, on all cores. The results of a system have the same bits for any number of
@@ -75,8 +77,8 @@ def ensemble(
     t_span : tuple of float
         First and last time [s].
     y0 : array_like, optional
-        Initial state of all, or one row for each system; by default each begins in its own design
-        position, at rest.
+        Initial state of all, SI units, or one row for each system; by default each begins at rest
+        in its own design position.
     inputs : mapping, optional
         Inputs by name, as for `kintrafo.simulate`, for all systems; or several time series by
         label, where ``variants`` has the label for each system under the name of the input.
@@ -94,15 +96,16 @@ def ensemble(
         Relative tolerance, and absolute tolerance: one number, or one for each element of the
         state in its SI unit.
     max_step, first_step : float, optional
-        Largest step, and first step [s].
+        Longest step, and first step [s].
     max_steps : int, optional
-        A system that takes more ends with a reason, or is simulated again, see `stiff`.
+        Largest number of steps of a system. With more it ends with a reason, or is simulated again,
+        see `stiff`.
     stiff : str or None, optional
         By default, systems that the explicit method does not finish within `max_steps`, and those
         that are stiff after 10,000 steps, are simulated again by 'BDF' of `kintrafo.simulate`.
         With None such a system ends with a reason, and stiffness is not checked.
     threads : int, optional
-        By default one for each core.
+        Number of threads; by default one for each core.
     lanes : int, optional
         Number of systems in a vector, 2, 4 or 8; by default the most that the processor supports.
     cluster : int, str or dask.distributed.Client, optional

@@ -26,11 +26,11 @@ HEAVIER = "give what moves then a mass above 0 kg or an inertia above 0 kg m^2"
 
 
 class ModelError(KintrafoError, ValueError):
-    """A generated function cannot give a result."""
+    """A compiled function has no result: the base of `ClosureError` and `ParameterError`."""
 
 
 class ParameterError(ModelError):
-    """A parameter set from which no model can be made."""
+    """Values of parameters for which the equations have no meaning, such as a mass below zero."""
 
 
 class ClosureError(ModelError):
@@ -39,13 +39,13 @@ class ClosureError(ModelError):
     Attributes
     ----------
     reasons : tuple of str
-        A text for each status bit that is set.
+        A text for each condition that is not met.
     margins : dict
         The quantities concerned, which must be positive (SI units).
     coordinates : dict
         State and inputs at which the error occurred, by name (SI units).
     index : tuple of int
-        Position in the leading dimensions of the arrays given; empty for a single state.
+        Index of the state in the leading dimensions of the arguments; empty for a single state.
     """
 
     def __init__(

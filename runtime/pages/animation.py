@@ -32,7 +32,7 @@ def animate(
     force: bool = False,
     inputs: Paths = (),
 ) -> Path:
-    """Write a motion of a mechanism, or of a suspension, as a GIF or as a page.
+    """Write a motion of a mechanism or a suspension as a GIF or a page, and return its path.
 
     Parameters
     ----------
@@ -63,6 +63,7 @@ def animate(
 
     Examples
     --------
+    >>> from kintrafo import animate
     >>> import tempfile
     >>> import numpy as np
     >>> import kintrafo

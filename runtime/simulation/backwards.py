@@ -40,7 +40,7 @@ _STAYS = 64.0 * np.finfo(float).eps
 
 @dataclass(frozen=True)
 class MotionGradient:
-    """A functional of a motion and its gradient.
+    """A number of a motion, and its gradient.
 
     Attributes
     ----------
@@ -71,17 +71,18 @@ def motion_gradient(
     atol: ArrayLike = 1e-9,
     max_step: float = np.inf,
 ) -> MotionGradient:
-    """Return the exact gradient of a functional of a motion.
+    """Return the exact gradient of one number of a motion, such as the RMS of a signal.
 
     Parameters
     ----------
     system : System
         With equations that were compiled with ``parameter_derivatives=True``.
     t_span, y0, inputs, rtol, atol, max_step
-        As for `simulate`, by the method 'DormandPrince'; the last time is the later one.
+        As for `simulate` with the method 'DormandPrince'; the motion runs forward in time.
     of : mapping of str to str or array_like
-        For signals, or elements of the state, by name: 'mean' or 'rms' (about the mean) over the
-        times ``t_eval``, or weights of the values at these times. The functional is the sum of all.
+        The number is a sum over signals, or elements of the state, by name: of each the 'mean' or
+        'rms' (about the mean) over the times ``t_eval``, or the sum of its values at these times,
+        multiplied by the given weights.
     t_eval : array_like, optional
         Times at which signals are evaluated [s], by default 201 from the first to the last.
 

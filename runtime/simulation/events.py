@@ -18,16 +18,16 @@ from .levels import value_of
 
 @dataclass(frozen=True)
 class SignalEvent:
-    """A signal of the model that passes a level.
+    """An event: a signal of the model crosses a level.
 
     Attributes
     ----------
     signal : str
         Name, see ``model.signal_names``.
     level : float
-        SI units.
+        The level, in the SI unit of the signal.
     direction : float
-        Negative: falling only; positive: rising only; zero: both.
+        Crossings that count. Negative: of a falling signal; positive: of a rising one; zero: both.
     terminal : bool or int
         Whether the simulation ends at the first crossing, or the number of the crossing at which it
         ends.

@@ -30,7 +30,7 @@ from .signals import time_inputs
 
 @dataclass(frozen=True)
 class MotionSensitivity:
-    """A motion and its derivatives.
+    """A motion, and its derivatives by variable or direction.
 
     Attributes
     ----------
@@ -63,20 +63,20 @@ def motion_sensitivity(
     atol: ArrayLike = 1e-9,
     max_step: float = np.inf,
 ) -> MotionSensitivity:
-    """Return the exact derivatives of a motion over time.
+    """Return the exact derivatives of a motion with respect to parameters, start and inputs.
 
     Parameters
     ----------
     system : System
         With equations that were compiled with ``parameter_derivatives=True``.
     t_span, y0, inputs, rtol, atol, max_step
-        As for `simulate`, by the method 'DormandPrince'; the last time is the later one.
+        As for `simulate` with the method 'DormandPrince'; the motion runs forward in time.
     by : sequence of str, or mapping
-        Names of parameters, elements of the initial state, and inputs that do not vary. Or
-        directions by any names: the changes of these variables by name, SI units. A change of a
-        parameter does not change the initial state.
+        Variables: names of parameters, of elements of the initial state, and of inputs that are
+        constant in time. Or a mapping of directions: for each, under any name, the changes of
+        variables by name, SI units. A change of a parameter does not change the initial state.
     signals : sequence of str, optional
-        Names of signals; by default all.
+        Names of the signals whose derivatives are needed; by default all.
     t_eval : array_like, optional
         Times of the outputs [s], by default 201 from the first to the last.
 

@@ -19,14 +19,15 @@ _MOST_HALVINGS = 24
 
 @dataclass(frozen=True)
 class Samples:
-    """Values of an input at some times, and the interpolation between them.
+    """Samples: values of an input at some times, and the interpolation between them.
 
     Parameters
     ----------
-    times : array_like
-        Increasing [s]; a time that is given twice is a jump, or a kink if the value is the same.
-    values : array_like
-        SI units.
+    times : array_like, shape (n,)
+        Times in increasing order [s]; a time that is given twice is a jump, or a kink if the value
+        is the same.
+    values : array_like, shape (n,)
+        Values of the input at these times, in its SI unit.
     between : str, optional
         'monotone': between two samples the input only rises, or only falls, so it never leaves
         their range, and its extrema are samples. Its derivative is continuous, and also its second
@@ -37,7 +38,7 @@ class Samples:
 
     Examples
     --------
-    >>> from kintrafo import Model, equilibrium, simulate
+    >>> from kintrafo import Model, Samples, equilibrium, simulate
     >>> model = Model("reference_car")
     >>> ramp = Samples([0.0, 0.1, 0.12, 0.2], [0.0, 0.0, 0.02, 0.02], "linear")
     >>> result = simulate(model, (0.0, 0.2), equilibrium(model), inputs={"road_height": ramp})

@@ -24,10 +24,11 @@ class SimulationError(KintrafoError, RuntimeError):
     Attributes
     ----------
     reason : str
+        The cause, and advice.
     time : float
         Time at which it ended [s].
-    state : ndarray
-        State at which it ended.
+    state : ndarray, shape (number of state elements,)
+        State at which it ended, SI units.
     partial : Simulation or None
         The result until then.
     """

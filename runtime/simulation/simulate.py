@@ -84,15 +84,15 @@ def simulate(
     stop_at_outputs: bool = False,
     backend: Backend = "auto",
 ) -> Simulation:
-    """Integrate the equations of motion of a mechanism.
+    """Return the motion of a mechanism over time, by integration of its equations of motion.
 
     Parameters
     ----------
     model : System or Model
     t_span : tuple of float
         First and last time [s].
-    y0 : array_like
-        Initial state, see `model.state`, `state_at_height` and `equilibrium`.
+    y0 : array_like, shape (number of state elements,)
+        Initial state, SI units, see `System.state`, `state_at_height` and `equilibrium`.
     inputs : mapping, optional
         Inputs by name, SI units: numbers, samples ``(times, values)`` or `Samples`, piecewise
         cubics of SciPy, or functions of time; see Notes. Other inputs have the values of the state
@@ -107,8 +107,8 @@ def simulate(
         Fixed step of 'RK4' and 'RODASP' [s], which have no tolerances. A step is shorter where an
         input jumps or has a fast extremum, at the end, and near a dead point.
     t_eval : array_like, optional
-        Times of the outputs [s]; every step by default. If they are given, the time of a terminal
-        event is in ``t_events`` only, as in SciPy.
+        Times of the outputs [s]; by default the end of every step. If they are given, the time of a
+        terminal event is in ``t_events`` only, as in SciPy.
     rtol, atol : float, array_like, optional
         Relative tolerance, and absolute tolerance: one number, or one for each element of the
         state in its SI unit. By default 1e-8 and 1e-10 for 'BDF', which damps oscillations by a
@@ -116,9 +116,9 @@ def simulate(
     max_step, first_step : float, optional
         Longest and first step [s]; by default the method chooses.
     max_steps : int, optional
-        Largest number of steps, more raise an error; ``numpy.inf`` for no limit.
+        Number of steps after which an error is raised; ``numpy.inf`` for no limit.
     dense_output : bool, optional
-        Whether to keep the solution as a function of time, ``sol``.
+        Whether the result has the state as a function of time, ``sol``.
     events : str, SignalEvent, callable, or sequence of these, optional
         A name of ``model.event_names``, such as 'wheel_leaves_ground' or 'strut_fully_extended'; a
         `SignalEvent`; or a function of time and state with SciPy's attributes ``terminal`` and

@@ -31,7 +31,7 @@ _MOST_STEPS = 100_000
 
 
 class Stepper:
-    """A simulation that is advanced step by step, for controllers, simulators and learning.
+    """A simulation that the caller advances step by step, for controllers and simulators.
 
     Parameters
     ----------
@@ -173,12 +173,12 @@ class Stepper:
 
     @property
     def time(self) -> float:
-        """Present time [s]: whole steps from the start, so that it does not drift."""
+        """Present time [s]: the initial time and the number of steps times their length."""
         now: float = self._motion.time
         return now
 
     def step(self, inputs: ArrayLike | None = None) -> Array:
-        """Advance by one step.
+        """Advance by one step, and return the state.
 
         Parameters
         ----------

@@ -19,7 +19,7 @@ def derivative(
     state: ArrayLike,
     inputs: ArrayLike | None = None,
 ) -> Array:
-    """Return the exact derivative of a function along a direction.
+    """Return the exact derivative of a function of the equations along a direction.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ def derivative(
         zero for names that are left out. Arrays are broadcast with the leading dimensions of the
         state, for many directions in one call.
     state, inputs : array_like
-        The point, as for `System.evaluate`.
+        State and inputs at which the derivative is taken, as for `System.evaluate`.
 
     Returns
     -------
@@ -46,7 +46,7 @@ def derivative(
         If an argument cannot be used; or if a direction breaks an assumption of the equations, such
         as that of parallel hinges: without it they are meaningless.
     ClosureError, ModelError
-        If the function refuses the state.
+        If the function has no result at this state.
 
     Notes
     -----
@@ -88,7 +88,9 @@ def gradient(
     state: ArrayLike,
     inputs: ArrayLike | None = None,
 ) -> dict[str, Array]:
-    """Return the exact gradient of a weighted sum of results: by parameters, states and inputs.
+    """Return the exact gradient of a weighted sum of the elements of a function's result.
+
+    It is the gradient with respect to all parameters, elements of the state and inputs.
 
     Parameters
     ----------
@@ -100,7 +102,7 @@ def gradient(
         Weights of the elements of the result, in its shape; more dimensions in front are broadcast
         with the leading ones of the state.
     state, inputs : array_like
-        The point, as for `System.evaluate`.
+        State and inputs at which the derivative is taken, as for `System.evaluate`.
 
     Returns
     -------
@@ -114,7 +116,7 @@ def gradient(
     InputError
         If an argument cannot be used.
     ClosureError, ModelError
-        If the function refuses the state.
+        If the function has no result at this state.
 
     Notes
     -----
@@ -161,7 +163,7 @@ def design_derivative(system: System, along: Mapping[str, ArrayLike]) -> dict[st
     system : System
         With equations that were compiled with ``parameter_derivatives=True``.
     along : mapping of str to array_like
-        Changes of parameters by name, SI units.
+        The direction: changes of parameters by name, SI units.
 
     Returns
     -------

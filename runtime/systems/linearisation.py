@@ -49,19 +49,22 @@ class Linearisation:
     Attributes
     ----------
     state, inputs, outputs : ndarray
-        The point: state, inputs and the chosen signals, SI units.
+        State and inputs about which the equations are linear, and the chosen signals there, SI
+        units.
     rate : ndarray, shape (states,)
-        Time derivative of the state at the point; see `steady`.
+        Time derivative of this state; see `steady`.
     A : ndarray, shape (states, states)
     B : ndarray, shape (states, inputs)
     C : ndarray, shape (outputs, states)
     D : ndarray, shape (outputs, inputs)
-        Derivatives of rate and outputs with respect to state and inputs, exact; SI units.
+        Exact derivatives, SI units: of the rate with respect to state (A) and inputs (B), and of
+        the outputs with respect to state (C) and inputs (D).
     layout : StateLayout
         Positions, speeds and internal states in the state.
     constant : bool
-        Whether the equations of motions near the point do not change with time. False only for free
-        bodies, for example for one that spins, whose axes turn relative to the world.
+        Whether A to D are the same at all times of the motion from this state. False only for
+        bodies that move freely, for example for one that spins, whose axes turn relative to the
+        world.
     state_names, input_names, output_names : tuple of str
     state_units, input_units, output_units : tuple of str
     input_rates : mapping
@@ -88,7 +91,7 @@ class Linearisation:
 
     @property
     def steady(self) -> bool:
-        """Whether all rates at the point are zero, except of coordinates without effect.
+        """Whether all rates at this state are zero, except those of coordinates without effect.
 
         Such a coordinate is the angle of a spinning rotor. A free body may move if its
         accelerations are constant, for example along a circle on level ground.
@@ -121,7 +124,7 @@ class Linearisation:
         return modes_of(self.tangent.A, self.state_names, self.tangent.lift)
 
     def mode_of(self, coordinate: str) -> Mode:
-        """Return the mode of a coordinate.
+        """Return the mode in which a coordinate takes the largest part.
 
         Parameters
         ----------
@@ -181,7 +184,7 @@ class Linearisation:
         return {name: response[..., i, 0] for i, name in enumerate(self.output_names)}
 
     def state_response(self, frequency: ArrayLike, source: str) -> Complex:
-        """Return the response of the states to a small harmonic input, (..., states).
+        """Return the complex response of the states to a small harmonic input, (..., states).
 
         Parameters
         ----------
@@ -254,15 +257,15 @@ def linearise(
     *,
     outputs: Sequence[str] | None = None,
 ) -> Linearisation:
-    """Linearise the equations of motion about a state.
+    """Return the linear equations of motion about a state.
 
     Parameters
     ----------
     model : System or Model
     state, inputs : array_like
-        One state, and inputs: by default those of a `State`, or zeros. `kintrafo.equilibrium`
-        returns a state of rest; any other state is allowed, see `Linearisation.steady`. Quaternions
-        of free bodies are normalised.
+        One state, and its inputs, SI units; by default the inputs of a `State`, or zeros.
+        `kintrafo.equilibrium` returns a state of rest; any other state is allowed, see
+        `Linearisation.steady`. Quaternions of free bodies are normalised.
     outputs : sequence of str, optional
         Signals that are outputs, all by default.
 
@@ -278,7 +281,7 @@ def linearise(
 
     Examples
     --------
-    >>> from kintrafo import Model, equilibrium
+    >>> from kintrafo import Model, equilibrium, linearise
     >>> model = Model("reference_car")
     >>> linear = linearise(model, equilibrium(model), outputs=["tyre_force"])
     >>> linear.steady, linear.mode_of("beta1").text

@@ -19,7 +19,7 @@ _LEAST_SHARE = 1e-6
 
 @dataclass(frozen=True)
 class Mode:
-    """One eigenvalue, or a pair: two conjugate ones, or two real ones of an overdamped motion.
+    """A mode: one real eigenvalue, or a pair, conjugate or of an overdamped motion.
 
     Attributes
     ----------

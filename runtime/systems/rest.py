@@ -22,12 +22,12 @@ _NOTHING = 1e-9
 def rest(
     system: System, near: ArrayLike | None = None, inputs: Mapping[str, float] | None = None
 ) -> State:
-    """Return a state of rest of any mechanism near a given state.
+    """Return a state of rest of any mechanism, stable or not, near a given state.
 
     Parameters
     ----------
     system : System or Model
-        For a suspension on a road `kintrafo.equilibrium` has more arguments.
+        The equations. `kintrafo.equilibrium` is for vehicles on a road.
     near : array_like, optional
         State at which the search starts; its rates are ignored. By default the design position.
     inputs : mapping of str to float, optional
@@ -37,7 +37,7 @@ def rest(
     Returns
     -------
     State
-        With zero rates, and with the inputs.
+        The state, with zero rates, and the inputs at which it is at rest.
 
     Raises
     ------
@@ -55,6 +55,7 @@ def rest(
 
     Examples
     --------
+    >>> from kintrafo import rest
     >>> import kintrafo
     >>> from kintrafo.generated import four_bar
     >>> system = kintrafo.System(four_bar)

@@ -22,7 +22,7 @@ class StateNames(NamedTuple):
 
 
 class State(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
-    """An array of a state's elements, with the inputs under which the state was found.
+    """An array of the elements of a state, with the inputs that belong to it.
 
     A state of rest belongs to the height of its road and the position of its rack. Functions with
     arguments for a state and inputs use these if no inputs are given: ``signals``, ``evaluate``,

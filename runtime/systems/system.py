@@ -41,6 +41,7 @@ class System:
 
     Examples
     --------
+    >>> from kintrafo import System
     >>> from kintrafo.generated import four_bar
     >>> system = System(four_bar, {"crank_mass": 2.0})
     >>> system.state_names

@@ -75,7 +75,8 @@ def topology(model: str | ModuleType = "macpherson") -> Topology:
 
     Examples
     --------
-    >>> found = topology()
+    >>> from kintrafo import topology
+    >>> found = topology.topology()
     >>> found.mobility, [len(loop) for loop in found.loops]
     (3, [4, 5])
     >>> [pair[0]["pair with a common distance"] for pair in found.pairs]

@@ -48,7 +48,7 @@ def export_model(
     read: Paths = (),
     **options: Any,
 ) -> Path:
-    """Write a model for other programs, with the numbers of its parameters.
+    """Write a model for other programs, with the values of its parameters, and return its path.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ def export_model(
         of CasADi. 'jax': one of functions over arrays of JAX. For 'casadi' and 'jax' the equations
         are derived again, which needs the packages of the extra "generator".
     state : array_like, optional
-        Initial state; by default the design position at rest.
+        Initial state, SI units; by default the design position at rest.
     inputs : mapping, optional
         Initial inputs by name, SI units; by default zero, or those of a `State`, such as that of
         `equilibrium`.

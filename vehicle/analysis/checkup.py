@@ -59,12 +59,12 @@ class AxleFacts:
     heading : str
         Title of the axle.
     values : dict of str to float
-        At design, by the columns of `kintrafo.characteristics`, SI units; those that are known. Of
-        a rigid axle also ``reach_down`` and ``reach_up`` [m], ``heave_at_rest`` [m],
-        ``heave_frequency`` and ``roll_frequency``, the undamped natural frequencies of its modes on
-        the tyres [Hz], ``heave_damping_ratio`` and ``roll_damping_ratio``.
+        Characteristics at design, by the names of `kintrafo.characteristics.over`, SI units; those
+        that are known. Of a rigid axle also ``reach_down`` and ``reach_up`` [m], ``heave_at_rest``
+        [m], ``heave_frequency`` and ``roll_frequency``, the undamped natural frequencies of its
+        modes on the tyres [Hz], ``heave_damping_ratio`` and ``roll_damping_ratio``.
     rows : dict of str to str
-        The same and more, as a person reads it.
+        The same and more as texts, with units, by their labels.
     """
 
     heading: str
@@ -74,15 +74,15 @@ class AxleFacts:
 
 @dataclass(frozen=True)
 class Checkup:
-    """Results of a first check.
+    """Results of a first check of a suspension or an axle.
 
     Attributes
     ----------
     wheels : tuple of WheelFacts
-        Independently suspended wheels: one of a corner, or of an axle whose sides are mirror
-        images; two of other axles; none of a rigid axle.
+        Results for each independently suspended wheel: one of a suspension, or of an axle whose
+        sides are mirror images; two of other axles; none of a rigid axle.
     axle : AxleFacts or None
-        Results for both wheels together; None for a corner.
+        Results for both wheels together; None for a suspension of one wheel.
     problems : tuple of str
         Errors, and almost certain mistakes.
     notes : tuple of str
@@ -96,7 +96,7 @@ class Checkup:
 
 
 def checkup(subject: Any) -> Checkup:
-    """Return a summary of a corner, an axle or a rigid axle, with problems and notes.
+    """Return a summary of a suspension, an axle or a rigid axle, with problems and notes.
 
     Parameters
     ----------
@@ -113,13 +113,13 @@ def checkup(subject: Any) -> Checkup:
 
     Examples
     --------
-    >>> from kintrafo import Model, load
-    >>> found = checkup(Model("reference_car"))
+    >>> from kintrafo import Model, checkup, load
+    >>> found = checkup.checkup(Model("reference_car"))
     >>> found.problems, round(found.wheels[0].equilibrium.frequency, 2)
     ((), 12.35)
-    >>> round(checkup(load("reference_axle")).axle.values["bar_share"], 2)
+    >>> round(checkup.checkup(load("reference_axle")).axle.values["bar_share"], 2)
     0.42
-    >>> round(checkup(load("rigid_axle")).axle.values["roll_center_height"], 2)
+    >>> round(checkup.checkup(load("rigid_axle")).axle.values["roll_center_height"], 2)
     0.41
     """
     with Validator("checkup") as given:

@@ -31,29 +31,29 @@ def compare(
     held: WheelSupport | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
-    """Return the characteristics of several suspensions or axles over the same positions.
+    """Return the characteristics of several suspensions, axles or cars over the same positions.
 
     Parameters
     ----------
-    subjects : mapping of str to Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
-        Two or more with a common motion, by the names of their curves.
+    subjects : mapping of str to Suspension, Axle, RigidAxle, Car or their models
+        Two or more with a common motion, each with the name of its curves.
     along : array_like, shape (n,), optional
         Positions as in `kintrafo.characteristics.over` [m] or [rad]; by default the usual range
         that all of them reach.
     over : str, optional
-        The motion; by default 'travel', of axles 'bump'. If one of them has no steering ratio,
-        'steer' is over the rack for all.
+        The motion; by default 'travel', of axles 'bump', of cars 'heave'. If one of them has no
+        steering ratio, 'steer' is over the rack for all.
     held : {'height', 'tyre', 'spring', 'locked'}, optional
         Support of the wheels under loads, see `kintrafo.compliance.linear`; the result then also
         has the compliance on the bushes of the files, over wheel travel.
     progress : callable, optional
-        Called with the part that is done, up to 1.
+        Called with the completed fraction, up to 1.
 
     Returns
     -------
     xarray.Dataset
-        As in `kintrafo.characteristics.over`, with the further dimension ``data_set``. It contains
-        the characteristics that all of them have.
+        As from `kintrafo.characteristics.over`, with the further dimension ``data_set``: the names
+        in `subjects`. It contains the characteristics that all subjects have.
 
     Raises
     ------
@@ -176,7 +176,7 @@ def common_positions(assemblies: Sequence[Assembly], motion: str) -> Array:
 
 @dataclass(frozen=True)
 class Difference:
-    """Difference of a characteristic from that of the first suspension or axle, SI units.
+    """Difference of a characteristic between a suspension or axle and the first one, SI units.
 
     Attributes
     ----------
@@ -187,7 +187,8 @@ class Difference:
         Both values at the position of the comparison, by default that of design; NaN where they are
         not defined.
     largest : float
-        The difference, other minus first, where it is largest; NaN where there is none.
+        The difference, other minus first, at the position where its absolute value is largest; NaN
+        if both are defined nowhere.
     where : float
         Position of the largest difference [m] or [rad].
     """
@@ -206,14 +207,15 @@ class Difference:
 
 
 def differences(dataset: xr.Dataset, at: float = 0.0) -> list[Difference]:
-    """Return the differences of the suspensions of a comparison from the first one.
+    """Return the differences of all suspensions of a comparison from the first one.
 
     Parameters
     ----------
     dataset : xarray.Dataset
         From `compare`; of axles each wheel has differences of its own.
     at : float, optional
-        The position of `first` and `other`, SI units; by default that of design.
+        The position at which `Difference.first` and `Difference.other` are taken [m] or [rad]; by
+        default that of design.
 
     Returns
     -------
@@ -222,9 +224,11 @@ def differences(dataset: xr.Dataset, at: float = 0.0) -> list[Difference]:
 
     Examples
     --------
+    >>> import xarray as xr
+    >>> from kintrafo import compare
     >>> angles = (("data_set", "wheel_travel"), [[0.0, 1.0], [0.5, 3.0]])
     >>> places = {"data_set": ["a", "b"], "wheel_travel": [0.0, 0.1]}
-    >>> [found] = differences(xr.Dataset({"camber": angles}, places))
+    >>> [found] = compare.differences(xr.Dataset({"camber": angles}, places))
     >>> found.at_design, found.largest, found.where
     (0.5, 2.0, 0.1)
     """

@@ -25,7 +25,7 @@ class TimeProfile:
     sine : float, optional
         Amplitude of a harmonic motion [m].
     frequency : float
-        Of that motion [Hz].
+        Frequency of that motion [Hz].
     """
 
     held: float | None = None
@@ -54,21 +54,21 @@ class TimeProfile:
 def excitation(
     courses: Mapping[str, TimeProfile], end: float, measured: Measurement | None = None
 ) -> dict[str, Signal]:
-    """Return the inputs of a simulation.
+    """Return inputs for `kintrafo.simulate` from time profiles and a measurement.
 
     Parameters
     ----------
     courses : mapping of str to TimeProfile
-        By the name of the input: ``road_height``, ``rack_position``.
+        Time profiles by the name of the input: ``road_height``, ``rack_position``.
     end : float
         Last time of the simulation [s].
     measured : Measurement, optional
-        Whose columns are inputs too.
+        Measured inputs, which are added under their names.
 
     Returns
     -------
     dict
-        As `kintrafo.simulate` takes it.
+        Numbers, samples or functions by the names of the inputs, for `kintrafo.simulate`.
 
     Raises
     ------
@@ -77,7 +77,9 @@ def excitation(
 
     Examples
     --------
-    >>> excitation({"road_height": TimeProfile(held=0.01)}, end=1.0)
+    >>> from kintrafo import excitation
+    >>> held = excitation.TimeProfile(held=0.01)
+    >>> excitation.excitation({"road_height": held}, end=1.0)
     {'road_height': 0.01}
     """
     with Validator("simulation") as given:

@@ -65,7 +65,7 @@ class Measurement:
 
 
 def measured(path: str | Path, *, speed: float | None = None) -> Measurement:
-    """Read inputs from a CSV file.
+    """Return measured inputs of a simulation from a CSV file.
 
     The first line has the names of the columns: ``time_s``, ``time_ms`` or ``distance_m`` along the
     road; and one or more of ``road_height_mm``, ``rack_position_mm`` (also in ``_m``), the force of
@@ -81,7 +81,8 @@ def measured(path: str | Path, *, speed: float | None = None) -> Measurement:
     ----------
     path : str or pathlib.Path
     speed : float, optional
-        Speed of the car on a road over distance [m/s].
+        Speed of the car, which turns distances along the road into times [m/s]; needed with
+        ``distance_m`` only.
 
     Returns
     -------

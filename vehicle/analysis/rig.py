@@ -57,7 +57,7 @@ _NOISE, _PART_OF_NOISE = 1e-4, 1e-2
 
 
 def measured_curves(path: str | Path) -> xr.Dataset:
-    """Return curves from a CSV file.
+    """Return measured curves of a suspension, an axle or a car from a CSV file.
 
     The first line has the names of the columns, each with its unit: ``wheel_travel [mm]`` or
     ``rack_position [mm]``, and characteristics, such as ``toe [deg]`` or ``wheel_rate [N/mm]``, by
@@ -155,7 +155,7 @@ def beside(
     *,
     held: WheelSupport = "height",
 ) -> xr.Dataset:
-    """Return measured curves, and characteristics at the same positions.
+    """Return measured curves together with computed characteristics at the same positions.
 
     Parameters
     ----------
@@ -164,7 +164,7 @@ def beside(
     subjects : mapping of str to Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
         By the names of their curves.
     name : str, optional
-        Name of the measurement.
+        Name of the measurement in ``data_set``.
     held : {'height', 'tyre', 'spring', 'locked'}, optional
         Support of the wheels when compliance was measured, see `kintrafo.compliance.linear`.
 

@@ -21,12 +21,12 @@ _MOST_PERIODS = 5000
 
 
 def step(height: float, *, at: float, end: float) -> Samples | float:
-    """Return a road with a step.
+    """Return the height of a road with a step, over time.
 
     Parameters
     ----------
     height : float
-        Height after the step [m]; negative for a drop.
+        Height of the road after the step [m]; negative for a drop. Before it the height is zero.
     at : float
         Time at which the tyre reaches it [s].
     end : float
@@ -35,11 +35,13 @@ def step(height: float, *, at: float, end: float) -> Samples | float:
     Returns
     -------
     tuple of ndarray, or float
-        Samples with a jump; the height if `at` is not after the start.
+        Times [s] and heights [m] with a jump, for `kintrafo.simulate`; the height alone if `at` is
+        zero or below.
 
     Examples
     --------
-    >>> times, heights = step(0.02, at=0.1, end=1.0)
+    >>> from kintrafo import roads
+    >>> times, heights = roads.step(0.02, at=0.1, end=1.0)
     >>> times.tolist(), heights.tolist()
     ([0.0, 0.1, 0.1, 1.0], [0.0, 0.0, 0.02, 0.02])
     """
@@ -56,14 +58,14 @@ def step(height: float, *, at: float, end: float) -> Samples | float:
 
 
 def sine(amplitude: float, frequency: float, *, end: float) -> CubicSpline:
-    """Return a sine over time, which starts at zero and rises.
+    """Return the height of a sinusoidal road over time, which starts at zero and rises.
 
     Parameters
     ----------
     amplitude : float
-        [m]
+        Amplitude, half the height from valley to crest [m].
     frequency : float
-        [Hz]
+        Frequency, above zero [Hz].
     end : float
         Last time of the simulation [s].
 
@@ -75,7 +77,8 @@ def sine(amplitude: float, frequency: float, *, end: float) -> CubicSpline:
 
     Examples
     --------
-    >>> round(float(sine(0.01, 0.5, end=2.0)(0.5)), 11)
+    >>> from kintrafo import roads
+    >>> round(float(roads.sine(0.01, 0.5, end=2.0)(0.5)), 11)
     0.01
     """
     with Validator("sine") as given:

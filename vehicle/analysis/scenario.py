@@ -36,18 +36,18 @@ _MOST_OUTPUTS = 5_000_000
 
 @dataclass(frozen=True)
 class Scenario:
-    """Inputs, start and duration of a simulation of a corner or an axle.
+    """The inputs, start and duration of a simulation of a suspension or an axle.
 
     Attributes
     ----------
     duration : float
-        [s]
+        Duration of the simulation [s].
     output_step : float
-        Time between outputs [s].
+        Time between two outputs [s].
     height : float or mapping of str to float, optional
-        Height of all wheel centres at the start, or by wheel, 'left' and 'right', that of design
-        for a wheel that is left out; chassis axes [m]. By default the equilibrium on the road at
-        the start.
+        Height of all wheel centres at the start, z in chassis axes [m], or by wheel, 'left' and
+        'right', where a wheel that is left out has that of design. By default the motion starts in
+        the equilibrium on the road at time 0.
     spin_rate : float
         Rate of the wheels relative to their carriers, positive rolling forward [rad/s].
     inputs : dict
@@ -100,11 +100,11 @@ def run(
 
     Returns
     -------
-    Simulation
+    result : Simulation
         ``t_events[0]`` has the times at which the first wheel left the ground, ``t_events[1]``
         those at which it came back; then come those of the second wheel. The left one is the first.
-    xarray.Dataset
-        Signals, states and inputs over time, see `kintrafo.datasets.recording.dataset_of`.
+    motion : xarray.Dataset
+        Signals, states and inputs over ``time`` [s], SI units, with units and meanings.
 
     Raises
     ------
@@ -113,13 +113,13 @@ def run(
 
     Examples
     --------
-    >>> from kintrafo import Model, RigidAxleModel, roads
+    >>> from kintrafo import Model, RigidAxleModel, roads, scenario
     >>> bump = roads.step(0.02, at=0.1, end=1.0)
-    >>> result, motion = run(Model("reference_car"), Scenario(inputs={"road_height": bump}))
+    >>> over = scenario.Scenario(inputs={"road_height": bump})
+    >>> result, motion = scenario.run(Model("reference_car"), over)
     >>> round(float(motion["wheel_center_z"][-1] - motion["wheel_center_z"][0]), 4)
     0.0178
-    >>> over = Scenario(inputs={"road_height": bump})
-    >>> _, motion = run(RigidAxleModel("rigid_axle"), over, wheels="left")
+    >>> _, motion = scenario.run(RigidAxleModel("rigid_axle"), over, wheels="left")
     >>> float(motion["right_road_height"].max())
     0.0
     """
@@ -143,7 +143,7 @@ def motion_of(model: AnyModel, result: Simulation) -> "xr.Dataset":
     Returns
     -------
     xarray.Dataset
-        See `kintrafo.datasets.recording.dataset_of`.
+        As the second result of `run`.
     """
     with Validator("motion_of") as given:
         assembly = given_model(given, model)

@@ -74,7 +74,7 @@ def sheet(
         As in `kintrafo.compliance.linear`, instead of those of the file. Without bushes the sheet
         has no compliance.
     held : {'height', 'tyre', 'spring', 'locked'}, optional
-        Support of the wheels under the loads of the compliance.
+        Support of the wheels under the loads of the compliance, see `kintrafo.compliance.linear`.
 
     Returns
     -------
@@ -97,8 +97,8 @@ def sheet(
 
     Examples
     --------
-    >>> from kintrafo import load
-    >>> found = sheet(load("reference_car"))
+    >>> from kintrafo import load, sheet
+    >>> found = sheet.sheet(load("reference_car"))
     >>> row = found.sel(quantity="steer_gradient")
     >>> float(row["iso_8855"]) == -float(row["sae_j670"]), str(row["unit"].values)
     (True, 'deg/mm')
@@ -121,7 +121,12 @@ def tabulated(found: xr.Dataset, title: str) -> list[Tabulated]:
     found : xarray.Dataset
         From `sheet`.
     title : str
-        Begins the titles.
+        Text with which the titles of the tables begin.
+
+    Returns
+    -------
+    list of Tabulated
+        Each with its title, the names of its columns, and rows in display units.
     """
     with Validator("tabulated") as given:
         given.dataset(found, over=QUANTITY)

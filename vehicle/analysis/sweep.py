@@ -31,15 +31,16 @@ _OF_POSITION = ("m", "rad")
 def positions(
     subject: Any, travel: ArrayLike | None = None, rack: ArrayLike | None = None
 ) -> xr.Dataset:
-    """Return wheel and joint positions over travel, over the rack, or over both.
+    """Return positions of wheels and joints over wheel travel, over the rack, or over both.
 
     Parameters
     ----------
     subject : Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
     travel : array_like, optional
-        Wheel travel, of an axle in parallel [m]: one value or many, by default the usual ones.
+        Wheel travel, of both wheels of an axle in parallel [m]: a number, or an array of shape
+        (n,); by default the usual range, see `usual_travel`.
     rack : array_like, optional
-        Displacement of the rack [m]: one value or many, by default zero.
+        Displacement of the rack [m]: a number, or an array of shape (m,); by default zero.
 
     Returns
     -------
@@ -59,8 +60,8 @@ def positions(
 
     Examples
     --------
-    >>> from kintrafo import load
-    >>> curves = positions(load("reference_car"), [-0.05, 0.0, 0.05])
+    >>> from kintrafo import load, sweep
+    >>> curves = sweep.positions(load("reference_car"), [-0.05, 0.0, 0.05])
     >>> curves["camber"].values[[0, 2]].round(4).tolist()
     [0.0231, -0.016]
     """

@@ -25,22 +25,23 @@ _FAR_FROM_DESIGN = 0.005
 
 @dataclass(frozen=True)
 class RestFacts:
-    """The suspension at rest on level road.
+    """Results for a suspension at rest on a level road at z = 0.
 
     Attributes
     ----------
     height : float
-        Of the wheel centre, chassis axes [m].
+        Height of the wheel centre: its z in chassis axes [m].
     travel : float
-        From design, positive in bump [m].
+        Wheel travel from design, positive in bump [m].
     signals : dict
-        All signals of the model there, SI units.
+        All signals of the model at rest, by name, SI units.
     frequency : float
-        Undamped natural frequency of the wheel-hop mode [Hz]; NaN if the wheel does not swing.
+        Undamped natural frequency of the wheel-hop mode, with the body held [Hz]; NaN if the wheel
+        does not oscillate.
     damping_ratio : float
-        Of that mode, without friction; above one where it does not oscillate.
+        Damping ratio of that mode without friction; above one where it does not oscillate.
     damping_ratio_with_friction : float or None
-        With friction linear about rest, which holds only for speeds far below
+        The same with friction linearised at rest, which is valid only for speeds far below
         ``friction_velocity_m_per_s``; None if there is no friction.
     ride_frequency : float or None
         Undamped natural frequency of the body above a wheel at rest on the road: of the mass on
@@ -59,7 +60,7 @@ class RestFacts:
 
 @dataclass(frozen=True)
 class WheelFacts:
-    """Results for one wheel; lengths in m, angles in rad, ISO 8855 chassis axes.
+    """Results of a check for one wheel; lengths in m, angles in rad, chassis axes of ISO 8855.
 
     Attributes
     ----------
@@ -72,11 +73,12 @@ class WheelFacts:
     reach : AngleRange
         Range of wheel heights with the rack in its middle, and its limits.
     travel : tuple of float
-        The same range as travel from design, lowest and highest.
+        The same range as wheel travel from design, lowest and highest [m].
     extension_travel : float or None
-        Travel at which the strut is fully extended; None if it never is, or there is none.
+        Wheel travel at which the strut is fully extended [m]; None if it never is, or there is
+        none.
     equilibrium : RestFacts or None
-        None if there is no stable equilibrium.
+        The wheel at rest on the road; None if there is no stable equilibrium.
     problems : tuple of str
         Errors, and almost certain mistakes.
     notes : tuple of str

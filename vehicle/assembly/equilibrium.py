@@ -28,9 +28,9 @@ def equilibrium(
     spin_rate: float = 0.0,
     inputs: Mapping[str, float] | None = None,
 ) -> State:
-    """Return the stable state of rest under springs, tyres and weights.
+    """Return the stable state of rest under the forces of springs, stops, tyres and weights.
 
-    The body of a car settles on its springs; of all others it is held.
+    The body of a car settles on its springs; that of a suspension or an axle is held.
 
     Parameters
     ----------
@@ -57,8 +57,8 @@ def equilibrium(
     Returns
     -------
     State
-        With zero rates except those of the wheels' spin. It contains the inputs that keep it at
-        rest (road, rack, actuator force): ``model.signals(rest)`` are those of rest, and
+        The state, with zero rates except those of the wheels' spin. It contains the inputs that
+        keep it at rest (road, rack, actuator force): ``model.signals(rest)`` are those of rest, and
         ``simulate(model, t_span, rest)`` stays there. The state is the one nearest to the design
         position; of an axle with an anti-roll bar, nearest to the rest of each side without it.
 
@@ -72,7 +72,7 @@ def equilibrium(
 
     Examples
     --------
-    >>> from kintrafo import Model, RigidAxleModel
+    >>> from kintrafo import Model, RigidAxleModel, equilibrium
     >>> model = Model("reference_car")
     >>> round(float(model.signal("wheel_center_z", equilibrium(model))), 10)
     0.3

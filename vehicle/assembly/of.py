@@ -72,14 +72,18 @@ def model_of(
     ----------
     subject : Suspension, Axle, WholeAxle or Car
     wheel_loads : bool, optional
-        Whether loads on the wheels are inputs.
+        Whether loads on the wheels are inputs, as of `Model`.
     progress : callable, optional
         Called with a short description of the present step, if equations are derived.
+
+    Returns
+    -------
+    Model, AxleModel, RigidAxleModel, CarModel or that of a twist-beam axle
 
     Raises
     ------
     InputError
-        If it is none of these, or a car with `wheel_loads`.
+        If the subject is none of these, or a car with `wheel_loads`.
     """
     with Validator("model_of") as given:
         kinds = (Suspension, Axle, WholeAxle, Car)

@@ -64,18 +64,18 @@ class WheelReach:
 
 @dataclass(frozen=True)
 class SweepRange:
-    """Ends of a motion that differ from the default; all positive.
+    """Ends of a motion of a rig; all positive. None for the default of `over`.
 
     Attributes
     ----------
     rebound, bump : float or None
-        Wheel travel [m].
+        Wheel travel downward and upward from design [m].
     roll : float or None
-        To either side [rad].
+        Roll angle to either side [rad].
     rack : float or None
-        To either side [m].
+        Displacement of the rack to either side [m].
     step : float
-        Distance of positions of wheel travel and rack [m].
+        Distance between two positions of the wheels or of the rack [m].
     """
 
     rebound: float | None = None

@@ -19,14 +19,14 @@ _MOST_POINTS = 100_000
 
 
 def grid(lowest: float, highest: float, step: float) -> Array:
-    """Return equally spaced values that include zero, with the two ends.
+    """Return equally spaced values, of which one is zero, and the two ends of their range.
 
     Parameters
     ----------
     lowest, highest : float
         Ends of the range; zero lies between them or is one of them.
     step : float
-        Distance of the values.
+        Distance between two values.
 
     Returns
     -------
@@ -34,7 +34,8 @@ def grid(lowest: float, highest: float, step: float) -> Array:
 
     Examples
     --------
-    >>> grid(-0.025, 0.02, 0.01).tolist()
+    >>> from kintrafo import sweep
+    >>> sweep.grid(-0.025, 0.02, 0.01).tolist()
     [-0.025, -0.02, -0.01, 0.0, 0.01, 0.02]
     """
     with Validator("sweep") as given:
@@ -69,16 +70,16 @@ def usual_travel(
     step: float = 0.002,
     rack: float = 0.0,
 ) -> Array:
-    """Return wheel travels for a sweep.
+    """Return equally spaced wheel travels for a sweep.
 
     Parameters
     ----------
     model : Model
     rebound, bump : float, optional
-        Ends below and above design, both positive [m]; by default 80 mm, or less if the suspension
-        does not reach them.
+        Greatest travel downward and upward from design, both positive [m]; by default 80 mm, or
+        less if the suspension does not reach them.
     step : float, optional
-        Distance of the positions [m].
+        Distance between two travels [m].
     rack : float, optional
         Displacement of the rack [m].
 
@@ -103,17 +104,18 @@ def usual_travel(
 def usual_rack(
     model: Model, *, extent: float | None = None, step: float = 0.002, travel: float = 0.0
 ) -> Array:
-    """Return displacements of the rack for a sweep.
+    """Return equally spaced displacements of the rack for a sweep.
 
     Parameters
     ----------
     model : Model
     extent : float, optional
-        End to either side [m]; by default 60 mm, or less if the steering does not reach it.
+        Greatest displacement to either side [m]; by default 60 mm, or less if the steering does not
+        reach it.
     step : float, optional
-        Distance of the positions [m].
+        Distance between two displacements [m].
     travel : float, optional
-        Wheel travel [m].
+        Constant wheel travel [m].
 
     Returns
     -------

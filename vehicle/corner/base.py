@@ -63,7 +63,7 @@ def _steered_by_either(schema: dict[str, Any]) -> None:
 
 
 class Suspension(WheeledSection):
-    """A suspension at its design position. Immutable.
+    """The data of a suspension of one wheel at its design position. Immutable.
 
     Make one with `load`, `from_dict` or `with_changes`: they return the kind that the data name
     with ``suspension``, by default a MacPherson suspension. The attributes are the sections of the
@@ -84,13 +84,13 @@ class Suspension(WheeledSection):
     TITLE : str
         The name of the kind.
     NAMES : Names
-        The names in its equations of coordinates that every suspension has.
+        The names in its equations of those coordinates that every suspension has.
     STARTER : str
         The packaged data set from which a new file is copied.
     PAGE : str
-        The text of the page of input files on the kind: the end of a sentence, and further ones.
+        Text on the kind in the reference of input files.
     STOPPED : str
-        The element of its equations whose length the stops limit.
+        Name of the element of its equations whose length the stops limit: strut or damper.
 
     Examples
     --------
@@ -164,7 +164,7 @@ class Suspension(WheeledSection):
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any], source: str = "input data") -> Self:
-        """Make a suspension from nested dictionaries with the keys of the input file.
+        """Return a suspension from nested dictionaries with the keys of the input file.
 
         Parameters
         ----------

@@ -42,7 +42,8 @@ def kinds() -> tuple[str, ...]:
 
     Examples
     --------
-    >>> kinds()
+    >>> from kintrafo import starter
+    >>> starter.kinds()
     ('macpherson', 'double_wishbone', 'multi_link', 'pull_rod', 'push_rod', 'trailing_arm')
     """
     files = resources.files("kintrafo.vehicle").joinpath("kinds").iterdir()
@@ -55,7 +56,8 @@ def packaged() -> tuple[str, ...]:
 
     Examples
     --------
-    >>> "reference_car" in packaged()
+    >>> from kintrafo import starter
+    >>> "reference_car" in starter.packaged()
     True
     """
     return tuple(data_sets())
@@ -66,7 +68,8 @@ def packaged_axles() -> tuple[str, ...]:
 
     Examples
     --------
-    >>> {"rear_axle", "reference_axle"} <= set(packaged_axles())
+    >>> from kintrafo import starter
+    >>> {"rear_axle", "reference_axle"} <= set(starter.packaged_axles())
     True
     """
     return tuple(data_sets(AXLES))
@@ -147,14 +150,14 @@ def not_of_a_suspension(key: str) -> str:
 def write_starter(
     path: str | Path, *, template: str = "reference_car", force: bool = False
 ) -> Path:
-    """Write an input file to begin with: all keys, with units, signs and comments.
+    """Write an input file to begin with, and return its path: all keys, units, signs, comments.
 
     Parameters
     ----------
     path : str or pathlib.Path
         File name that ends in ``.toml``.
     template : str, optional
-        Name of the packaged data set or manoeuvre to copy.
+        Name of the packaged file to copy: that of a suspension, an axle, a car or a manoeuvre.
     force : bool, optional
         Whether to replace a file that kintrafo did not write; see `kintrafo.core.files`.
 
@@ -165,7 +168,7 @@ def write_starter(
     Raises
     ------
     InputError
-        If the file exists or cannot be written.
+        If the file must not or cannot be written, or there is no such packaged file.
     """
     known = all_packaged() | manoeuvres()
     if not isinstance(template, str) or template not in known:

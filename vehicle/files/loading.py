@@ -24,8 +24,8 @@ def load(path_or_name: str | Path) -> Suspension | Axle | WholeAxle | Car:
     Returns
     -------
     Suspension, Axle, WholeAxle or Car
-        A suspension of one wheel, an axle of two suspensions, an axle without sides, such as a
-        `RigidAxle`, or a body on axles.
+        A suspension of one wheel; an axle of two suspensions; a rigid axle or a twist-beam axle,
+        which are each a `WholeAxle`; or a body on axles.
 
     Raises
     ------

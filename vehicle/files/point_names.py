@@ -91,12 +91,13 @@ def read_names(texts: Iterable[str]) -> dict[str, str]:
     Parameters
     ----------
     texts : iterable of str
-        Such as ``lower_ball_joint=my_lca_outer``.
+        Texts such as ``lower_ball_joint=my_lca_outer``: the name in kintrafo, ``=``, and the name
+        in the other file.
 
     Returns
     -------
     dict
-        The names in the other file by those of this project.
+        The names in the other file, by those of kintrafo.
 
     Raises
     ------

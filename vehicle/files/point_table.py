@@ -42,7 +42,7 @@ Point = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class PointTable:
-    """Contents of a table.
+    """Contents of a table of hardpoints.
 
     Attributes
     ----------
@@ -78,9 +78,9 @@ class Merged:
     text : str
         The new file, with the comments of the old one.
     read : dict of str to str
-        Names in the table of hardpoints that come from it, by our names.
+        The hardpoints that come from the table: their names in it, by those of kintrafo.
     kept : tuple of str
-        Hardpoints of the old file.
+        Hardpoints that are not in the table, and have the values of the old file.
     left_out : tuple of str
         Rows of the table that are not hardpoints.
     missing : tuple of str
@@ -232,7 +232,7 @@ def merged(
     mirrored: bool = False,
     names: Mapping[str, str] | None = None,
 ) -> Merged:
-    """Return an input file with the hardpoints of a table.
+    """Return the text of an input file with the hardpoints of a table.
 
     Parameters
     ----------
@@ -242,8 +242,8 @@ def merged(
     mirrored : bool, optional
         Whether the table is of the other side of the car.
     names : mapping of str to str, optional
-        Names in the table, by our names, unless they are these or those of Adams/Car, OptimumK or
-        Lotus Suspension Analysis.
+        Names of hardpoints in the table, by their names in kintrafo. Names of kintrafo, Adams/Car,
+        OptimumK and Lotus Suspension Analysis are known.
 
     Returns
     -------
@@ -354,7 +354,7 @@ def write_merged(
 def write_points(
     suspension: Suspension, path: str | Path, *, force: bool = False, inputs: Paths = ()
 ) -> Path:
-    """Write the hardpoints of a suspension as a table, which `read_points` reads.
+    """Write the hardpoints of a suspension as a table for `read_points`, and return its path.
 
     Parameters
     ----------
@@ -390,7 +390,7 @@ def write_points(
 
 
 def doubts(found: Merged) -> str:
-    """Return a note on rows that may be missing hardpoints, or an empty text.
+    """Return a note on rows whose names may be those of missing hardpoints, or an empty text.
 
     There is no doubt if every row is a hardpoint, or every required hardpoint is in the table.
     """

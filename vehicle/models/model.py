@@ -49,6 +49,7 @@ class Model(System):
 
     Examples
     --------
+    >>> from kintrafo import Model
     >>> model = Model("reference_car")
     >>> model.equations.STATE["beta1"]["unit"]
     'rad'

@@ -66,7 +66,7 @@ def arm_angles(model: Model, height: ArrayLike, rack_position: ArrayLike = 0.0) 
     ----------
     model : Model
     height : array_like
-        Heights of the wheel centre, chassis axes [m].
+        Heights of the wheel centre: its z in chassis axes [m].
     rack_position : array_like, optional
         Displacements of the rack [m]; broadcast with the heights.
 
@@ -85,6 +85,7 @@ def arm_angles(model: Model, height: ArrayLike, rack_position: ArrayLike = 0.0) 
 
     Examples
     --------
+    >>> from kintrafo import Model, arm_angles
     >>> model = Model("reference_car")
     >>> (model.design_state[0] - arm_angles(model, [0.3, 0.325])).round(9).tolist()
     [0.0, 0.068123601]
@@ -182,13 +183,13 @@ def _racks_reach(batch: ModelBatch, rack: Array) -> NDArray[np.bool_]:
 def state_at_height(
     model: Model, height: float, *, rack_position: float = 0.0, spin_rate: float = 0.0
 ) -> State:
-    """Return the state of rest with the wheel centre at a given height.
+    """Return the state with zero rates at which the wheel centre has a given height.
 
     Parameters
     ----------
     model : Model
     height : float
-        Height of the wheel centre, chassis axes [m].
+        Height of the wheel centre: its z in chassis axes [m].
     rack_position : float, optional
         Displacement of the rack [m].
     spin_rate : float, optional
@@ -207,6 +208,7 @@ def state_at_height(
 
     Examples
     --------
+    >>> from kintrafo import Model, state_at_height
     >>> model = Model("reference_car")
     >>> state = state_at_height(model, 0.325)
     >>> round(float(model.design_state[0] - state[0]), 10)
@@ -234,12 +236,12 @@ def road_under_load(
     wheel_load : float
         Vertical force of the road on the wheel, positive up [N].
     state, inputs : array_like
-        One or many, as in the compiled module.
+        One or many states, over leading dimensions, and their inputs, SI units.
 
     Returns
     -------
     ndarray
-        Heights for the input ``road_height`` [m].
+        Heights for the input ``road_height``, of the shape of the leading dimensions [m].
 
     Raises
     ------

@@ -52,19 +52,20 @@ _REASONS = {
 
 
 class PositionError(KintrafoError, ValueError):
-    """A position that the suspension cannot take."""
+    """A position that the suspension cannot reach, or no equilibrium within its travel."""
 
 
 @dataclass(frozen=True)
 class AngleRange:
-    """Arm angles over which the wheel height changes monotonically, the design position inside.
+    """The range of arm angles in which the wheel height changes monotonically, about design.
 
     Attributes
     ----------
     arm_angle : tuple of float
-        At the lowest and at the highest wheel position [rad].
+        Arm angles at the lowest and at the highest wheel position [rad].
     height : tuple of float
-        Lowest and highest height of the wheel centre [m].
+        Lowest and highest height of the wheel centre: its z in chassis axes [m]. Less the height at
+        design it is the wheel travel.
     lower_limit, upper_limit : str
         The reasons for the ends of the range.
     """
@@ -76,7 +77,7 @@ class AngleRange:
 
 
 def travel_range(model: Model, rack_position: float = 0.0) -> AngleRange:
-    """Return the range of wheel travel from the design position.
+    """Return the range of arm angles and wheel heights that is reached from the design position.
 
     Parameters
     ----------
@@ -87,7 +88,7 @@ def travel_range(model: Model, rack_position: float = 0.0) -> AngleRange:
     Returns
     -------
     AngleRange
-        Its ends are the last positions before the limit, to 1e-12 rad of the arm angle, or to 1e-9
+        Its ends are the last positions before the limits, to 1e-12 rad of the arm angle, or to 1e-9
         rad with loops solved by iteration.
 
     Raises
@@ -97,6 +98,7 @@ def travel_range(model: Model, rack_position: float = 0.0) -> AngleRange:
 
     Examples
     --------
+    >>> from kintrafo import Model, travel_range
     >>> reach = travel_range(Model("reference_car"))
     >>> [round(1e3 * height, 1) for height in reach.height]
     [-65.6, 615.9]

@@ -56,7 +56,7 @@ def write(
     force: bool = False,
     inputs: Paths = (),
 ) -> list[Path]:
-    """Write one figure for each curve, and an overview of each group.
+    """Write a figure of each curve and an overview of each group, and return their paths.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ def write(
     goals : sequence of Goal, optional
         Targets and limits, drawn into their curves; for an axle only those over its motion.
     progress : callable, optional
-        Called with the part that is done, up to 1.
+        Called with the completed fraction, up to 1.
     force : bool, optional
         Whether files that kintrafo did not write are replaced, see `kintrafo.core.files`.
     inputs : iterable of str or pathlib.Path, optional
@@ -124,7 +124,9 @@ def write_overview(
     force: bool = False,
     inputs: Paths = (),
 ) -> Path:
-    """Write the curves of some variables on one page; a PDF has a page for each group.
+    """Write the curves of some variables on one page, and return its path.
+
+    A PDF has a page for each group of variables.
 
     Parameters
     ----------
@@ -235,7 +237,7 @@ def grouped(dataset: xr.Dataset, goals: Sequence[Goal] = ()) -> dict[str, tuple[
 
 
 def first_curves(dataset: xr.Dataset) -> tuple[str, ...]:
-    """Return the names of the main curves in the order of a page; none if few of them exist.
+    """Return the names of the main curves in the order of a page; none if too few exist.
 
     Parameters
     ----------
@@ -289,7 +291,7 @@ def figure(
     alone : bool, optional
         Whether this is the figure of one curve, with its definition if it has one.
     columns : int, optional
-        Largest number of panels in a row.
+        Largest number of curves in a row.
     goals : sequence of Goal, optional
         Targets and limits, drawn into their curves; for an axle only those over its motion.
 

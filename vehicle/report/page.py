@@ -67,7 +67,7 @@ def write(
     force: bool = False,
     inputs: Paths = (),
 ) -> Path:
-    """Write an HTML report of a suspension, or of any mechanism.
+    """Write an HTML report of a suspension, or of any mechanism, and return its path.
 
     One file without references to others has a three-dimensional view of the mechanism that is
     moved by hand, its characteristics, a simulated second and the input data. A mechanism of your
@@ -77,6 +77,7 @@ def write(
     Parameters
     ----------
     model : Model or System
+        A suspension, or another mechanism.
     path : str or pathlib.Path
         A file whose name ends in ``.html``; it appears when it is complete. Folders are created.
     title : str, optional
@@ -197,7 +198,9 @@ def write_chapters(
     force: bool = False,
     inputs: Paths = (),
 ) -> Path:
-    """Write an HTML report of chapters and input data, without an interactive mechanism.
+    """Write an HTML report of chapters and input data, and return its path.
+
+    The page has no interactive mechanism.
 
     Parameters
     ----------

@@ -30,7 +30,7 @@ _AT_ONCE = 4096  # positions of a cam
 
 
 def enveloped(road: Road, *, radius: float, contact_length: float) -> Road:
-    """Return the effective road of a tyre that envelopes short obstacles.
+    """Return the effective road of a tyre that envelopes short obstacles, by two elliptical cams.
 
     Long waves remain, short ones are lowered, and an edge becomes a ramp that begins before it.
     Effective inclinations and longitudinal forces are not modelled.
@@ -48,10 +48,22 @@ def enveloped(road: Road, *, radius: float, contact_length: float) -> Road:
     Road
         Road of the same length, with a spacing that resolves the cams.
 
+    Raises
+    ------
+    InputError
+        If an argument cannot be used.
+
+    Notes
+    -----
+    Two cams ``(|x| / radius)^1.8 + (|z| / radius)^1.8 = 1``, at a distance of 0.8 `contact_length`,
+    slide over the road; the effective height is the mean of their heights relative to those on a
+    flat road (Pacejka, Tire and Vehicle Dynamics, third edition, section 10.1.6).
+
     Examples
     --------
-    >>> flat = Road(0.1, [0.0] * 50, [0.0] * 50)
-    >>> float(enveloped(flat, radius=0.3, contact_length=0.12).left.max())
+    >>> from kintrafo import road_profiles
+    >>> flat = road_profiles.Road(0.1, [0.0] * 50, [0.0] * 50)
+    >>> float(road_profiles.enveloped(flat, radius=0.3, contact_length=0.12).left.max())
     0.0
     """
     with Validator("enveloped") as given:
@@ -85,22 +97,32 @@ def kerb(
     end: float = 50.0,
     sides: str = "both",
 ) -> Road:
-    """Return the effective road of an edge under a tyre.
+    """Return the effective road of an edge, such as a kerb, under a tyre.
 
     Parameters
     ----------
     height : float
-        Height behind the edge, negative for a drop [m].
+        Height of the road beyond the edge, negative for a drop [m].
     radius, contact_length : float
         As in `enveloped`.
     at, end : float, optional
-        Position of the edge, and length of the road [m].
+        Distance from the start of the road to the edge, and length of the road [m].
     sides : {'both', 'left', 'right'}, optional
         Wheels that meet the edge.
 
+    Returns
+    -------
+    Road
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used.
+
     Examples
     --------
-    >>> round(float(kerb(0.1, radius=0.3, contact_length=0.12).left[-1]), 12)
+    >>> from kintrafo import road_profiles
+    >>> round(float(road_profiles.kerb(0.1, radius=0.3, contact_length=0.12).left[-1]), 12)
     0.1
     """
     with Validator("kerb") as given:

@@ -26,7 +26,7 @@ _MOST_POINTS = 4_000_000
 
 
 def read(path: str | Path, *, track: float = 1.5, spacing: float | None = None) -> Road:
-    """Return a measured road.
+    """Return the road of a file of measured heights.
 
     A table (CSV) has the columns ``distance_m``, and ``left_height_mm`` with ``right_height_mm`` or
     one ``road_height_mm`` for both tracks; units and spellings are those of
@@ -40,7 +40,7 @@ def read(path: str | Path, *, track: float = 1.5, spacing: float | None = None) 
     track : float, optional
         Distance between the two tracks in an OpenCRG file [m].
     spacing : float, optional
-        Distance between points of the road [m]. Default: the smallest one of the file.
+        Distance along the road between two heights [m]; by default the smallest one of the file.
 
     Returns
     -------

@@ -23,9 +23,9 @@ class Road:
     Parameters
     ----------
     spacing : float
-        Distance between points [m].
+        Distance along the road between two heights [m].
     left, right : array_like, shape (n,)
-        Heights, positive up [m]; four points or more.
+        Heights at distances 0, `spacing`, 2 `spacing` and so on, positive up [m]; four or more.
     words : str, optional
         Description in titles.
     stationary : bool, optional
@@ -34,7 +34,8 @@ class Road:
 
     Examples
     --------
-    >>> road = Road(0.5, [0.0, 0.0, 0.01, 0.01], [0.0, 0.0, 0.0, 0.0])
+    >>> from kintrafo import road_profiles
+    >>> road = road_profiles.Road(0.5, [0.0, 0.0, 0.01, 0.01], [0.0, 0.0, 0.0, 0.0])
     >>> road.length
     1.5
     """
@@ -72,9 +73,10 @@ class Road:
         ----------
         side : {'left', 'right'}
         speed : float
-            [m/s]
+            Speed of the car, above zero [m/s].
         behind : float
-            Distance of the wheel behind the front one [m], which is at the first point at time 0.
+            Distance of the wheel behind the front wheel of its side, which is at the start of the
+            road at time 0 [m].
         end : float
             Last time [s].
 

@@ -49,15 +49,15 @@ def iso8608(
     Parameters
     ----------
     roughness : str or float
-        A class, 'A' to 'H', or G(n0) [m^3].
+        A class, 'A' to 'H', or the spectral density of the heights G(n0) at n0 = 0.1 1/m [m^3].
     length : float
-        [m]
+        Length of the road [m].
     seed : int
-        Equal seeds give equal roads.
+        Seed of the random phases, zero or more: equal seeds give equal roads.
     track : float, optional
         Distance between the two tracks [m]; 0 for one profile under both.
     spacing : float, optional
-        Distance between points [m], at most 0.05 m: half the shortest wave.
+        Distance along the road between two heights, at most 0.05 m: half the shortest wave [m].
     fade : float, optional
         Distance at the beginning over which the heights grow from zero [m].
 
@@ -65,11 +65,17 @@ def iso8608(
     -------
     Road
         Sum of all waves of 0.01 to 10 1/m that fit into its length, each with the amplitude of the
-        class and a random phase.
+        class and a random phase. Both tracks have the coherence of `isotropic_coherence`.
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used.
 
     Examples
     --------
-    >>> road = iso8608("B", length=100.0, seed=1)
+    >>> from kintrafo import road_profiles
+    >>> road = road_profiles.iso8608("B", length=100.0, seed=1)
     >>> float(road.left[0]), road.words
     (0.0, 'a road of class B of ISO 8608, seed 1')
     """
@@ -133,14 +139,21 @@ def spectrum(at_reference: float, n: ArrayLike) -> Array:
 
 
 def isotropic_coherence(n: ArrayLike, track: float) -> Array:
-    """Return the normalised cross-spectrum of two tracks of an isotropic road.
+    """Return the cross-spectrum of two tracks of an isotropic road over the spectrum of one.
 
     Parameters
     ----------
     n : array_like
-        Spatial frequencies [1/m].
+        Spatial frequencies [1/m]; 1 at zero and below.
     track : float
-        Distance of the tracks [m].
+        Distance between the tracks [m].
+
+    Returns
+    -------
+    ndarray
+        x K_1(x) with x = 2 pi n track and the modified Bessel function K_1, from 1 for long waves
+        to 0 for short ones. It follows from a spectrum proportional to n^-2, as of ISO 8608
+        (Dodds and Robson, Journal of Sound and Vibration 31, 1973).
 
     Raises
     ------

@@ -18,19 +18,29 @@ def bump(
     Parameters
     ----------
     height : float
-        Height of its middle, negative for a pothole; 1 m at most [m].
+        Height of its middle, negative for a pothole; less than 1 m in size [m].
     length : float
-        [m]
+        Length of the bump, above zero [m].
     at : float, optional
-        Beginning of the bump [m].
+        Distance from the start of the road to the bump [m].
     end : float, optional
         Length of the road [m].
     sides : {'both', 'left', 'right'}, optional
         Wheels that meet the bump.
 
+    Returns
+    -------
+    Road
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used, or the bump does not end before the road.
+
     Examples
     --------
-    >>> round(float(bump(0.05, 1.0).left.max()), 12)
+    >>> from kintrafo import road_profiles
+    >>> round(float(road_profiles.bump(0.05, 1.0).left.max()), 12)
     0.05
     """
     with Validator("bump") as given:
@@ -54,13 +64,22 @@ def sine(amplitude: float, wavelength: float, *, end: float = 200.0, sides: str 
     Parameters
     ----------
     amplitude : float
-        [m]
+        Amplitude, half the height from valley to crest [m].
     wavelength : float
-        [m]
+        Wavelength, above zero [m].
     end : float, optional
         Length of the road [m].
     sides : {'both', 'left', 'right'}, optional
         Wheels that meet the waves.
+
+    Returns
+    -------
+    Road
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used.
     """
     with Validator("sine") as given:
         amplitude = given.number("amplitude", amplitude, "m")

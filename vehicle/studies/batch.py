@@ -83,7 +83,7 @@ def curves_of_many(
     threads : int, optional
         By default the number of cores.
     progress : callable, optional
-        Called with the part that is done, up to 1.
+        Called with the completed fraction, up to 1.
     """
     count = next(iter(values.values())).size
     parts = [slice(a, min(a + _TOGETHER, count)) for a in range(0, count, _TOGETHER)]

@@ -47,7 +47,7 @@ def cars(
 
     Parameters
     ----------
-    suspension : Suspension, Axle or RigidAxle
+    suspension : Suspension, Axle, RigidAxle or Car
         The nominal subject, from which the cars differ.
     values : mapping or xarray.Dataset
         Values of each car, by place as in `sensitivity` but without ``*``:
@@ -80,9 +80,11 @@ def cars(
 
     Examples
     --------
-    >>> from kintrafo import Suspension
+    >>> import numpy as np
+    >>> from kintrafo import Suspension, variation
     >>> car = Suspension.load("reference_car")
-    >>> found = cars(car, {"hardpoints.tie_rod_inner.z": [278.0, 280.0, 282.0]}, positions=[0.0])
+    >>> heights = {"hardpoints.tie_rod_inner.z": [278.0, 280.0, 282.0]}
+    >>> found = variation.cars(car, heights, positions=[0.0])
     >>> np.rad2deg(found["bump_steer"].values[:, 0] * 1e-3).round(4).tolist()  # deg/mm
     [0.0039, 0.0062, 0.0084]
     """

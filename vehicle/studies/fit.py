@@ -33,17 +33,18 @@ _HELD = 1e-4
 
 @dataclass(frozen=True)
 class Fitted:
-    """A measured characteristic before and after the fit.
+    """A measured characteristic, and its deviations before and after the fit.
 
     Attributes
     ----------
     name : str
+        Name of the characteristic.
     points : int
-        Number of points.
+        Number of measured positions.
     within : float
-        Assumed accuracy of the measurement [SI].
+        Standard deviation of its errors of measurement, SI units.
     before, after : float
-        Root mean square of the deviations [SI].
+        Root mean square of the deviations, SI units.
     """
 
     name: str
@@ -67,24 +68,25 @@ class Fitted:
 
 @dataclass(frozen=True)
 class Fit:
-    """Values that explain a measurement.
+    """The result of a fit: values that explain measured curves.
 
     Attributes
     ----------
-    suspension : Suspension, Axle or RigidAxle
+    suspension : Suspension, Axle, RigidAxle or Car
         The subject with the most probable values.
-    start : Suspension, Axle or RigidAxle
+    start : Suspension, Axle, RigidAxle or Car
         The given subject.
     places : tuple of DesignVariable
-        The uncertain values, as given.
+        The uncertain values.
     moved : dict of str to float
-        The change of each value, in the display unit.
+        The change of each value by its name, in the display unit.
     uncertainty : dict of str to float
         The standard deviation of each value after the measurement, in the same unit.
     determined : dict of str to float
-        The part by which the measurement reduces the variance of each value, 0 to 1: near 0 the
+        The fraction by which the measurement reduces the variance of each value, 0 to 1: near 0 the
         curves do not determine the value, and it does not change.
     curves : tuple of Fitted
+        Each measured characteristic before and after the fit.
     success : bool
         Whether the solver converged and every curve is explained: the remaining deviations are
         within those by errors of its accuracy in 99 of 100 cases.
@@ -117,11 +119,11 @@ def fit(
     over: str | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> Fit:
-    """Return the errors of the input file that explain measured curves.
+    """Return the most probable errors of values of the input file that explain measured curves.
 
     Parameters
     ----------
-    suspension : Suspension, Axle or RigidAxle
+    suspension : Suspension, Axle, RigidAxle or Car
     measured : xarray.Dataset
         From `kintrafo.rig.measured_curves`, with straight steering, or the wheel at design. Curves
         over wheel travel may be compliance by the names of `kintrafo.compliance.linear`, if the
@@ -131,14 +133,14 @@ def fit(
         it as standard deviation, and a limit of the change. A text such as ``"30 %"`` is a part of
         the value, as of the stiffness of a bush.
     accuracy : mapping of str to float, optional
-        Standard deviation of measured characteristics, in the display unit. By default 2 % of the
-        range of the curve.
+        Standard deviation of the errors of measurement, by characteristic, in the display unit; by
+        default 2 % of the range of the curve.
     names : sequence of str, optional
         The curves to explain; by default all.
     held : {'height', 'tyre', 'spring', 'locked'}, optional
         Support of the wheels in the measurement of compliance, see `kintrafo.compliance.linear`.
     over : str, optional
-        Axis of the curves of a car, with its options:
+        Quantity along the curves of a car, with options after a colon:
         ``lateral_acceleration:radius_m=60``. Steady turns are at 100 km/h by default.
     progress : callable, optional
         Called after every step of the solver with the remaining cost, as a fraction of that at the
@@ -164,11 +166,13 @@ def fit(
 
     Examples
     --------
-    >>> from kintrafo import Suspension, characteristics
+    >>> import numpy as np
+    >>> from kintrafo import Suspension, characteristics, variation
     >>> car = Suspension.load("reference_car")
     >>> built = car.with_changes({"hardpoints.tie_rod_inner": [-140.0, -310.0, 282.0]})
     >>> rig = characteristics.over(built, "travel", np.linspace(-0.06, 0.06, 7))[["toe"]]
-    >>> found = fit(car, rig, {"hardpoints.tie_rod_inner.z": 5.0, "hardpoints.ball_joint.x": 5.0})
+    >>> uncertain = {"hardpoints.tie_rod_inner.z": 5.0, "hardpoints.ball_joint.x": 5.0}
+    >>> found = variation.fit(car, rig, uncertain)
     >>> [round(by, 2) for by in found.moved.values()]
     [-0.1, 1.98]
     """

@@ -126,7 +126,7 @@ class Limit(Goal):
 
 
 def read(path: str | Path) -> dict[str, Any]:
-    """Return the sections of a TOML file of tolerances, free values, targets and limits.
+    """Return the content of a TOML file of tolerances, free values, targets and limits.
 
     Parameters
     ----------
@@ -146,7 +146,7 @@ def read(path: str | Path) -> dict[str, Any]:
 
 
 def limits(described: Mapping[str, Any], ways: Sequence[str] = OF_CORNERS) -> list[Limit]:
-    """Return limits from tables as in `tolerance` and `optimise`.
+    """Return limits of characteristics from tables as in `tolerance` and `optimise`.
 
     Parameters
     ----------
@@ -161,7 +161,7 @@ def limits(described: Mapping[str, Any], ways: Sequence[str] = OF_CORNERS) -> li
 
 
 def goals(described: Mapping[str, Any], ways: Sequence[str] = OF_CORNERS) -> list[Goal]:
-    """Return the targets and limits of a file.
+    """Return targets and limits of characteristics from the sections of a file.
 
     Parameters
     ----------
@@ -216,15 +216,17 @@ class Verdict:
     Attributes
     ----------
     name, over : str
-        The characteristic, and its axis or the support of the wheel under loads.
+        The characteristic, and the motion along its curve or, of compliance, the support of the
+        wheels.
     kind : str
         'target' or 'limit'.
     met : bool
         Whether all of its positions are within the limit, or within ``within`` of the target.
     beyond : float
-        Excess of the worst position, SI units; negative within the limit.
+        Amount by which the value at the worst position is beyond the limit, or beyond ``within`` of
+        the target, SI units; negative if the goal is met.
     at : float
-        The worst position [m]; over roll [rad].
+        The worst position, SI units: of travel or rack [m], of roll [rad].
     """
 
     name: str
@@ -236,18 +238,18 @@ class Verdict:
 
 
 def judge(suspension: Any, wanted: Sequence[Goal]) -> list[Verdict]:
-    """Return which targets and limits a suspension or an axle meets.
+    """Return for each target and limit whether a suspension, an axle or a car meets it.
 
     Parameters
     ----------
-    suspension : Suspension, Model, Axle or RigidAxle
+    suspension : Suspension, Model, Axle, RigidAxle or Car
     wanted : sequence of TargetValue and Limit
         From `goals`.
 
     Returns
     -------
     list of Verdict
-        In this order.
+        In the order of `wanted`.
 
     Raises
     ------
@@ -258,10 +260,11 @@ def judge(suspension: Any, wanted: Sequence[Goal]) -> list[Verdict]:
 
     Examples
     --------
-    >>> from kintrafo import load
+    >>> from kintrafo import load, variation
     >>> car = load("reference_car")
-    >>> toe = goals({"limits": {"toe": {"at_mm": [-50.0, 50.0], "least": -0.2, "most": 0.2}}})
-    >>> [(verdict.name, verdict.met, verdict.at) for verdict in judge(car, toe)]
+    >>> limits = {"toe": {"at_mm": [-50.0, 50.0], "least": -0.2, "most": 0.2}}
+    >>> found = variation.judge(car, variation.goals({"limits": limits}))
+    >>> [(verdict.name, verdict.met, verdict.at) for verdict in found]
     [('toe', False, -0.05)]
     """
     with Validator("judge") as given:

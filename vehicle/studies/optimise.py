@@ -39,20 +39,22 @@ _GAVE_UP = {
 
 @dataclass(frozen=True)
 class Optimum:
-    """Result of an optimisation.
+    """The result of an optimisation.
 
     Attributes
     ----------
-    suspension : Suspension, Axle or RigidAxle
+    suspension : Suspension, Axle, RigidAxle or Car
         The subject with the best values.
-    start : Suspension, Axle or RigidAxle
+    start : Suspension, Axle, RigidAxle or Car
         The given subject.
     places : tuple of DesignVariable
-        The free values, as given.
+        The values that may change.
     moved : dict of str to float
-        The change of each value, in the display unit.
+        The change of each value by its name, in the display unit.
     targets : tuple of TargetValue
+        The targets, as in `goals`.
     limits : tuple of Limit
+        The limits, as in `goals`.
     success : bool
         Whether the solver converged and all limits are kept; targets may be missed.
     message : str
@@ -81,7 +83,7 @@ def optimise(
     *,
     progress: Callable[[float], None] | None = None,
 ) -> Optimum:
-    """Return values of the input file that bring characteristics to their targets.
+    """Return the suspension whose values bring characteristics to their targets.
 
     The sum of the squared deviations, each relative to its ``within``, is minimised subject to the
     limits. Of several solutions of equal quality, the one with the smallest changes of values is
@@ -89,17 +91,18 @@ def optimise(
 
     Parameters
     ----------
-    suspension : Suspension, Axle or RigidAxle
+    suspension : Suspension, Axle, RigidAxle or Car
     free : mapping of str to float
-        Largest change of values to either side, in display units (mm, deg, N/m, ...), by their
-        places as in `sensitivity`. All other values are constant.
+        Values that may change, named as in `sensitivity`, and their largest changes to either side,
+        in display units (mm, deg, N/m, ...). All other values are constant.
     targets : mapping
-        By characteristic: ``at_mm``, positions; ``value``, one for all or one for each; ``within``,
-        a deviation that matters; ``over``, 'travel' or 'rack'; in mm and display units. Or a list
-        of such tables. For a file with bushes also by the names of `kintrafo.compliance.linear`,
-        with ``held``.
+        By characteristic, a table or a list of tables: ``at_mm``, the positions [mm]; ``value``,
+        the wanted value in the display unit, one for all positions or one for each; ``within``, the
+        deviation that counts as one; ``over``, the motion, 'travel' by default. For a file with
+        bushes also by the names of `kintrafo.compliance.linear`, with ``held``.
     limits : mapping, optional
-        By characteristic: ``at_mm``, ``least``, ``most``, ``over``, or a list of such tables.
+        By characteristic, a table or a list of tables: ``at_mm``, ``over``, and the bounds
+        ``least`` and ``most`` in the display unit.
     progress : callable, optional
         Called after every step of the solver with the remaining cost, as a fraction of that at the
         start.
@@ -124,9 +127,9 @@ def optimise(
 
     Examples
     --------
-    >>> from kintrafo import Suspension
+    >>> from kintrafo import Suspension, variation
     >>> car = Suspension.load("reference_car")
-    >>> found = optimise(
+    >>> found = variation.optimise(
     ...     car,
     ...     free={"hardpoints.tie_rod_inner.z": 20.0},
     ...     targets={"bump_steer": {"at_mm": [0.0], "value": 0.0, "within": 0.001}},

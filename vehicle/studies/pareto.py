@@ -38,30 +38,30 @@ _ROUNDING = 1e-9
 
 @dataclass(frozen=True)
 class Front:
-    """A Pareto front: no suspension is better than another in every objective.
+    """A Pareto front of suspensions.
 
     Attributes
     ----------
     dataset : xarray.Dataset
-        Over ``member``, from 1: each objective by its name, and each free value by its place, in SI
-        units. Sorted by the first objective.
-    start : Suspension, Axle or RigidAxle
+        Over ``member``, numbered from 1: each objective by its name, and each free value by its
+        name in the file, in SI units. Members are sorted by the first objective.
+    start : Suspension, Axle, RigidAxle or Car
         The given subject.
     before : dict of str to float
-        Its objectives [SI].
+        Its objectives, by name, SI units.
     keeps_limits : bool
         Whether it keeps the limits.
     places : tuple of DesignVariable
-        The free values, as given.
+        The values that may change.
     objectives : tuple of Objective
     limits : tuple of Limit
     moved : tuple of dict of str to float
-        The changes of the values of each member, in the display unit.
+        The changes of the values of each member by their names, in display units.
     compromise : int
         The member whose objectives are nearest to the best of each, relative to their ranges over
         the front; 0 for an empty front.
     success : bool
-        Whether the front has a member, a car that keeps all limits.
+        Whether the front has a member: a suspension that keeps all limits.
     message : str
         Remarks.
     evaluations : int
@@ -87,7 +87,7 @@ class Front:
         Parameters
         ----------
         member : int
-            From 1.
+            Number of the member, from 1.
 
         Returns
         -------
@@ -123,32 +123,35 @@ def pareto(
     seed: int = 1,
     progress: Callable[[float], None] | None = None,
 ) -> Front:
-    """Return the Pareto front of several objectives by values of the input file.
+    """Return the Pareto front of several objectives over some values of the input file.
 
-    Contradictory objectives have no single best suspension, but many of which none is better than
-    another in all objectives: their Pareto front, from which an engineer chooses.
+    Contradictory objectives have no single best suspension. The Pareto front consists of those
+    suspensions for which no other one is better in an objective without being worse in another; an
+    engineer chooses from them.
 
     Parameters
     ----------
-    suspension : Suspension, Axle or RigidAxle
+    suspension : Suspension, Axle, RigidAxle or Car
     free : mapping of str to float
-        Largest change of values to either side, as in `optimise`.
+        Values that may change, and their largest changes to either side, as in `optimise`.
     targets : mapping, optional
-        As in `optimise`. Each is an objective: the root mean square of the deviations. ``within``
-        is not needed.
+        As in `optimise`, without ``within``. The root mean square of the deviations from each is an
+        objective.
     minimise, maximise : mapping, optional
-        By characteristic: ``at_mm`` and ``over``, or a list of such tables. The greatest value at
-        these positions is minimised, or the least value maximised.
+        By characteristic, a table or a list of tables: ``at_mm``, the positions [mm], and ``over``,
+        the motion. The greatest value at these positions is minimised, or the least value
+        maximised.
     limits : mapping, optional
         As in `optimise`.
     population : int, optional
-        Number of suspensions in a generation, and of members of a front at most; from 4.
+        Number of suspensions in a generation, and largest number of members of the front; four or
+        more.
     generations : int, optional
-        Number of generations with the first one.
+        Number of generations, including the first one.
     seed : int, optional
         Seed of the generator of random numbers: the same front for the same seed.
     progress : callable, optional
-        Called with the part that is done, up to 1.
+        Called with the completed fraction, up to 1.
 
     Returns
     -------
@@ -172,9 +175,9 @@ def pareto(
 
     Examples
     --------
-    >>> from kintrafo import Suspension
+    >>> from kintrafo import Suspension, variation
     >>> car = Suspension.load("reference_car")
-    >>> found = pareto(
+    >>> found = variation.pareto(
     ...     car,
     ...     free={"hardpoints.tie_rod_inner.z": 20.0},
     ...     targets={"bump_steer": {"value": 0.0}},

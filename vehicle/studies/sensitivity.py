@@ -55,10 +55,11 @@ def sensitivity(
 
     Parameters
     ----------
-    suspension : Suspension, Axle or RigidAxle
+    suspension : Suspension, Axle, RigidAxle or Car
     places : sequence of str, optional
-        The values: section and key with dots between them, such as ``hardpoints.ball_joint.z``. A
-        point or a section represents all of its numbers, ``*`` any text.
+        The values, named by section and key with dots between them, such as
+        ``hardpoints.ball_joint.z``. The name of a hardpoint or of a section represents all of its
+        numbers, ``*`` any text.
     over : {'travel', 'rack', 'bump', 'roll', 'left', 'right'}, optional
         Motion along the curves. Of a corner ``travel``, by default, or ``rack``; of axles and rigid
         axles ``bump`` (both wheels), by default, or one of the last three.
@@ -70,7 +71,7 @@ def sensitivity(
         Instead of characteristics, compliance by the names of `kintrafo.compliance.linear`, over
         wheel travel, with this support of the wheels; bushes of the file may vary, too.
     progress : callable, optional
-        Called with the part that is done, up to 1.
+        Called with the completed fraction, up to 1.
 
     Returns
     -------
@@ -95,9 +96,10 @@ def sensitivity(
 
     Examples
     --------
-    >>> from kintrafo import Suspension
+    >>> import numpy as np
+    >>> from kintrafo import Suspension, variation
     >>> car = Suspension.load("reference_car")
-    >>> found = sensitivity(car, ["hardpoints.tie_rod_inner.z"], positions=[0.0])
+    >>> found = variation.sensitivity(car, ["hardpoints.tie_rod_inner.z"], positions=[0.0])
     >>> round(float(np.rad2deg(found["bump_steer"][0, 0])) * 1e-6, 6)  # deg/mm per mm
     0.001124
     """
@@ -308,16 +310,17 @@ def _per(unit: str, other: str, link: str = "/") -> str:
 
 
 class Effect(NamedTuple):
-    """Effect of a value of the input file on a characteristic.
+    """The effect of a value of the input file on a characteristic.
 
     Attributes
     ----------
     place : str
         The value's name.
     size : float
-        The derivative, in the display units of both.
+        The derivative of the characteristic with respect to the value, in the display units of
+        both.
     unit : str
-        'deg/mm per mm'
+        Unit of `size`, such as 'deg/mm per mm'.
     """
 
     place: str
@@ -337,7 +340,7 @@ def effects(dataset: xr.Dataset, name: str, at: float = 0.0) -> Iterator[Effect]
     name : str
         Characteristic.
     at : float, optional
-        Position [m]; the nearest one is used.
+        Position along the curves, SI units; the nearest one of the dataset is used.
 
     Returns
     -------

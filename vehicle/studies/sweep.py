@@ -34,14 +34,14 @@ def sweep(
     max_steps: int = 1_000_000,
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
-    """Return simulations of a suspension with all combinations of some values.
+    """Return simulations of a suspension with all combinations of values of the input file.
 
     Parameters
     ----------
     suspension : Suspension, Axle or RigidAxle
     values : mapping of str to array_like
-        Values of each place of the input file, in its display unit (mm, deg, N/m, ...):
-        ``{"strut.spring_rate_N_per_m": [20e3, 25e3]}``.
+        By section and key with a dot between them, the values, in the unit of the file (mm, deg,
+        N/m, ...): ``{"strut.spring_rate_N_per_m": [20e3, 25e3]}``.
     scenario : Scenario, optional
         Road, rack and start; by default a second at rest. Without a height each suspension starts
         at its own rest. A rigid axle has the road under both wheels, or inputs by the names of its
@@ -51,13 +51,14 @@ def sweep(
     rtol, atol, max_steps
         As in `kintrafo.ensemble`.
     progress : callable, optional
-        Called with the part that is prepared, up to 1, which takes most of the time.
+        Called with the fraction of suspensions that are prepared, up to 1; preparation takes most
+        of the time.
 
     Returns
     -------
     xarray.Dataset
-        As from `kintrafo.ensemble`, over one dimension for each place, in SI units. Suspensions
-        that cannot be built, or have no rest, have a ``reason``.
+        As from `kintrafo.ensemble`, over one dimension for each of `values`, in SI units.
+        Suspensions that cannot be built, or have no equilibrium, have a ``reason``.
 
     Raises
     ------
@@ -66,12 +67,11 @@ def sweep(
 
     Examples
     --------
-    >>> from kintrafo import Suspension, roads
-    >>> from kintrafo.vehicle.analysis.scenario import Scenario
-    >>> bump = Scenario(inputs={"road_height": roads.step(0.02, at=0.1, end=1.0)})
+    >>> from kintrafo import Suspension, roads, scenario, variation
+    >>> bump = scenario.Scenario(inputs={"road_height": roads.step(0.02, at=0.1, end=1.0)})
     >>> rates = {"strut.damper_rate_N_s_per_m": [1000.0, 1500.0, 2000.0]}
     >>> car = Suspension.load("reference_car")
-    >>> found = sweep(car, rates, bump, reductions={"wheel_acceleration": "max"})
+    >>> found = variation.sweep(car, rates, bump, reductions={"wheel_acceleration": "max"})
     >>> found["wheel_acceleration_max"].dims
     ('strut.damper_rate_N_s_per_m',)
     """

@@ -53,7 +53,7 @@ def tolerance(
 
     Parameters
     ----------
-    suspension : Suspension, Axle or RigidAxle
+    suspension : Suspension, Axle, RigidAxle or Car
     tolerances : mapping of str to float
         Tolerance of values to either side, in display units (mm, deg, N/m, ...), by their places as
         in `sensitivity`. Of several entries that name a value the last one applies.
@@ -61,8 +61,8 @@ def tolerance(
         Distribution of each value: normal with a third of the tolerance as standard deviation, so
         that three in a thousand deviate by more, or uniform within the tolerance.
     correlation : array_like, shape (values, values), optional
-        Correlation of the values, in the order of the file, for the normal distribution; by default
-        they are independent.
+        Correlation matrix of the values, in the order of the file, for the normal distribution; by
+        default they are independent.
     limits : mapping, optional
         By characteristic: ``at_mm``, ``least`` and ``most``, in mm and the display unit, as in a
         file of limits.
@@ -92,10 +92,12 @@ def tolerance(
 
     Examples
     --------
-    >>> from kintrafo import Suspension
+    >>> from kintrafo import Suspension, variation
     >>> car = Suspension.load("reference_car")
-    >>> found = tolerance(car, {"hardpoints": 1.0}, count=50, positions=[-0.05, 0.0, 0.05],
-    ...                   limits={"toe": {"at_mm": [-50.0, 50.0], "least": -0.3, "most": 0.3}})
+    >>> limits = {"toe": {"at_mm": [-50.0, 50.0], "least": -0.3, "most": 0.3}}
+    >>> found = variation.tolerance(
+    ...     car, {"hardpoints": 1.0}, count=50, positions=[-0.05, 0.0, 0.05], limits=limits
+    ... )
     >>> 0.0 < found.attrs["yield"] < 1.0
     True
     """

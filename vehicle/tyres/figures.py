@@ -22,22 +22,23 @@ _STEP = 0.05  # of the load, for the load sensitivity
 
 
 def key_figures(tyre: Tyre, loads: Any = None) -> "xr.Dataset":
-    """Return stiffnesses, friction, load sensitivity and lengths of a tyre over its load.
+    """Return stiffnesses, friction coefficients, load sensitivity and lengths of a tyre over load.
 
     Parameters
     ----------
     tyre : Tyre
     loads : array_like, optional
-        [N], in the range of the tyre. Default: 0.5, 1 and 1.5 times the nominal load.
+        Loads, in the range of the tyre [N]; by default 0.5, 1 and 1.5 times the nominal load.
 
     Returns
     -------
     xarray.Dataset
         Over ``load`` [N], at the speed and the pressure of the file: ``cornering_stiffness``
         [N/rad], ``slip_stiffness`` [N], ``camber_stiffness`` [N/rad]; ``friction_lateral``,
-        ``friction_driving`` and ``friction_braking``, greatest forces over the load, and
-        ``angle_of_friction`` [rad], ``slip_of_driving`` and ``slip_of_braking``, their positions;
-        ``load_sensitivity``, the change of the lateral friction per unit of load [1/N];
+        ``friction_driving`` and ``friction_braking``, the greatest forces divided by the load, and
+        ``angle_of_friction`` [rad], ``slip_of_driving`` and ``slip_of_braking``, the slips of these
+        forces; ``load_sensitivity``, the derivative of ``friction_lateral`` with respect to the
+        load [1/N];
         ``trail`` [m], ``relaxation_x``, ``relaxation_y`` [m], ``loaded_radius``,
         ``effective_radius`` [m] and ``vertical_stiffness`` [N/m].
 
@@ -112,7 +113,7 @@ def _friction(tyre: Tyre, loads: Array, over: str, way: int) -> tuple[Array, Arr
 
 
 def tabulated(found: "xr.Dataset", head: str = "") -> Tabulated:
-    """Return key figures as a table in the units of engineers.
+    """Return key figures as a table of texts in display units, such as N/deg and mm.
 
     Parameters
     ----------

@@ -64,7 +64,7 @@ class TyreFit:
         Default coefficients that the data do not determine.
     success : bool
     message : str
-        End of the search.
+        The reason for which the search ended.
     evaluations : int
     """
 
@@ -90,7 +90,7 @@ def fit(
     bounds: Mapping[str, tuple[float, float]] | None = None,
     accuracy: Mapping[str, float] | None = None,
 ) -> TyreFit:
-    """Fit coefficients of a tyre to measured forces.
+    """Return a tyre whose coefficients are fitted to measured forces.
 
     All forces are fitted together by least squares within bounds (SciPy's trust region), each
     divided by its accuracy.

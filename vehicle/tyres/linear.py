@@ -28,18 +28,18 @@ class LinearSlip(Tyre):
     Attributes
     ----------
     radius, effective_radius
-        Unloaded radius; speed over rate of spin of a freely rolling wheel [m].
+        Unloaded radius, and the speed of a freely rolling wheel divided by its rate of spin [m].
     vertical_stiffness, vertical_damping
-        [N/m] and [N s/m].
+        Stiffness [N/m] and damping [N s/m] along the normal of the road.
     slip_stiffness, cornering_stiffness, camber_stiffness
-        dFx over longitudinal slip, -dFy over the tangent of the slip angle and over the sine of
-        the inclination [N].
+        Derivatives at zero slip: of Fx with respect to the longitudinal slip, and of -Fy with
+        respect to the tangent of the slip angle and to the sine of the inclination [N].
     friction
-        Greatest horizontal force over the load.
+        Greatest horizontal force divided by the load.
     trail
         Pneumatic trail without sliding [m]: positive if the lateral force acts behind the contact.
     rolling_resistance
-        Resistance force over the load.
+        Rolling resistance force divided by the load.
     relaxation_x, relaxation_y
         Relaxation lengths [m].
     """

@@ -25,7 +25,7 @@ def packaged_tyres() -> dict[str, Traversable]:
 
 
 def load(path_or_name: str | Path) -> Tyre:
-    """Return the tyre of a file.
+    """Return the tyre that a file describes.
 
     Parameters
     ----------

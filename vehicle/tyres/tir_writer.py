@@ -50,7 +50,7 @@ def write_tir(
     force: bool = False,
     inputs: Paths = (),
 ) -> Path:
-    """Write a tyre of the Magic Formula as a property file, in SI units.
+    """Write a tyre of the Magic Formula as a property file, in SI units, and return its path.
 
     Coefficients without effect are left out.
 

@@ -168,7 +168,7 @@ class TMeasy(Tyre):
         Parameters
         ----------
         friction : float
-            More than zero; the file has the coefficient of the measurement.
+            Coefficient of friction of the road, above zero; the file has that of the measurement.
         """
         with Validator(self.name) as given:
             friction = given.number("friction", friction, above=0.0)

@@ -97,24 +97,24 @@ class States:
 
 
 class Tyre(ABC):
-    """A tyre: forces and moments by load and slip.
+    """The base of all tyres: forces and moments as functions of load and slip.
 
     Attributes
     ----------
     name : str
         Name of its formulas, such as ``"MF 6.1"``.
     nominal_load : float
-        [N].
+        Reference load [N].
     radius : float
         Unloaded radius in the file [m].
     ranges : dict of str to (float, float)
-        Ranges of validity by argument of `evaluate`.
+        Ranges of validity by argument of `evaluate`, in its units.
     side : str
         Side of the vehicle for which it was measured: ``"left"``, ``"right"`` or empty.
     lowest_speed : float
         Speed below which slips are smoothed in equations of motion [m/s].
     vertical_damping : float
-        Damping along the normal [N s/m].
+        Damping along the normal of the road in equations of motion [N s/m].
     left_out, assumed : tuple of str
         Unused keys of the file, and assumptions in place of missing ones.
     law : str
@@ -196,17 +196,20 @@ class Tyre(ABC):
         pressure: Any = None,
         extrapolate: bool = False,
     ) -> TyreState:
-        """Return forces, moments, stiffnesses and lengths; arguments broadcast.
+        """Return forces, moments, stiffnesses and lengths of the tyre in steady rolling.
+
+        Arguments are broadcast with each other.
 
         Parameters
         ----------
         load : array_like
             Force of the road on the tyre along its normal [N], zero or more.
         slip_angle : array_like, optional
-            arctan(Vy / abs(Vx)) of the contact [rad], positive if it moves to the left: the
-            lateral force then acts to the right.
+            arctan(Vy / abs(Vx)) of the velocity V of the contact [rad], positive if it moves to the
+            left: the lateral force then acts to the right.
         slip : array_like, optional
-            kappa = -Vsx / abs(Vx): positive in driving, -1 for a locked wheel.
+            Longitudinal slip kappa = -Vsx / abs(Vx), with the sliding velocity Vsx of the contact:
+            positive in driving, -1 for a locked wheel.
         camber : array_like, optional
             Inclination about x [rad], positive with the top to the right (ISO 8855), on both sides
             of the vehicle.

@@ -43,7 +43,7 @@ def compile_mechanism(
     folder: str | Path | None = None,
     progress: Report | None = None,
 ) -> ModuleType:
-    """Derive the equations of a mechanism and return them as a compiled module.
+    """Return the equations of a mechanism, derived and compiled, as a module.
 
     Compiled mechanisms are kept in a cache, and used again as long as declaration, generator and
     compiler are the same. A declaration with a class of your own, such as a force, is derived at

@@ -18,10 +18,11 @@ def write_derivation(
     name: str | None = None,
     force: bool = False,
 ) -> list[Path]:
-    """Write a document that derives the equations of a mechanism, from its joints to M, B and Q.
+    """Write a document that derives the equations of a mechanism, and return its files.
 
-    Nothing is compiled. ``pdflatex`` or ``lualatex`` compiles a document in LaTeX; it needs the
-    packages of a small installation (on Debian: texlive-latex-recommended).
+    It leads from the joints to the equations of motion, M q'' + B = Q. Nothing is compiled.
+    ``pdflatex`` or ``lualatex`` compiles a document in LaTeX; it needs the packages of a small
+    installation (on Debian: texlive-latex-recommended).
 
     Parameters
     ----------

@@ -59,36 +59,40 @@ def over(
     travel: float = 0.0,
     rack_position: float = 0.0,
 ) -> xr.Dataset:
-    """Return the characteristics of a suspension, an axle or a rigid axle over a motion of a rig.
+    """Return the characteristics of a suspension, an axle or a car over a motion of a rig.
 
     Parameters
     ----------
-    subject : Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
+    subject : Suspension, Model, Axle, AxleModel, RigidAxle, RigidAxleModel, Car or CarModel
     motion : str, optional
         Of a suspension 'travel' or, if it is steered, 'rack'. Of an axle 'bump' (both wheels in
         parallel), 'roll', 'left' and 'right' (one wheel, the other one at design); of a steered
-        axle also 'steer' and 'rack'. By default the first of these.
+        axle also 'steer' and 'rack'. Of a car 'heave', 'pitch' and 'roll' of the body; of a quarter
+        car 'heave' only. By default the first of these.
     along : array_like, shape (n,), optional
-        Positions of the motion: heights of wheel centres above design or displacements of the rack
-        [m], roll angles of the body, positive with the right side down, or angles of the steering
-        wheel, positive to the left [rad]. By default the usual range, limited to the reach of the
-        wheels: 80 mm of travel and 60 mm of the rack to either side, 4 deg of roll.
+        Positions of the motion. 'travel', 'bump', 'left', 'right': heights of wheel centres above
+        design [m]; 'rack': displacements of the rack [m]; 'roll': roll angles of the body, positive
+        with the right side down [rad]; 'steer': angles of the steering wheel, positive to the left
+        [rad]; 'heave', positive upward [m]; 'pitch', positive nose down [rad]. By default the usual
+        range, limited to the reach of the wheels: 80 mm of travel and 60 mm of the rack to either
+        side, 4 deg of roll.
     extent : SweepRange, optional
-        Ends of the motion that differ from the usual range.
+        Ends of the motion that differ from the usual range; not together with `along`.
     travel : float, optional
-        Height of the wheel centres above design [m], for a motion of the rack.
+        Constant height of the wheel centres above design in a motion of the rack [m].
     rack_position : float, optional
-        Displacement of the rack [m], for a motion of the wheels.
+        Constant displacement of the rack in a motion of the wheels [m].
 
     Returns
     -------
     xarray.Dataset
         Over ``wheel_travel`` [m], ``roll_angle`` [rad], ``steering_wheel_angle`` [rad] or
-        ``rack_position`` [m]; of an axle, characteristics of the wheels also over ``wheel``. The
-        motion 'steer' is over the rack if the file has no steering ratio. SI units; each variable
-        has ``units``, ``long_name``, ``definition``, ``sign`` and the display unit as
-        ``display_units`` and ``display_factor``. Characteristics that need missing data of the
-        vehicle are left out.
+        ``rack_position`` [m], of a car also ``body_heave`` [m] or ``body_pitch`` [rad]; of an axle,
+        characteristics of the wheels also over ``wheel``. The motion 'steer' is over the rack if
+        the file has no steering ratio. Values are in SI units. Each variable has the attributes
+        ``units``, ``long_name``, ``definition``, ``sign``, and ``display_units``, the unit in which
+        tables and figures show it, of which ``display_factor`` are one SI unit. Characteristics
+        that need missing data of the vehicle are left out.
 
     Raises
     ------
@@ -101,14 +105,14 @@ def over(
     Examples
     --------
     >>> import numpy as np
-    >>> from kintrafo import load
-    >>> curves = over(load("reference_car"), "travel", [-0.05, 0.05])
+    >>> from kintrafo import characteristics, load
+    >>> curves = characteristics.over(load("reference_car"), "travel", [-0.05, 0.05])
     >>> np.rad2deg(curves["camber"].values).round(4).tolist()
     [1.3246, -0.9139]
-    >>> steered = over(load("reference_car"), "rack", [-0.04, 0.04])
+    >>> steered = characteristics.over(load("reference_car"), "rack", [-0.04, 0.04])
     >>> np.rad2deg(steered["steer_left"].values).round(3).tolist()
     [18.174, -17.836]
-    >>> axle = over(load("reference_axle"), "bump", [-0.05, 0.0, 0.05])
+    >>> axle = characteristics.over(load("reference_axle"), "bump", [-0.05, 0.0, 0.05])
     >>> (axle["roll_center_height"].values * 1e3).round(1).tolist()
     [224.8, 106.3, -18.2]
     >>> axle["camber"].dims

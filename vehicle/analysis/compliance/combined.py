@@ -57,7 +57,7 @@ def combined(
     under : {'lateral', 'braking', 'recession', 'aligning'}
         As in `nonlinear`.
     amounts : array_like, shape (m,)
-        Amounts of the load, of either sign [N], [N m].
+        Amounts of the load, of either sign: forces [N], or torques for 'aligning' [N m].
     travel : array_like, shape (n,), optional
         Heights of the wheel centres with rigid joints above design, of an axle in parallel [m]; by
         default the usual range.
@@ -83,10 +83,12 @@ def combined(
 
     Examples
     --------
+    >>> import numpy as np
+    >>> from kintrafo import compliance
     >>> import kintrafo
     >>> bushes = {"arm_rear": {"axial_N_per_mm": 500.0, "radial_N_per_mm": 2000.0}}
     >>> car = kintrafo.load("reference_car")
-    >>> found = combined(car, bushes, "lateral", [0.0, 4000.0], [-0.04, 0.0, 0.04])
+    >>> found = compliance.combined(car, bushes, "lateral", [0.0, 4000.0], [-0.04, 0.0, 0.04])
     >>> np.rad2deg(found["toe"]).values.round(2).tolist()
     [[-0.22, 0.0, 0.21], [0.06, 0.27, 0.46]]
     """

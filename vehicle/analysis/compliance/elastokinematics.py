@@ -69,7 +69,7 @@ def elastokinematics(
     rack_position: float = 0.0,
     hardpoints: Hardpoints = "loaded",
 ) -> xr.Dataset:
-    """Return curves of the wheels over a motion, with rigid joints and on bushes.
+    """Return toe, camber and other curves over a motion, with rigid joints and on bushes.
 
     Parameters
     ----------
@@ -125,14 +125,17 @@ def elastokinematics(
 
     Examples
     --------
+    >>> import numpy as np
+    >>> from kintrafo import compliance
     >>> import kintrafo
     >>> bushes = {"arm_rear": {"axial_N_per_mm": 500.0, "radial_N_per_mm": 2000.0}}
-    >>> found = elastokinematics(kintrafo.load("reference_car"), bushes, along=[-0.04, 0.0, 0.04])
+    >>> car = kintrafo.load("reference_car")
+    >>> found = compliance.elastokinematics(car, bushes, along=[-0.04, 0.0, 0.04])
     >>> toe = np.rad2deg(found["toe"].sel(data_set="elastokinematic") - found["toe"][0])
     >>> (toe.values.round(3) + 0.0).tolist()
     [0.023, 0.0, -0.023]
     >>> axle = kintrafo.load("reference_axle")
-    >>> found = elastokinematics(axle, bushes, "roll", np.deg2rad([0.0, 2.0]))
+    >>> found = compliance.elastokinematics(axle, bushes, "roll", np.deg2rad([0.0, 2.0]))
     >>> (found["roll_stiffness_at_contacts"].values * np.pi / 180.0).round(1).tolist()  # N m/deg
     [[851.2, 856.2], [850.8, 856.0]]
     """

@@ -45,7 +45,7 @@ def linear(
     rack_position: float = 0.0,
     held: WheelSupport = "height",
 ) -> xr.Dataset:
-    """Return first-order deflections of the wheels per unit of a load, over parallel travel.
+    """Return the deflections of the wheels on bushes per unit of a load, over parallel travel.
 
     Parameters
     ----------
@@ -67,23 +67,27 @@ def linear(
     rack_position : float, optional
         Displacement of the rack [m].
     held : {'height', 'tyre', 'spring', 'locked'}, optional
-        Support of each wheel, besides an anti-roll bar. 'height': a rigid wheel on a pad of
-        constant height. 'tyre': a tyre that deflects on such a pad. 'spring': spring and stops, as
-        on a rig with constant vertical force. 'locked': a locked spring.
+        Support of each wheel under the load, besides an anti-roll bar. 'height': the contact of a
+        rigid wheel stays at its height, on the pad of a rig. 'tyre': the tyre deflects on such a
+        pad. 'spring': the wheel rests on its spring and stops, and the pad has a constant vertical
+        force. 'locked': the length of the spring is constant.
 
     Returns
     -------
     xarray.Dataset
-        Over ``wheel`` and ``wheel_travel``: toe, camber and displacement by a lateral force inward,
-        a braking force, a rearward force at the wheel centre and an aligning torque,
-        ``toe_by_lateral`` and so on; of an axle by loads of the same size on both wheels,
-        ``..._parallel`` and ``..._opposed``. If the file has the tyre's rates along these forces,
-        ``patch_displacement_by_...``: displacement of the wheel at the contact plus the deflection
-        of the stationary tyre, which is the displacement of the pad of a rig. ``flexibility``,
-        displacement and rotation of the contacts by force and moment on the wheels there, tyre axes
-        of each, of shape (n, 6 wheels, 6 wheels) [m/N], [rad/N], [m/(N m)], [rad/(N m)]. A rigid
-        axle also has ``axle_steer_by_...`` and ``axle_lateral_by_...``, positive to the left, and
-        ``axle_longitudinal_by_...``, positive forward, of the line through its wheel centres.
+        Over ``wheel`` and ``wheel_travel``: ``toe_by_...``, ``camber_by_...`` [rad/N], and
+        ``displacement_by_...`` in the direction of the force [m/N], where ``...`` is ``lateral``, a
+        force inward at the contact, ``braking``, a rearward force there, or ``recession``, a
+        rearward force at the wheel centre; and toe and camber by ``aligning``, a torque about the
+        vertical towards toe-out [rad/(N m)]. Of an axle by loads of the same size on both wheels,
+        in the same direction, ``..._parallel``, or in opposite ones, ``..._opposed``. If the
+        file has the tyre's rates along these forces, ``patch_displacement_by_...``: displacement of
+        the wheel at the contact plus the deflection of the stationary tyre, which is the
+        displacement of the pad of a rig. ``flexibility``, displacement and rotation of the contacts
+        by force and moment on the wheels there, tyre axes of each, of shape (n, 6 wheels, 6 wheels)
+        [m/N], [rad/N], [m/(N m)], [rad/(N m)]. A rigid axle also has ``axle_steer_by_...`` and
+        ``axle_lateral_by_...``, positive to the left, and ``axle_longitudinal_by_...``, positive
+        forward, of the line through its wheel centres.
 
     Raises
     ------
@@ -105,16 +109,18 @@ def linear(
 
     Examples
     --------
+    >>> import numpy as np
+    >>> from kintrafo import compliance
     >>> import kintrafo
     >>> bushes = {"arm_rear": {"axial_N_per_mm": 500.0, "radial_N_per_mm": 2000.0}}
-    >>> found = linear(kintrafo.load("reference_car"), bushes, [0.0])
+    >>> found = compliance.linear(kintrafo.load("reference_car"), bushes, [0.0])
     >>> round(float(np.rad2deg(found["toe_by_lateral"][0])) * 1e3, 3)  # deg/kN
     0.065
 
     Opposed forces do not move a soft rack:
 
     >>> soft = {"rack": {"axial_N_per_mm": 5000.0}}
-    >>> right = linear(kintrafo.load("reference_axle"), soft, [0.0]).sel(wheel="right")
+    >>> right = compliance.linear(kintrafo.load("reference_axle"), soft, [0.0]).sel(wheel="right")
     >>> for how in ("parallel", "opposed"):
     ...     print(round(abs(float(np.rad2deg(right[f"toe_by_lateral_{how}"][0]))) * 1e3, 4))
     0.0189
@@ -123,7 +129,7 @@ def linear(
     A Panhard rod of 5 kN/mm under 1 kN on each wheel:
 
     >>> soft = {"panhard_rod_chassis": {"axial_N_per_mm": 5000.0}}
-    >>> found = linear(kintrafo.load("rigid_axle"), soft, [0.0])
+    >>> found = compliance.linear(kintrafo.load("rigid_axle"), soft, [0.0])
     >>> round(1e6 * float(found["axle_lateral_by_lateral_parallel"][0]), 2)  # mm/kN
     0.38
     """

@@ -81,7 +81,7 @@ def nonlinear(
     held: WheelSupport = "height",
     hardpoints: Hardpoints = "loaded",
 ) -> xr.Dataset:
-    """Return the deflections of the wheels under loads of any size.
+    """Return the deflections of the wheels on bushes under loads of any size.
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ def nonlinear(
         A lateral force inward or a braking force at the contact, a rearward force at the wheel
         centre, or a torque about the vertical towards toe-out.
     amounts : array_like, shape (n,)
-        Amounts of the load, of either sign [N], [N m].
+        Amounts of the load, of either sign: forces [N], or torques for 'aligning' [N m].
     wheels : {'parallel', 'opposed', 'left', 'right'} or two numbers, optional
         Of an axle, the loaded wheels: as in `linear`, by default 'parallel', or one of them. Or
         factors of the load on the left and the right wheel, with the sign of one corner: ``[1.0,
@@ -139,10 +139,12 @@ def nonlinear(
 
     Examples
     --------
+    >>> import numpy as np
+    >>> from kintrafo import compliance
     >>> import kintrafo
     >>> bushes = {"arm_rear": {"axial_N_per_mm": 500.0, "radial_N_per_mm": 2000.0}}
     >>> car = kintrafo.load("reference_car")
-    >>> found = nonlinear(car, bushes, "lateral", [0.0, 1000.0, 5000.0])
+    >>> found = compliance.nonlinear(car, bushes, "lateral", [0.0, 1000.0, 5000.0])
     >>> np.rad2deg(found["toe_change"]).sel(data_set="equilibrium").values.round(3).tolist()
     [0.0, 0.066, 0.333]
 
@@ -150,7 +152,7 @@ def nonlinear(
 
     >>> soft, axle = {"rack": {"axial_N_per_mm": 2500.0}}, kintrafo.load("reference_axle")
     >>> for wheels in ("parallel", "opposed"):
-    ...     found = nonlinear(axle, soft, "lateral", [5000.0], wheels=wheels)
+    ...     found = compliance.nonlinear(axle, soft, "lateral", [5000.0], wheels=wheels)
     ...     toe = found["toe_change"].sel(wheel="right", data_set="equilibrium")
     ...     print(abs(round(float(np.rad2deg(toe[0])), 3)))
     0.188

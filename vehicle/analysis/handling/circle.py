@@ -239,7 +239,7 @@ def steady_turns(
     wanted : ndarray, optional
         Lateral accelerations instead of steps, positive and rising [m/s^2].
     progress : callable, optional
-        Called with the part that is done, up to 1.
+        Called with the completed fraction, up to 1.
 
     Returns
     -------

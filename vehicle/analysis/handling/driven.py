@@ -88,7 +88,7 @@ def driven(
     until : callable, optional
         Ends the simulation when it returns True for an observation of the driver.
     progress : callable, optional
-        Called with the part that is done, up to 1.
+        Called with the completed fraction, up to 1.
 
     Returns
     -------

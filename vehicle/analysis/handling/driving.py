@@ -33,11 +33,12 @@ def drive(
     subject : Car or CarModel
         A car that drives, ``car = "full"`` in its file.
     manoeuvre : str, pathlib.Path, mapping or Manoeuvre
-        The name of a manoeuvre of kintrafo, such as ``"step_steer"``, or a file.
+        The name of a packaged manoeuvre, such as ``"step_steer"``; the path of a file, its content,
+        or the result of `load_manoeuvre`.
     changes : mapping of str to Any, optional
-        Values that replace those of the file, by key: ``{"speed_km_per_h": 100.0}``.
+        Values that replace those of the file, in its units, by key: ``{"speed_km_per_h": 100.0}``.
     progress : callable, optional
-        Called with the part that is done, up to 1.
+        Called with the completed fraction, up to 1.
 
     Returns
     -------
@@ -86,7 +87,7 @@ def circle(
     step: float = 0.25,
     turn: Literal["left", "right"] = "left",
 ) -> HandlingResult:
-    """Return the steady turns of a car by lateral acceleration (ISO 4138).
+    """Return the steady turns of a car over lateral acceleration (ISO 4138).
 
     Nothing is simulated: each turn is a solution of the equations of motion in which only position,
     yaw angle and the angles of the wheels change.
@@ -96,22 +97,25 @@ def circle(
     subject : Car or CarModel
         A car that drives, ``car = "full"`` in its file.
     speed : float, optional
-        Constant speed [m/s]; one of these three is needed.
+        Constant speed, above zero [m/s]. Exactly one of `speed`, `radius` and `steering_wheel` is
+        needed.
     radius : float, optional
-        Constant radius of the path [m].
+        Constant radius of the path, above zero [m].
     steering_wheel : float, optional
-        Constant angle of the steering wheel [rad].
-    lateral_acceleration : array_like, optional
-        Positive and rising values; by default equal steps up to the greatest one [m/s^2].
+        Constant angle of the steering wheel, above zero for both sides of the turn [rad].
+    lateral_acceleration : array_like, shape (n,), optional
+        Lateral accelerations, above zero for both sides of the turn, in increasing order [m/s^2].
+        By default multiples of `step` up to the greatest one of a steady turn.
     step : float, optional
-        [m/s^2]
-    turn : {'left', 'right'}
+        Distance between two lateral accelerations [m/s^2].
+    turn : {'left', 'right'}, optional
+        Side to which the car turns.
 
     Returns
     -------
     HandlingResult
-        Curves over ``lateral_acceleration``: angles, gradients and forces, also of each wheel; and
-        the gradients of the straightest turn as metrics.
+        Curves over ``lateral_acceleration``: angles, gradients and forces, also of each wheel. The
+        metrics are the gradients of the turn with the smallest lateral acceleration.
 
     Raises
     ------

@@ -25,7 +25,7 @@ def dynamic_loads(result: HandlingResult) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        As in `kintrafo.loads.along`.
+        As from `kintrafo.loads.along`: over ``time`` [s], forces [N] and moments [N m].
 
     Raises
     ------

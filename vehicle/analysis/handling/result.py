@@ -18,7 +18,8 @@ class HandlingResult(NamedTuple):
     metrics : xarray.Dataset
         Its metrics, each with unit and meaning.
     curves : dict of str to xarray.Dataset
-        Curves over time, lateral acceleration or frequency, by the ending of the names of files.
+        Curves over time, lateral acceleration or frequency. Their names are the endings of the
+        names of data files, such as ``"_response"``; that of the main curves is ``""``.
     runs : sequence of Run
         The simulations, with the states of the equations; empty for steady turns.
     """

@@ -41,7 +41,7 @@ def straight_running(
     speeds : ndarray, shape (n,)
         Rising [m/s].
     progress : callable, optional
-        Called with the part that is done, up to 1.
+        Called with the completed fraction, up to 1.
 
     Returns
     -------

@@ -43,7 +43,7 @@ _NEEDED = (
 
 
 def along(model: System, result: Simulation) -> xr.Dataset:
-    """Return the loads on every part at each output of a simulation.
+    """Return the forces and moments on every part at each output of a simulation.
 
     Parameters
     ----------
@@ -75,10 +75,10 @@ def along(model: System, result: Simulation) -> xr.Dataset:
 
     Examples
     --------
-    >>> from kintrafo import Model, simulate, state_at_height
+    >>> from kintrafo import Model, loads, simulate, state_at_height
     >>> model = Model("reference_car")
     >>> motion = simulate(model, (0.0, 0.1), state_at_height(model, 0.325))
-    >>> found = along(model, motion)
+    >>> found = loads.along(model, motion)
     >>> bool(abs(found["holding_force"]).max() < 1e-5)
     True
     """

@@ -73,7 +73,7 @@ def read(path: str | Path) -> dict[str, Any]:
     Returns
     -------
     dict
-        ``cases``, and ``static_load_N`` if the file has it.
+        ``cases``, as for `static`, and ``static_load_N`` if the file has it.
 
     Raises
     ------
@@ -216,12 +216,12 @@ def standard_cases(subject: Any) -> dict[str, dict[str, Any]]:
     Returns
     -------
     dict
-        For `static`.
+        By the names of the cases, each as for `static`.
 
     Examples
     --------
-    >>> from kintrafo import Axle
-    >>> standard_cases(Axle.load("reference_axle"))["corner"]["right"]
+    >>> from kintrafo import Axle, loads
+    >>> loads.standard_cases(Axle.load("reference_axle"))["corner"]["right"]
     {'contact_g': [0.0, 1.2, 1.5]}
     """
     with Validator("standard_cases") as given:

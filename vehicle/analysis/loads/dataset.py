@@ -192,7 +192,7 @@ def _sum(fields: dict[str, Array], rows: list[int], about: Array) -> tuple[Array
 
 
 def envelope(dataset: xr.Dataset) -> xr.Dataset:
-    """Return the extremes of every load, and their cases.
+    """Return the least and the greatest component of every load, and their cases.
 
     Parameters
     ----------
@@ -202,8 +202,8 @@ def envelope(dataset: xr.Dataset) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        ``force_min``, ``force_max``, ``moment_min``, ``moment_max`` over ``load`` and ``axis``, and
-        the case of each, ``force_min_case`` and so on.
+        ``force_min``, ``force_max`` [N], ``moment_min``, ``moment_max`` [N m] over ``load`` and
+        ``axis``, in chassis axes, and the case of each, ``force_min_case`` and so on.
     """
     with Validator("envelope") as given:
         given.instance("dataset", dataset, xr.Dataset, _NEEDED)
@@ -219,7 +219,7 @@ def envelope(dataset: xr.Dataset) -> xr.Dataset:
 
 
 def peaks(dataset: xr.Dataset) -> xr.Dataset:
-    """Return the greatest force and moment of every load along a motion, and their times.
+    """Return the greatest force and moment of every load during a motion, and their times.
 
     Parameters
     ----------
@@ -229,9 +229,9 @@ def peaks(dataset: xr.Dataset) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        Over ``load``: ``force_peak`` [N] and ``moment_peak`` [N m] in size, ``force_peak_time`` and
-        ``moment_peak_time`` [s]; also over ``axis`` the components at these times, ``force`` and
-        ``moment``.
+        Over ``load``: the greatest magnitudes, ``force_peak`` [N] and ``moment_peak`` [N m], and
+        their times ``force_peak_time`` and ``moment_peak_time`` [s]; also over ``axis`` the
+        components at these times, ``force`` [N] and ``moment`` [N m], in chassis axes.
     """
     with Validator("peaks") as given:
         given.instance("dataset", dataset, xr.Dataset, _NEEDED)
@@ -264,9 +264,9 @@ def table(dataset: xr.Dataset, axes: str = "vehicle") -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        ``force_x`` to ``moment_z`` and ``at_x`` to ``at_z`` over case, or time, and load: a row for
-        each load on each part, and for the total at each mount of the chassis as that on the part
-        ``total``. The column ``axes`` has the name of the axes.
+        ``force_x`` to ``force_z`` [N], ``moment_x`` to ``moment_z`` [N m] and ``at_x`` to ``at_z``
+        [m] over case, or time, and load: a row for each load on each part. Totals at the mounts of
+        the chassis are rows of a part ``total``. The column ``axes`` has the name of the axes.
     """
     with Validator("table") as given:
         given.instance("dataset", dataset, xr.Dataset, _NEEDED)

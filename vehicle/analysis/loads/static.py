@@ -28,7 +28,7 @@ from .static_equilibrium import static_equilibrium
 def static(
     subject: Any, cases: Mapping[str, Any] | None = None, *, static_load: float | None = None
 ) -> xr.Dataset:
-    """Return the loads on every part in load cases, each at rest.
+    """Return the forces and moments on every part in load cases, each in static equilibrium.
 
     Parameters
     ----------
@@ -36,23 +36,25 @@ def static(
     cases : mapping, optional
         By name: ``contact_N`` and ``contact_Nm``, force and moment at the lowest point of the
         wheel, whose brake holds it; ``center_N`` and ``center_Nm``, force and moment at the wheel
-        centre, for torques of a brake or a final drive on the body; each has three numbers in the
-        axes of the tyre, y to the left. ``contact_g`` and ``center_g`` are fractions
-        of the static load. ``rack_mm``; ``travel_mm``, a given travel of the wheel instead of a
-        vertical force at the contact. For an axle they apply to both wheels; ``left`` and ``right``
-        have those of one wheel. By default those of `standard_cases`.
+        centre, for torques of a brake or a final drive on the body. Each has three numbers in the
+        axes of the tyre (ISO 8855): x forward, y to the left, z up. ``contact_g`` and ``center_g``
+        are such forces as fractions of the static load. ``rack_mm`` is a displacement of the rack,
+        and ``travel_mm`` a given travel of the wheel instead of a vertical force at the contact.
+        For an axle they apply to both wheels; ``left`` and ``right`` have those of one wheel. By
+        default those of `standard_cases`.
     static_load : float, optional
-        Vertical force on each wheel [N]; by default that of the rest on the road at z = 0.
+        Static load of each wheel, the unit of ``contact_g`` and ``center_g`` [N]; by default the
+        vertical force at rest on the road at z = 0.
 
     Returns
     -------
     xarray.Dataset
-        Over ``case``, ``load`` and ``axis``: ``force`` [N] and ``moment`` [N m] about its point
-        ``at`` [m], in chassis axes, and ``force_in_part`` and ``moment_in_part`` in the axes of the
-        part at design, with its point at ``at_in_part`` [m]. Every load has the ``part`` on which
-        it acts, its ``point``, and the neighbour ``by`` which it is exerted. Forces between two
-        parts occur twice, with both signs. Parts and points of both sides of an axle end in
-        ``_left`` and ``_right``.
+        Over ``case``, ``load`` and ``axis``: ``force`` [N] and ``moment`` [N m] about its point of
+        action ``at`` [m], in chassis axes; and ``force_in_part``, ``moment_in_part`` and
+        ``at_in_part`` in axes that are fixed in the part, and are those of the chassis at design.
+        Every load has the ``part`` on which it acts, its ``point``, and the neighbour ``by`` which
+        it is exerted. Forces between two parts occur twice, with both signs. Parts and points of
+        both sides of an axle end in ``_left`` and ``_right``.
 
         Over ``case``, and of an axle over ``wheel``: ``travel`` [m], ``wheel_load`` [N], and
         ``holding_force`` [N], the residual of the vertical force at the contact: zero, to rounding.
@@ -92,17 +94,17 @@ def static(
 
     Examples
     --------
-    >>> from kintrafo import Axle, Model, RigidAxle
-    >>> found = static(Model("reference_car"), {"static": {"contact_g": [0, 0, 1]}})
+    >>> from kintrafo import Axle, Model, RigidAxle, loads
+    >>> found = loads.static(Model("reference_car"), {"static": {"contact_g": [0, 0, 1]}})
     >>> mount = found.sel(case="static", axis="z", load=found["point"] == "spring_top")
     >>> [round(float(force)) for force in mount["force"]]
     [3541]
     >>> turn = {"left": {"contact_g": [0, 0, 1]}, "right": {"contact_g": [0, 0, 1.5]}}
-    >>> found = static(Axle.load("reference_axle"), {"turn": turn})
+    >>> found = loads.static(Axle.load("reference_axle"), {"turn": turn})
     >>> [round(1e3 * float(travel), 1) for travel in found["travel"].sel(case="turn")]
     [15.5, 57.9]
     >>> turn = {"left": {"contact_N": [0, 2000, 3000]}, "right": {"contact_N": [0, 6000, 9000]}}
-    >>> found = static(RigidAxle.load("rigid_axle"), {"turn": turn})
+    >>> found = loads.static(RigidAxle.load("rigid_axle"), {"turn": turn})
     >>> round(float(found["rod_force"].sel(case="turn", rod="panhard_rod")))
     7628
     """

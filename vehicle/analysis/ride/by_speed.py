@@ -78,17 +78,18 @@ OF_CAR = {q.name: q for q in (*_OF_BODY, *(q for name in _MODES for q in _of_mod
 def by_speed(
     subject: Any, speeds: ArrayLike, roughness: str | float = "B", *, seat: str | None = None
 ) -> xr.Dataset:
-    """Return the metrics of the ride of a car over speed.
+    """Return accelerations, load variations and modes of a car on a rough road over speed.
 
     Parameters
     ----------
     subject : Car or CarModel
     speeds : array_like, shape (n,)
-        [m/s]
+        Speeds of the car, above zero [m/s].
     roughness : str or float, optional
         As in `response`.
     seat : str, optional
-        The `[seats.NAME]` of the accelerations; by default the body's centre of mass.
+        Name of the seat at which accelerations are taken, a section ``[seats.NAME]`` of the file;
+        by default the body's centre of mass.
 
     Returns
     -------

@@ -44,7 +44,7 @@ def linear_at_rest(assembly: CarAssembly) -> Linearisation:
 
 
 def modes(subject: Any) -> xr.Dataset:
-    """Return the modes of a car at rest.
+    """Return the modes of a car linearised at rest.
 
     Parameters
     ----------
@@ -54,17 +54,23 @@ def modes(subject: Any) -> xr.Dataset:
     -------
     xarray.Dataset
         Over ``mode``: ``frequency``, undamped [Hz], and ``damping_ratio``, without friction;
-        ``energy``, the part of its kinetic energy in the motion of its name. Names are ``heave``,
-        ``pitch`` and ``roll`` of the body; ``front_hop`` and ``rear_hop``, both wheels of an axle
-        together, and ``front_tramp`` and ``rear_tramp``, oppositely; of a quarter car ``heave`` and
-        ``hop``.
+        ``energy``, the fraction of its kinetic energy in the motion of its name. Names are
+        ``heave``, ``pitch`` and ``roll`` of the body; ``front_hop`` and ``rear_hop``, both wheels
+        of an axle in the same direction, and ``front_tramp`` and ``rear_tramp``, in opposite ones;
+        of a quarter car ``heave`` and ``hop``.
+
+    Raises
+    ------
+    PositionError
+        If the car does not rest on its wheels, or rests on a stop.
 
     Notes
     -----
     Modes are named by their kinetic energy: of the body in heave, pitch and roll, and of the wheels
-    in their heights above the road, together and oppositely. The assignment of names has the
-    greatest sum of these parts. For parts near one half, as of heave and pitch of a car with much
-    damping, two modes share two motions, and small changes exchange the names.
+    in their heights above the road, in the same direction and in opposite ones. The assignment of
+    names has the greatest sum of these fractions. For fractions near one half, as of heave and
+    pitch of a car with much damping, two modes share two motions, and small changes exchange the
+    names.
 
     Examples
     --------
@@ -103,27 +109,36 @@ def named_modes(assembly: CarAssembly, linear: Linearisation) -> dict[str, tuple
 def response(
     subject: Any, speed: float, roughness: str | float = "B", *, frequency: ArrayLike | None = None
 ) -> xr.Dataset:
-    """Return the response of a car to a rough road by its linear equations.
+    """Return spectra of the response of a car to a rough road, by its linear equations.
 
     Parameters
     ----------
     subject : Car or CarModel
     speed : float
-        [m/s]
+        Speed of the car, above zero [m/s].
     roughness : str or float, optional
-        Class of ISO 8608, or G(n0) [m^3], of an isotropic road under both tracks.
-    frequency : array_like, optional
-        Rising [Hz]; by default 0.2 to 50 Hz in steps of 0.02 Hz.
+        Of an isotropic road under both tracks: the class of ISO 8608, 'A' to 'H', or its spectral
+        density G(n0) at n0 = 0.1 1/m [m^3].
+    frequency : array_like, shape (n,), optional
+        Frequencies, in increasing order [Hz]; by default 0.2 to 50 Hz in steps of 0.02 Hz.
 
     Returns
     -------
     xarray.Dataset
         Over ``frequency``: the one-sided power spectral density of each output, its name followed
-        by ``_psd``, and over ``road_wheel`` the size of its response to the road under one wheel,
-        followed by ``_by_road``. Outputs are those of `over`: ``body_acceleration``, that of each
-        seat, ``load`` and ``travel`` of each wheel. Their RMS over these frequencies are attributes
-        of the spectra, ``rms`` and, for accelerations, ``weighted_rms`` by W_k of ISO 2631-1.
-        Lift-off, stops and friction are not linear: see `over`.
+        by ``_psd``, in the square of its unit per Hz; and over ``road_wheel`` the amplitude of its
+        response to the road under that wheel alone, followed by ``_by_road``, in its unit per m.
+        Outputs are those of `over`: ``body_acceleration``, that of each seat, ``load`` and
+        ``travel`` of each wheel. Their RMS over these frequencies are attributes of the spectra,
+        ``rms`` and, for accelerations, ``weighted_rms`` by W_k of ISO 2631-1. Lift-off, stops and
+        friction are not linear: see `over`.
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used.
+    PositionError
+        If the car does not rest on its wheels, or rests on a stop.
 
     Examples
     --------

@@ -29,9 +29,10 @@ def at_rest(subject: Any) -> xr.Dataset:
     -------
     xarray.Dataset
         Over ``wheel``: ``load``, the vertical force of the road [N]; ``travel``, height of the
-        wheel centre on the body above that at design [m]; ``camber`` and ``toe`` of the wheel in
-        level axes along the heading of the body [rad]. Of the body ``heave``, ``pitch`` and
-        ``roll``, if it has these coordinates.
+        wheel centre above design, in axes of the body [m]; ``camber`` and ``toe`` of the wheel in
+        level axes along the heading of the body [rad]. Of the body, if it has these coordinates,
+        ``heave``, positive up [m], ``pitch``, positive nose down, and ``roll``, positive with the
+        right side down [rad].
 
     Raises
     ------

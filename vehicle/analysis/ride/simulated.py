@@ -41,7 +41,7 @@ def over(
     output_step: float = 0.005,
     **options: Any,
 ) -> xr.Dataset:
-    """Return the motion of a car over a road, from rest at its beginning.
+    """Return the simulated motion of a car over a road, from rest at its beginning.
 
     Parameters
     ----------
@@ -49,14 +49,14 @@ def over(
     road : Road
         The road under the left and right wheels; rear wheels reach it later by the wheelbase.
     speed : float
-        [m/s]
+        Speed of the car, above zero [m/s].
     duration : float, optional
-        [s]; by default until the rear wheels reach the end of the road.
+        Duration of the simulation [s]; by default until the rear wheels reach the end of the road.
     settle : float, optional
-        Start of the metrics [s]; by default 2 s on a stationary rough road, and 0 on other roads,
-        which may begin with a bump.
+        Time from which on RMS and extremes are taken [s]; by default 2 s on a stationary rough
+        road, and 0 on other roads, which may begin with a bump.
     output_step : float, optional
-        0.01 s at most, so that accelerations can be weighted [s].
+        Time between two outputs [s]; 0.01 s at most, so that accelerations can be weighted.
     **options
         Of `kintrafo.simulate`: ``method``, by default 'DormandPrince', and tolerances.
 

@@ -36,21 +36,23 @@ def _product(polynomials: list[list[float]]) -> Array:
 
 
 def weighting(frequency: ArrayLike) -> Complex:
-    """Return the weighting W_k of vertical acceleration.
+    """Return the frequency weighting W_k of vertical acceleration (ISO 2631-1).
 
     Parameters
     ----------
     frequency : array_like
-        [Hz]
+        Frequencies [Hz].
 
     Returns
     -------
     ndarray of complex
-        The transfer function with its band limits, by the poles of ISO 2631-1, Annex A.
+        The transfer function with its band limits, of the shape of `frequency` [1]: its absolute
+        values are the weighting factors. Its poles are those of ISO 2631-1, Annex A.
 
     Examples
     --------
-    >>> abs(weighting([1.0, 8.0])).round(3).tolist()
+    >>> from kintrafo import ride
+    >>> abs(ride.weighting([1.0, 8.0])).round(3).tolist()
     [0.482, 1.036]
     """
     with Validator("weighting") as given:
@@ -62,14 +64,24 @@ def weighting(frequency: ArrayLike) -> Complex:
 
 
 def weighted(acceleration: ArrayLike, step: float) -> Array:
-    """Return a vertical acceleration over time, weighted by W_k.
+    """Return a vertical acceleration over time, filtered by the weighting W_k.
 
     Parameters
     ----------
     acceleration : array_like, shape (n,)
         At equally spaced times, linear in between [m/s^2]. The filter begins at rest.
     step : float
-        Time between two values [s].
+        Time between two values, above zero [s].
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        The weighted acceleration at the same times [m/s^2].
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used.
     """
     with Validator("weighted") as given:
         values = given.array("acceleration", acceleration, "m/s^2", dimensions=[1])

@@ -70,7 +70,7 @@ def imported(
     base: str | Path | None = None,
     names: Mapping[str, str] | None = None,
 ) -> ImportedSubsystem:
-    """Return an input file from a subsystem.
+    """Return the text of an input file made from an Adams/Car subsystem.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def imported(
         A file with all other values, including missing hardpoints. By default the packaged file of
         the kind, moved to the position of the wheel.
     names : mapping of str to str, optional
-        Names of hardpoints in the subsystem of an unusual template, by our names.
+        Names of hardpoints in a subsystem whose template is not known, by those of kintrafo.
 
     Returns
     -------

@@ -101,7 +101,7 @@ class Subsystem:
 
 
 def read(path: str | Path) -> Subsystem:
-    """Read the subsystem of a suspension.
+    """Return the contents of an Adams/Car subsystem of a suspension.
 
     Parameters
     ----------

@@ -58,7 +58,7 @@ class Imported(NamedTuple):
 def read(
     path: str | Path, *, tire: str | Path | None = None, points_only: bool = False
 ) -> Imported:
-    """Return a suspension of Project Chrono.
+    """Return the suspension of a file of Project Chrono.
 
     Parameters
     ----------

@@ -78,7 +78,7 @@ def is_vehicle(path: str | Path) -> bool:
 
 
 def read_vehicle(path: str | Path, *, tire: str | Path | None = None) -> ImportedCar:
-    """Return a whole vehicle of Project Chrono as a car.
+    """Return the car of a file of a whole vehicle of Project Chrono.
 
     Parameters
     ----------

@@ -48,7 +48,7 @@ _OF_THE_RACK = (("rack", "travel_per_turn_mm"),)
 
 @dataclass(frozen=True)
 class Axle(Described):
-    """Two suspensions on one rack, if they have one, with an anti-roll bar. Immutable.
+    """The data of an axle of two suspensions, with a common rack and an anti-roll bar. Immutable.
 
     Make one with `load` or `from_dict`.
 
@@ -58,10 +58,10 @@ class Axle(Described):
         'front' or 'rear'.
     right, left : Suspension
     symmetric : bool
-        Whether the file describes one side, whose mirror image is the other one.
+        Whether the file describes one side only, and the other one is its mirror image.
     bar : AntiRollBar or None
     bar_side : str
-        The side whose points the bar has.
+        The side on which the points of the bar are given, 'left' or 'right'.
     steering : SteeringCurve or None
         None: the ``travel_per_turn_mm`` of the suspension applies.
     brakes : Brakes
@@ -69,6 +69,7 @@ class Axle(Described):
 
     Examples
     --------
+    >>> from kintrafo import Axle
     >>> axle = Axle.load("reference_axle")
     >>> axle.left.vehicle.side, axle.bar.link_on
     ('left', 'control_arm')
@@ -103,7 +104,7 @@ class Axle(Described):
         *,
         folder: str | Path = ".",
     ) -> Self:
-        """Make an axle from nested dictionaries with the keys of the file.
+        """Return an axle from nested dictionaries with the keys of the file.
 
         Parameters
         ----------
@@ -175,18 +176,19 @@ class Axle(Described):
         Parameters
         ----------
         changes : mapping of str to Any
-            New values in the file's units by place, section and key with dots between them:
-            ``anti_roll_bar.rate_Nm_per_deg``. Places of a hardpoint file begin with ``side``, and
-            the other side stays its mirror image, or with ``right`` or ``left``, and the sides then
-            differ. None removes an optional key.
+            New values, in the units of the file, by section and key with dots between them:
+            ``anti_roll_bar.rate_Nm_per_deg``. Names of values of a hardpoint file begin with
+            ``side``, and the other side stays its mirror image, or with ``right`` or ``left``, and
+            the sides then differ. None removes an optional key.
 
         Raises
         ------
         InputError
-            If there is no such place, or the data are not valid.
+            If there is no such value, or the data are not valid.
 
         Examples
         --------
+        >>> from kintrafo import Axle
         >>> axle = Axle.load("reference_axle")
         >>> lower = axle.with_changes({"left.hardpoints.ball_joint.z": 190.0})
         >>> lower.left.hardpoints.ball_joint[2], lower.right.hardpoints.ball_joint[2]

@@ -48,7 +48,7 @@ _PARTS = ("corner", *ENDS)
 
 @dataclass(frozen=True)
 class Car(Described):
-    """A body on two axles, or on one suspension. Immutable.
+    """A car: a body on two axles, or a quarter of one on one suspension. Immutable.
 
     Make one with `load` or `from_dict`.
 
@@ -65,6 +65,7 @@ class Car(Described):
 
     Examples
     --------
+    >>> from kintrafo import Car
     >>> car = Car.load("reference_vehicle")
     >>> car.wheels
     ('front_left', 'front_right', 'rear_left', 'rear_right')
@@ -90,7 +91,7 @@ class Car(Described):
     def from_dict(
         cls, data: Mapping[str, Any], source: str = "input data", *, folder: str | Path = "."
     ) -> Self:
-        """Make a car from nested dictionaries with the keys of the file.
+        """Return a car from nested dictionaries with the keys of the file.
 
         Parameters
         ----------
@@ -149,7 +150,7 @@ class Car(Described):
         return {CAR: own.pop(CAR)} | parts | {name: v for name, v in own.items() if v != {}}
 
     def save(self, path: str | Path, *, force: bool = False) -> Path:
-        """Write an input file with these data, as `Described.save`.
+        """Write an input file with these data, and return its path.
 
         Parameters
         ----------
@@ -180,18 +181,19 @@ class Car(Described):
         Parameters
         ----------
         changes : mapping of str to Any
-            New values in the file's units by place, section and key with dots between them:
-            ``body.mass_kg``. Places of the corner begin with ``corner``, those of an axle with
-            ``front`` or ``rear``: ``front.side.hardpoints.ball_joint.z``. None removes an optional
-            key.
+            New values, in the units of the file, by section and key with dots between them:
+            ``body.mass_kg``. Names of values of the corner begin with ``corner``, those of an axle
+            with ``front`` or ``rear``: ``front.side.hardpoints.ball_joint.z``. None removes an
+            optional key.
 
         Raises
         ------
         InputError
-            If there is no such place, or the data are not valid.
+            If there is no such value, or the data are not valid.
 
         Examples
         --------
+        >>> from kintrafo import Car
         >>> car = Car.load("quarter_car")
         >>> car.with_changes({"body.mass_kg": 400.0}).described.body.mass_kg
         400.0

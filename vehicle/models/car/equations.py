@@ -49,7 +49,7 @@ class CarModel(System):
 
     Examples
     --------
-    >>> from kintrafo import load
+    >>> from kintrafo import CarModel, load
     >>> CarModel(load("quarter_car")).state_names[:3]
     ('heave', 'beta1', 'beta5')
     """

@@ -47,6 +47,7 @@ class RigidAxleModel(WholeAxleModel):
 
     Examples
     --------
+    >>> from kintrafo import RigidAxleModel
     >>> model = RigidAxleModel("rigid_axle")
     >>> model.state_names[:2]
     ('heave', 'roll')

@@ -45,10 +45,11 @@ class Chapter:
         Paragraphs.
     tables : tuple of Tabulated
     pictures : tuple of ChapterPicture
+        Pictures as wide as the page.
     panels : tuple of ChapterPicture
         Small pictures in rows.
     players : tuple of Markup
-        Parts of the page with a moving car, see `kintrafo.vehicle.plots.motion.page.player`.
+        HTML with pictures of a moving car.
     """
 
     title: str

@@ -46,7 +46,7 @@ MANOEUVRES: Mapping[str, type[Manoeuvre]] = {
 def load_manoeuvre(
     path_or_name: str | Path | Mapping[str, Any], changes: Mapping[str, Any] | None = None
 ) -> Manoeuvre:
-    """Return the manoeuvre of a file.
+    """Return the manoeuvre that a TOML file describes, with its checked values as attributes.
 
     Parameters
     ----------
@@ -54,8 +54,8 @@ def load_manoeuvre(
         The file; as a string, also the name of a packaged one, such as ``"step_steer"``; or its
         content.
     changes : mapping of str to Any, optional
-        Values that replace those of the file, by section and key with dots between them:
-        ``speed_km_per_h``. None removes an optional key.
+        Values that replace those of the file, in its units. A name is the key, such as
+        ``speed_km_per_h``, in a section ``section.key``. None removes an optional key.
 
     Raises
     ------
@@ -64,7 +64,8 @@ def load_manoeuvre(
 
     Examples
     --------
-    >>> load_manoeuvre("step_steer", {"speed_km_per_h": 100.0}).speed_km_per_h
+    >>> from kintrafo import handling
+    >>> handling.load_manoeuvre("step_steer", {"speed_km_per_h": 100.0}).speed_km_per_h
     100.0
     """
     if isinstance(path_or_name, Mapping):
