@@ -324,13 +324,15 @@ class _Builder:
             [p.name for p in self.mechanism.parameters],
             self.mechanism,
         )
-        varying = {s.name for f in self.functions.values() for s in f.free_symbols}
-        varying -= set(prepare.labels)
         given = {f"given_{c.name}" for c in self.mechanism.coordinates}
+        # callers give the coordinates to this function only
+        read = {n: {s.name for s in f.free_symbols} for n, f in self.functions.items()}
+        read["residuals"] -= given
+        varying = set[str]().union(*read.values()) - set(prepare.labels)
         states = {e.name for e in self.states.entries}
         check_symbols(
             self.formulation.name,
-            varying - given - states - {e.name for e in self._inputs()},
+            varying - states - {e.name for e in self._inputs()},
             [p.name for p in self.mechanism.parameters],
             self.mechanism,
         )

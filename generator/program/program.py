@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import re
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
@@ -303,6 +303,8 @@ class Program:
                     guard.unit,
                     guard.floor,
                 ).args[0]
+                original = guard.original or step.symbol
+                self.guards[new] = replace(self.guards[new], original=original)
             else:
                 new = self.define(f"{step.symbol}__{label}", step.expression.xreplace(replaced))
             if new != step.symbol:

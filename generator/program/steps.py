@@ -27,7 +27,8 @@ class Step:
 class Guard:
     """A quantity that must exceed a floor, its unit, and the cause of a value below it.
 
-    The floor is a constant, or a number; see `floors`.
+    The floor is a constant, or a number; see `floors`. A guard of steps that are repeated for given
+    coordinates (`Program.substitute`) has the quantity that was repeated as `original`.
     """
 
     quantity: sp.Symbol
@@ -35,11 +36,12 @@ class Guard:
     meaning: str
     unit: str
     floor: sp.Expr
+    original: sp.Symbol | None = None
 
     @property
     def margin(self) -> sp.Expr:
-        """The quantity less its floor: positive where the model is valid."""
-        return self.quantity - self.floor
+        """The quantity at the state less its floor: positive where the model is valid."""
+        return (self.original or self.quantity) - self.floor
 
 
 def first_free(name: str, taken: Callable[[str], bool]) -> sp.Symbol:

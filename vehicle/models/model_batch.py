@@ -182,7 +182,9 @@ _QUESTIONS: dict[str, Callable[[Array, float], NDArray[np.bool_]]] = {
 
 def _metadata(annotation: Any) -> Iterator[Any]:
     """Yield the metadata of an annotation and of its parts."""
-    yield from getattr(annotation, "__metadata__", ())
+    for one in getattr(annotation, "__metadata__", ()):
+        yield one
+        yield from getattr(one, "metadata", ())  # of a `Field` below the top
     for part in get_args(annotation):
         yield from _metadata(part)
 

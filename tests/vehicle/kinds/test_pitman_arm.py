@@ -14,10 +14,13 @@ from benches import Wishbones
 from differences import difference
 from driving_cars import FILE
 from kintrafo import Axle, InputError, Model, characteristics, compliance, loads
+from kintrafo.generator.equations.outputs import generate
+from kintrafo.generator.mechanisms import model_named
 from kintrafo.vehicle.assembly.axle import AxleAssembly
 from kintrafo.vehicle.models.axle.equations import declared
 from kintrafo.vehicle.models.car import Car
 from kintrafo.vehicle.models.car.equations import declared as of_a_car
+from kintrafo.vehicle.models.model_batch import ModelBatch
 from kintrafo.vehicle.models.points import hardpoints
 from kintrafo.vehicle.models.reach import at_rest
 from kintrafo.vehicle.studies.sensitivity import sensitivity
@@ -154,6 +157,22 @@ def test_its_points_vary_in_studies() -> None:
     assert float(found["steer"].squeeze()) == pytest.approx(difference, rel=1e-6)
 
 
+@pytest.mark.parametrize(
+    ("place", "values"),
+    [
+        ("pitman_arm.gear_ratio", [18.0, -1.0, 20.0]),
+        ("vehicle.wheelbase_mm", [2600.0, 0.0, 2700.0]),
+        ("pitman_arm.idler_pivot_mm.x", [-375.0, -143.5, -380.0]),
+    ],
+)
+def test_what_a_file_may_not_have_is_taken_out_of_a_batch(place: str, values: list[float]) -> None:
+    """As one by one: optional keys have ranges, and both arms need a lever."""
+    batch = ModelBatch(RIGHT, {place: np.array(values)}, free_rack=False)
+    assert batch.valid.tolist() == [True, False, True]
+    with pytest.raises(InputError):
+        RIGHT.with_changes({place: values[1]})
+
+
 # -- equations of an axle -------------------------------------------------------------------------
 
 
@@ -184,6 +203,18 @@ def test_the_sides_of_an_axle_share_the_linkage() -> None:
         expected = model.evaluate("rhs", np.array(own_state), np.array(own_inputs))
         # sums of some hundred terms in another order
         assert [found[name] for name in names] == pytest.approx(expected, rel=1e-11)
+
+
+def test_margins_of_a_strut_behind_it_are_those_at_its_state() -> None:
+    """The residuals close the linkage again, at given coordinates; nothing else has these."""
+    functions = generate(model_named("macpherson_pitman_arm")).functions
+    margins = functions["margins"]
+    by_name = dict(zip(margins.labels, margins.results, strict=True))
+    copies = [name for name in by_name if name.endswith("__given")]
+    assert "idler_arm_closure__given" in copies
+    assert all(by_name[name] == by_name[name.removesuffix("__given")] for name in copies)
+    reading = [n for n, f in functions.items() if any("given" in s.name for s in f.free_symbols)]
+    assert reading == ["residuals"]
 
 
 def test_at_the_rear_of_a_car_it_is_a_part_of_the_body() -> None:
