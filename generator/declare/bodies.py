@@ -60,13 +60,14 @@ class Body:
     name
         Begins the names of its parameters, ``<name>_mass`` and so on.
     mass
-        Default [kg].
+        Default mass [kg].
     com
-        Centre of mass at the design position: a point, or its default place [m].
+        Centre of mass at the design position: a point, or its default coordinates [m].
     inertia
-        Default moments about the centre of mass, world axes at the design position [kg m^2]: xx,
-        yy, zz, and also xy, xz, yz where they are not zero. If the centre is in a plane, the one
-        about the normal of the plane; it may be left out of a body that does not turn.
+        Default elements of the inertia tensor about the centre of mass, world axes at the design
+        position [kg m^2]: xx, yy, zz, and also xy, xz, yz where they are not zero (xy is minus the
+        product of inertia). Of a body of a planar mechanism one number, the moment of inertia about
+        the normal of the plane; it may be left out of a body that does not rotate.
     """
 
     name: Name
@@ -136,10 +137,13 @@ class Rotor(Body):
 
     Parameters
     ----------
+    name, mass, com
+        As of `Body`; the centre of mass is on the axis.
     axis
-        Direction of its axis.
+        Direction of its axis of revolution.
     spin, diametral
-        Default moments of inertia about the axis and across it [kg m^2].
+        Default moments of inertia about the axis and about any axis perpendicular to it through the
+        centre of mass [kg m^2].
     """
 
     inertia: Inertia | None = field(default=None, kw_only=True)  # type: ignore[assignment]
@@ -164,13 +168,15 @@ class Rotor(Body):
 @declared
 @dataclass(frozen=True)
 class Ground(Body):
-    """The body that the others move on.
+    """The body that is fixed in the world, with axes along those of the world.
 
     Parameters
     ----------
+    name
+        Name of the body, such as ``"chassis"``.
     number
-        Its number in the figure; the other bodies continue from it, in the order in which they were
-        written.
+        Its number in reports; the other bodies continue from it, in the order in which they were
+        declared.
     """
 
     mass: Mass | Number = field(default=0.0, init=False)

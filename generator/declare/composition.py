@@ -39,7 +39,7 @@ Thing = TypeVar("Thing")
 
 
 class Copy:
-    """A mechanism under other names, or its mirror image.
+    """A copy of a mechanism under other names, or of its mirror image.
 
     Parameters
     ----------
@@ -48,13 +48,13 @@ class Copy:
     prefix
         Begins the names of the copy's bodies, joints, coordinates, points, elements and inputs.
     mirrored
-        Whether the copy is the image in the plane y = 0.
+        Whether the copy is the mirror image in the plane y = 0.
     shared
-        The bodies, beside the ground, and the inputs that all copies have in common. Joints between
-        such bodies, with their coordinates, are common too.
+        Bodies, beside the ground, and inputs that all copies have in common. Joints between such
+        bodies, with their coordinates, are also common.
     own
-        Points, directions and parameters of which the copy has its own, with the prefix; their
-        defaults are the values of the declaration's.
+        Points, directions and parameters that the copy has for itself, with the prefix in their
+        names and the defaults of the original; all others are those of the original.
 
     Attributes
     ----------
@@ -103,7 +103,7 @@ class Copy:
             raise DeclarationError(f"copy {self.prefix!r} of {self.source.name}", problems)
 
     def of(self, thing: Thing) -> Thing:
-        """Return the object of the copy that belongs to an object of the declaration."""
+        """Return the object of the copy that belongs to an object of the original mechanism."""
         return self._copied(thing)  # type: ignore[no-any-return] # of the same type
 
     def _copied(self, thing: Any, *, turns: bool = False) -> Any:  # noqa: PLR0911 (of types)

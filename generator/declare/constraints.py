@@ -48,16 +48,16 @@ class SpeedConstraint(ABC):
 @declared
 @dataclass(frozen=True)
 class NoSlip(SpeedConstraint):
-    """A point of a body has no velocity along a direction: a skate, a keel, a knife's edge.
+    """A constraint: a point of a body has no velocity along a direction, as of a skate or a keel.
 
     Parameters
     ----------
     name
-        Its name.
+        Name of the constraint.
     body, point
         The body, and the point at the design position.
     direction
-        Along which it does not move, of any length.
+        Direction along which the point does not move, of any length.
     follows
         Whether the direction turns with the body; else it is fixed in the world.
     """
@@ -86,19 +86,19 @@ class NoSlip(SpeedConstraint):
 @declared
 @dataclass(frozen=True)
 class Rolling(SpeedConstraint):
-    """A thin disc rolls without slip on level ground: the point of it that touches has no velocity.
+    """A constraint: a thin disc rolls without slip on level ground.
 
-    The disc stays at the height at which a motion starts, since the point has none upward either;
-    the signal ``<name>_gap`` is the height of the lowest point above z = 0 [m].
+    Its lowest point has no velocity, also none upward: the disc keeps the height at which a motion
+    starts. The signal ``<name>_gap`` is the height of the lowest point above z = 0 [m].
 
     Parameters
     ----------
     name
-        Its name.
+        Name of the constraint.
     wheel
         Centre and axis of the disc, on its carrier.
     radius
-        [m].
+        Radius of the disc [m].
     bearing
         The hinge about which it spins on its carrier, along its axis; None: it is the carrier.
     """

@@ -163,7 +163,10 @@ class AnyContactLaw(Owner):
 @declared
 @dataclass(frozen=True, kw_only=True)
 class LinearContact(AnyContactLaw):
-    """Forces that are linear in slip up to the friction, which they approach.
+    """Forces that are linear at small slip, and approach the limit of friction.
+
+    With F = (C_x kappa, -C_y tan(alpha) - C_gamma sin(gamma)), the horizontal force is
+    ``F / sqrt(1 + |F|^2 / (mu F_z)^2)``.
 
     Parameters
     ----------
@@ -216,18 +219,20 @@ class LinearContact(AnyContactLaw):
 @declared
 @dataclass(frozen=True, kw_only=True)
 class MagicFormulaContact(AnyContactLaw):
-    """The Magic Formula, by the coefficients of property files.
+    """The Magic Formula, with the coefficients of property files as parameters.
+
+    Equations are those of Pacejka, Tire and Vehicle Dynamics, third edition, section 4.3.2.
 
     Parameters
     ----------
     name
         Begins the names of its parameters: ``<name>_pcx1``, as property files have them.
     newer
-        MF 6.1 and 6.2; else PAC2002.
+        Whether the version is MF 6.1 or 6.2; else PAC2002.
     weighted
-        Combined slip by weighting functions; else by the friction ellipse.
+        Whether combined slip has weighting functions; else the friction ellipse.
     angle
-        The lateral slip is an angle; else a tangent.
+        Whether the lateral slip is an angle [rad]; else its tangent.
     without
         Coefficients without effect in the intended tyres: they are not parameters, and their terms
         are left out.
@@ -347,7 +352,9 @@ class MagicFormulaContact(AnyContactLaw):
 @declared
 @dataclass(frozen=True, kw_only=True)
 class TMeasyContact(AnyContactLaw):
-    """TMeasy: curves by slope, maximum and sliding at two loads.
+    """TMeasy: curves by slope, maximum and sliding force at two loads.
+
+    Equations are those of Rill, Road Vehicle Dynamics, CRC Press 2012, chapter 3.
 
     Parameters
     ----------

@@ -36,14 +36,14 @@ _UNNAMED = ("self", "order", "image", "axial")  # arguments that are never writt
 
 
 class DeclarationError(KintrafoError, ValueError):
-    """A declaration with contradictions, and a list of all of them.
+    """A declaration contradicts itself; the message lists all contradictions.
 
     Parameters
     ----------
     name
-        Of the declared thing.
+        Kind and name of the declared object.
     problems
-        One text each: the error, and its remedy.
+        A text for each contradiction: the error, and its remedy.
     """
 
     def __init__(self, name: str, problems: Sequence[str]) -> None:

@@ -33,29 +33,33 @@ DRIVABLE: dict[type[Joint], str] = {
 @declared
 @dataclass(frozen=True)
 class Formulation:
-    """One set of equations derived from a mechanism.
+    """A model: the choice of coordinates by which equations are derived from a mechanism.
 
     Attributes
     ----------
+    name, title
+        Name in the generated code, and title in reports.
+    mechanism
+        The mechanism.
     independent
-        The joints whose coordinates are the state, in order.
+        The joints whose coordinates and their rates are the state, in this order.
     prescribed
         The joints whose coordinates are given, with their motion.
     massive
         Bodies whose inertia enters the equations; by default all moving ones.
     eliminated
-        Names of the speeds that the constraints of the mechanism determine, of the same number: of
-        a hinge or guide the rate of its coordinate, of a free body u, v, w, p, q and r. They are
-        not states.
+        Names of the speeds that the velocity constraints of the mechanism determine, one for each
+        constraint: of a hinge or guide the rate of its coordinate, of a free body u, v, w, p, q or
+        r. They are not states.
     held
-        Variants of the right-hand side: name to the prescribed joints that do not move in it.
+        Variants of the right-hand side, by name: the prescribed joints that do not move in it.
     allow_iteration
-        Whether a loop without a closed form may be solved by Newton's method, for that loop alone.
-        Without it such a loop is refused.
+        Whether a loop without a closed form is solved by Newton's method, that loop alone. By
+        default such a loop is an error.
     cites
-        Places in a publication: of the results of a function, by the name of the function; of the
-        motion of a body, by ``omega of <body>`` and ``position of <body>``; of a force, by its
-        name.
+        Places in a publication, for comments in the generated code: of the results of a function,
+        by the name of the function; of the motion of a body, by ``omega of <body>`` and ``position
+        of <body>``; of a force, by its name.
     """
 
     name: Name

@@ -41,7 +41,7 @@ def _written_out(number: sp.Expr) -> sp.Expr:
 @declared
 @dataclass(frozen=True)
 class Point(Owner):
-    """A hardpoint, in metres.
+    """A point of a mechanism at the design position; its coordinates are parameters [m].
 
     Parameters
     ----------
@@ -50,10 +50,11 @@ class Point(Owner):
     place
         Default coordinates at the design position, axes of the world [m].
     meaning
-        For the documentation of the generated code; without it, the name.
+        Description in the documentation of the generated code; by default the name.
     flat
-        Axis along which the coordinate is zero and not a parameter: the points of a planar
-        mechanism. Their places have two coordinates.
+        Axis along which the coordinate is zero and not a parameter, for points of a planar
+        mechanism; `place` then has the two other coordinates. By default all three are parameters.
+        'xyz': the point is the origin, and has no parameters.
     """
 
     name: Name
@@ -105,22 +106,22 @@ ORIGIN = Point("origin", (), flat="xyz")
 @declared
 @dataclass(frozen=True)
 class Direction(Owner):
-    """A direction: three parameters, a fixed one, or from one point to another.
+    """A direction: of three parameters, of constants, or from one point to another.
 
     Parameters
     ----------
     name
         Begins the names of its parameters, ``<name>_x`` and so on.
     along
-        Default components, of any length, in the axes of the world.
+        Default components, of any length, axes of the world at the design position.
     meaning
-        For the documentation of the generated code; without it, the name.
+        Description in the documentation of the generated code; by default the name.
     fixed
-        Instead of `along`: components that are not parameters, of any length.
+        Instead of `along`: constant components, which are not parameters, of any length.
     between
         Instead of `along`: two points; from the first to the second at the design position.
     axial
-        Whether it is the image of an axis of rotation, which a mirror reverses.
+        Whether it is an axis of rotation, whose mirror image has the opposite sense.
     """
 
     name: Name
@@ -170,7 +171,15 @@ UP = Direction("up", fixed=UNIT_Z)
 @declared
 @dataclass(frozen=True)
 class Line:
-    """An oriented line: from one point to another, or through a point along a direction."""
+    """An oriented line: from one point to another, or through a point along a direction.
+
+    Parameters
+    ----------
+    through
+        A point of the line, its beginning.
+    towards
+        Another point of the line, or its direction.
+    """
 
     through: Point
     towards: Point | Direction

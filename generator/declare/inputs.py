@@ -20,12 +20,15 @@ class Input:
 
     Attributes
     ----------
+    name
+        Name of the input in the generated code and of the argument of a simulation.
     unit
-        Of SI, without a factor: N, N m, m, rad, m/s.
+        Unit of SI without a prefix: N, N m, m, rad, m/s.
     meaning
-        For the documentation of the generated code.
+        Description in the documentation of the generated code.
     derivative_of
-        The input whose rate this one is. A simulation reads that one only.
+        The input of which this one is the time derivative; a simulation computes it from that one.
+        None: an input of its own.
     """
 
     name: Name
@@ -48,16 +51,16 @@ class Input:
 @declared
 @dataclass(frozen=True)
 class Motion:
-    """The given motion of a joint: three inputs.
+    """The prescribed motion of a joint: its position, velocity and acceleration as inputs.
 
     Attributes
     ----------
     name
         Begins the names of its inputs, ``<name>_position``, ``_velocity`` and ``_acceleration``.
     unit
-        Of the position: m for a guide, rad for a hinge.
+        Unit of the position: m for a guide, rad for a hinge.
     position, velocity, acceleration
-        Meanings of the inputs; the latter two follow from the first if they are left out.
+        Descriptions of the three inputs; the latter two follow from the first by default.
     """
 
     name: Name

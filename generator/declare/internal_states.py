@@ -13,17 +13,19 @@ from .declared import DeclarationError, Name, declared
 @declared
 @dataclass(frozen=True)
 class InternalState:
-    """A state of a force or a law: zero at design, with a rate that its force returns.
+    """A state of a force or a law, beside positions and speeds; zero at the design position.
 
     Examples are the force of a damper that lags behind its velocity, and the deflection of a tyre.
-    Internal states come last in the state of a model.
+    The force defines its time derivative. Internal states come last in the state of a model.
 
     Attributes
     ----------
+    name
+        Name of the element of the state.
     unit
-        Of SI, without a factor.
+        Unit of SI without a prefix, such as m, N or N m.
     meaning
-        For the documentation of the generated code.
+        Description in the documentation of the generated code.
     """
 
     name: Name

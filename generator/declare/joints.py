@@ -19,14 +19,14 @@ from .world import WORLD
 @declared
 @dataclass(frozen=True)
 class Joint:
-    """A connection of two bodies.
+    """A joint between two bodies: the base of all joints.
 
     Parameters
     ----------
     name
-        As in the joint table of the mechanism.
+        Name of the joint in reports and messages.
     first, second
-        The two bodies.
+        The two bodies; coordinates are those of the second relative to the first.
     """
 
     name: Name
@@ -96,20 +96,22 @@ class Joint:
 @declared
 @dataclass(frozen=True)
 class Gear:
-    """Wheels with teeth, rack and pinion, a thread, a belt: a coordinate in proportion to another.
+    """A gear: the coordinate of a joint in a constant ratio to that of another joint.
 
-    A hinge or guide that `follows` it has no degree of freedom of its own. Both coordinates count
-    from the design position, so a hinge at either end may have no ``angle_to``. There is no slip
-    and no play, and the forces between the teeth do no work.
+    Examples are gear wheels, a rack and pinion, a screw thread and a belt.
+
+    A hinge or guide with this gear as `follows` has no degree of freedom of its own. Both
+    coordinates count from the design position, so a hinge at either end may have no ``angle_to``.
+    There is no slip and no play, and the forces between the teeth do no work.
 
     Parameters
     ----------
     joint
         The hinge or guide that is followed: independent, prescribed, or one that follows another.
     ratio
-        The coordinate of the follower per unit of the other: a `Ratio` between hinges or between
-        guides, a `Lead` [m/rad] of a guide behind a hinge, a `TurnPerTravel` [rad/m] of a hinge
-        behind a guide.
+        The coordinate of the joint that follows, divided by that of the other: a `Ratio` between
+        two hinges or two guides, a `Lead` [m/rad] for a guide that follows a hinge, a
+        `TurnPerTravel` [rad/m] for a hinge that follows a guide.
     """
 
     joint: Joint
@@ -147,18 +149,19 @@ class SlidingJoint(Joint):
 @declared
 @dataclass(frozen=True)
 class Revolute(TurningJoint):
-    """A hinge about a line.
+    """A hinge: one rotation about a line; its coordinate is an angle [rad].
 
     Parameters
     ----------
+    name, first, second
+        As of `Joint`.
     axis
         The hinge line; positive rotation of the second body is right-handed about it.
     angle_from, angle_to
-        The angle is measured from the projection of a direction fixed in the first body to that of
-        a point of the second body, and it lies between 0 and pi at the design position: where the
-        axis as declared would make it negative, the axis is reversed. Without ``angle_to`` the
-        angle is zero at the design position, the axis is as declared, and ``angle_from`` is
-        ignored.
+        The angle is measured across the axis, from a direction fixed in the first body to a point
+        of the second body. It lies between 0 and pi at the design position: where the axis as
+        declared would make it negative, the axis is reversed. Without ``angle_to`` the angle is
+        zero at the design position, the axis is as declared, and ``angle_from`` is ignored.
     follows
         A gear that gives its angle.
     """
@@ -179,14 +182,16 @@ class Revolute(TurningJoint):
 @declared
 @dataclass(frozen=True)
 class Prismatic(SlidingJoint):
-    """A guide along a direction; the slide is zero at the design position.
+    """A guide: one displacement along a direction, zero at the design position [m].
 
-    Between two links that are pinned to other bodies in the same plane it makes a telescope, such
-    as a hydraulic cylinder. Its direction may be that from pin to pin, `Direction.between`, or pass
-    beside them.
+    Between two links that are pinned to other bodies in the same plane it is a telescope, such as a
+    hydraulic cylinder. Its line may lead from pin to pin (`between` of `Direction`), or beside
+    them.
 
     Parameters
     ----------
+    name, first, second
+        As of `Joint`.
     direction
         The slide is positive when the second body moves along it.
     follows
@@ -206,15 +211,17 @@ class Prismatic(SlidingJoint):
 @declared
 @dataclass(frozen=True)
 class Cylindrical(TurningJoint, SlidingJoint):
-    """A telescope: slide along and rotation about a common line.
+    """A telescope: displacement along [m] and rotation about [rad] a common line.
 
     Parameters
     ----------
+    name, first, second
+        As of `Joint`.
     axis
         The line, from a point of the second body to a point of the first. The slide is positive
         when the second body moves along it, that is, when the telescope shortens.
     length_at_zero_slide
-        Distance of the two points at zero slide.
+        Distance between the two points at which the displacement counts as zero [m].
     angle_to
         Point of the second body that defines its rotation about the axis.
     """
@@ -231,10 +238,12 @@ class Cylindrical(TurningJoint, SlidingJoint):
 @declared
 @dataclass(frozen=True)
 class Universal(Joint):
-    """A cross of two perpendicular axes through a point.
+    """A universal joint: a cross of two perpendicular axes through a point.
 
     Parameters
     ----------
+    name, first, second
+        As of `Joint`.
     at
         The centre.
     shaft
@@ -245,10 +254,9 @@ class Universal(Joint):
 
     Notes
     -----
-    The two angles that are *reported* are those of the shaft relative to the first body, in the
-    z-x sequence of the paper: the local y axis of ``Rz(azimuth) Rx(elevation)`` lies along the
-    shaft. They are not those of the cross, which stays regular where this sequence is singular
-    (shaft along z).
+    The two angles in reports are those of the shaft relative to the first body, in the z-x sequence
+    of the paper: the y axis of ``Rz(azimuth) Rx(elevation)`` lies along the shaft. They are not
+    those of the cross, which stays regular where this sequence is singular (shaft along z).
     """
 
     at: Point
@@ -288,10 +296,15 @@ class Universal(Joint):
 @declared
 @dataclass(frozen=True)
 class Weld(Joint):
-    """No degree of freedom: the second body moves with the first, as a caliper with its knuckle.
+    """A rigid connection: the second body moves with the first, as a caliper with its knuckle.
 
-    It has mass and points of its own, for forces and outputs. Joints to other bodies are declared
-    at the first body.
+    The second body has its own mass, and its own points for forces and outputs. Joints to other
+    bodies are declared at the first body.
+
+    Parameters
+    ----------
+    name, first, second
+        As of `Joint`.
     """
 
     kind: ClassVar[str] = "weld"
@@ -302,13 +315,14 @@ class Weld(Joint):
 @declared
 @dataclass(frozen=True)
 class Free(Joint):
-    """Six degrees of freedom: the second body moves freely in the world, which is the first.
+    """No constraint: a body moves freely in the world, with six degrees of freedom.
 
-    The state has the displacement of its centre of mass from design in the world, ``<body>_x`` to
-    ``_z`` [m], and its unit quaternion, ``<body>_e0`` to ``_e3``, scalar first; then its velocity
-    ``<body>_u``, ``_v``, ``_w`` [m/s] and its angular velocity ``<body>_p``, ``_q``, ``_r`` [rad/s]
-    in its own axes, which are those of the world at design. Reported coordinates are that
-    displacement, and the angles of the body in the z-y-x sequence (yaw, pitch, roll).
+    The body is ``second``; ``first`` is the world. The state has the displacement of its centre of
+    mass from design in the world, ``<body>_x`` to ``_z`` [m], and its unit quaternion,
+    ``<body>_e0`` to ``_e3``, scalar first; then its velocity ``<body>_u``, ``_v``, ``_w`` [m/s] and
+    its angular velocity ``<body>_p``, ``_q``, ``_r`` [rad/s] in its own axes, which are those of
+    the world at design. Reported coordinates are that displacement, and the angles of the body in
+    the z-y-x sequence (yaw, pitch, roll).
     """
 
     first: Body = field(default=WORLD, init=False)
@@ -335,7 +349,15 @@ class Free(Joint):
 @declared
 @dataclass(frozen=True)
 class Spherical(Joint):
-    """A ball joint."""
+    """A ball joint: three rotations about a common point.
+
+    Parameters
+    ----------
+    name, first, second
+        As of `Joint`.
+    at
+        The common point, the centre of the ball, at the design position.
+    """
 
     at: Point
 
@@ -352,7 +374,9 @@ class Spherical(Joint):
 @declared
 @dataclass(frozen=True)
 class RelativeCoordinate:
-    """A relative coordinate of the report, such as the paper's beta2: see the methods of joints.
+    """A coordinate of a joint that reports show, such as the paper's beta2.
+
+    Methods of joints, such as `Universal.azimuth`, return them.
 
     Attributes
     ----------

@@ -130,15 +130,17 @@ def _with_formula(law: AnyLaw) -> str:
 @declared
 @dataclass(frozen=True)
 class LinearSpring(AnyLaw):
-    """Force ``rate (slide - free_slide)``, or ``rate (free_length - length)``.
+    """A linear spring: force ``rate (slide - free_slide)``, or ``rate (free_length - length)``.
+
+    A positive force pushes the ends apart.
 
     Parameters
     ----------
     rate
-        [N/m]; of a twist, [N m/rad].
+        Spring rate [N/m]; of an angle, [N m/rad].
     free_slide, free_length
         Slide or length at which the spring is free of force [m]: one of the two, the first for a
-        telescope only (Eq. 23 of the paper). Of a twist, the free angle [rad].
+        telescope only (Eq. 23 of the paper). Of an angle, the free angle [rad].
     """
 
     rate: SpringRate | TorsionRate
@@ -173,12 +175,12 @@ class LinearSpring(AnyLaw):
 @declared
 @dataclass(frozen=True)
 class LinearDamper(AnyLaw):
-    """Force ``-rate velocity``.
+    """A linear damper with the force ``-rate velocity``, where the velocity is that of the length.
 
     Parameters
     ----------
     rate
-        [N s/m]; of a twist, [N m s/rad].
+        Damper rate [N s/m]; of an angle, [N m s/rad].
     """
 
     rate: DamperRate | TorsionDamperRate
@@ -240,7 +242,7 @@ class AnyTable(AnyLaw, Owner):
         at
             State of the element.
         knot
-            A point of the curve.
+            Length or velocity of a point between two segments.
         """
 
     @cached_property
@@ -294,14 +296,17 @@ class AnyTable(AnyLaw, Owner):
 @declared
 @dataclass(frozen=True, kw_only=True)
 class DamperTable(AnyTable):
-    """A curve of force over velocity, with its own shape in bump and in rebound; see `AnyTable`.
+    """A damper with a curve of force over velocity, with its own shape in bump and in rebound.
+
+    Its segments and ends are as of `SpringTable`.
 
     Parameters
     ----------
     name
-        Begins the names of the parameters. Knots are compression velocities that rise [m/s].
+        Begins the names of the parameters, which are those of `SpringTable` with knots in m/s.
+        Knots are velocities of compression in increasing order.
     segments
-        Number of segments.
+        Number of segments, one or more.
     """
 
     signal = "damper_force"
@@ -325,15 +330,20 @@ class DamperTable(AnyTable):
 @declared
 @dataclass(frozen=True, kw_only=True)
 class SpringTable(AnyTable):
-    """A curve of force over length, of a spring whose rate changes; see `AnyTable`.
+    """A spring with a curve of force over length: a cubic, or a straight line, in each segment.
+
+    Beyond its ends the curve is a straight line with the slope there.
 
     Parameters
     ----------
     name
-        Begins the names of the parameters. Knots are lengths that fall [m]: the first is the
-        longest, where the spring is pressed least.
+        Begins the names of the parameters: ``<name>_first_force`` [N], ``<name>_first_slope`` and
+        ``<name>_last_slope`` [N/m], ``<name>_knot_<i>`` [m], and of each segment
+        ``<name>_inverse_width_<i>`` [1/m] and the coefficients ``_linear``, ``_quadratic`` and
+        ``_cubic`` [N]. Knots are lengths in decreasing order: the first is the longest, where the
+        spring is compressed least.
     segments
-        Number of segments.
+        Number of segments, one or more.
     """
 
     signal = "spring_force"
@@ -363,14 +373,14 @@ class SpringTable(AnyTable):
 @declared
 @dataclass(frozen=True)
 class Friction(AnyLaw):
-    """Coulomb friction, regularised: ``-force velocity / sqrt(velocity^2 + speed^2)``.
+    """Coulomb friction, smoothed about rest: ``-level velocity / sqrt(velocity^2 + speed^2)``.
 
     Parameters
     ----------
     level
-        The force of full sliding [N]; of a twist, the moment [N m].
+        Force of fast sliding [N]; of an angle, the moment [N m].
     speed
-        Velocity at which 71 % of it act [m/s], more than zero; of a twist, [rad/s].
+        Velocity at which 71 % (1/sqrt(2)) of it act, above zero [m/s]; of an angle, [rad/s].
     """
 
     level: ForceLevel | MomentLevel
@@ -391,7 +401,7 @@ class Friction(AnyLaw):
 @declared
 @dataclass(frozen=True, kw_only=True)
 class Stop(AnyLaw):
-    """A progressive stop: ``rate x + progression x^3`` for a compression x of it.
+    """A progressive stop with the force ``rate x + progression x^3`` at its compression x >= 0.
 
     Parameters
     ----------
@@ -399,9 +409,10 @@ class Stop(AnyLaw):
         "bump": acts when the element is shorter than `length` and pushes its ends apart.
         "rebound": acts when the element is longer than `length` and pulls them together.
     length
-        Length of the element at which the stop is touched [m]; of a twist, the angle [rad].
+        Length of the element at which the stop is touched [m]; of an angle, the angle [rad].
     rate, progression
-        [N/m, N/m^3]; of a twist, [N m/rad, N m/rad^3].
+        Rate at first contact [N/m], and cubic coefficient [N/m^3]; of an angle, [N m/rad] and
+        [N m/rad^3].
     """
 
     side: Literal["bump", "rebound"]
@@ -442,12 +453,12 @@ class Stop(AnyLaw):
 @declared
 @dataclass(frozen=True)
 class Actuator(AnyLaw):
-    """A force that is an input.
+    """A force that is an input, positive when it pushes the ends apart.
 
     Parameters
     ----------
     input
-        The force [N].
+        The force [N]; of an angle, the moment [N m].
     """
 
     input: Input
@@ -466,18 +477,18 @@ class Actuator(AnyLaw):
 class LaggingDamper(AnyLaw):
     """A damper whose force follows ``-rate velocity`` with a lag.
 
-    ``lag force' = -rate velocity - force``.
-    The same is a damper in series with a spring of the stiffness ``rate / lag``, as between soft
-    bushes (Maxwell's element): the damper dominates slow strokes, the spring fast ones.
+    The equation is ``lag force' = -rate velocity - force``. It is that of a damper in series with a
+    spring of the stiffness ``rate / lag``, such as soft bushes at its ends (Maxwell's element): the
+    damper dominates in slow strokes, the spring in fast ones.
 
     Parameters
     ----------
     rate
-        [N s/m]; of a twist, [N m s/rad].
+        Damper rate [N s/m]; of an angle, [N m s/rad].
     lag
-        [s].
+        Time constant [s].
     state
-        The force, an internal state [N or N m].
+        Internal state for the force [N], or for the moment [N m].
     """
 
     rate: DamperRate | TorsionDamperRate

@@ -12,14 +12,34 @@ from .declared import declared
 @declared
 @dataclass(frozen=True)
 class Mechanism(Parts):
-    """Joints between bodies, with everything that acts on them.
+    """A mechanism: joints between bodies, with the forces that act on them.
 
-    The ground is the body that rests in the world, with its axes along those of the world at design
-    (`Ground`); where all bodies move, one hangs on the world itself, by a joint `Free`.
+    One of the bodies is the ground (`Ground`), which is fixed in the world. If all bodies move, one
+    of them has a joint `Free` with the world.
 
-    `coordinates` are the relative coordinates of the report, in the numbering of the figure,
-    `outputs` further signals. All parts that these refer to are found automatically: `bodies`,
-    `inputs`, `parameters`, and in copies `derived`, the expressions of the names of a copy.
+    Parameters
+    ----------
+    name
+        Name of the mechanism in the generated code.
+    title
+        Title in reports.
+    joints
+        The joints, which contain the bodies.
+    forces
+        Forces, force elements and weight; by default none.
+    coordinates
+        Coordinates of joints that reports show, in the order of their numbers.
+    outputs
+        Further signals.
+    constraints
+        Constraints of velocities, such as `NoSlip` and `Rolling`.
+
+    Attributes
+    ----------
+    bodies, inputs, parameters
+        Those of all parts, in the order in which they were declared; the ground is the first body.
+    derived
+        In copies: the expressions in parameters for names of the copy.
     """
 
     def __post_init__(self) -> None:

@@ -50,30 +50,58 @@ class OfPoint(Output):
 @declared
 @dataclass(frozen=True)
 class PositionOf(OfPoint):
-    """Position of a point [m]."""
+    """The position of a point of a body in the world: signals ``<name>_x``, ``_y``, ``_z`` [m].
+
+    Parameters
+    ----------
+    name
+        Begins the names of the three signals.
+    body, point
+        The body, and the point at the design position.
+    meaning
+        Description of the point in the documentation of the generated code.
+    """
 
 
 @declared
 @dataclass(frozen=True)
 class VelocityOf(OfPoint):
-    """Velocity of a point [m/s]."""
+    """The velocity of a point in world axes: signals ``<name>_x``, ``_y``, ``_z`` [m/s].
+
+    Parameters
+    ----------
+    name, body, point, meaning
+        As of `PositionOf`.
+    """
 
 
 @declared
 @dataclass(frozen=True)
 class AccelerationOf(OfPoint):
-    """Acceleration of a point [m/s^2], as it follows from the forces."""
+    """The acceleration of a point in world axes: signals ``<name>_x``, ``_y``, ``_z`` [m/s^2].
+
+    It follows from the forces by the equations of motion.
+
+    Parameters
+    ----------
+    name, body, point, meaning
+        As of `PositionOf`.
+    """
 
 
 @declared
 @dataclass(frozen=True)
 class DistanceBetween(Output):
-    """The distance of two points [m], and its rate, ``<name>_rate`` [m/s].
+    """The distance between two points [m], and its rate, ``<name>_rate`` [m/s].
 
     Parameters
     ----------
+    name
+        Name of the signal of the distance.
     first, second
         Body and point at either end.
+    meaning
+        Description in the documentation of the generated code.
     """
 
     first: tuple[Body, Point]
@@ -92,14 +120,19 @@ class DistanceBetween(Output):
 class AngleBetween(Output):
     """The angle from a direction of one body to a direction of another [rad], from -pi to pi.
 
-    It is that of their parts across an axis of the first body, right-handed about it.
+    It is the angle between their projections on the plane perpendicular to an axis of the first
+    body, right-handed about that axis.
 
     Parameters
     ----------
+    name
+        Name of the signal.
     first, second
-        Body and direction at the design position.
+        Body, and direction at the design position that is fixed in it.
     about
-        The axis.
+        The axis, fixed in the first body.
+    meaning
+        Description in the documentation of the generated code.
     """
 
     first: tuple[Body, Direction]
@@ -115,7 +148,16 @@ class AngleBetween(Output):
 class ForceOf(Output):
     """The force of an element: the sum of its laws, positive when it pushes its ends apart [N].
 
-    For a twist it is a moment, positive when it increases the twist [N m].
+    For an element of an angle it is a moment, positive when it increases the angle [N m].
+
+    Parameters
+    ----------
+    name
+        Name of the signal.
+    element
+        The force element.
+    meaning
+        Description in the documentation of the generated code.
     """
 
     element: ForceElement

@@ -94,14 +94,17 @@ class Parameter(Owner):
 
     Attributes
     ----------
+    name
+        Name of the parameter in the generated code.
     default
         Value in SI units.
     unit
-        Of SI, without a factor.
+        Unit of SI without a prefix, such as m, N or kg m^2.
     meaning
-        For the documentation of the generated code.
+        Description in the documentation of the generated code.
     least, above, most
-        Bounds of its values: the smallest, an exclusive lower bound, the greatest.
+        Bounds of its values: the least value, an exclusive lower bound, and the greatest value;
+        None for no bound.
     """
 
     name: Name
@@ -230,15 +233,15 @@ class TorsionDamperRate(DimensionedParameter, unit="N m s/rad", least=0.0, of_an
 
 
 class Progression(DimensionedParameter, unit="N/m^3", least=0.0):
-    """The cubic term of a stop [N/m^3], not negative."""
+    """The coefficient of the cubic term of a stop [N/m^3], not negative."""
 
 
 class TorsionProgression(DimensionedParameter, unit="N m/rad^3", least=0.0, of_angle=True):
-    """The cubic term of a stop of rotation [N m/rad^3], not negative."""
+    """The coefficient of the cubic term of a stop of an angle [N m/rad^3], not negative."""
 
 
 class Ratio(DimensionedParameter, unit="1"):
-    """A ratio of two angles, or of two lengths, of any sign."""
+    """A ratio of two angles, or of two lengths [1], of any sign."""
 
 
 class Lead(DimensionedParameter, unit="m/rad"):

@@ -122,14 +122,14 @@ class AnyPath(ABC):
 @declared
 @dataclass(frozen=True)
 class AlongTelescope(AnyPath):
-    """From one end of a telescope to the other.
+    """The line from one end of a telescope to the other; its length [m].
 
     Parameters
     ----------
     joint
         The telescope.
     longest
-        The length at which it comes apart [m]; None: not checked.
+        The length at which the telescope comes apart [m]; None: not checked.
     """
 
     joint: Cylindrical
@@ -163,7 +163,7 @@ class AlongTelescope(AnyPath):
 @declared
 @dataclass(frozen=True)
 class AlongLine(AnyPath):
-    """From a point of one body to a point of another.
+    """The straight line from a point of one body to a point of another; its length [m].
 
     Parameters
     ----------
@@ -215,11 +215,10 @@ class AlongLine(AnyPath):
 @declared
 @dataclass(frozen=True)
 class TwistOfHinges(AnyPath):
-    """The angle of one hinge less that of another, which is the twist of a bar between them.
+    """The difference of the angles of two hinges: the twist of a bar between them [rad].
 
-    Its length is an angle [rad], and the force a moment [N m], which acts with its sign on the
-    second hinge and against it on the first, so that its power is that of the moment at the rate of
-    the twist.
+    The twist is the angle of the second hinge minus that of the first. A moment [N m] acts with its
+    sign on the second hinge and with the opposite sign on the first.
 
     Parameters
     ----------

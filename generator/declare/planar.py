@@ -28,17 +28,18 @@ def flat(
     place
         Default coordinates in the plane [m]: x and y, or x and z.
     meaning
-        For the documentation of the generated code; without it, the name.
+        Description in the documentation of the generated code; by default the name.
     normal
-        Axis across the plane, which contains the origin.
+        Axis perpendicular to the plane, which contains the origin.
 
     Raises
     ------
     DeclarationError
-        If the normal is another one.
+        If `normal` is neither 'y' nor 'z'.
 
     Examples
     --------
+    >>> from kintrafo.generator import flat
     >>> [p.name for p in flat("crank_pin", (0.0, 0.1)).numbers]
     ['crank_pin_x', 'crank_pin_y']
     """
@@ -50,25 +51,26 @@ def flat(
 
 @checked
 def hinge(name: str, first: Body, second: Body, at: Point) -> Revolute:
-    """Return a hinge across the plane of a point; its angle is zero at the design position.
+    """Return a hinge of a planar mechanism; its angle is zero at the design position.
 
     Parameters
     ----------
     name
-        Of the joint.
+        Name of the joint.
     first, second
-        The bodies; the angle is that of the second one on the first, about the normal.
+        The two bodies; the angle is that of the second one relative to the first, right-handed
+        about the normal of the plane [rad].
     at
-        A point of the plane, see `flat`.
+        The centre of the hinge, a point from `flat`.
 
     Raises
     ------
     DeclarationError
-        If the point is not flat.
+        If the point is not one of a plane.
 
     Examples
     --------
-    >>> from kintrafo.generator import Body, Ground
+    >>> from kintrafo.generator import Body, Ground, flat, hinge
     >>> pin = flat("pin", (0.0, 0.0))
     >>> bar = Body("bar", 1.0, flat("bar_com", (0.1, 0.0)), 1e-3)
     >>> hinge("A", Ground("ground"), bar, pin).freedoms

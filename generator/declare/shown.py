@@ -73,7 +73,23 @@ class Event:
 
 @dataclass(frozen=True)
 class Shown:
-    """A signal: an element of the result of the ``signals`` function."""
+    """A signal of a force: an element of the result of the function ``signals``.
+
+    Attributes
+    ----------
+    name
+        Name of the signal.
+    value
+        Its value, an expression in SI units.
+    unit
+        Unit of SI without a prefix.
+    meaning
+        Description in the documentation of the generated code.
+    ranges
+        Ranges of its valid values; a motion beyond one is reported.
+    events
+        Levels of the signal at which a simulation may end.
+    """
 
     name: str
     value: sp.Expr

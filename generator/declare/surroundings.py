@@ -27,12 +27,13 @@ class UnseenError(LookupError):
 
 
 class Surroundings(Protocol):
-    """Positions, twists and directions of the bodies, in program steps.
+    """The moving mechanism for a force: positions, twists and directions of bodies, as expressions.
 
     Vectors are in the axes of the named body, or in those of the world: x forward, y left, z up.
-    Axes of a body that hangs on a base which turns, as the body of a car, are those of the base.
-    Coordinates are the independent and the prescribed ones. Bodies, joints and coordinates are
-    given by their names; for an unknown name, `UnseenError` lists the known ones.
+    Axes of a body that hangs on a rotating base, such as the body of a car, are those of the base.
+    Twists are linear and angular velocities. Coordinates are the independent and the prescribed
+    ones; "per unit rate" means divided by the rate of a coordinate. Bodies, joints and coordinates
+    are given by their names; for an unknown name, `UnseenError` lists the known ones.
     """
 
     @property
@@ -107,7 +108,7 @@ class Surroundings(Protocol):
         """Return the twist per unit rate of each coordinate that moves a body, in its axes."""
 
     def momenta(self) -> Iterator[tuple[str, str, Vector]]:
-        """Yield massive body, coordinate and linear momentum per unit rate, in body axes."""
+        """Yield body with mass, coordinate and linear momentum per unit rate, in body axes."""
 
     def height(self, body: str, local: Vector) -> sp.Expr:
         """Return the height of a point of a body in the world.
@@ -137,7 +138,7 @@ class Surroundings(Protocol):
         """
 
     def rising(self, body: str, local: Vector) -> sp.Expr:
-        """Return the upward acceleration of a point without accelerations of the coordinates.
+        """Return the upward acceleration of a point at constant rates of the coordinates.
 
         Parameters
         ----------

@@ -55,7 +55,8 @@ class Wheel:
     center
         The wheel centre.
     spin
-        Direction of the spin axis, fixed in the carrier; it points to the left.
+        Direction of the spin axis, fixed in the carrier; it points to the left of the vehicle, so
+        that the wheel rolls forward with a positive rate.
     heading
         Body whose x axis, projected on the ground, is the reference of camber, toe and steer;
         without it, that of the world.

@@ -83,7 +83,7 @@ def test_every_page_is_in_the_table_of_contents_once():
 
 def documented_names():
     text = "".join(text_of(page) for page in (DOCS / "reference/api").glob("*.md"))
-    return set(re.findall(r"^\.\. auto\w+:: (\S+)$", text, flags=re.MULTILINE))
+    return set(re.findall(r"^\.\. (?:auto\w+|py:data):: (\S+)$", text, flags=re.MULTILINE))
 
 
 def test_every_public_name_is_documented():

@@ -31,23 +31,23 @@ _UNITS = {"density": "kg/m^3", "drag": "m^2", "lift": "m^2", "pitching": "m^3"}
 class AirForces(Force):
     """Drag, lift and pitching moment of still air, at a point of a body.
 
-    With V the velocity of the point, V_x its component along x of the body, and the axes of the
-    body those of the world at the design position::
+    With the velocity V of the point in the world, its component V_x along x of the body, and the
+    unit vectors e_y and e_z of the body's axes, which are those of the world at design::
 
         F = -density/2 drag |V| V + density/2 lift V_x^2 e_z,  M = density/2 pitching V_x^2 e_y
 
     Parameters
     ----------
     name
-        Of its signals, ``<name>_drag`` and ``<name>_lift`` [N].
+        Begins the names of its signals, ``<name>_drag`` and ``<name>_lift`` [N].
     body, point
         Body, and point of action at the design position.
     density
-        Of the air [kg/m^3].
+        Density of the air [kg/m^3].
     drag, lift
-        Coefficient times area [m^2]; lift is positive upward in axes of the body.
+        Coefficients times reference area [m^2]; lift is positive upward in axes of the body.
     pitching
-        The same of the moment about y, times a length [m^3]; positive nose down.
+        Coefficient of the moment about y times area and reference length [m^3]; positive nose down.
     """
 
     name: Name

@@ -20,16 +20,16 @@ if TYPE_CHECKING:
 @declared
 @dataclass(frozen=True)
 class AppliedForce(Force):
-    """A force along a direction at a point of a body, given by an input [N].
+    """A force along a direction at a point of a body; its value is an input [N].
 
     Parameters
     ----------
     body, point
         Body, and point of action at the design position.
     direction
-        Along which the force is positive, of any length.
+        Direction of a positive force, of any length.
     input
-        The force.
+        The force [N].
     follows
         Whether the direction turns with the body; else it is fixed in the world.
     """

@@ -20,16 +20,16 @@ if TYPE_CHECKING:
 @declared
 @dataclass(frozen=True)
 class AppliedMoment(Force):
-    """A moment about a direction on a body, given by an input [N m].
+    """A moment on a body about a direction; its value is an input [N m].
 
     Parameters
     ----------
     body
-        On which it acts.
+        Body on which it acts.
     direction
-        About which the moment is positive, of any length.
+        Axis of a positive, right-handed moment, of any length.
     input
-        The moment.
+        The moment [N m].
     follows
         Whether the direction turns with the body; else it is fixed in the world.
     """

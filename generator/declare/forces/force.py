@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Action:
-    """Generalised forces of a force at an instant.
+    """The generalised forces of a force, as expressions, and values for its signals.
 
     Attributes
     ----------
@@ -65,11 +65,12 @@ class Description:
 
 
 class Force(ABC):
-    """A force on the bodies of a mechanism: a dataclass with a decorator, `declared`.
+    """The base of all forces, also of your own: a dataclass with the decorator `declared`.
 
-    Bodies, inputs and parameters in its fields are those of the mechanism. Copies are made field by
-    field; `turns_about` names the fields that are axes of rotation. Derivatives need no formulas: a
-    force writes steps of a program, which are differentiated.
+    Bodies, inputs and parameters in its fields become those of the mechanism. A copy of the force
+    has copies of its fields; the class attribute `turns_about` has the names of those fields that
+    are axes of rotation. A force appends steps to a program; derivatives are those of the steps,
+    and need no formulas of their own.
     """
 
     turns_about: ClassVar[tuple[str, ...]] = ()
@@ -93,7 +94,7 @@ class Force(ABC):
 
     @abstractmethod
     def act(self, at: Surroundings) -> Action:
-        """Append its generalised forces."""
+        """Append its steps to the program, and return its generalised forces."""
 
     def signals(self, at: Surroundings, action: Action) -> Iterator[Shown]:
         """Yield its signals, which may read the accelerations.

@@ -26,17 +26,17 @@ if TYPE_CHECKING:
 @declared
 @dataclass(frozen=True)
 class ForceElement(Force):
-    """Springs, dampers and stops that act along one path between two bodies (Eq. 23).
+    """Springs, dampers and stops that act along one path between two bodies (Eq. 23 of the paper).
 
     Parameters
     ----------
     name
-        Begins the names of its signals: ``<name>_length``, ``<name>_velocity``; of a twist,
-        ``<name>_angle`` and ``<name>_angular_velocity``.
+        Begins the names of its signals: ``<name>_length`` [m], ``<name>_velocity`` [m/s]; of a
+        twist, ``<name>_angle`` [rad] and ``<name>_angular_velocity`` [rad/s].
     path
-        Its line or joint of action.
+        The line between two points, or the joint, along which it acts.
     laws
-        Springs, dampers and so on; their forces add up.
+        Springs, dampers and so on. Their forces are added; a positive one pushes the ends apart.
     """
 
     name: Name

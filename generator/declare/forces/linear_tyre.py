@@ -32,8 +32,9 @@ _TOUCH = 1e-3
 class LinearTyre(Force):
     """A radial tyre spring in the wheel plane (Eq. 24 of the paper).
 
-    With ``a`` the spin axis and ``e_z`` up, the force on the wheel at its centre is
-    ``load (e_z - a a_z) / (1 - a_z^2)``, with ``load = rate x``, x = free_height + road - height.
+    With the unit vectors ``a`` along the spin axis and ``e_z`` up, the force on the wheel at its
+    centre is ``load (e_z - a a_z) / (1 - a_z^2)``: its vertical component is the load. The load is
+    ``rate x`` with ``x = free_height + road - height`` and the height of the wheel centre.
 
     With a damper the load is ``rate x + damper x'``. A tyre that lifts off neither pulls nor damps
     in the air: its load is zero where x or the load itself would be negative; one that does not
@@ -46,11 +47,12 @@ class LinearTyre(Force):
     wheel
         Its wheel, at whose centre the force acts.
     rate, free_height
-        [N/m]; height of the wheel centre at which the tyre is free of force [m].
+        Stiffness [N/m], and the height of the wheel centre above the road at which the tyre has no
+        force [m].
     road
         Height of the road under the tyre in the world [m].
     damper, road_velocity
-        [N s/m], and the input that is the derivative of the road [m/s]; both or neither.
+        Damping [N s/m], and the input that is the derivative of `road` [m/s]; both or neither.
     lifts_off
         1 if the tyre can leave the road, 0 if not; None: it cannot.
     """

@@ -38,19 +38,21 @@ class RollingTyre(Force):
     """A tyre that rolls on a level road, in the axes of ISO 8855 at its contact.
 
     The wheel is a thin disc. Its normal force acts at the lowest point of the disc, depends on the
-    distance of that point below the road, and so is conservative, but for its damper; a tyre in the
+    distance of that point below the road, and so is conservative without its damper; a tyre in the
     air has none. All other forces act where the plane of the wheel meets the road, straight below
     the axis.
 
-    With V the velocity of the wheel's centre, and of the contact as part of the carrier, Omega the
-    rate of spin in the world, n up, x = a x n forward and y to the left::
+    With the velocities V_centre of the wheel's centre and V_contact of the contact as a point of
+    the carrier, the rate of spin Omega in the world, the effective rolling radius r_e, the unit
+    vectors a along the spin axis (to the left), n up, x = a x n forward and y to the left, the
+    slips kappa and tan(alpha) are::
 
         V_cx = x . V_centre,  V_cy = y . V_contact,  |V| = sqrt(V_cx^2 + V_low^2)
         kappa = (r_e Omega - V_cx) / |V|,  tan(alpha) = V_cy / |V|
 
-    V_low smooths them: at standstill the contact damps, and rolling backward needs no case of its
-    own. With states u and v, the deflections of the contact along and across, the slips follow with
-    the relaxation lengths s_x and s_y, of 50 mm at least::
+    The speed V_low > 0 smooths them: at standstill the contact damps, and rolling backward needs no
+    case of its own. With states u and v, the deflections of the contact along and across, the slips
+    lag by the relaxation lengths s_x and s_y, of 50 mm at least::
 
         u' = r_e Omega - V_cx - |V| u / s_x,  kappa = u / s_x
         v' = V_cy - |V| v / s_y,              tan(alpha) = v / s_y
@@ -68,8 +70,8 @@ class RollingTyre(Force):
     road
         Height of the road under the tyre in the world [m].
     damper, road_velocity
-        Along the normal [N s/m], and the input that is the derivative of the road [m/s]; both or
-        neither.
+        Damping along the normal [N s/m], and the input that is the derivative of `road` [m/s]; both
+        or neither.
     deflections
         Two states [m], along and across; without them forces are those of the slips at the time.
     """

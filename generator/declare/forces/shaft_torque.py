@@ -38,7 +38,7 @@ class ShaftTorque(Force):
     Parameters
     ----------
     name
-        Of its signal: the acting torque [N m].
+        Name of its signal: the acting torque [N m].
     wheel
         The wheel that it turns.
     bearing
@@ -47,9 +47,9 @@ class ShaftTorque(Force):
         The carrier, as of a brake or a motor at the wheel; or a body that the whole suspension
         hangs on, as of a final drive or an inboard brake behind a shaft.
     torque
-        [N m]; of a brake zero or more.
+        Torque [N m]; of a brake zero or more.
     standstill
-        Of a brake: the spin at which 71 % of its torque acts [rad/s].
+        Of a brake: the spin at which 71 % (1/sqrt(2)) of its torque acts [rad/s].
     """
 
     name: Name

@@ -24,9 +24,9 @@ class Weight(Force):
     Parameters
     ----------
     gravity
-        [m/s^2].
+        Acceleration of gravity [m/s^2].
     upward
-        Direction opposite to its pull in the world, of any length.
+        Direction opposite to that of gravity, fixed in the world, of any length.
     """
 
     gravity: Gravity = field(

@@ -27,10 +27,10 @@ Components = tuple[Input, Input, Input]
 class WheelLoads(Force):
     """Forces and moments on a wheel that may spin, in the axes of the tyre (ISO 8855).
 
-    With ``a`` the spin axis, which points to the left, and ``e_z`` up, forward is along
-    ``a x e_z``, which is horizontal and in the plane of the wheel; left is horizontal, too. The
-    lowest point of the wheel, a thin disc, is from its centre ``-radius (e_z - a a_z) / sqrt(1 -
-    a_z^2)``.
+    With the unit vectors ``a`` along the spin axis, which points to the left, and ``e_z`` up, x is
+    along ``a x e_z``, forward, horizontal and in the plane of the wheel; y is horizontal, to the
+    left; z is up. The vector from the centre of the wheel, a thin disc, to its lowest point is
+    ``-radius (e_z - a a_z) / sqrt(1 - a_z^2)``.
 
     Parameters
     ----------
@@ -39,17 +39,18 @@ class WheelLoads(Force):
     bearing
         The driven hinge about which it turns on its carrier, along its spin axis.
     radius
-        Of the disc [m].
+        Radius of the disc [m].
     contact
-        Force on the wheel at its lowest point [N].
+        Components x, y, z of the force on the wheel at its lowest point [N].
     moment
-        On the wheel [N m].
+        Components x, y, z of the moment on the wheel [N m].
     center
-        Force on the wheel at its centre [N].
+        Components x, y, z of the force on the wheel at its centre [N].
     shaft
-        Torque on the wheel about its spin axis from a part that does not move with it [N m].
+        Torque on the wheel about its spin axis by a drive shaft, whose reaction is not on the
+        carrier [N m].
     hub
-        The same from its carrier [N m].
+        Torque on the wheel about its spin axis by its carrier, as of a brake [N m].
     """
 
     wheel: Wheel
