@@ -377,7 +377,7 @@ class Build(build_ext):
             if extension.optional and not Path(self.get_ext_fullpath(extension.name)).exists():
                 without = {Lanes: "ensembles", FmuLibrary: "it"}.get(type(extension), "SUNDIALS")
                 print(
-                    f"kintrafo: {extension.name} was not built; going on without {without}",
+                    f"kintrafo: {extension.name} was not built; continuing without {without}",
                     file=sys.stderr,
                 )
 

@@ -1,7 +1,8 @@
-"""Check that the installed package is complete: every method in C, every model in lanes.
+"""Check that the installed package is complete: methods in C, models in lanes, libraries for FMUs.
 
-No other check detects a missing part: without SUNDIALS, SciPy integrates, and only ensembles need
-lanes. On Windows, where wheels have neither, every model is simulated by SciPy.
+No other check detects a missing part: without SUNDIALS, SciPy integrates; only ensembles need lanes;
+a compiler replaces the library for an FMU. On Windows, where wheels have none of these, every model
+is simulated by SciPy.
 """
 
 import sys
@@ -18,7 +19,7 @@ from kintrafo.targets.fmi.sources import library_files
 
 
 def main() -> None:
-    """Simulate a model by each method in C, and every model in lanes."""
+    """Simulate a model by each method in C, and every model in lanes; look for its library."""
     if sys.platform == "win32":
         by_scipy()
         return
