@@ -1,8 +1,8 @@
 """Check that the installed package is complete: methods in C, models in lanes, libraries for FMUs.
 
-No other check detects a missing part: without SUNDIALS, SciPy integrates; only ensembles need lanes;
-a compiler replaces the library for an FMU. On Windows, where wheels have none of these, every model
-is simulated by SciPy.
+No other check detects a missing part: without SUNDIALS, SciPy integrates; only ensembles need
+lanes; a compiler replaces the library for an FMU. On Windows, where wheels have none of these,
+every model is simulated by SciPy.
 """
 
 import sys

@@ -31,7 +31,7 @@ from kintrafo.generated import slider_crank
 
 for top in (kintrafo, import_module("kintrafo.generator")):
     for found in pkgutil.walk_packages(top.__path__, f"{top.__name__}."):
-        if not found.name.endswith(("__main__", "_unit")):  # libraries of units are no modules
+        if not found.name.endswith(("__main__", "_fmu")):  # libraries for FMUs are no modules
             import_module(found.name)
 
 crank = kintrafo.System(slider_crank)
