@@ -77,6 +77,12 @@ class PitmanLinkage(Section):
             return np.array([x, 0.0 - y, z])
         return np.array([in_metres(value, "mm") for value in given])
 
+    def given_points(self) -> dict[str, Vector]:
+        """Return the places of the points that the file has, by their text in it [m]."""
+        names = ("pivot", "ball", "idler_pivot", "idler_ball")
+        given = [name for name in names if getattr(self, f"{name}_mm") is not None]
+        return {f"[pitman_arm] {name}_mm": self.metres(name) for name in given}
+
     def direction_of(self, arm: str) -> Vector:
         """Return the unit vector along the axis of ``pitman_arm`` or ``idler_arm``."""
         if arm == "idler_arm" and self.idler_axis is not None:

@@ -177,6 +177,8 @@ def _stray(suspension: Suspension) -> Iterator[str]:
     points = suspension.hardpoints
     given = {points.text(n): points.metres(n) for n in points.given() if n != "wheel_center"}
     yield from stray_points(given, points.unit)
+    if suspension.pitman_arm is not None:
+        yield from stray_points(suspension.pitman_arm.given_points(), "mm")
 
 
 def stray_points(points: Mapping[str, Array], unit: str) -> Iterator[str]:

@@ -163,6 +163,7 @@ def render(
     return template.render(
         title=legible(title or f"{model.suspension.heading()}, {'front ' * steered}{side}"),
         steered=steered,
+        on_rack=model.suspension.rack is not None,
         side=side,
         version=version("kintrafo"),
         samples=samples,

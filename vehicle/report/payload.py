@@ -149,6 +149,7 @@ def _drawing(suspension: Suspension, grid: Grid, sampled: Poses) -> dict[str, An
         "side_sign": suspension.vehicle.sign,
         "road_height": float(z) - loaded,
         "tyre": {"radius": radius, "width": TYRE_WIDTH},
+        "on_rack": suspension.rack is not None,
         "rack_inward": (-suspension.vehicle.sign * np.sign(rack[1] or 1.0) * rack).tolist(),
         "middle": (0.5 * (low + high)).tolist(),
         "size": float(np.linalg.norm(high - low)),

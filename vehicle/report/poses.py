@@ -95,8 +95,7 @@ def poses(model: Model, travel: Array, rack: Array) -> Poses:
     """Return poses at every combination of travels (n,) and rack displacements (m,), (n, m, 3)."""
     heights, rack = design_height(model) + travel[:, None], racks_of(model, rack)
     states, inputs = at_rest(model, arm_angles(model, heights, rack), rack)
-    shown = model.suspension.hardpoints.at_design()  # without those of a steering linkage
-    points = {n: p for n, p in hardpoints(model, states, inputs).items() if n in shown}
+    points = hardpoints(model, states, inputs)
     parameters = model.suspension.parameters()
     axis = np.array([parameters[f"spin_axis_{c}"] for c in "xyz"])
     rotations = model.evaluate("orientations", states, inputs)

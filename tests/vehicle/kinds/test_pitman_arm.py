@@ -5,6 +5,8 @@ carrier on five rods behind it. The equations of motion are compared with maxima
 `test_mechanisms`.
 """
 
+import json
+import re
 from typing import Any
 
 import kintrafo
@@ -21,8 +23,10 @@ from kintrafo.vehicle.models.axle.equations import declared
 from kintrafo.vehicle.models.car import Car
 from kintrafo.vehicle.models.car.equations import declared as of_a_car
 from kintrafo.vehicle.models.model_batch import ModelBatch
+from kintrafo.vehicle.models.plausibility import plausibility
 from kintrafo.vehicle.models.points import hardpoints
 from kintrafo.vehicle.models.reach import at_rest
+from kintrafo.vehicle.report.page import render
 from kintrafo.vehicle.studies.sensitivity import sensitivity
 from own_models import needs_gcc, own
 
@@ -226,6 +230,16 @@ def test_at_the_rear_of_a_car_it_is_a_part_of_the_body() -> None:
     assert not any("relay_rod" in name for name in names)
 
 
+def test_its_report_has_the_linkage_in_place_of_a_rack() -> None:
+    text = render(Model(RIGHT))
+    found = re.search(r'id="payload">(.*?)</script>', text, re.DOTALL)
+    assert found is not None
+    data = json.loads(found[1])
+    assert data["on_rack"] is False
+    assert {"pitman_pivot", "pitman_ball", "idler_pivot", "idler_ball"} <= set(data["points"])
+    assert '<label for="rack">Pitman arm</label>' in text
+
+
 # -- files ----------------------------------------------------------------------------------------
 
 
@@ -254,6 +268,13 @@ def test_a_file_keeps_it_and_both_sides_have_one_linkage(tmp_path: Any) -> None:
 )
 def test_a_linkage_that_cannot_move_is_refused(arm: dict[str, Any], refused: Any) -> None:
     refused(InputError, lambda: RIGHT.with_changes({"pitman_arm": arm}))
+
+
+def test_a_point_in_metres_is_noticed() -> None:
+    assert not plausibility(RIGHT).problems
+    moved = RIGHT.with_changes({"pitman_arm": ARM | {"ball_mm": [-0.14, 0.31, 0.27]}})
+    (problem,) = plausibility(moved).problems
+    assert problem.startswith("[pitman_arm] ball_mm is 0.434 mm from the origin. Is it in metres?")
 
 
 @pytest.mark.parametrize(

@@ -9,6 +9,7 @@ import {
   Group,
   LatheGeometry,
   Line,
+  Line3,
   LineBasicMaterial,
   Mesh,
   MeshStandardMaterial,
@@ -49,6 +50,13 @@ const MATERIALS = [
   "chassis",
   "pad",
 ];
+
+// Points of the steering linkage that its parts join.
+const STEERING_LINKAGE = {
+  pitman_arm: ["pitman_pivot", "pitman_ball"],
+  relay_rod: ["pitman_ball", "idler_ball"],
+  idler_arm: ["idler_pivot", "idler_ball"],
+};
 
 export class Mechanism extends Group {
   #solids = {};
@@ -176,8 +184,14 @@ export class Mechanism extends Group {
     this.#cylinder("tie_rod", "rod", ROD);
     this.#joint("tie_rod_outer", "rod");
     this.#joint("tie_rod_inner", "rod");
-    this.#cylinder("rack", "rack", 0.012);
-    this.#cylinder("rack_housing", "chassis", 0.021);
+    if (this.data.on_rack) {
+      this.#cylinder("rack", "rack", 0.012);
+      this.#cylinder("rack_housing", "chassis", 0.021);
+    } else {
+      this.buildBars([...Object.keys(STEERING_LINKAGE), "relay_lug"], "rack");
+      for (const name of ["pitman_ball", "idler_ball"]) this.#joint(name, "rack");
+      for (const name of ["pitman_pivot", "idler_pivot"]) this.#joint(name, "chassis");
+    }
   }
 
   #buildWheel({ radius, width }) {
@@ -265,6 +279,10 @@ export class Mechanism extends Group {
       this.#solids[name].position.copy(points[name]);
     }
     this.poseBar("tie_rod", points.tie_rod_outer, points.tie_rod_inner);
+    if (!this.data.on_rack) {
+      this.#poseLinkage(points);
+      return;
+    }
     const inward = new Vector3(...this.data.rack_inward);
     const inner = points.tie_rod_inner;
     this.poseBar("rack", inner, inner.clone().addScaledVector(inward, 0.2));
@@ -274,6 +292,17 @@ export class Mechanism extends Group {
       housing.clone().addScaledVector(inward, 0.1),
       housing.clone().addScaledVector(inward, 0.3),
     );
+  }
+
+  /** A Pitman arm, its idler arm, and the relay rod between them with the end of the tie rod. */
+  #poseLinkage(points) {
+    for (const [name, [from, to]] of Object.entries(STEERING_LINKAGE)) {
+      this.poseBar(name, points[from], points[to]);
+      for (const end of [from, to]) this.#solids[end].position.copy(points[end]);
+    }
+    const rod = new Line3(points.pitman_ball, points.idler_ball);
+    const tip = points.tie_rod_inner;
+    this.poseBar("relay_lug", rod.closestPointToPoint(tip, true, new Vector3()), tip);
   }
 
   #poseWheel(center, spinAxis, spin) {
