@@ -12,10 +12,9 @@ from kintrafo.generator.backends import arrays
 from kintrafo.generator.backends.numpy.dialect import NUMPY
 from kintrafo.generator.backends.words import blocks_of
 from kintrafo.generator.equations.in_motion import InMotion
-from kintrafo.generator.kinematics.motion import from_axes, to_axes
 from kintrafo.generator.planning.plan import CataloguePlan
 from kintrafo.generator.program import ConstantStage, Program
-from kintrafo.generator.program.vectors import UNIT_X, UNIT_Y, UNIT_Z
+from kintrafo.generator.program.vectors import UNIT_X, UNIT_Y, UNIT_Z, from_axes, to_axes
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

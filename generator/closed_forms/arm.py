@@ -39,7 +39,8 @@ if TYPE_CHECKING:
     from ..declare.geometry import Point
     from ..kinematics.extent import Spanning
     from ..kinematics.kinematics import Kinematics
-    from ..kinematics.motion import Axes, PointMotion
+    from ..kinematics.motion import PointMotion
+    from ..program.vectors import Axes
     from .leg import Leg, RodLeg
     from .solved_motion import Unsolved
 

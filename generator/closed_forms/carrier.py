@@ -20,11 +20,11 @@ import sympy as sp
 from ...equations.following import ITERATIONS
 from ..declare.joints import Joint, Prismatic, Spherical
 from ..kinematics.hinge_angles import driven_coordinates
-from ..kinematics.motion import BodyMotion, PointMotion, from_axes
+from ..kinematics.motion import BodyMotion, PointMotion
 from ..loops.errors import NoClosedFormError
 from ..loops.forms import Attempt, Iteration
 from ..program.newton import Matrix, named
-from ..program.vectors import ZERO, Twist, Vector
+from ..program.vectors import ZERO, Twist, Vector, from_axes
 from .carrier_equations import Pose, RodEquation, block, rotation, screws, split, turned
 from .guided_pair import GuidedPair
 from .inverse import Inverse

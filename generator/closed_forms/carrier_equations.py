@@ -28,9 +28,8 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from ..kinematics.motion import Axes, from_axes, to_axes
 from ..program.newton import IterationDerivation, IterationResult
-from ..program.vectors import UNIT_X, UNIT_Y, UNIT_Z, ZERO, Twist, Vector
+from ..program.vectors import IDENTITY, ZERO, Axes, Twist, Vector, from_axes, to_axes
 from .constraints import STILL, FixedDistance, Moving
 
 if TYPE_CHECKING:
@@ -94,11 +93,8 @@ class RodEquation:
 
 def screws(size: sp.Expr | None) -> list[Twist]:
     """Return the screw of each unknown: turns about the body's axes, and shifts along them."""
-    shifts = [] if size is None else [Twist(ZERO, e * size) for e in _UNITS]
-    return [Twist(e, ZERO) for e in _UNITS] + shifts
-
-
-_UNITS = (UNIT_X, UNIT_Y, UNIT_Z)
+    shifts = [] if size is None else [Twist(ZERO, e * size) for e in IDENTITY]
+    return [Twist(e, ZERO) for e in IDENTITY] + shifts
 
 
 def rotation(program: Program, name: str, u: Vector) -> Axes:
@@ -107,7 +103,7 @@ def rotation(program: Program, name: str, u: Vector) -> Axes:
     v = program.vector(f"{name}_scaled", u * half, "123")
     columns = (
         e + v.cross(e) + u * v.dot(e) - e * v.dot(u)  # v~ u~ e = u (v . e) - e (v . u)
-        for e in _UNITS
+        for e in IDENTITY
     )
     return program.axes((f"{name}_x", f"{name}_y", f"{name}_z"), columns)
 

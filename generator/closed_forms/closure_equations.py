@@ -20,10 +20,9 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ..declare.joints import Prismatic, Revolute, Spherical, Universal
-from ..kinematics.motion import IDENTITY, Axes, from_axes
 from ..program.functions import Frozen
 from ..program.newton import IterationDerivation, IterationResult, Matrix
-from ..program.vectors import UNIT_X, UNIT_Y, UNIT_Z, ZERO, Vector
+from ..program.vectors import IDENTITY, ZERO, Axes, Vector, from_axes
 from .constraints import STILL, Coincident, Constraint, FixedDistance, Guided, Moving, Perpendicular
 
 if TYPE_CHECKING:
@@ -252,12 +251,10 @@ def _at_cut(
         ways = (carried(one, what, 1) for what in across)
         found += [Guided(p1, p2, way, scale) for way in ways]
     else:
-        directions = [carried(plane, what, 0) for what in ("side", "top")] if cut.planar else _WORK
-        found += [Coincident(p1, p2, way, scale) for way in directions]
+        ways = (carried(plane, what, 0) for what in ("side", "top"))
+        found += [Coincident(p1, p2, way, scale) for way in (ways if cut.planar else IDENTITY)]
     return [Closure(*bodies, constraint) for constraint in found]
 
-
-_WORK: Axes = (UNIT_X, UNIT_Y, UNIT_Z)
 
 # Directions of the two bodies that stay perpendicular, by their names in the geometry.
 _ACROSS = [("axis", "side"), ("axis", "top")]

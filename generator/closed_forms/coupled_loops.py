@@ -27,12 +27,12 @@ from ..kinematics.hinge_angles import (
     driven_coordinates,
     positive_axis_at_design,
 )
-from ..kinematics.motion import BodyMotion, from_axes, to_axes
+from ..kinematics.motion import BodyMotion
 from ..loops.forms import Attempt, Iteration
 from ..loops.known import coordinates_of
 from ..loops.mobility import Mobility
 from ..program.newton import Matrix, named
-from ..program.vectors import NO_TWIST, UNIT_X, UNIT_Y, UNIT_Z, ZERO, Twist, Vector
+from ..program.vectors import IDENTITY, NO_TWIST, ZERO, Twist, Vector, from_axes, to_axes
 from .closure_equations import Geometry, Position, Screw, bases, block, position
 from .constraints import Moving
 from .coupling import Coupling
@@ -211,7 +211,7 @@ def _size(kin: Kinematics, name: str, places: Sequence[Vector]) -> sp.Expr:
 def _of_base(kin: Kinematics, body: str) -> Geometry:
     """Return the displacement of a placed body from its design position (`Frame`)."""
     placed = kin.placed[body]
-    columns = (from_axes(placed.axes, to_axes(placed.design_axes, e)) for e in _UNITS)
+    columns = (from_axes(placed.axes, to_axes(placed.design_axes, e)) for e in IDENTITY)
     x, y, z = kin.program.axes((f"{body}_x", f"{body}_y", f"{body}_z"), columns)
     return {
         f"{body}_x": x,
@@ -220,9 +220,6 @@ def _of_base(kin: Kinematics, body: str) -> Geometry:
         f"{body}_origin": placed.origin,
         f"{body}_start": placed.design_origin,
     }
-
-
-_UNITS = (UNIT_X, UNIT_Y, UNIT_Z)
 
 
 def _axis(kin: Kinematics, joint: Revolute | Prismatic) -> Vector:

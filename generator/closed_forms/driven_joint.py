@@ -11,10 +11,20 @@ import sympy as sp
 from ..declare.geometry import FORWARD, UP
 from ..declare.joints import Joint, Prismatic, Revolute
 from ..kinematics.hinge_angles import HingeDesign
-from ..kinematics.motion import Axes, BodyMotion, Turn, from_axes, to_axes
+from ..kinematics.motion import BodyMotion, Turn
 from ..loops.errors import NoClosedFormError
 from ..loops.forms import Follower
-from ..program.vectors import NO_TWIST, UNIT_X, UNIT_Z, ZERO, Twist, Vector
+from ..program.vectors import (
+    NO_TWIST,
+    UNIT_X,
+    UNIT_Z,
+    ZERO,
+    Axes,
+    Twist,
+    Vector,
+    from_axes,
+    to_axes,
+)
 from .solved_motion import SlideOnGuide
 
 if TYPE_CHECKING:

@@ -33,11 +33,10 @@ import sympy as sp
 from ..declare.joints import Revolute
 from ..kinematics.extent import extent_squared, require
 from ..kinematics.hinge_angles import HingeDesign, positive_axis_at_design
-from ..kinematics.motion import Axes, to_axes
 from ..loops.forms import PlannedStep
 from ..program.floors import DIRECTION, LENGTH
 from ..program.functions import SignOf
-from ..program.vectors import ZERO, Vector
+from ..program.vectors import ZERO, Axes, Vector, to_axes
 from .constraints import Coincident, Moving
 from .hinge import Hinge, place_on_hinge, report_angle
 from .leg import Leg, RodLeg

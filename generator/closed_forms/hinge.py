@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from ..kinematics.motion import Axes, BodyMotion, PointMotion, from_axes, to_axes
+from ..program.vectors import Axes, from_axes, to_axes
 from .arm import Arm
 from .solved_motion import TurnOnHinge, place_at
 
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from ..declare.geometry import Point
     from ..declare.joints import Revolute
     from ..kinematics.kinematics import Kinematics
+    from ..kinematics.motion import BodyMotion, PointMotion
     from ..program.vectors import Vector
 
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from ..declare.geometry import Point
     from ..kinematics.extent import Spanning
     from ..kinematics.kinematics import Kinematics
-    from ..kinematics.motion import Axes
+    from ..program.vectors import Axes
     from .leg import Leg
 
     Ends = tuple[tuple[str, Point], tuple[str, Point]]

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ..kinematics.extent import extent_squared, require
-from ..kinematics.motion import Axes, BodyMotion, OffLine, OnLine, PointMotion
+from ..kinematics.motion import BodyMotion, OffLine, OnLine, PointMotion
 from ..program.floors import BRANCH, NORMAL, ROOT
 from ..program.functions import SignOf
-from ..program.vectors import ZERO, Vector
+from ..program.vectors import ZERO, Axes, Vector
 from .constraints import FixedDistance
 from .lines import axes_about, place_rod
 from .solved_motion import ClosureCondition, TargetPoint, TurnOnLine, add_turn, place_at, projector

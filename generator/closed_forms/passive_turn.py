@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ..kinematics.motion import to_axes
 from ..loops.forms import Leftover
+from ..program.vectors import to_axes
 from .universal_joint import line_from_own_end, turn_on_cross
 
 if TYPE_CHECKING:

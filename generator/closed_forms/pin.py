@@ -12,9 +12,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..kinematics.extent import extent_squared
-from ..kinematics.motion import Axes, Meeting
+from ..kinematics.motion import Meeting
 from ..loops.forms import Placement
-from ..program.vectors import UNIT_Z
+from ..program.vectors import UNIT_Z, Axes
 from .constraints import Coincident
 from .hinge import Hinge, place_on_hinge, report_angle
 from .solved_motion import ClosureCondition, TargetPoint, add_turn

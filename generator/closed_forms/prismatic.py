@@ -20,9 +20,9 @@ import sympy as sp
 
 from ..declare.joints import Prismatic
 from ..kinematics.extent import extent_squared, require
-from ..kinematics.motion import from_axes
 from ..program.floors import BRANCH, ROOT
 from ..program.functions import SignOf
+from ..program.vectors import from_axes
 from .constraints import FixedDistance
 from .held_by_leg import HeldOnJoint
 from .lines import place_rod

@@ -35,11 +35,10 @@ from typing_extensions import override
 
 from ..declare.joints import Revolute
 from ..kinematics.extent import extent_squared, require
-from ..kinematics.motion import Axes, PointMotion, from_axes, to_axes
 from ..loops.forms import ClosedForm, PlannedStep
 from ..program.floors import BRANCH, DIRECTION, LENGTH, ROOT
 from ..program.functions import Positive, SignOf
-from ..program.vectors import UNIT_Y, UNIT_Z, ZERO, Vector
+from ..program.vectors import UNIT_Y, UNIT_Z, ZERO, Axes, Vector, from_axes, to_axes
 from .constraints import Guided
 from .guided_pair import GuidedPair
 from .leg import Leg, RodLeg
@@ -52,6 +51,7 @@ if TYPE_CHECKING:
     from ..declare.geometry import Point
     from ..kinematics.extent import Spanning
     from ..kinematics.kinematics import Kinematics
+    from ..kinematics.motion import PointMotion
     from ..loops.cut import CutLoop
     from ..loops.forms import Closing
     from ..loops.known import Coordinate, Known

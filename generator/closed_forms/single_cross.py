@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, ClassVar
 from typing_extensions import override
 
 from ..declare.joints import Revolute, Universal
-from ..kinematics.motion import from_axes, to_axes
 from ..loops.forms import ClosedForm
+from ..program.vectors import from_axes, to_axes
 from .yoke import DrivenYoke, GivenAxis, norm, second_axis, through_center, turn_through_cross
 
 if TYPE_CHECKING:

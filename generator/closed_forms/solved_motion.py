@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, ClassVar
 
 import sympy as sp
 
-from ..kinematics.motion import Axes, BodyMotion, PointMotion, from_axes, to_axes
-from ..program.vectors import NO_TWIST, UNIT_X, ZERO, Twist, Vector
+from ..kinematics.motion import BodyMotion, PointMotion
+from ..program.vectors import NO_TWIST, UNIT_X, ZERO, Axes, Twist, Vector, from_axes, to_axes
 from .constraints import STILL, Moving
 
 if TYPE_CHECKING:

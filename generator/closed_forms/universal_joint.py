@@ -20,10 +20,9 @@ import sympy as sp
 
 from ..declare.joints import Joint, Universal
 from ..kinematics.extent import require
-from ..kinematics.motion import Axes, BodyMotion, OnLine, from_axes
 from ..loops.forms import Follower
 from ..program.floors import DIRECTION, LENGTH
-from ..program.vectors import UNIT_Y, ZERO, Vector
+from ..program.vectors import UNIT_Y, ZERO, Axes, Vector, from_axes
 from .constraints import Perpendicular
 from .solved_motion import ClosureCondition, TargetBody, TurnOnLine, add_turn, place_at
 
@@ -31,6 +30,7 @@ if TYPE_CHECKING:
     from typing import Self
 
     from ..kinematics.kinematics import Kinematics
+    from ..kinematics.motion import BodyMotion, OnLine
     from ..loops.known import Known
 
 

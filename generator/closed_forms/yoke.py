@@ -22,11 +22,10 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ..kinematics.extent import require
-from ..kinematics.motion import Axes, from_axes, to_axes
 from ..program.conditions import Assumption
 from ..program.floors import BRANCH, DIRECTION, LENGTH
 from ..program.functions import SignOf
-from ..program.vectors import Vector
+from ..program.vectors import Axes, Vector, from_axes, to_axes
 from .constraints import Perpendicular
 from .lines import axes_about
 from .solved_motion import ClosureCondition, TargetBody, TurnOnHinge, add_turn, place_at

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
-from ..program.vectors import UNIT_X, UNIT_Y, UNIT_Z
+from ..program.vectors import IDENTITY
 from .bodies import Body, Ground
 from .declared import DeclarationError
 from .default_values import value_problems
@@ -209,6 +209,5 @@ def _leaving_problems(mechanism: Parts, unknown: Collection[str]) -> Iterator[st
 
 
 _NORMALS = {
-    axis: Direction(f"along_{axis}", fixed=unit)
-    for axis, unit in zip("xyz", (UNIT_X, UNIT_Y, UNIT_Z), strict=True)
+    axis: Direction(f"along_{axis}", fixed=unit) for axis, unit in zip("xyz", IDENTITY, strict=True)
 }

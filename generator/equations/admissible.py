@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
+from ..program.factors import solved
 from ..program.floors import NORMAL, POSITIVE
 from .surroundings import Seen
 
@@ -151,10 +152,8 @@ class _Normal:
     """The normal equations of the eliminated speeds, factorised: S = L D L^T."""
 
     program: Program
-    names: tuple[str, ...]
     columns: dict[str, list[sp.Expr]]
     factors: dict[tuple[str, str], sp.Expr]
-    inverse: dict[str, sp.Expr]
 
     @classmethod
     def of(
@@ -168,7 +167,6 @@ class _Normal:
         }
         whole = dict(work)
         factors: dict[tuple[str, str], sp.Expr] = {}
-        inverse: dict[str, sp.Expr] = {}
         for i, k in enumerate(names):
             size = whole[k, k] if i else sp.Integer(1)
             pivot = program.guarded(
@@ -178,32 +176,26 @@ class _Normal:
                 "1",
                 NORMAL if i else POSITIVE,
             )
-            inverse[k] = program.define(f"admissible_inverse_{k}", 1 / (pivot * size))
+            inverse = program.define(f"admissible_inverse_{k}", 1 / (pivot * size))
+            factors[k, k] = inverse
             for j, row in enumerate(names[i + 1 :], i + 1):
                 factors[row, k] = program.define(
-                    f"admissible_factor_{row}_{k}", work[k, row] * inverse[k]
+                    f"admissible_factor_{row}_{k}", work[k, row] * inverse
                 )
                 for column in names[j:]:
                     work[row, column] = program.define(
                         f"normal_{row}_{column}_{k}",
                         work[row, column] - factors[row, k] * work[k, column],
                     )
-        return cls(program, tuple(names), columns, factors, inverse)
+        return cls(program, columns, factors)
 
     def solved(self, label: str, right: Sequence[sp.Expr]) -> dict[str, sp.Expr]:
         """Return the solution of ``A_d x = right``, by the names of the eliminated coordinates."""
-        names, program = self.names, self.program
-        left = {d: program.define(f"{label}_{d}", _dot(self.columns[d], right)) for d in names}
-        for i, k in enumerate(names):
-            for row in names[i + 1 :]:
-                left[row] = program.define(
-                    f"{label}_{row}_{k}", left[row] - self.factors[row, k] * left[k]
-                )
-        found: dict[str, sp.Expr] = {}
-        for i, k in reversed(list(enumerate(names))):
-            known = sum((self.factors[row, k] * found[row] for row in names[i + 1 :]), NONE)
-            found[k] = program.define(f"{label}_of_{k}", left[k] * self.inverse[k] - known)
-        return found
+        left = {
+            d: self.program.define(f"{label}_{d}", _dot(column, right))
+            for d, column in self.columns.items()
+        }
+        return solved(self.program, self.factors, left, label, f"{label}_of_{{}}")
 
 
 def _dot(one: Sequence[sp.Expr], other: Sequence[sp.Expr]) -> sp.Expr:

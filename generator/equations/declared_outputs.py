@@ -15,9 +15,8 @@ from ..declare.outputs import (
     VelocityOf,
 )
 from ..declare.shown import Shown
-from ..kinematics.motion import from_axes
 from ..program.floors import DIRECTION
-from ..program.vectors import ZERO
+from ..program.vectors import ZERO, from_axes
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -27,11 +27,20 @@ from ..declare.declared import DeclarationError
 from ..declare.geometry import Direction
 from ..declare.joints import Revolute
 from ..kinematics.hinge_angles import positive_axis_at_design
-from ..kinematics.motion import BodyMotion, from_axes, to_axes
 from ..program.conditions import Condition
+from ..program.factors import solved
 from ..program.floors import POSITIVE, SINGULAR
 from ..program.functions import Frozen
-from ..program.vectors import ELEMENTS, NO_TWIST, ZERO, SymmetricTensor, Twist, Vector
+from ..program.vectors import (
+    ELEMENTS,
+    NO_TWIST,
+    ZERO,
+    SymmetricTensor,
+    Twist,
+    Vector,
+    from_axes,
+    to_axes,
+)
 from .acting import acted, shown_by
 from .admissible import Admissible
 from .inertia import SpatialInertia
@@ -46,6 +55,7 @@ if TYPE_CHECKING:
     from ..declare.bodies import Body
     from ..declare.forces.force import Action, Force
     from ..declare.shown import Shown
+    from ..kinematics.motion import BodyMotion
     from .in_motion import InMotion
     from .surroundings import Momenta
 
@@ -601,7 +611,11 @@ class Dynamics:
         values = {k: self.program.define(f"{k}_value", Frozen(self.accelerations[k])) for k in rest}
         inertial = self._inertial(values)
         left = {k: self.program.define(f"{k}_imbalance", self._net(k, inertial[k])) for k in rest}
-        more = self._solved_again(rest, left)
+        factors = {
+            (row, k): self.program.define(f"factor_{row}_{k}_value", Frozen(factor))
+            for (row, k), factor in self._factors.items()
+        }
+        more = solved(self.program, factors, left, "imbalance", "{}_more")
         return self._with_spins({k: values[k] + more[k] for k in rest}, "acceleration_again")
 
     def _inertial(self, accelerations: dict[str, sp.Expr]) -> dict[str, sp.Expr]:
@@ -623,24 +637,6 @@ class Dynamics:
         for loaded in self._loaded.values():
             total |= loaded.taken("_driven", accelerations)
         return total
-
-    def _solved_again(self, names: list[str], right: dict[str, sp.Expr]) -> dict[str, sp.Expr]:
-        """Solve the symmetric system with its factors, as constants."""
-        factors = {
-            pair: self.program.define(f"factor_{pair[0]}_{pair[1]}_value", Frozen(factor))
-            for pair, factor in self._factors.items()
-        }
-        right = dict(right)
-        for i, k in enumerate(names):
-            for row in names[i + 1 :]:
-                right[row] = self.program.define(
-                    f"imbalance_{row}_{k}", right[row] - factors[row, k] * right[k]
-                )
-        solution: dict[str, sp.Expr] = {}
-        for i, k in reversed(list(enumerate(names))):
-            known = sum((factors[row, k] * solution[row] for row in names[i + 1 :]), NONE)
-            solution[k] = self.program.define(f"{k}_more", right[k] * factors[k, k] - known)
-        return solution
 
     # -- M, B and Q of the paper ----------------------------------------------------------------
 

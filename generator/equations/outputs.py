@@ -11,7 +11,6 @@ from ..declare.checks import check_symbols
 from ..declare.declared import DeclarationError, parts
 from ..declare.inputs import Input
 from ..declare.states import Entry
-from ..kinematics.motion import IDENTITY, BodyMotion, from_axes
 from ..memory import uncollected
 from ..planning.plan import CataloguePlan
 from ..program.constants import ConstantStage
@@ -19,7 +18,7 @@ from ..program.function import Stage
 from ..program.narrow import function_of
 from ..program.program import Program
 from ..program.together import share_together
-from ..program.vectors import ZERO
+from ..program.vectors import IDENTITY, ZERO, from_axes
 from ..progress import counted, silent
 from .assumptions import define_assumptions, find_assumptions
 from .declared_outputs import signals_of
@@ -37,6 +36,7 @@ if TYPE_CHECKING:
     from ..declare.mechanism import Mechanism
     from ..declare.shown import Shown
     from ..declare.states import DeclaredStates
+    from ..kinematics.motion import BodyMotion
     from ..program.conditions import Assumption, Condition
     from ..program.function import Function
     from ..program.steps import Guard

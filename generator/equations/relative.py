@@ -16,23 +16,25 @@ from ..declare.geometry import Point
 from ..declare.joints import Cylindrical, Free, Joint, Prismatic, Revolute, Universal, Weld
 from ..kinematics.chain import before_telescope, chain_to, reported
 from ..kinematics.hinge_angles import angle_of, is_first_axis, positive_axis_at_design, turn_between
-from ..kinematics.motion import (
+from ..program.floors import DIRECTION
+from ..program.vectors import (
     IDENTITY,
+    UNIT_X,
+    UNIT_Y,
+    UNIT_Z,
+    ZERO,
     Axes,
-    BodyMotion,
-    RodEnds,
-    TelescopeEnds,
+    Vector,
     from_axes,
     to_axes,
 )
-from ..program.floors import DIRECTION
-from ..program.vectors import UNIT_X, UNIT_Y, UNIT_Z, ZERO, Vector
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from ..declare.joints import RelativeCoordinate
     from ..kinematics.kinematics import Kinematics
+    from ..kinematics.motion import BodyMotion, RodEnds, TelescopeEnds
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from ..declare.geometry import UP
-from ..kinematics.motion import from_axes, to_axes
-from ..program.vectors import Twist, Vector
+from ..program.vectors import Twist, Vector, from_axes, to_axes
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -23,8 +23,7 @@ import sympy as sp
 
 from ..declare.states import free_states
 from ..program.floors import SMALLEST
-from ..program.vectors import NO_TWIST, UNIT_X, UNIT_Y, UNIT_Z, ZERO, Twist, Vector
-from .motion import Axes, from_axes, to_axes
+from ..program.vectors import IDENTITY, NO_TWIST, ZERO, Axes, Twist, Vector, from_axes, to_axes
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -198,8 +197,7 @@ class FreeBase(Base):
     @cached_property
     def twists(self) -> Mapping[str, Twist]:
         """Three velocities, then three angular velocities."""
-        units = UNIT_X, UNIT_Y, UNIT_Z
-        six = (*(Twist(ZERO, unit) for unit in units), *(Twist(unit, ZERO) for unit in units))
+        six = (*(Twist(ZERO, e) for e in IDENTITY), *(Twist(e, ZERO) for e in IDENTITY))
         return dict(zip(free_states(self.joint).coordinates, six, strict=True))
 
     @property

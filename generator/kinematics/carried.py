@@ -13,8 +13,7 @@ from dataclasses import replace
 from functools import cache
 from typing import TYPE_CHECKING
 
-from ..program.vectors import NO_TWIST, ZERO, Twist, Vector
-from .motion import from_axes, to_axes
+from ..program.vectors import NO_TWIST, ZERO, Twist, Vector, from_axes, to_axes
 
 if TYPE_CHECKING:
     from .base import Base

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from .motion import from_axes, to_axes
+from ..program.vectors import from_axes, to_axes
 
 if TYPE_CHECKING:
     from ..declare.joints import Prismatic

@@ -9,14 +9,14 @@ import sympy as sp
 
 from ..declare.joints import Free, Prismatic, Revolute
 from ..program.functions import SignOf
-from ..program.vectors import UNIT_X, ZERO, Vector
-from .motion import BodyMotion, from_axes, to_axes
+from ..program.vectors import UNIT_X, ZERO, Vector, from_axes, to_axes
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from ..program.program import Program
     from .kinematics import Kinematics
+    from .motion import BodyMotion
 
 
 @dataclass(frozen=True)

@@ -10,17 +10,17 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from ..program.vectors import NO_TWIST, UNIT_X, UNIT_Y, UNIT_Z, Twist, Vector
+from ..program.vectors import IDENTITY, NO_TWIST, Twist, Vector, from_axes, to_axes
 from .base import Base
-from .motion import IDENTITY, BodyMotion, from_axes, to_axes
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from ..declare.geometry import Point
     from ..program.program import Program
+    from ..program.vectors import Axes
     from .kinematics import Kinematics
-    from .motion import Axes
+    from .motion import BodyMotion
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ class JointedBase(Base):
         axes = IDENTITY
         if placed.axes is not IDENTITY:
             names = (f"{body}_forward", f"{body}_left", f"{body}_up")
-            axes = program.axes(names, (_turned(root, placed, v) for v in (UNIT_X, UNIT_Y, UNIT_Z)))
+            axes = program.axes(names, (_turned(root, placed, v) for v in IDENTITY))
         return cls(program, root, body, com, axes)
 
     @property

@@ -11,19 +11,8 @@ from ..declare.evaluation import AtDefaults
 from ..declare.geometry import UP, Direction, Point
 from ..declare.joints import Joint, RelativeCoordinate, Revolute
 from ..program.functions import SignOf
-from ..program.vectors import NO_TWIST, ZERO, Twist, Vector
-from .motion import (
-    IDENTITY,
-    BodyMotion,
-    Meeting,
-    OffLine,
-    OnLine,
-    PointMotion,
-    RodEnds,
-    TelescopeEnds,
-    from_axes,
-    to_axes,
-)
+from ..program.vectors import IDENTITY, NO_TWIST, ZERO, Twist, Vector, from_axes, to_axes
+from .motion import BodyMotion, Meeting, OffLine, OnLine, PointMotion, RodEnds, TelescopeEnds
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping

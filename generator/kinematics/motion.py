@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from ..declare.geometry import Point
-from ..program.vectors import NO_TWIST, UNIT_X, UNIT_Y, UNIT_Z, ZERO, Twist, Vector
+from ..program.vectors import IDENTITY, NO_TWIST, ZERO, Axes, Twist, Vector
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -19,21 +19,6 @@ if TYPE_CHECKING:
     import sympy as sp
 
     from ..declare.joints import Cylindrical
-
-Axes = tuple[Vector, Vector, Vector]
-IDENTITY: Axes = (UNIT_X, UNIT_Y, UNIT_Z)
-
-
-def to_axes(axes: Axes, v: Vector) -> Vector:
-    """Return the components of a work vector along three orthonormal axes."""
-    return Vector(*(v.dot(axis) for axis in axes))
-
-
-def from_axes(axes: Axes, v: Vector) -> Vector:
-    """Return the work components of a vector given along three orthonormal axes."""
-    x, y, z = axes
-    work: Vector = x * v.x + y * v.y + z * v.z
-    return work
 
 
 @dataclass

@@ -248,8 +248,9 @@ class Plan:
             cycle = (attempt.cycles if attempt else crossed or cycles)[0]
             message = self._refusal(cycle, pair_candidates(self._known, cycle))
             mechanism = self._mechanism
-            crosses = between_crosses(mechanism, cycle) or crosses_turned(mechanism, cycle)
-            hint = "" if attempt else crosses
+            hint = ""
+            if attempt is None:
+                hint = between_crosses(mechanism, cycle) or crosses_turned(mechanism, cycle)
             hint = hint or apart or tilted(mechanism) or aimed(mechanism)
             if hint:
                 message += f" {hint}."

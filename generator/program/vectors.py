@@ -80,6 +80,21 @@ UNIT_X = Vector.of(1, 0, 0)
 UNIT_Y = Vector.of(0, 1, 0)
 UNIT_Z = Vector.of(0, 0, 1)
 
+Axes = tuple[Vector, Vector, Vector]
+IDENTITY: Axes = (UNIT_X, UNIT_Y, UNIT_Z)
+
+
+def to_axes(axes: Axes, v: Vector) -> Vector:
+    """Return the components of a vector along three orthonormal axes."""
+    return Vector(*(v.dot(axis) for axis in axes))
+
+
+def from_axes(axes: Axes, v: Vector) -> Vector:
+    """Return a vector from its components along three axes, in the axes that these are given in."""
+    x, y, z = axes
+    total: Vector = x * v.x + y * v.y + z * v.z
+    return total
+
 
 @dataclass(frozen=True)
 class Twist:
@@ -188,7 +203,7 @@ class SymmetricTensor:
     def __matmul__(self, v: Vector) -> Vector:
         return Vector(*(column.dot(v) for column in self.columns))
 
-    def in_axes(self, axes: tuple[Vector, Vector, Vector]) -> SymmetricTensor:
+    def in_axes(self, axes: Axes) -> SymmetricTensor:
         """Return the components along other unit axes, given in the present ones."""
         x, y, z = axes
         along_x, along_y, along_z = (self @ axis for axis in axes)

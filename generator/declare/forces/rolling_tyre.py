@@ -10,7 +10,7 @@ from typing_extensions import override
 
 from ...program.formulas import Steps
 from ...program.functions import IsPositive, Positive
-from ...program.vectors import Vector
+from ...program.vectors import Axes, Vector, from_axes
 from ..contact_laws import ContactLaw, RollingState
 from ..declared import DeclarationError, Name, declared
 from ..inputs import Input
@@ -131,10 +131,10 @@ class RollingTyre(Force):
         rolling = self._rolling(at, steps, axes, load, (velocity, turning, arm, upright))
         rolling, rates = self._relaxed(steps, rolling)
         found = self._forces(steps, rolling)
-        along = self._along(axes, (found.fx, found.fy, sp.Integer(0)))
+        along = from_axes(axes, Vector(found.fx, found.fy, sp.Integer(0)))
         upward = upright.up * load
         moment = arm.cross(along) + (down * self.law.radius).cross(upward)
-        moment += self._along(axes, (found.mx, found.my, found.mz))
+        moment += from_axes(axes, Vector(found.mx, found.my, found.mz))
         force = program.vector(f"{self._own}force", along + upward, "123")
         moment = program.vector(f"{self._own}moment", moment, "123")
         forces = {
@@ -160,12 +160,6 @@ class RollingTyre(Force):
     @property
     def _own(self) -> str:
         return f"{self.name}_"
-
-    @staticmethod
-    def _along(axes: tuple[Vector, Vector, Vector], given: tuple[sp.Expr, ...]) -> Vector:
-        x, y, z = (axis * part for axis, part in zip(axes, given, strict=True))
-        total: Vector = x + y + z
-        return total
 
     def _motion(self, at: Surroundings) -> tuple[Vector, Vector]:
         """Return the velocity of the centre and the turning of the carrier, in its axes."""
@@ -208,7 +202,7 @@ class RollingTyre(Force):
         self,
         at: Surroundings,
         steps: Steps,
-        axes: tuple[Vector, Vector, Vector],
+        axes: Axes,
         load: sp.Expr,
         moving: tuple[Vector, Vector, Vector, WheelAttitude],
     ) -> RollingState:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
+from ...program.vectors import Vector, from_axes
 from ..declared import DeclarationError, declared
 from ..inputs import Input
 from ..joints import Revolute
@@ -15,7 +16,6 @@ from ..wheel import Wheel
 from .force import Action, Description, Force
 
 if TYPE_CHECKING:
-    from ...program.vectors import Vector
     from ..surroundings import Surroundings
 
 Components = tuple[Input, Input, Input]
@@ -105,7 +105,8 @@ class WheelLoads(Force):
         forward = at.program.vector(f"{name}_forward", axis.cross(upright.up) * (1 / cosine), "123")
         axes = forward, upright.up.cross(forward), upright.up
         contact, moment, center = (
-            _along(axes, given) for given in (self.contact, self.moment, self.center)
+            from_axes(axes, Vector(*(sp.Symbol(part.name) for part in given)))
+            for given in (self.contact, self.moment, self.center)
         )
         arm = upright.pull * (-self.radius.symbol / cosine)
         moment += arm.cross(contact) + axis * sp.Symbol(self.shaft.name)
@@ -118,10 +119,3 @@ class WheelLoads(Force):
         }
         forces[at.coordinate(name)] = moment.dot(axis) + sp.Symbol(self.hub.name)
         return Action(forces)
-
-
-def _along(axes: tuple[Vector, Vector, Vector], given: Components) -> Vector:
-    """Return the vector with these components."""
-    x, y, z = (axis * sp.Symbol(part.name) for axis, part in zip(axes, given, strict=True))
-    total: Vector = x + y + z
-    return total

@@ -5,16 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ...kinematics.motion import from_axes
-from ...program.vectors import SymmetricTensor, Twist, Vector
+from ...program.vectors import SymmetricTensor, Twist, Vector, from_axes
 from .flow import HALF, Flow, angular_of, named, second_moments
 
 if TYPE_CHECKING:
     import sympy as sp
 
     from ...kinematics.carried import Carried
-    from ...kinematics.motion import Axes
     from ...program.program import Program
+    from ...program.vectors import Axes
     from ..inertia import SpatialInertia
 
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ...kinematics.motion import from_axes
-from ...program.vectors import ZERO, SymmetricTensor, Twist, Vector
+from ...program.vectors import ZERO, SymmetricTensor, Twist, Vector, from_axes
 from .flow import Flow
 
 if TYPE_CHECKING:
