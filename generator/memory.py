@@ -1,8 +1,9 @@
-"""SymPy's memory of its own results, and pauses of the garbage collector.
+"""SymPy's cache of results, and pauses of the garbage collector.
 
-By default SymPy remembers the last thousand. A derivation comes back to far more of them, and takes
-half as long again without; all of them take some 100 MB. SymPy reads the number when it is
-imported, so that this comes first; where a program has imported SymPy before, its own choice stays.
+By default SymPy keeps the last thousand results. A derivation needs far more of them again, and
+takes half as long again without them; all of them take some 100 MB. SymPy reads the size of the
+cache when it is imported, so that this module is imported first; if a program has imported SymPy
+before, its own choice stays.
 """
 
 import atexit
@@ -17,7 +18,7 @@ os.environ.setdefault("SYMPY_CACHE_SIZE", "None")
 
 @atexit.register
 def forget() -> None:
-    """Free what SymPy remembers.
+    """Empty the cache of SymPy.
 
     At the end of a program this takes 0.2 s after the derivation of a car. Otherwise Python frees
     it after its modules, with several searches for cycles: in 5 s.
@@ -30,8 +31,8 @@ def forget() -> None:
 def uncollected() -> Iterator[None]:
     """Suspend Python's search for cycles of objects.
 
-    It traverses all results that SymPy remembers, over and over, and finds nothing to free: a sixth
-    of the time of a derivation, and of printing its results.
+    It traverses all results in the cache of SymPy again and again, and finds nothing to free: that
+    takes a sixth of the time of a derivation, and of printing its results.
     """
     was_on = gc.isenabled()
     gc.disable()

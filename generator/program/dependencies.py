@@ -16,8 +16,8 @@ _KEPT = 8  # sets of targets: all columns of a Jacobian have the same targets
 class Dependencies:
     """The symbols that each step of a program reads, and the steps that read each symbol.
 
-    Every symbol has a number. Steps are added in their order, each behind those that it reads, so
-    that their numbers have that order.
+    Every symbol has a number. A step is added after the steps that it reads, so that the numbers
+    of steps have their order, and the dependencies of a step never change.
     """
 
     def __init__(self) -> None:
@@ -80,11 +80,11 @@ class Dependencies:
         return number
 
     def _known(self, symbols: Iterable[sp.Symbol]) -> frozenset[int]:
-        """Return the numbers of symbols, as far as a step reads them or is called so."""
+        """Return the numbers of those symbols that a step reads or defines."""
         return frozenset(self._numbers[s] for s in symbols if s in self._numbers)
 
     def _all_behind(self, numbers: frozenset[int]) -> set[int]:
-        """Return some numbers, and those of all that they are computed from."""
+        """Return the numbers of some symbols, and of all symbols that these depend on."""
         found, waiting = set(numbers), list(numbers)
         while waiting:
             fresh = [n for n in self._reads[waiting.pop()] if n not in found]

@@ -80,7 +80,7 @@ def _terms_by_symbol(expression: sp.Expr) -> list[tuple[sp.Symbol, tuple[sp.Expr
 
 @cacheit  # type: ignore[untyped-decorator]
 def _derivative(terms: tuple[sp.Expr, ...], s: sp.Symbol) -> sp.Expr:
-    """Return the derivative of a sum; a program asks again for each of its directions."""
+    """Return the derivative of a sum, which is the same for all directions of a program."""
     return sp.Add(*(_partial(term, s) for term in terms))
 
 

@@ -56,7 +56,7 @@ class Program:
     # outputs of narrow parts with their inputs, and the derivatives with respect to these
     _narrow: dict[sp.Symbol, tuple[sp.Symbol, ...]] = field(default_factory=dict)
     _partials: dict[tuple[sp.Symbol, sp.Symbol], sp.Expr] = field(default_factory=dict)
-    # what derivatives follow: through estimates that are corrected afterwards, none
+    # for derivatives: estimates that are corrected afterwards depend on nothing
     _dependencies: Dependencies = field(default_factory=Dependencies)
 
     def section(self, title: str) -> None:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 def regrouped(expressions: Iterable[sp.Expr]) -> dict[sp.Expr, Unevaluated]:
     """Return the result of SymPy's ``opt_cse``, in half of its time.
 
-    That builds the negative of each sum and product, to find the better one of both.
+    SymPy builds the negative of each sum and product, to find the better one of both.
 
     Returns
     -------
