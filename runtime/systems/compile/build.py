@@ -13,7 +13,7 @@ from ...core.folders import refuse_shared
 from ...core.optional import require
 from ...core.suggestions import suggestion
 from ...core.validator import Validator
-from .cache import appearing, cache_folder, damage, fingerprint, seal
+from .cache import alone, appearing, cache_folder, damage, fingerprint, seal
 from .compiler import Compiler, CompilerError, find_compiler
 from .declaration import model_of, translated_errors
 from .identity import identity, identity_of_derived
@@ -139,8 +139,11 @@ def compile_mechanism(
         message = f"{target}: {problem}. The compiled files are damaged, and are built again."
         warnings.warn(message, RuntimeWarning, stacklevel=2)
     if problem:
-        with uncollected(), appearing(target) as temporary, shown() as notify:
-            build(derived or derive(notify), temporary, compiler, name=target.name, report=notify)
+        with shown() as notify, alone(target, notify):
+            if damage(target):  # still, after another process
+                with uncollected(), appearing(target) as temporary:
+                    derived = derived or derive(notify)
+                    build(derived, temporary, compiler, name=target.name, report=notify)
         refuse_damaged(target)
     module = load(target)
     _declared[module.__name__] = model, parameter_derivatives

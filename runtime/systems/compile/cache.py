@@ -13,8 +13,8 @@ import shutil
 import sys
 import tempfile
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager, suppress
 from functools import cache
 from importlib.resources import files
 from importlib.resources.abc import Traversable
@@ -35,6 +35,7 @@ from ...core.interrupts import held
 
 __all__ = [
     "MANIFEST",
+    "alone",
     "appearing",
     "cache_folder",
     "damage",
@@ -146,6 +147,48 @@ def _changed(folder: Path, name: str, size: int, digest: str) -> str:
     if found[0] != size:
         return f"{name} has {found[0]:,} bytes instead of {size:,}"
     return "" if found[1] == digest else f"{name} was changed"
+
+
+@contextmanager
+def alone(target: Path, report: Callable[[str], object]) -> Iterator[None]:
+    """Have other threads and processes wait, if they are to create the same folder.
+
+    Where the system has no such locks, they create it, too.
+
+    Parameters
+    ----------
+    target : Path
+        The folder.
+    report : callable
+        Called with a description of the present step before this process waits for another.
+    """
+    with ExitStack() as opened:
+        with suppress(OSError):  # no locks; or `appearing` raises it again
+            make_folder(target.parent)
+            _lock(opened, target.parent / f".{target.name}.lock", report)
+        yield
+
+
+def _lock(opened: ExitStack, path: Path, report: Callable[[str], object]) -> None:
+    """Lock a file, which is removed at the end; the lock ends with its process."""
+    if sys.platform == "win32":
+        return
+    import fcntl
+
+    file = opened.enter_context(path.open("ab"))
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        report("waiting for another process that compiles it")
+        fcntl.flock(file, fcntl.LOCK_EX)
+    # a process that has been forked meanwhile has the file open, too
+    opened.callback(fcntl.flock, file, fcntl.LOCK_UN)
+    opened.callback(_remove_file, path)
+
+
+def _remove_file(path: Path) -> None:
+    with suppress(OSError):
+        path.unlink()
 
 
 @contextmanager

@@ -5,6 +5,7 @@ import os
 import pickle
 import shutil
 import sys
+import threading
 import warnings
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
@@ -176,6 +177,30 @@ class TestHealing:
         with ThreadPoolExecutor(4) as pool:
             found = list(pool.map(load, [target] * 8))
         assert len(set(map(id, found))) == 1
+
+    @pytest.mark.skipif(sys.platform == "win32", reason="no locks")
+    def test_a_second_process_waits_for_the_first(self, cache, tmp_path):
+        """Threads do as processes: each opens the file of the lock itself."""
+        folder, reported = tmp_path / "new", []
+        begins, waits = threading.Event(), threading.Event()
+
+        def first(text):
+            reported.append(text)
+            begins.set()
+            assert waits.wait(60.0)
+
+        def second(text):
+            reported.append(text)
+            waits.set()
+
+        with ThreadPoolExecutor(2) as pool:
+            one = pool.submit(kintrafo.compile, FOUR_BAR, folder=folder, progress=first)
+            assert begins.wait(60.0)
+            other = pool.submit(kintrafo.compile, FOUR_BAR, folder=folder, progress=second)
+            assert one.result() is other.result()
+        assert sum("writing" in text for text in reported) == 1
+        assert sum("waiting for another process" in text for text in reported) == 1
+        assert [path.name for path in folder.iterdir()] == [path.name for path in cache.iterdir()]
 
 
 class TestFullDisk:
