@@ -42,14 +42,14 @@ int main(void)
                                  -2187.0 / 6784.0, 11.0 / 84.0, 0.0};
     double *weights = exactly(TIMES * STAGES), *there = exactly(TIMES), *none = exactly(0);
     for (int i = STAGES; i < TIMES * STAGES; ++i) weights[i] = step[i % STAGES];
-    int anew[STEPS] = {1};
+    int restarts[STEPS] = {1};
     double of_constants[DIRECTIONS] = {1.0, 2.0, 0.0, INFINITY};
     double of_start[DIRECTIONS] = {0.0, 0.0, 1.0, 0.0};
     int items[2] = {0, 1};
     kt_motion motion = {
         .rhs_tangent = rates, .signals_tangent = doubled, .constant_count = 1, .state_count = 1,
         .signal_count = 1, .constants = c, .step_count = STEPS, .lengths = lengths,
-        .anew = anew, .states = states, .inputs = none, .time_count = TIMES, .step_of = step_of,
+        .restarts = restarts, .states = states, .inputs = none, .time_count = TIMES, .step_of = step_of,
         .weights = weights, .states_there = there, .inputs_there = none, .item_count = 2,
         .items = items, .of_constants = of_constants, .of_start = of_start, .of_inputs = none,
         .found = exactly(DIRECTIONS * TIMES * 2)};
