@@ -82,7 +82,7 @@ static int check(worker *w, double time, const double *state, double step)
     return 0;
 }
 
-/* The same by the Jacobian at the begin of the step, unless that has been evaluated. */
+/* The same by the Jacobian at the beginning of the step, unless that has been evaluated. */
 static int check_here(worker *w, double step)
 {
     method *m = w->own;

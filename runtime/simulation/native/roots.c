@@ -59,7 +59,7 @@ static int any_passes(const worker *w, const double *from, const double *to)
     return some;
 }
 
-/* Set functions that are zero at the begin of the search to their values just after it. */
+/* Set functions that are zero at the beginning of the search to their values just after it. */
 static void leave(worker *w)
 {
     kt_search *s = &w->search;

@@ -46,18 +46,19 @@ _NO_CROSS_COMPILER = (
 def library(
     sources: Mapping[str, str], name: str, platform: str, token: str, values: Sequence[float]
 ) -> bytes:
-    """Return a shared library with some numbers, from C files by path, which have any numbers.
+    """Return a shared library with a token and numbers, compiled from C files by path.
 
-    A CompilerError is raised if there is no compiler, or it fails.
+    The files may have other numbers. A CompilerError is raised if a compiler is needed and there is
+    none, or it fails.
     """
     made = shipped(sources, name) if platform == "linux" else None
     return filled(made or _compiled(sources, name, platform), token, values)
 
 
 def shipped(sources: Mapping[str, str], name: str) -> bytes | None:
-    """Return the library for Linux that was compiled with this package, from the same sources.
+    """Return the library for Linux that was compiled with this package, from these sources.
 
-    Return None if there is none, or if it was compiled from other sources.
+    The result is None if there is none, or one from other sources.
     """
     file = files(generated) / f"_{name}_fmu{get_config_var('EXT_SUFFIX')}"
     if not file.is_file():

@@ -50,7 +50,7 @@ def digest(texts: Mapping[str, str]) -> str:
 
 
 def filled(content: bytes, token: str, values: Sequence[float] = ()) -> bytes:
-    """Return a library with another token, and other numbers, after its mark."""
+    """Return a library with another token and other numbers, which follow its mark."""
     numbers = struct.pack(f"<{len(values)}d", *values)
     text = token.encode().ljust(_TOKEN_SIZE, b"\0") + numbers
     at = _behind_mark(content)

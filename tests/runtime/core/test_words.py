@@ -130,7 +130,7 @@ def test_states_are_called_by_what_they_are() -> None:
 
 def test_what_is_not_at_rest_has_its_own_unit() -> None:
     system = kintrafo.System(four_bar)
-    with pytest.raises(InputError, match=r"accelerated by \S+ rad/s\^2\. Begin"):
+    with pytest.raises(InputError, match=r"accelerated by \S+ rad/s\^2\. Start"):
         kintrafo.rest(system, inputs={"crank_torque": 1e9})
 
 

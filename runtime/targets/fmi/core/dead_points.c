@@ -90,7 +90,7 @@ static ku_height height_of(const double *margins, int guard, double lapse)
 }
 
 /*
- * Return whether a motion that begins at rest near zero has passed it: its speed is zero at the begin of the step, but
+ * Return whether a motion that begins at rest near zero has passed it: its speed is zero where the step begins, but
  * with its acceleration the height is zero within the step. Beyond zero the true height is negative, so that speed and
  * acceleration at the end have the other sign. It has passed zero if these explain the change of the speed better.
  */

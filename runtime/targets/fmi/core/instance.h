@@ -20,7 +20,7 @@ enum {
     KU_ANY = KU_SET_UP | KU_RUNNING | KU_TERMINATED | KU_FAILED
 };
 
-/* Derivatives of an input that are known at the begin of a step, from order zero to three. */
+/* Derivatives of an input that are known at the beginning of a step, from order zero to three. */
 enum { KU_ORDERS = 4 };
 
 /* An input that is no derivative: its index and those of its derivatives, and their places. */

@@ -171,7 +171,7 @@ int ku_set_slopes(ku_instance *u, const unsigned *references, size_t count, cons
     return KU_OK;
 }
 
-/* Read the derivatives of an input at the begin of a step; return whether any is not zero. */
+/* Read the derivatives of an input at the beginning of a step; return whether any is not zero. */
 static int derivatives_of(const ku_course *c, double *found)
 {
     int moves = 0;
