@@ -34,7 +34,7 @@ def with_columns(dataset: xr.Dataset, dimension: str) -> xr.Dataset:
             continue
         for label in map(str, dataset[dimension].values):
             own = data.sel({dimension: label}, drop=True).variable
-            words = f"{data.attrs.get('long_name', name)}, {label}"
+            words = f"{data.attrs.get('long_name', name)}, {label.replace('_', ' ')}"
             attributes = own.attrs | {"long_name": words}
             found[f"{name}_{label}"] = xr.Variable(own.dims, own.data, attributes)
     others = dataset.drop_vars(dimension).coords

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from ..core.named_types import Array
 from ..core.quantities import bracketed, display_of, displayed, long_name
 from ..core.validator import Validator
-from .figures import BLUE, GREEN, ORANGE, wrapped, written_plainly
+from .figures import BLUE, GREEN, ORANGE, typeset, wrapped, written_plainly
 from .labels import label_lines
 from .turned import turn
 
@@ -230,8 +230,7 @@ def _describe_alone(axes: Axes, data: xr.DataArray) -> None:
 
 
 def _describe_panel(axes: Axes, data: xr.DataArray) -> None:
-    label = _typeset(bracketed(long_name(data), data.attrs))
-    axes.set_ylabel(wrapped(label, 26), fontsize=9.5)
+    axes.set_ylabel(wrapped(bracketed(long_name(data), data.attrs), 26), fontsize=9.5)
     axes.set_title(fill(str(data.attrs.get("sign", "")), 46), fontsize=8, color="#555555")
 
 
@@ -342,12 +341,8 @@ def _without_leaps(values: Array, low: float, high: float) -> Array:
 
 def _with_sign(data: xr.DataArray) -> str:
     sign = str(data.attrs.get("sign", ""))
-    label = _typeset(bracketed(long_name(data), data.attrs))
+    label = typeset(bracketed(long_name(data), data.attrs))
     return f"{label}\n{sign}" if sign else label
-
-
-def _typeset(text: str) -> str:
-    return text.replace("^2", "\u00b2")
 
 
 @dataclass(frozen=True)

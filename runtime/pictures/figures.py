@@ -110,5 +110,10 @@ def lay_out(figure: Figure) -> Figure:
 
 def wrapped(label: str, width: int) -> str:
     """Return a label in lines of some letters; a unit in brackets at its end is not broken."""
-    name, mark, unit = label.rpartition(" [")
+    name, mark, unit = typeset(label).partition(" [")
     return fill(f"{name}{mark}{unit.replace(' ', chr(0xA0))}", width, break_on_hyphens=False)
+
+
+def typeset(text: str) -> str:
+    """Return a text with superscripts in its units."""
+    return text.replace("^2", "\u00b2")

@@ -46,7 +46,7 @@ class Quantity:
 
     def of_wheel(self, wheel: str) -> "Quantity":
         """Return the quantity of one wheel, as a column of a flat table."""
-        name, words = f"{self.name}_{wheel}", f"{self.long_name}, {wheel}"
+        name, words = f"{self.name}_{wheel}", f"{self.long_name}, {wheel.replace('_', ' ')}"
         return replace(self, name=name, long_name=words)
 
 

@@ -84,10 +84,10 @@ def command(
         run = ride.run(assembly, profile, v, **times)
     motion = run.motion
     drawn = by_axle(motion)
-    written = outputs.write(motion, title=title_of(file), drawn=drawn, names=shown_names(drawn))
+    title = f"{title_of(file)}: {profile.words}, {speed:g} km/h"
+    written = outputs.write(motion, title=title, drawn=drawn, names=shown_names(drawn))
     if "linear" in found:
         written += outputs.write_data(found["linear"], "_response")
-    title = f"{title_of(file)}: {profile.words}, {speed:g} km/h"
     if animate is not None:
         with problems.status("animation"):
             written.append(write_motion(run, animate, title=title, **outputs.rule))

@@ -77,7 +77,9 @@ def command(
         kept, names = _of_cars(subject, grid, asked)
     else:
         kept, names = _motions(subject, grid, keep, driven)
-    written = outputs.write(kept, title=title_of(file), names=names)
+    drawn = kept.drop_vars([str(name) for name, data in kept.coords.items() if not data.ndim])
+    title = ", ".join([title_of(file), *([kept.attrs["where"]] if of_car else [])])
+    written = outputs.write(kept, title=title, drawn=drawn if of_car else kept, names=names)
     if output.json:
         print_json(export.as_dict(kept))
     else:
@@ -133,7 +135,8 @@ def _of_cars(
     found["success"] = found["reason"] == ""
     words = f"{found.attrs['message']}, {look.where}"
     failed = [str(reason) for reason in dict.fromkeys(found["reason"].values.ravel()) if reason]
-    return found.assign_attrs(message=". ".join([words, *failed[:1]])), look.names
+    found = found.assign_attrs(message=". ".join([words, *failed[:1]]), where=look.where)
+    return found, look.names
 
 
 def _motions(

@@ -2,13 +2,12 @@
 
 from itertools import combinations
 from pathlib import Path
-from textwrap import fill
 from typing import Unpack
 
 from matplotlib.axes import Axes
 
 from ...core.quantities import bracketed, display_of
-from ...pictures.figures import BLUE, GREEN, ORANGE
+from ...pictures.figures import BLUE, GREEN, ORANGE, wrapped
 from ..studies.objectives import Objective
 from ..studies.pareto import Front
 from .panels import FigureOptions, write_panels
@@ -70,4 +69,4 @@ def _label(objective: Objective) -> str:
     """Return the label of an axis, with its direction of optimisation."""
     attrs = objective.attributes()
     name = bracketed(str(attrs["long_name"]), attrs)
-    return f"{fill(name, _LETTERS)}\n{attrs['wanted']}"
+    return f"{wrapped(name, _LETTERS)}\n{attrs['wanted']}"

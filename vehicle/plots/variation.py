@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
 from ...core.quantities import bracketed, display_of, displayed, long_name
-from ...pictures.figures import BLUE, ORANGE, wrapped
+from ...pictures.figures import BLUE, ORANGE, typeset, wrapped
 from ...pictures.turned import turn
 from ..assembly.of import assembly_of
 from ..studies.curves import Curves
@@ -57,11 +57,13 @@ def write_bars(
     -------
     pathlib.Path
     """
-    panels = {
-        f"{name} {unit}": (name, [effect for effect in found if effect.unit == unit])
-        for name, found in ((name, list(effects(dataset, name, at))) for name in names)
-        for unit in dict.fromkeys(effect.unit for effect in found)
-    }
+    panels = {}
+    for name in names:
+        found = list(effects(dataset, name, at))
+        # a characteristic without any effect has one panel
+        shown = [effect for effect in found if effect.size] or found[:1]
+        for unit in dict.fromkeys(effect.unit for effect in shown):
+            panels[f"{name} {unit}"] = (name, [effect for effect in shown if effect.unit == unit])
 
     def draw(axes: Axes, key: str) -> None:
         _bars(axes, dataset, *panels[key])
@@ -138,21 +140,25 @@ def write_optimum(found: Optimum, path: str | Path, **how: Unpack[FigureOptions]
 def _bars(axes: Axes, dataset: xr.Dataset, name: str, found: Sequence[Effect]) -> None:
     defined = [effect for effect in found if np.isfinite(effect.size)]
     moved = [e for e in defined if e.size and abs(e.size) > 1e-6 * abs(defined[0].size)]
+    title = long_name(dataset[name]).removeprefix("sensitivity of ")
     words = dict(zip(dataset[PLACE].values, dataset["place_name"].values, strict=True))
     places = [str(words[effect.place]) for effect in moved[:_MOST_BARS]]
     values = [effect.size for effect in moved[:_MOST_BARS]]
     if not values:
         nothing = "no effect" if defined else "no derivative here"
         axes.text(0.5, 0.5, nothing, ha="center", va="center", transform=axes.transAxes)
+        axes.set_xticks([])
         axes.set_yticks([])
+        axes.set_title(title, fontsize=10)
+        return
     axes.barh(places, values, color=[BLUE if v > 0.0 else ORANGE for v in values], height=0.7)
     axes.set_ylim(max(len(values), _LEAST_ROOM) - 0.5, -0.5)
     axes.axvline(0.0, color="#888888", linewidth=0.8)
     axes.grid(visible=False, axis="y")
     axes.tick_params(labelsize=8)
     axes.xaxis.set_major_locator(MaxNLocator(nbins=5))
-    axes.set_xlabel(f"[{found[0].unit}]", fontsize=9)
-    axes.set_title(long_name(dataset[name]).removeprefix("sensitivity of "), fontsize=10)
+    axes.set_xlabel(typeset(f"[{found[0].unit}]"), fontsize=9)
+    axes.set_title(title, fontsize=10)
 
 
 def _bands(
@@ -179,10 +185,12 @@ def _bands(
 
 
 def _around(axes: Axes, along: Mapping[str, Any], values: Mapping[str, Any]) -> None:
-    """Label the axes, and mark the design position."""
-    axes.axvline(0.0, color="#888888", linewidth=0.8, zorder=1)
+    """Label the axes, and mark the design position if it is in their range."""
+    first, last = axes.dataLim.intervalx
+    if first <= 0.0 <= last:
+        axes.axvline(0.0, color="#888888", linewidth=0.8, zorder=1)
     axes.margins(x=0.02)
-    axes.set_xlabel(bracketed(str(along["long_name"]), along), fontsize=9)
+    axes.set_xlabel(typeset(bracketed(str(along["long_name"]), along)), fontsize=9)
     axes.set_ylabel(wrapped(bracketed(str(values["long_name"]), values), _LETTERS), fontsize=9.5)
     if str(along["long_name"]) == "wheel travel":
         turn(axes)

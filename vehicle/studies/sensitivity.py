@@ -306,6 +306,8 @@ def _per(unit: str, other: str, link: str = "/") -> str:
     """Return the unit of a derivative."""
     if other in ("", "1"):
         return unit
+    if (unit == "1" or link == "/") and set(" /") & set(other):
+        other = f"({other})"
     return f"1/{other}" if unit == "1" else f"{unit}{link}{other}"
 
 

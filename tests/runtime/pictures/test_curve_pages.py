@@ -5,6 +5,7 @@ import pytest
 import xarray as xr
 from kintrafo.core.quantities import variable
 from kintrafo.pictures.curves import LEAST_SPANS, draw
+from kintrafo.pictures.figures import wrapped
 from kintrafo.vehicle.cli.outputs import title_of
 from kintrafo.vehicle.plots.curves import figure, grouped
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -140,3 +141,9 @@ def test_lines_of_a_page_are_equally_wide():
         widths.append({axes.get_lines()[0].get_linewidth() for axes in panels})
     assert [len(own) for own in widths] == [1, 1]
     assert widths[0].pop() < 1.0 < widths[1].pop()
+
+
+def test_units_in_labels_are_not_broken() -> None:
+    assert wrapped("damping ratio of heave, deviation", 28) == "damping ratio of heave,\ndeviation"
+    lines = wrapped("weighted acceleration, RMS [m/s^2 per N s/m]", 30).split("\n")
+    assert lines == ["weighted acceleration, RMS", "[m/s\u00b2\xa0per\xa0N\xa0s/m]"]

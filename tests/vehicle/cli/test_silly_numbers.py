@@ -77,3 +77,8 @@ def test_of_the_keys_of_a_manoeuvre(manoeuvre: str, key: str) -> None:
     for value in map(float, silly - ({"0", "1e-9", "-1"} if several else set())):
         with pytest.raises(InputError, match=key):
             load_manoeuvre(manoeuvre, {key: (value, value) if several else value})
+
+
+def test_the_step_of_a_range_of_speeds_may_be_small() -> None:
+    made = load_manoeuvre("speed_range", {"step_km_per_h": 0.5, "to_km_per_h": 100.0})
+    assert made.model_dump()["step_km_per_h"] == 0.5

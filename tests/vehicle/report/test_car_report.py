@@ -89,7 +89,7 @@ def test_goals_of_wheels_are_in_the_curves_of_their_axles() -> None:
     chapter = goals_chapter(kintrafo.load("reference_vehicle"), wanted)
     assert chapter.words[0] == "1 of 1 are met, 0 missed."
     (table,), (picture,) = chapter.tables, chapter.pictures
-    assert table.rows[0][:2] == ("limit: camber, rear_left [deg]", "met")
+    assert table.rows[0][:2] == ("limit: camber, rear left [deg]", "met")
     assert picture.words == "Curves over heave of the body with targets and limits"
     curves = by_axle(characteristics.over(kintrafo.load("reference_vehicle"), "heave", [0.0]))
     front, rear = (

@@ -22,6 +22,7 @@ Number = tuple[float, str, str]
 _RANGES = {
     "radius_m": (1.0, 1e5),
     "duration_s": (0.1, 3600.0),
+    "step_km_per_h": (1e-3, GREATEST_SPEED),
     "km/h": (LEAST_SPEED, GREATEST_SPEED),
     "m/s^2": (1e-3, 60.0),
     "deg": (1e-3, 2000.0),
