@@ -58,7 +58,7 @@ class Body:
     Parameters
     ----------
     name
-        Begins the names of its parameters, ``<name>_mass`` and so on.
+        Prefix of the names of its parameters, ``<name>_mass`` and so on.
     mass
         Default mass [kg].
     com
@@ -138,7 +138,7 @@ class Rotor(Body):
     Parameters
     ----------
     name, mass, com
-        As of `Body`; the centre of mass is on the axis.
+        As for `Body`; the centre of mass is on the axis.
     axis
         Direction of its axis of revolution.
     spin, diametral

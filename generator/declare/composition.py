@@ -46,7 +46,7 @@ class Copy:
     source
         The original mechanism.
     prefix
-        Begins the names of the copy's bodies, joints, coordinates, points, elements and inputs.
+        Prefix of the names of the copy's bodies, joints, coordinates, points, elements and inputs.
     mirrored
         Whether the copy is the mirror image in the plane y = 0.
     shared

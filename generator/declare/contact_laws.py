@@ -71,7 +71,7 @@ class AnyContactLaw(Owner):
     Parameters
     ----------
     name
-        Begins the names of its parameters.
+        Prefix of the names of its parameters.
     """
 
     name: Name
@@ -171,7 +171,7 @@ class LinearContact(AnyContactLaw):
     Parameters
     ----------
     name
-        Begins the names of its parameters: ``<name>_vertical_stiffness``, ``<name>_friction``.
+        Prefix of the names of its parameters: ``<name>_vertical_stiffness``, ``<name>_friction``.
     """
 
     _POSITIVE: ClassVar[tuple[str, ...]] = (
@@ -226,7 +226,7 @@ class MagicFormulaContact(AnyContactLaw):
     Parameters
     ----------
     name
-        Begins the names of its parameters: ``<name>_pcx1``, as property files have them.
+        Prefix of the names of its parameters: ``<name>_pcx1``, as property files have them.
     newer
         Whether the version is MF 6.1 or 6.2; else PAC2002.
     weighted
@@ -359,7 +359,7 @@ class TMeasyContact(AnyContactLaw):
     Parameters
     ----------
     name
-        Begins the names of its parameters: ``<name>_x_slope_1``, ``<name>_friction``.
+        Prefix of the names of its parameters: ``<name>_x_slope_1``, ``<name>_friction``.
     """
 
     _POSITIVE: ClassVar[tuple[str, ...]] = ("radius", "nominal_load", "vxlow")

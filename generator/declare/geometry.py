@@ -46,7 +46,7 @@ class Point(Owner):
     Parameters
     ----------
     name
-        Begins the names of its parameters, ``<name>_x`` and so on.
+        Prefix of the names of its parameters, ``<name>_x`` and so on.
     place
         Default coordinates at the design position, axes of the world [m].
     meaning
@@ -111,7 +111,7 @@ class Direction(Owner):
     Parameters
     ----------
     name
-        Begins the names of its parameters, ``<name>_x`` and so on.
+        Prefix of the names of its parameters, ``<name>_x`` and so on.
     along
         Default components, of any length, axes of the world at the design position.
     meaning

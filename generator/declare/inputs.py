@@ -56,7 +56,7 @@ class Motion:
     Attributes
     ----------
     name
-        Begins the names of its inputs, ``<name>_position``, ``_velocity`` and ``_acceleration``.
+        Prefix of the names of its inputs, ``<name>_position``, ``_velocity`` and ``_acceleration``.
     unit
         Unit of the position: m for a guide, rad for a hinge.
     position, velocity, acceleration

@@ -154,7 +154,7 @@ class Revolute(TurningJoint):
     Parameters
     ----------
     name, first, second
-        As of `Joint`.
+        As for `Joint`.
     axis
         The hinge line; positive rotation of the second body is right-handed about it.
     angle_from, angle_to
@@ -191,7 +191,7 @@ class Prismatic(SlidingJoint):
     Parameters
     ----------
     name, first, second
-        As of `Joint`.
+        As for `Joint`.
     direction
         The slide is positive when the second body moves along it.
     follows
@@ -216,7 +216,7 @@ class Cylindrical(TurningJoint, SlidingJoint):
     Parameters
     ----------
     name, first, second
-        As of `Joint`.
+        As for `Joint`.
     axis
         The line, from a point of the second body to a point of the first. The slide is positive
         when the second body moves along it, that is, when the telescope shortens.
@@ -243,7 +243,7 @@ class Universal(Joint):
     Parameters
     ----------
     name, first, second
-        As of `Joint`.
+        As for `Joint`.
     at
         The centre.
     shaft
@@ -304,7 +304,7 @@ class Weld(Joint):
     Parameters
     ----------
     name, first, second
-        As of `Joint`.
+        As for `Joint`.
     """
 
     kind: ClassVar[str] = "weld"
@@ -354,7 +354,7 @@ class Spherical(Joint):
     Parameters
     ----------
     name, first, second
-        As of `Joint`.
+        As for `Joint`.
     at
         The common point, the centre of the ball, at the design position.
     """

@@ -215,8 +215,8 @@ class AnyTable(AnyLaw, Owner):
     Parameters
     ----------
     name
-        Begins the names of the parameters: ``<name>_first_force`` [N], ``<name>_first_slope`` and
-        ``<name>_last_slope``, ``<name>_knot_<i>``, and for each segment
+        Prefix of the names of the parameters: ``<name>_first_force`` [N], ``<name>_first_slope``
+        and ``<name>_last_slope``, ``<name>_knot_<i>``, and for each segment
         ``<name>_inverse_width_<i>``, ``_linear``, ``_quadratic``, ``_cubic`` [N].
     segments
         Number of segments; superfluous ones have width and coefficients zero (but any inverse
@@ -303,7 +303,7 @@ class DamperTable(AnyTable):
     Parameters
     ----------
     name
-        Begins the names of the parameters, which are those of `SpringTable` with knots in m/s.
+        Prefix of the names of the parameters, which are those of `SpringTable` with knots in m/s.
         Knots are velocities of compression in increasing order.
     segments
         Number of segments, one or more.
@@ -337,8 +337,8 @@ class SpringTable(AnyTable):
     Parameters
     ----------
     name
-        Begins the names of the parameters: ``<name>_first_force`` [N], ``<name>_first_slope`` and
-        ``<name>_last_slope`` [N/m], ``<name>_knot_<i>`` [m], and of each segment
+        Prefix of the names of the parameters: ``<name>_first_force`` [N], ``<name>_first_slope``
+        and ``<name>_last_slope`` [N/m], ``<name>_knot_<i>`` [m], and of each segment
         ``<name>_inverse_width_<i>`` [1/m] and the coefficients ``_linear``, ``_quadratic`` and
         ``_cubic`` [N]. Knots are lengths in decreasing order: the first is the longest, where the
         spring is compressed least.

@@ -55,7 +55,7 @@ class PositionOf(OfPoint):
     Parameters
     ----------
     name
-        Begins the names of the three signals.
+        Prefix of the names of the three signals.
     body, point
         The body, and the point at the design position.
     meaning
@@ -71,7 +71,7 @@ class VelocityOf(OfPoint):
     Parameters
     ----------
     name, body, point, meaning
-        As of `PositionOf`.
+        As for `PositionOf`.
     """
 
 
@@ -85,7 +85,7 @@ class AccelerationOf(OfPoint):
     Parameters
     ----------
     name, body, point, meaning
-        As of `PositionOf`.
+        As for `PositionOf`.
     """
 
 

@@ -115,7 +115,7 @@ class AnyPath(ABC):
         at
             Surroundings of the element.
         name
-            Begins the names of the steps.
+            Prefix of the names of the steps.
         """
 
 

@@ -24,13 +24,18 @@ def flat(
     Parameters
     ----------
     name
-        Begins the names of its parameters.
+        Prefix of the names of its parameters.
     place
         Default coordinates in the plane [m]: x and y, or x and z.
     meaning
         Description in the documentation of the generated code; by default the name.
     normal
         Axis perpendicular to the plane, which contains the origin.
+
+    Returns
+    -------
+    Point
+        With two parameters, such as ``<name>_x`` and ``<name>_y`` [m].
 
     Raises
     ------
@@ -62,6 +67,10 @@ def hinge(name: str, first: Body, second: Body, at: Point) -> Revolute:
         about the normal of the plane [rad].
     at
         The centre of the hinge, a point from `flat`.
+
+    Returns
+    -------
+    Revolute
 
     Raises
     ------

@@ -113,7 +113,7 @@ class Wheel:
         at
             Surroundings of the wheel.
         prefix
-            Begins the names of the steps.
+            Prefix of the names of the steps.
         """
         program, up = at.program, at.up(self._body)
         axis = at.direction(self._body, self.spin)
@@ -137,7 +137,7 @@ class Wheel:
         at
             Surroundings of the wheel.
         prefix
-            Begins the names of the signals.
+            Prefix of the names of the signals.
         """
         yield from self._motion(at, prefix)
         yield from self._angles(at, prefix)

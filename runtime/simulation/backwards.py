@@ -51,7 +51,7 @@ class MotionGradient:
         do not vary, by name, SI units. Those with respect to parameters are for a fixed initial
         state. NaN for a parameter that cannot change alone, see `kintrafo.gradient`.
     motion : Simulation
-        With every step.
+        The motion, at every step of the integration.
     """
 
     value: float
@@ -76,7 +76,7 @@ def motion_gradient(
     Parameters
     ----------
     system : System
-        With equations that were compiled with ``parameter_derivatives=True``.
+        Equations that were compiled with ``parameter_derivatives=True``.
     t_span, y0, inputs, rtol, atol, max_step
         As for `simulate` with the method 'DormandPrince'; the motion runs forward in time.
     of : mapping of str to str or array_like

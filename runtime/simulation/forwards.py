@@ -41,7 +41,7 @@ class MotionSensitivity:
     by : dict of str to dict of str to ndarray, shape (n,)
         Their derivatives: by direction, then by name, in SI units over those of the direction.
     motion : Simulation
-        With every step.
+        The motion, at every step of the integration.
     """
 
     t: Array
@@ -68,7 +68,7 @@ def motion_sensitivity(
     Parameters
     ----------
     system : System
-        With equations that were compiled with ``parameter_derivatives=True``.
+        Equations that were compiled with ``parameter_derivatives=True``.
     t_span, y0, inputs, rtol, atol, max_step
         As for `simulate` with the method 'DormandPrince'; the motion runs forward in time.
     by : sequence of str, or mapping

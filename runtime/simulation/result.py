@@ -59,6 +59,7 @@ class Simulation(OptimizeResult):
         Physical signals by name, each of shape (n,), SI units; see ``model.equations.SIGNALS``.
         All are computed at the first access to one of them.
     inputs : ndarray, shape (n, number of inputs)
+        Inputs at these times, in the order of ``model.input_names``, SI units.
     sol, t_events, y_events, nfev, njev, nlu, status, message, success
         As in ``scipy.integrate.solve_ivp``.
     steps : int

@@ -24,7 +24,7 @@ def derivative(
     Parameters
     ----------
     system : System
-        With equations that were compiled with ``parameter_derivatives=True``.
+        Equations that were compiled with ``parameter_derivatives=True``.
     function : str
         ``rhs``, ``signals``, ``relative_coordinates``, ``positions``, ``orientations`` or
         ``velocities``.
@@ -95,7 +95,7 @@ def gradient(
     Parameters
     ----------
     system : System
-        With equations that were compiled with ``parameter_derivatives=True``.
+        Equations that were compiled with ``parameter_derivatives=True``.
     function : str
         As for `derivative`.
     weights : array_like
@@ -161,7 +161,7 @@ def design_derivative(system: System, along: Mapping[str, ArrayLike]) -> dict[st
     Parameters
     ----------
     system : System
-        With equations that were compiled with ``parameter_derivatives=True``.
+        Equations that were compiled with ``parameter_derivatives=True``.
     along : mapping of str to array_like
         The direction: changes of parameters by name, SI units.
 

@@ -66,7 +66,9 @@ class Linearisation:
         bodies that move freely, for example for one that spins, whose axes turn relative to the
         world.
     state_names, input_names, output_names : tuple of str
+        Names of the elements of `state`, `inputs` and `outputs`, in order.
     state_units, input_units, output_units : tuple of str
+        Their SI units.
     input_rates : mapping
         For each input, the inputs that are its derivatives, in order.
     """

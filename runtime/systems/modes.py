@@ -30,6 +30,7 @@ class Mode:
         Eigenvector of the first eigenvalue with one as its largest element. Elements are in the
         units of the state.
     state_names : tuple of str
+        Names of the elements of `shape`.
     """
 
     eigenvalues: tuple[complex, ...]

@@ -35,7 +35,7 @@ class State(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
     inputs : ndarray or None
         In the order of ``model.input_names``, SI units.
     names : StateNames or None
-        Of the model to which the state belongs.
+        Names of the elements and inputs of the model to which the state belongs.
 
     Examples
     --------

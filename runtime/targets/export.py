@@ -53,7 +53,7 @@ def export_model(
     Parameters
     ----------
     system : System, Model, AxleModel or RigidAxleModel
-        With compiled equations.
+        The model, with its compiled equations.
     path : str or pathlib.Path
         Path to write: a folder for 'c', a file that ends in ``.fmu`` for 'fmu', in ``.py`` for
         'casadi' and 'jax'.

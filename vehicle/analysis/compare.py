@@ -212,7 +212,7 @@ def differences(dataset: xr.Dataset, at: float = 0.0) -> list[Difference]:
     Parameters
     ----------
     dataset : xarray.Dataset
-        From `compare`; of axles each wheel has differences of its own.
+        Result of `compare`; of axles each wheel has differences of its own.
     at : float, optional
         The position at which `Difference.first` and `Difference.other` are taken [m] or [rad]; by
         default that of design.

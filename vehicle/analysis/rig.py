@@ -160,7 +160,7 @@ def beside(
     Parameters
     ----------
     measured : xarray.Dataset
-        From `measured_curves`.
+        Result of `measured_curves`.
     subjects : mapping of str to Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
         By the names of their curves.
     name : str, optional

@@ -165,7 +165,7 @@ def by_wheel(model: AnyModel, motion: "xr.Dataset") -> "xr.Dataset":
     ----------
     model : Model, AxleModel or RigidAxleModel
     motion : xarray.Dataset
-        From `run`.
+        Result of `run`.
 
     Returns
     -------

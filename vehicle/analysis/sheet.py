@@ -119,7 +119,7 @@ def tabulated(found: xr.Dataset, title: str) -> list[Tabulated]:
     Parameters
     ----------
     found : xarray.Dataset
-        From `sheet`.
+        Result of `sheet`.
     title : str
         Text with which the titles of the tables begin.
 
@@ -153,7 +153,7 @@ def one_page(found: xr.Dataset, title: str) -> list[Tabulated]:
     Parameters
     ----------
     found : xarray.Dataset
-        From `sheet`.
+        Result of `sheet`.
     title : str
 
     Returns

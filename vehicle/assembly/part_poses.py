@@ -143,7 +143,7 @@ class CornerParts(PartPoses):
     ----------
     model : Model
     states, inputs, points, centers, turned
-        As of `PartPoses`.
+        As for `PartPoses`.
     axis : ndarray, shape (n, 3)
         Spin axis of the wheel, pointing outboard.
     """

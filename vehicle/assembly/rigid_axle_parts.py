@@ -31,7 +31,7 @@ class RigidAxleParts(WholeAxleParts):
     ----------
     model : RigidAxleModel
     states, inputs, points, centers, turned
-        As of `WholeAxleParts`; the centre of a rod is its middle.
+        As for `WholeAxleParts`; the centre of a rod is its middle.
     """
 
     model: RigidAxleModel

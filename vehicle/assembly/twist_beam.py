@@ -40,7 +40,7 @@ class TwistBeamParts(WholeAxleParts):
     ----------
     model : TwistBeamModel
     states, inputs, centers, turned, points
-        As of `WholeAxleParts`.
+        As for `WholeAxleParts`.
     """
 
     model: TwistBeamModel

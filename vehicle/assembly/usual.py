@@ -86,7 +86,7 @@ def usual_travel(
     Returns
     -------
     ndarray
-        From ``-rebound`` to ``bump``, the design position included [m].
+        Wheel travels from ``-rebound`` to ``bump``, of which one is zero [m].
     """
     with Validator("sweep") as given:
         given.instance("model", model, Model, Model.NEEDED)
@@ -120,7 +120,7 @@ def usual_rack(
     Returns
     -------
     ndarray
-        From ``-extent`` to ``extent``, zero included [m].
+        Displacements from ``-extent`` to ``extent``, of which one is zero [m].
     """
     with Validator("sweep") as given:
         given.instance("model", model, Model, Model.NEEDED)

@@ -38,7 +38,7 @@ class WholeAxleParts(PartPoses):
     ----------
     model : WholeAxleModel
     states, inputs, points, centers, turned
-        As of `PartPoses`.
+        As for `PartPoses`.
     PARAMETERS : mapping of str to str
         Prefix of the names of parameters, by part with mass.
     MASSIVE : mapping of str to str

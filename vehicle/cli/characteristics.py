@@ -56,7 +56,7 @@ def command(
     rebound: Rebound = None,
     bump: Bump = None,
     rack_extent: Annotated[
-        float | None, option("Rack to either side. Default: 60, if reached.", "MM")
+        float | None, option("Rack displacement to either side. Default: 60, if reached.", "MM")
     ] = None,
     over: Annotated[
         list[str] | None,
@@ -69,11 +69,12 @@ def command(
         ),
     ] = None,
     roll: Annotated[
-        float | None, option("Of an axle: roll to either side. Default: 4, if reached.", "DEG")
+        float | None,
+        option("Of an axle: roll angle to either side. Default: 4, if reached.", "DEG"),
     ] = None,
-    step: Annotated[float, option("Distance of the positions.", "MM")] = 2.0,
+    step: Annotated[float, option("Distance between two positions.", "MM")] = 2.0,
     travel: Annotated[float, option("Wheel travel, where the rack varies.", "MM")] = 0.0,
-    rack: Annotated[float, option("Rack displacement, where the travel varies.", "MM")] = 0.0,
+    rack: Annotated[float, option("Rack displacement in motions of the wheels.", "MM")] = 0.0,
     of: Of = None,
     every: Annotated[
         bool,
@@ -92,9 +93,9 @@ def command(
 ) -> None:
     """Print characteristics at design, and write their curves over the motions of a rig.
 
-    Each motion has its own data files and pages, whose names end in that of the motion: _travel and
-    _rack of a suspension, _bump, _roll, _left and _steer of an axle. With --positions both wheels
-    of an axle travel in parallel.
+    Each motion has its own data files and pages, whose names end in the name of the motion: _travel
+    and _rack of a suspension, _bump, _roll, _left and _steer of an axle. With --positions both
+    wheels of an axle travel in parallel.
     """
     from ..assembly.rig import SweepRange
 

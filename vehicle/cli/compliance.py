@@ -9,7 +9,7 @@ import typer
 from ...terminal.console import console, print_json, print_table, say
 from . import goals as wanted
 from .loading import assembly_of_file, bushes_of
-from .options import Bump, Bushes, File, Held, Of, Rebound, metres, option, refuse_options
+from .options import SUPPORT, Bump, Bushes, File, Held, Of, Rebound, metres, option, refuse_options
 from .outputs import Outputs, PlotOptions, name_files, named, of_both, only, title_of
 from .variation_options import At, with_position
 
@@ -54,7 +54,7 @@ def command(
         option("With --nonlinear: the load."),
     ] = None,
     most: Annotated[
-        float | None, option("Greatest load, N or N m. Default: 5000, aligning 250.", "N")
+        float | None, option("Greatest load, N or N m. Default: 5000; aligning: 250.", "N")
     ] = None,
     wheels: Annotated[
         Literal["parallel", "opposed", "left", "right"] | None,
@@ -67,13 +67,13 @@ def command(
     hardpoints: Annotated[
         Literal["loaded", "relaxed"] | None,
         option(
-            "With --nonlinear: the joints are at the hardpoints under the static load at design "
-            "(loaded, the default), or with relaxed bushes."
+            "With --nonlinear: state in which the joints are at the hardpoints, under the static "
+            "load at design (loaded, the default), or with bushes without load (relaxed)."
         ),
     ] = None,
     held: Annotated[
         Held | None,
-        option("Support of the wheel: see docs/suspension/compliance.md. Default: height."),
+        option(f"{SUPPORT} Default: height."),
     ] = None,
     at: At = 0.0,
     rack: Annotated[float, option("Constant rack displacement.", "MM")] = 0.0,

@@ -61,12 +61,13 @@ def command(
     force: Force = False,
     json: Json = False,
 ) -> None:
-    """Write a model, or its hardpoints, for other programs: with the numbers of FILE, at design.
+    """Write a model, or its hardpoints, for other programs, with the values of FILE.
 
-    c: the emitted C99, which needs nothing else, with constants, a CMake file and an example. fmu:
-    Model Exchange and Co-Simulation of FMI 2.0 or 3.0 in one file. casadi, jax: functions that
-    these libraries differentiate. points: the hardpoints of a suspension as a table. In Python any
-    state can be the start: kintrafo.export_model(model, "car.fmu", "fmu", state=rest).
+    The initial state is the design position at rest. c: the emitted C99, which needs nothing else,
+    with constants, a CMake file and an example. fmu: Model Exchange and Co-Simulation of FMI 2.0 or
+    3.0 in one file. casadi, jax: functions that these libraries differentiate. points: the
+    hardpoints of a suspension as a table. In Python any state can be the initial one:
+    kintrafo.export_model(model, "car.fmu", "fmu", state=rest).
     """
     from ...core.errors import InputError
     from ...core.validator import Validator

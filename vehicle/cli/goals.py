@@ -27,7 +27,7 @@ Goals = Annotated[
     Path | None,
     option(
         "TOML with [targets] and [limits] of characteristics or compliance, as of kintrafo "
-        "optimise: they are drawn into the curves, and a table lists which are met.",
+        "optimise: they are drawn in the charts, and a table lists which are met.",
         "FILE",
     ),
 ]

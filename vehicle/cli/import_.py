@@ -49,7 +49,7 @@ class _Options:
     base: Annotated[
         str | None,
         option(
-            "Hardpoint file that everything else is taken from. A table needs one; of Adams/Car "
+            "Hardpoint file with all values that SOURCE lacks. A table needs one; for Adams/Car "
             "the default is a packaged one.",
             "FILE",
             "--from",
@@ -101,7 +101,7 @@ class _Options:
     points_only: Annotated[
         bool,
         option(
-            "Only hardpoints, camber and toe; the rest is as in the packaged file.",
+            "Read only hardpoints, camber and toe; other values are those of the packaged file.",
             None,
             "--points-only",
             panel=_CHRONO,
@@ -125,13 +125,14 @@ def command(
     given: _Options,
     force: Force = False,
 ) -> None:
-    """Write the hardpoint file of a suspension from another program or from a table, or a car.
+    """Write the file of a suspension or a car from another program, or from a table of points.
 
-    The format follows from the ending or the content of SOURCE. A table has hardpoints; all else,
-    with comments, is that of the file after --from. Adams/Car gives hardpoints, camber, toe and a
-    spring. Data that files of Project Chrono lack are assumed. A whole vehicle of Project Chrono
-    becomes five files: PATH is that of the car, and those of its axles and their suspensions lie
-    beside it. The output lists the data that were read, assumed and left out.
+    The format follows from the ending or the content of SOURCE. A table has hardpoints; all other
+    values, and the comments, are those of the file after --from. A file of Adams/Car has
+    hardpoints, camber, toe and a spring. Data that files of Project Chrono lack are assumed. A
+    whole vehicle of Project Chrono becomes five files: PATH is that of the car, and the files of
+    its axles and suspensions are in the same folder. The output lists the data that were read,
+    assumed and left out.
     """
     from ...core.errors import InputError
     from ...core.files import refuse

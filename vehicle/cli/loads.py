@@ -48,8 +48,9 @@ class LoadOptions(SingleFigureOptions):
     axes: Annotated[
         str | None,
         option(
-            "Of the data and cards: vehicle, or part, which is where it is at design. "
-            "Default: vehicle for data, part for cards.",
+            "Axes of the data and cards: those of the vehicle, or of each part, fixed in it and "
+            "parallel to those of the vehicle at design. Default: vehicle for data, part for "
+            "cards.",
             "NAME",
             panel=OUTPUT,
         ),

@@ -72,7 +72,7 @@ def complete_file(incomplete: str) -> list[str]:
 
 File = Annotated[
     str,
-    argument("Hardpoint file (TOML), or the name of a packaged data set: reference_car.", "FILE"),
+    argument("Input file (TOML), or the name of a packaged one, such as reference_car.", "FILE"),
 ]
 Json = Annotated[
     bool,
@@ -99,6 +99,10 @@ Which = Annotated[
     str | None, option("Name of the model, if a Python file has several.", "NAME", "--model")
 ]
 Held = Literal["height", "tyre", "spring", "locked"]
+SUPPORT = (
+    "Support of the wheel: height, of the contact, is constant; tyre: the tyre deflects; spring: "
+    "the vertical force is constant; locked: the length of the spring is constant."
+)
 Bushes = Annotated[
     Path | None,
     option("TOML: [bushings.POINT] with stiffnesses, in place of those of FILE.", "PATH"),

@@ -49,11 +49,9 @@ def command(
     title: Annotated[str | None, option("Heading of the report.")] = None,
     model_name: Which = None,
     loads: Annotated[
-        bool, option("With the usual load cases and their free bodies.", None, "--loads")
+        bool, option("Add the standard load cases and their free bodies.", None, "--loads")
     ] = False,
-    cases: Annotated[
-        Path | None, option("With the load cases of this file (TOML).", "PATH")
-    ] = None,
+    cases: Annotated[Path | None, option("Add the load cases of this file (TOML).", "PATH")] = None,
     bushes: Bushes = None,
     goals: wanted.Goals = None,
     force: Force = False,
@@ -62,11 +60,11 @@ def command(
 
     FILE may be the Python file of a mechanism of your own.
 
-    An axle has one side in the 3D view, and a chapter with the results of a rig for both; a rigid
-    axle has drawings, tables and curves. A car is shown at rest, over a bump and, if it drives, in
-    a step steer, with curves that follow; its axles have chapters of their own. Targets and limits
-    of --goals have a chapter. Compliance is
-    included if FILE has bushes, or with --bushes.
+    The 3D view shows one side of an axle; a chapter has the characteristics of both sides on a rig.
+    A rigid axle has drawings, tables and curves. A car is shown at rest, in motion over a bump and,
+    if it drives, in a step steer, with curves of the same time; each axle has a chapter. Targets
+    and limits of --goals have a chapter. Compliance is included if FILE has bushes, or with
+    --bushes.
     """
     from ...core.files import refuse
     from ..report import ENDINGS, write, write_chapters

@@ -50,8 +50,8 @@ class RoadOptions:
     contact_length: Annotated[
         float | None,
         option(
-            "Length of the contact of a tyre, which then envelopes short waves and edges: by two "
-            "elliptical cams. A kerb needs it. Default: contact in a point.",
+            "Length of the contact patch of a tyre, which then envelopes short waves and edges "
+            "(two elliptical cams). A kerb needs it. Default: the contact is a point.",
             "MM",
         ),
     ] = None

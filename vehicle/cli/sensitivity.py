@@ -31,8 +31,8 @@ def command(
     place: Annotated[
         list[str] | None,
         option(
-            "Design variables: hardpoints.ball_joint.z, a point, a section, or with *. Default: "
-            "all hardpoints.",
+            "Values of the file: hardpoints.ball_joint.z; a hardpoint or a section, for all of its "
+            "values; * for any text. Default: all hardpoints.",
             "PLACE,...",
         ),
     ] = None,

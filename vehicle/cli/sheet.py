@@ -4,7 +4,7 @@ from typing import Annotated
 
 from ...terminal.console import print_json, print_table, say
 from .loading import assembly_of_file, bushes_of
-from .options import Bushes, File, Held, option
+from .options import SUPPORT, Bushes, File, Held, option
 from .outputs import DataOptions, name_files
 
 EXAMPLES = (
@@ -18,9 +18,7 @@ def command(
     file: File,
     *,
     bushes: Bushes = None,
-    held: Annotated[
-        Held, option("Support of the wheel: see docs/suspension/compliance.md.")
-    ] = "height",
+    held: Annotated[Held, option(SUPPORT)] = "height",
     output: DataOptions,
 ) -> None:
     """Print the K&C sheet: kinematic and compliance gradients at design, as measured on a rig.

@@ -24,7 +24,7 @@ class ScenarioOptions:
     """The options of a road, the rack and the start."""
 
     height: Annotated[
-        _Number, option("Wheel centre at the start. Default: at rest.", "MM", panel="Start")
+        _Number, option("Height of the wheel centre. Default: at rest.", "MM", panel="Start")
     ] = None
     spin: Annotated[
         float, option("Wheel spin, positive rolling forward.", "REV/S", panel="Start")
@@ -35,7 +35,7 @@ class ScenarioOptions:
     road_step_at: Annotated[
         _Number, option("Time of the step. Default: 0.1 s.", "S", panel="Road")
     ] = None
-    road_sine: Annotated[_Number, option("Amplitude of a harmonic road.", "MM", panel="Road")] = (
+    road_sine: Annotated[_Number, option("Amplitude of a sinusoidal road.", "MM", panel="Road")] = (
         None
     )
     road_frequency: Annotated[
@@ -44,24 +44,24 @@ class ScenarioOptions:
     measured: Annotated[
         Path | None,
         option(
-            "Measured road, rack, loads on the wheel: time_s or distance_m, road_height_mm, "
-            "rack_position_mm, contact_force_x_N, ...",
+            "Measured road, rack and loads on the wheel, with the columns time_s or distance_m, "
+            "road_height_mm, rack_position_mm, contact_force_x_N, ...",
             "CSV",
             panel="Road",
         ),
     ] = None
     speed: Annotated[
-        _Number, option("Speed on a road given over distance_m.", "KM/H", panel="Road")
+        _Number, option("Speed on a measured road over distance_m.", "KM/H", panel="Road")
     ] = None
     rack: Annotated[_Number, option("Constant rack displacement.", "MM", panel="Rack")] = None
     rack_sine: Annotated[
-        _Number, option("Amplitude of a harmonic rack motion.", "MM", panel="Rack")
+        _Number, option("Amplitude of a sinusoidal rack motion.", "MM", panel="Rack")
     ] = None
     rack_frequency: Annotated[
         _Number, option("Frequency of that motion. Default: 1 Hz.", "HZ", panel="Rack")
     ] = None
     duration: Annotated[
-        _Number, option("Default: 1, or the duration of the measurement.", "S", panel="Time")
+        _Number, option("Duration. Default: 1, or that of the measurement.", "S", panel="Time")
     ] = None
     output_step: Annotated[float, option("Time between outputs.", "MS", panel="Time")] = 1.0
 

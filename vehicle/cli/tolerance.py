@@ -39,9 +39,10 @@ def command(
     asked: StudyOptions,
     output: SingleFigureOptions,
 ) -> None:
-    """Print bands of the characteristics of many cars within tolerances, and their causes.
+    """Print bands of the characteristics of many cars within tolerances, and their main causes.
 
-    The table is for one position; data files have all positions, netCDF also causes and cars.
+    Causes are the values with the largest shares of the variance. The table is for one position;
+    data files have all positions, netCDF files also the shares of all values, and the cars.
     """
     from ...datasets import export
     from .. import studies as variation

@@ -191,7 +191,7 @@ class Corner(RoadWheel):
     Attributes
     ----------
     vehicle, center, design_center, axis, design_axis
-        As of `RoadWheel`.
+        As for `RoadWheel`.
     steering_axis : SteeringAxis or None
         None if the wheel is not steered.
     travel : CarrierMotion

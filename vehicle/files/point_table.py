@@ -334,9 +334,9 @@ def write_merged(
     Parameters
     ----------
     found : Merged
-        From `merged`.
+        Result of `merged`.
     path, force, inputs
-        As of `write_points`; the name ends in ``.toml``.
+        As for `write_points`; the name ends in ``.toml``.
 
     Raises
     ------
@@ -412,9 +412,9 @@ def as_words(found: Merged, table: PointTable | None = None) -> Mapping[str, str
     Parameters
     ----------
     found : Merged
-        From `merged`.
+        Result of `merged`.
     table : PointTable, optional
-        From `read_points`; adds its unit, its axes, and its unread columns.
+        Result of `read_points`; adds its unit, its axes, and its unread columns.
     """
     with Validator("as_words") as given:
         given.instance("found", found, Merged, "a result of merged is needed")

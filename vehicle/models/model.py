@@ -45,7 +45,7 @@ class Model(System):
     names : Names
         Names of the coordinates of every suspension in these equations.
     parameters, constants, design_state
-        As of `System`.
+        As for `System`.
 
     Examples
     --------

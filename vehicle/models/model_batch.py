@@ -47,7 +47,7 @@ class ModelBatch(Model):
         Values that differ, by place in the file and in its unit; the first one is that of
         `suspension`.
     free_rack : bool
-        As of `Model`.
+        As for `Model`.
 
     Attributes
     ----------

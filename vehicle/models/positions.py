@@ -198,8 +198,8 @@ def state_at_height(
     Returns
     -------
     State
-        With zero rates except that of the wheel's spin. It contains the position of its rack, for
-        every function that takes a state and inputs.
+        The state, with zero rates except that of the wheel's spin. It contains the position of the
+        rack as an input, for every function that takes a state and inputs.
 
     Raises
     ------

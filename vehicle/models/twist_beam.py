@@ -323,14 +323,14 @@ class TwistBeamModel(WholeAxleModel):
     axle : TwistBeamAxle, str or Path
         The data, or the name of a packaged data set or path of a TOML file.
     wheel_loads : bool, optional
-        As of `WholeAxleModel`.
+        As for `WholeAxleModel`.
 
     Attributes
     ----------
     axle : TwistBeamAxle
     parameters, constants, design_state
-        As of `System`. The states are ``lift`` [rad], positive with the wheels up, ``twist`` [rad],
-        positive with the left wheel up, and the angles of the wheels.
+        As for `System`. The states are ``lift`` [rad], positive with the wheels up, ``twist``
+        [rad], positive with the left wheel up, and the angles of the wheels.
 
     Examples
     --------

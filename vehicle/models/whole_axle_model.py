@@ -47,7 +47,7 @@ class WholeAxleModel(System):
     ----------
     axle : WholeAxle
     parameters, constants, design_state
-        As of `System`.
+        As for `System`.
     AXLE : type of WholeAxle
         Type of its data.
     EQUATIONS : module

@@ -54,7 +54,7 @@ def write_free_bodies(
     Parameters
     ----------
     dataset : xarray.Dataset
-        From `kintrafo.loads.static`.
+        Result of `kintrafo.loads.static`.
     paths : sequence of pathlib.Path
         The name of the case is appended to each name; the ending is the format.
     case : str

@@ -24,7 +24,7 @@ def write_front(
     Parameters
     ----------
     found : Front
-        From `kintrafo.variation.pareto`.
+        Result of `kintrafo.variation.pareto`.
     path, **how
         As in `panels.write_panels`.
     chosen : int, optional

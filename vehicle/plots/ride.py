@@ -29,7 +29,7 @@ def response_figures(response: xr.Dataset) -> dict[str, Figure]:
     Parameters
     ----------
     response : xarray.Dataset
-        From `kintrafo.ride.response`.
+        Result of `kintrafo.ride.response`.
 
     Returns
     -------

@@ -45,7 +45,7 @@ def write_bars(
     Parameters
     ----------
     dataset : xarray.Dataset
-        From `kintrafo.vehicle.studies.sensitivity`.
+        Result of `kintrafo.vehicle.studies.sensitivity`.
     path, **how
         As in `panels.write_panels`.
     names : sequence of str
@@ -84,7 +84,7 @@ def write_bands(
     Parameters
     ----------
     dataset : xarray.Dataset
-        From `kintrafo.vehicle.studies.tolerance`.
+        Result of `kintrafo.vehicle.studies.tolerance`.
     path, names, **how
         As in `write_bars`.
     limits : sequence of Limit, optional
@@ -108,7 +108,7 @@ def write_optimum(found: Optimum, path: str | Path, **how: Unpack[FigureOptions]
     Parameters
     ----------
     found : Optimum
-        From `kintrafo.vehicle.studies.optimise`.
+        Result of `kintrafo.vehicle.studies.optimise`.
     path, **how
         As in `write_bars`.
 

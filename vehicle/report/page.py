@@ -88,9 +88,9 @@ def write(
     without : collection of str, optional
         Characteristics to leave out, such as those of front axles on a rear axle.
     goals : sequence of Target and Limit, optional
-        From `kintrafo.variation.goals`, also those of an axle for the report of its side. They are
-        marked in the charts of their characteristics, and the page lists those without a chart, see
-        `kintrafo.report.goals_chapter`.
+        Result of `kintrafo.variation.goals`, also those of an axle for the report of its side. They
+        are marked in the charts of their characteristics, and the page lists those without a chart,
+        see `kintrafo.report.goals_chapter`.
     motion : Simulation, optional
         Motion of a mechanism other than a suspension; by default one second from the design
         position at rest, without inputs.

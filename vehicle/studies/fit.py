@@ -125,9 +125,9 @@ def fit(
     ----------
     suspension : Suspension, Axle, RigidAxle or Car
     measured : xarray.Dataset
-        From `kintrafo.rig.measured_curves`, with straight steering, or the wheel at design. Curves
-        over wheel travel may be compliance by the names of `kintrafo.compliance.linear`, if the
-        file has bushes.
+        Result of `kintrafo.rig.measured_curves`, with straight steering, or the wheel at design.
+        Curves over wheel travel may be compliance by the names of `kintrafo.compliance.linear`, if
+        the file has bushes.
     tolerances : mapping of str to float or str
         Tolerance of values to either side, as in `tolerance`: normally distributed with a third of
         it as standard deviation, and a limit of the change. A text such as ``"30 %"`` is a part of

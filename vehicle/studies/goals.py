@@ -154,6 +154,10 @@ def limits(described: Mapping[str, Any], ways: Sequence[str] = OF_CORNERS) -> li
         By characteristic.
     ways : sequence of str, optional
         As in `goals`.
+
+    Returns
+    -------
+    list of Limit
     """
     with Validator("limits") as given:
         tables = given.mapping("limits", described, "names and limits")
@@ -166,7 +170,7 @@ def goals(described: Mapping[str, Any], ways: Sequence[str] = OF_CORNERS) -> lis
     Parameters
     ----------
     described : mapping
-        From `read`; other sections are not used.
+        Result of `read`; other sections are not used.
     ways : sequence of str, optional
         Motions of the goals, the first one by default: ``travel`` and ``rack``, or of an axle, also
         a rigid one, ``bump``, ``roll``, ``left`` and ``right``.
@@ -244,7 +248,7 @@ def judge(suspension: Any, wanted: Sequence[Goal]) -> list[Verdict]:
     ----------
     suspension : Suspension, Model, Axle, RigidAxle or Car
     wanted : sequence of TargetValue and Limit
-        From `goals`.
+        Result of `goals`.
 
     Returns
     -------

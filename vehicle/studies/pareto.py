@@ -54,7 +54,9 @@ class Front:
     places : tuple of DesignVariable
         The values that may change.
     objectives : tuple of Objective
+        The objectives, in the order of `before`.
     limits : tuple of Limit
+        The limits, as in `goals`.
     moved : tuple of dict of str to float
         The changes of the values of each member by their names, in display units.
     compromise : int

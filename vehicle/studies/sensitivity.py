@@ -338,7 +338,7 @@ def effects(dataset: xr.Dataset, name: str, at: float = 0.0) -> Iterator[Effect]
     Parameters
     ----------
     dataset : xarray.Dataset
-        From `sensitivity`.
+        Result of `sensitivity`.
     name : str
         Characteristic.
     at : float, optional

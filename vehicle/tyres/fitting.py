@@ -63,6 +63,7 @@ class TyreFit:
     left_out : tuple of str
         Default coefficients that the data do not determine.
     success : bool
+        Whether the search converged.
     message : str
         The reason for which the search ended.
     evaluations : int

@@ -75,7 +75,7 @@ class TMeasy(Tyre):
     Attributes
     ----------
     values : dict of str to float
-        In SI units; names of values at the two loads end in ``_1`` and ``_2``.
+        Values by name, in SI units; names of values at the two loads end in ``_1`` and ``_2``.
     """
 
     law: ClassVar[str] = "tmeasy"

@@ -39,7 +39,7 @@ class AirForces(Force):
     Parameters
     ----------
     name
-        Begins the names of its signals, ``<name>_drag`` and ``<name>_lift`` [N].
+        Prefix of the names of its signals, ``<name>_drag`` and ``<name>_lift`` [N].
     body, point
         Body, and point of action at the design position.
     density

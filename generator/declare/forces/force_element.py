@@ -31,7 +31,7 @@ class ForceElement(Force):
     Parameters
     ----------
     name
-        Begins the names of its signals: ``<name>_length`` [m], ``<name>_velocity`` [m/s]; of a
+        Prefix of the names of its signals: ``<name>_length`` [m], ``<name>_velocity`` [m/s]; of a
         twist, ``<name>_angle`` [rad] and ``<name>_angular_velocity`` [rad/s].
     path
         The line between two points, or the joint, along which it acts.

@@ -43,7 +43,7 @@ class LinearTyre(Force):
     Parameters
     ----------
     name
-        Begins the names of its signals, and those of the wheel, where there are several tyres.
+        Prefix of the names of its signals, and those of the wheel, where there are several tyres.
     wheel
         Its wheel, at whose centre the force acts.
     rate, free_height

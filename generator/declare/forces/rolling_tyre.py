@@ -60,7 +60,7 @@ class RollingTyre(Force):
     Parameters
     ----------
     name
-        Begins the names of its signals.
+        Prefix of the names of its signals.
     wheel
         Its wheel.
     bearing

@@ -227,7 +227,7 @@ def build(
     Parameters
     ----------
     derived : Derivation
-        From `kintrafo.generator.equations.outputs.generate`.
+        Result of `kintrafo.generator.equations.outputs.generate`.
     folder : Path
         An empty folder, for `kintrafo.systems.compile.loader.load`.
     compiler : Compiler or None

@@ -20,7 +20,7 @@ def source_files(
     emitted : mapping
         C of the equations, by name.
     tables : mapping
-        From `kintrafo.targets.fmi.tables.tables`.
+        Result of `kintrafo.targets.fmi.tables.tables`.
     fronts : iterable of str
         Keys of `kintrafo.targets.fmi.files.HEADERS`.
     """

@@ -15,7 +15,7 @@ def at_design(dataset: xr.Dataset, title: str) -> list[Tabulated]:
     Parameters
     ----------
     dataset : xarray.Dataset
-        From `kintrafo.characteristics.over`.
+        Result of `kintrafo.characteristics.over`.
     title : str
         Begins the titles.
 

@@ -38,7 +38,7 @@ def compliances(found: xr.Dataset, title: str, at: float = 0.0) -> Tabulated:
     Parameters
     ----------
     found : xarray.Dataset
-        From `linear`.
+        Result of `linear`.
     title : str
     at : float, optional
         Wheel travel [m].
@@ -82,7 +82,7 @@ def compliances_of_beam(found: xr.Dataset, title: str, at: float = 0.0) -> list[
     Parameters
     ----------
     found : xarray.Dataset
-        From `linear`.
+        Result of `linear`.
     title : str
     at : float, optional
         Wheel travel [m].
@@ -104,7 +104,7 @@ def deflections(found: xr.Dataset, title: str) -> list[Tabulated]:
     Parameters
     ----------
     found : xarray.Dataset
-        From `elastokinematics` or `nonlinear`.
+        Result of `elastokinematics` or `nonlinear`.
     title : str
 
     Returns

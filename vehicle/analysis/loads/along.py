@@ -50,6 +50,7 @@ def along(model: System, result: Simulation) -> xr.Dataset:
     model : Model, AxleModel, RigidAxleModel, or CarModel of a car that drives
         The simulated model.
     result : Simulation
+        Result of `kintrafo.simulate` with this model.
 
     Returns
     -------

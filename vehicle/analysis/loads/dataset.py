@@ -197,7 +197,7 @@ def envelope(dataset: xr.Dataset) -> xr.Dataset:
     Parameters
     ----------
     dataset : xarray.Dataset
-        From `static`; cases without equilibrium are left out.
+        Result of `static`; cases without equilibrium are left out.
 
     Returns
     -------
@@ -224,7 +224,7 @@ def peaks(dataset: xr.Dataset) -> xr.Dataset:
     Parameters
     ----------
     dataset : xarray.Dataset
-        From `along`.
+        Result of `along`.
 
     Returns
     -------
@@ -257,7 +257,7 @@ def table(dataset: xr.Dataset, axes: str = "vehicle") -> xr.Dataset:
     Parameters
     ----------
     dataset : xarray.Dataset
-        From `static` or `along`.
+        Result of `static` or `along`.
     axes : {"vehicle", "part"}, optional
         Axes of points and components: those of the vehicle, or of each part at design.
 
@@ -294,7 +294,7 @@ def workbook(dataset: xr.Dataset, axes: str = "vehicle") -> dict[str, xr.Dataset
     Parameters
     ----------
     dataset : xarray.Dataset
-        From `static` or `along`.
+        Result of `static` or `along`.
     axes : {"vehicle", "part"}, optional
         Axes of the sheet ``loads``, see `table`; the extremes are in those of the vehicle.
 

@@ -74,7 +74,7 @@ def with_totals(dataset: xr.Dataset, *, several: bool = False) -> xr.Dataset:
     Parameters
     ----------
     dataset : xarray.Dataset
-        From `static` or `along`.
+        Result of `static` or `along`.
     several : bool, optional
         Whether to leave out mounts with one load.
     """

@@ -29,7 +29,7 @@ def overview(found: xr.Dataset, title: str, parts: Sequence[str] = ()) -> Tabula
     Parameters
     ----------
     found : xarray.Dataset
-        From `static`.
+        Result of `static`.
     title : str
     parts : sequence of str, optional
         Parts whose loads are all shown; by default the table has each joint once. The part

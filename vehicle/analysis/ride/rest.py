@@ -78,7 +78,7 @@ def wheels_and_body(found: xr.Dataset) -> tuple[list[xr.DataArray], list[xr.Data
     Parameters
     ----------
     found : xarray.Dataset
-        From `at_rest`, or the motion of a car on a road.
+        Result of `at_rest`, or the motion of a car on a road.
     """
     of_wheels = {*_OF_WHEELS, "road"}
     variables = found.data_vars.items()

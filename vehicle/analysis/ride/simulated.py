@@ -136,7 +136,7 @@ def check_times(duration: float, settle: float, output_step: float) -> None:
     Parameters
     ----------
     duration, settle, output_step : float
-        As of `over` [s].
+        As for `over` [s].
 
     Raises
     ------

@@ -33,6 +33,7 @@ class ImportedSubsystem(Merged):
     kind : str
         The kind of suspension.
     side : {'left', 'right'}
+        Side of the suspension.
     angles : dict of str to float
         Camber and toe of the subsystem [deg], by the keys of ``[wheel]``.
     spring : AdamsSpring or None

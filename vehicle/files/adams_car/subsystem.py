@@ -52,6 +52,7 @@ class Subsystem:
     springs : tuple of dict
         The keys of its springs, in lower case, and their values.
     force_unit : str
+        Unit of force of the file, such as ``"newton"``.
     others : tuple of str
         Descriptions of data that are not read.
     """
@@ -94,7 +95,7 @@ class Subsystem:
         Parameters
         ----------
         name, side
-            As of `side`.
+            As for `side`.
         """
         rows = self.angles.get(name, {})
         return rows.get(side, rows.get("left/right"))

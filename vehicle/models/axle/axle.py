@@ -57,15 +57,19 @@ class Axle(Described):
     end : str
         'front' or 'rear'.
     right, left : Suspension
+        The suspensions of both sides.
     symmetric : bool
         Whether the file describes one side only, and the other one is its mirror image.
     bar : AntiRollBar or None
+        The section of the anti-roll bar; None without one.
     bar_side : str
         The side on which the points of the bar are given, 'left' or 'right'.
     steering : SteeringCurve or None
         None: the ``travel_per_turn_mm`` of the suspension applies.
     brakes : Brakes
+        The section of the brakes.
     drive : Drive or None
+        The section of the drive; None for an axle that is not driven.
 
     Examples
     --------

@@ -33,7 +33,7 @@ class AxleModel(System):
     ----------
     axle : Axle
     parameters, constants, design_state
-        As of `System`. Names of states, inputs and signals are those of the suspension, with the
+        As for `System`. Names of states, inputs and signals are those of the suspension, with the
         prefix ``right_`` or ``left_``; the bar has ``bar_angle`` and ``bar_spring_moment``.
     """
 

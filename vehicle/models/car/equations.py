@@ -41,9 +41,9 @@ class CarModel(System):
     ----------
     car : Car
     parameters, constants, design_state
-        As of `System`. States are those of the body, ``heave``, ``pitch`` and ``roll``, followed by
-        those of the suspensions; their names, and those of inputs and signals, have the prefix of
-        the wheel, ``front_left_``, or of the axle, and no prefix in a quarter car. The body of a
+        As for `System`. States are those of the body, ``heave``, ``pitch`` and ``roll``, followed
+        by those of the suspensions; their names, and those of inputs and signals, have the prefix
+        of the wheel, ``front_left_``, or of the axle, and no prefix in a quarter car. The body of a
         driving car moves freely, with ``body_x`` to ``body_r``; the last states are the deflections
         of its tyres.
 

@@ -35,13 +35,13 @@ class RigidAxleModel(WholeAxleModel):
         Whether an axle on five rods, which has no motion with rigid rods, has the equations of four
         of them, from which an equilibrium on bushes begins; otherwise it is refused.
     wheel_loads : bool, optional
-        As of `WholeAxleModel`.
+        As for `WholeAxleModel`.
 
     Attributes
     ----------
     axle : RigidAxle
     parameters, constants, design_state
-        As of `System`. The states are ``heave`` [m] and ``roll`` [rad], positive with the left
+        As for `System`. The states are ``heave`` [m] and ``roll`` [rad], positive with the left
         wheel up, and the angles of the wheels; signals and inputs of a side have the prefix
         ``right_`` or ``left_``.
 

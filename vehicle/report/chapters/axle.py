@@ -51,7 +51,7 @@ def axle_chapter(axle: Any, goals: Sequence[Goal] = ()) -> Chapter:
     ----------
     axle : Axle, AxleModel, RigidAxle, RigidAxleModel, Car or CarModel
     goals : sequence of Target and Limit, optional
-        From `kintrafo.variation.goals`: those over the motions are drawn into the curves.
+        Result of `kintrafo.variation.goals`: those over the motions are drawn into the curves.
 
     Returns
     -------

@@ -41,9 +41,11 @@ class Chapter:
     Attributes
     ----------
     title : str
+        Heading of the chapter.
     words : tuple of str
         Paragraphs.
     tables : tuple of Tabulated
+        Tables below the paragraphs.
     pictures : tuple of ChapterPicture
         Pictures as wide as the page.
     panels : tuple of ChapterPicture

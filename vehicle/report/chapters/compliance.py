@@ -19,10 +19,10 @@ def compliance_chapter(found: xr.Dataset, goals: Sequence[Goal] = ()) -> Chapter
     Parameters
     ----------
     found : xarray.Dataset
-        From `kintrafo.compliance.linear`.
+        Result of `kintrafo.compliance.linear`.
     goals : sequence of Target and Limit, optional
-        From `kintrafo.variation.goals`: those with the same support of the wheels are drawn into
-        the curves. They are for the middle position of the rack.
+        Result of `kintrafo.variation.goals`: those with the same support of the wheels are drawn
+        into the curves. They are for the middle position of the rack.
 
     Returns
     -------

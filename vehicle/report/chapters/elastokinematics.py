@@ -21,10 +21,10 @@ def elastokinematics_chapter(*found: xr.Dataset, goals: Sequence[Goal] = ()) -> 
     Parameters
     ----------
     *found : xarray.Dataset
-        From `kintrafo.compliance.elastokinematics`, each over another motion.
+        Result of `kintrafo.compliance.elastokinematics`, each over another motion.
     goals : sequence of Target and Limit, optional
-        From `kintrafo.variation.goals`: those of these curves are drawn into them. They are for
-        rigid joints and the middle position of the rack.
+        Result of `kintrafo.variation.goals`: those of these curves are drawn into them. They are
+        for rigid joints and the middle position of the rack.
 
     Returns
     -------

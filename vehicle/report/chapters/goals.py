@@ -33,7 +33,7 @@ def goals_chapter(subject: Any, goals: Sequence[Goal]) -> Chapter:
     ----------
     subject : Suspension, Model, Axle, RigidAxle or Car
     goals : sequence of Goal
-        From `kintrafo.variation.goals`; one or more.
+        Result of `kintrafo.variation.goals`; one or more.
 
     Returns
     -------

@@ -16,7 +16,7 @@ def loads_chapter(found: xr.Dataset) -> Chapter:
     Parameters
     ----------
     found : xarray.Dataset
-        From `kintrafo.loads.static`.
+        Result of `kintrafo.loads.static`.
 
     Returns
     -------

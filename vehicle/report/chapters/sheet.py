@@ -13,7 +13,7 @@ def sheet_chapter(found: xr.Dataset) -> Chapter:
     Parameters
     ----------
     found : xarray.Dataset
-        From `kintrafo.sheet.sheet`.
+        Result of `kintrafo.sheet.sheet`.
 
     Returns
     -------

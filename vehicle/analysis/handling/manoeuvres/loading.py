@@ -57,6 +57,11 @@ def load_manoeuvre(
         Values that replace those of the file, in its units. A name is the key, such as
         ``speed_km_per_h``, in a section ``section.key``. None removes an optional key.
 
+    Returns
+    -------
+    Manoeuvre
+        For `drive`.
+
     Raises
     ------
     InputError

@@ -48,7 +48,7 @@ def write_cards(
     Parameters
     ----------
     dataset : xarray.Dataset
-        From `static` or `along`; each of at most 1000 outputs of a motion is a case.
+        Result of `static` or `along`; each of at most 1000 outputs of a motion is a case.
     path : str or pathlib.Path
         ``loads.bdf`` or ``loads.nas`` (Nastran), ``loads.inp`` (Abaqus): the name of a part is
         inserted before the ending, ``loads_knuckle.bdf``.
