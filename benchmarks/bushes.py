@@ -92,7 +92,8 @@ PEERS = {
 
 def main() -> None:
     """Compare, print, and fill the page."""
-    heads = (f"{name}: Exudyn | kintrafo" for name in ("toe, deg", "camber, deg", "along it, mm"))
+    columns = ("toe, deg", "camber, deg", "displacement along the load, mm")
+    heads = (f"{name}: Exudyn | kintrafo" for name in columns)
     rows = [
         f"| | load | {' | '.join(heads)} |",
         "|---|---|---:|---:|---:|---:|---:|---:|",
@@ -115,7 +116,7 @@ def main() -> None:
     amounts = ", ".join(f"{amount / 1e3:g}" for amount in AMOUNTS)
     rows += ["", f"Under {amounts} kN, the wheel held by its height or by its vertical force, the"]
     rows[-1] += f" largest difference over the largest value is {_words(worst)}; under {SMALL:g} N,"
-    rows[-1] += f" over the {AMOUNTS[-1] / SMALL:g}th part of it, {_words(at_small)}."
+    rows[-1] += f" relative to 1/{AMOUNTS[-1] / SMALL:g} of that value, {_words(at_small)}."
     rows[-1] += f" Exudyn {version('exudyn')}."
     print("\n".join(rows))
     fill_page(PAGE, {"bushes": "\n".join(rows)})
