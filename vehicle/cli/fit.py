@@ -117,4 +117,4 @@ def _print(found: "Fit", measured: "Dataset", file: str) -> None:
     console.print(table(f"{file}: fitted values", head, values, words=(0, 5)))
     title = "deviations of the curves, root mean square"
     console.print(table(title, ("characteristic", "file", "fitted", "accuracy"), curves))
-    say(f"{found.message}; {found.evaluations} suspensions were evaluated.")
+    say(f"{found.message}; {found.evaluations} evaluations.")

@@ -74,7 +74,7 @@ def _print(found: "Optimum", file: str) -> None:
         moved_table(found.places, found.moved, f"{file}: changes of the design variables")
     )
     console.print(_goals(found))
-    say(f"{found.message}; {found.evaluations} suspensions were evaluated.")
+    say(f"{found.message}; {found.evaluations} evaluations.")
 
 
 def _goals(found: "Optimum") -> "Table":
