@@ -183,6 +183,7 @@ def test_the_critical_speed_is_that_of_the_bicycle_model(car) -> None:
     steps = {"from_km_per_h": 3.0 * critical, "to_km_per_h": 4.5 * critical}
     found = run(loose, "speed_range", **steps, step_km_per_h=0.5 * critical)
     assert float(found.metrics["critical_speed"]) == pytest.approx(critical, rel=1e-4)
+    assert "characteristic_speed" not in found.metrics
     growth = found.curves[""]["growth"].values
     assert growth[0] < 1e-3
     assert growth[-1] > 1e-2

@@ -47,8 +47,9 @@ def straight_running(
     -------
     HandlingResult
         Curves over ``speed``: gradients as of `steady_turns`, gains by the angle of the steering
-        wheel, and ``growth``; as metrics the characteristic speed, of the greatest
-        gain of the yaw velocity, or the critical one, where the gain has no bound.
+        wheel, and ``growth``; as metrics the speed of the greatest gain of the yaw velocity, which
+        is the characteristic speed of a car that understeers there (ISO 8855), or the critical
+        speed, where the gain has no bound.
 
     Raises
     ------
@@ -94,7 +95,7 @@ def at_speed(car: DrivingCar, speed: float) -> xr.Dataset:
 
 
 def _metrics(car: DrivingCar, curves: xr.Dataset) -> dict[str, Any]:
-    """Return the characteristic or the critical speed, if it is within the range."""
+    """Return the speed of the greatest gain or the critical speed, if it is within the range."""
     from scipy.optimize import brentq, minimize_scalar  # noqa: PLC0415 (slow to import)
 
     speeds, gains = curves[SPEED].values, curves["yaw_rate_gain"].values
@@ -117,9 +118,11 @@ def _metrics(car: DrivingCar, curves: xr.Dataset) -> dict[str, Any]:
 
     between = (speeds[top - 1], speeds[top + 1])
     best = minimize_scalar(less, bounds=between, method="bounded", options={"xatol": _RESOLVED})
-    words = "characteristic speed, of the greatest gain of the yaw velocity"
+    name, words = "speed_of_greatest_gain", "speed of the greatest gain of the yaw velocity"
+    if float(at_speed(car, float(best.x))["understeer_gradient"]) > 0.0:
+        name, words = "characteristic_speed", f"characteristic speed, {words}"
     meaning, unit = _GAINS["yaw_rate_gain"]
     return {
-        "characteristic_speed": quantity((), float(best.x), words, "m/s"),
+        name: quantity((), float(best.x), words, "m/s"),
         "greatest_yaw_rate_gain": quantity((), -float(best.fun), f"greatest {meaning}", unit),
     }

@@ -37,7 +37,7 @@ class SpeedRange(Manoeuvre):
         return found
 
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
-        """Return characteristic or critical speed, and curves by speed."""
+        """Return curves by speed, and the speed of the greatest gain or the critical one."""
         count = int((self.to_km_per_h - self.from_km_per_h) / self.step_km_per_h + 1e-9)
         speeds = self.from_km_per_h + self.step_km_per_h * np.arange(count + 1, dtype=np.float64)
         return straight_running(car, speeds / 3.6, progress=progress)
