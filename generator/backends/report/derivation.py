@@ -168,18 +168,18 @@ def _summary(derivation: Derivation) -> str:
     closed = "" if iteration_note(derivation) else " in closed form"
     way = (
         "Its loops are closed one after the other by kinematic transformers, each of which is "
-        f"solved{closed}. From the resulting relative coordinates follow"
+        f"solved{closed}. The relative coordinates that result give"
         if loops
-        else "From its relative coordinates, which no loop ties to each other, follow"
+        else "Its relative coordinates, which are not constrained by a loop, give"
     )
     return (
         f"This chapter derives the equations of motion of a mechanism of {len(mechanism.moving)} "
         f"moving bodies with {_counted(loops, 'kinematic loop')} and "
         f"{_counted(freedoms, 'degree')} of freedom. {way} "
-        "position and velocity of every body, and from these, projected onto the independent "
-        "coordinates, the equations of motion themselves. The method is that of J. A. M. Góis and "
-        "C. A. P. Sarzeto (Instituto Militar de Engenharia, Rio de Janeiro, 2000); numbers "
-        "after the word paper are those of its equations and figures."
+        "position and velocity of every body. The equations of motion are the projection of the "
+        "Newton-Euler equations of all bodies onto the independent coordinates. The method is that "
+        "of J. A. M. Góis and C. A. P. Sarzeto (Instituto Militar de Engenharia, Rio de Janeiro, "
+        '2000); after the word "paper" are numbers of its equations, sections and figures.'
     )
 
 
@@ -214,9 +214,8 @@ def _structure(topology: JointGraph) -> list[Block]:
         ),
         Heading(2, "Shortest paths in the joint graph"),
         Paragraph(
-            "An edge is as long as its joint has degrees of freedom. Where several paths are "
-            "equally short, "
-            "all are listed."
+            "The length of an edge is the number of degrees of freedom of its joint. Where "
+            "several paths are equally short, all are listed."
         ),
         TextTable(("", *map(str, mechanism.numbers.values())), path_rows(topology)),
         Heading(2, "Cycles"),
@@ -242,10 +241,10 @@ def _transformers(derivation: Derivation, number: EquationNumbers) -> Iterator[B
         yield Paragraph("The mechanism has no loop to close.")
         return
     yield Paragraph(
-        "A loop is cut at a pair of joints whose points keep a known distance. Of the six "
-        "equations of a loop in space, or the three of one in a plane, one is left then, with one "
-        "unknown; a table lists the pairs of each loop. The inputs of a transformer "
-        "are known from the transformers before it."
+        "A loop is cut at a pair of joints whose points keep a known distance. This leaves one "
+        "equation with one unknown, of the six equations of a loop in space or the three of a loop "
+        "in a plane. A table lists the pairs of each loop. The inputs of a transformer are known "
+        "from the transformers before it."
     )
     yield Picture("transformers", "Kinematic transformers, and the coordinates between them.")
     yield from _turns(derivation, number)
@@ -292,9 +291,11 @@ def _turns(derivation: Derivation, number: EquationNumbers) -> Iterator[Block]:
 def _validity(derivation: Derivation) -> Iterator[Block]:
     """Yield the limits of the formulas, and the conditions on parameters."""
     yield Heading(2, "Validity")
-    yield Paragraph("Each function reports, by a status bit, which of these has left its range:")
+    yield Paragraph(
+        "A status bit of each function reports a quantity that is at or below its floor:"
+    )
     yield TextTable(
-        ("quantity", "floor", "unit", "meaning when it is not over the floor"),
+        ("quantity", "floor", "unit", "meaning at or below the floor"),
         [
             (f"`{g.name}`", f"`{formula(g.floor, FORMULA)}`", g.unit, g.meaning)
             for g in derivation.guards
@@ -310,9 +311,11 @@ def _validity(derivation: Derivation) -> Iterator[Block]:
             [(f"`{a.quantity}`", a.unit, a.meaning) for a in derivation.assumptions],
         )
     if derivation.conditions:
-        yield Paragraph("Parameters are refused if one of these is not above its least value:")
+        yield Paragraph(
+            "Parameters are refused if one of these quantities is not above its lower limit:"
+        )
         yield TextTable(
-            ("quantity", "least", "unit", "meaning when it is less"),
+            ("quantity", "lower limit", "unit", "meaning below the limit"),
             [
                 (f"`{c.quantity}`", f"`{formula(c.least, FORMULA)}`", c.unit, c.meaning)
                 for c in derivation.conditions

@@ -376,13 +376,13 @@ def _relative(motion: MotionFormulas, number: EquationNumbers) -> list[Block]:
     return [
         Heading(2, "Relative Jacobian"),
         Paragraph(
-            "For each coordinate there is one closure equation (`residuals`). Its "
-            "derivative is zero except with respect to these coordinates:"
+            "For each coordinate there is one closure equation (`residuals`). It depends on "
+            "these coordinates only:"
         ),
         TextTable(("equation", "relative coordinates", "independent and given"), rows),
         Paragraph(
-            r"Differentiated with respect to time, where $`\mathbf{u}`$ are the inputs that "
-            "prescribe a motion:"
+            r"These equations, and their derivatives with respect to time, where $`\mathbf{u}`$ "
+            "are the inputs that prescribe a motion:"
         ),
         number(
             r"\mathbf{g}(\boldsymbol{\beta}, \mathbf{q}, \mathbf{u}) = \mathbf{0}",
@@ -528,8 +528,9 @@ def _dynamics(motion: MotionFormulas, number: EquationNumbers) -> list[Block]:
             r"centre of mass, $`\boldsymbol{\Xi}_b`$ its inertia and mass, $`\mathbf{b}_b`$ the "
             r"torque $`\boldsymbol{\omega}_b\times\boldsymbol{\Theta}_b\boldsymbol{\omega}_b`$ of "
             r"its turning, and $`\mathbf{w}_b`$ applied torque and force. "
-            f"{inline(rf'{inertia} = {turned}')} is the inertia about its centre of mass, which "
-            "turns with it. Sorted by accelerations, rates and forces:"
+            f"{inline(rf'{inertia} = {turned}')} is the inertia of the body about its "
+            "centre of mass, along the axes of the ground. Sorted by accelerations, rates and "
+            "forces:"
         ),
         number(
             r"\mathbf{M}(\mathbf{q})\,\ddot{\mathbf{q}} + \mathbf{B}(\mathbf{q},\dot{\mathbf{q}})"
@@ -597,8 +598,8 @@ def _dynamics(motion: MotionFormulas, number: EquationNumbers) -> list[Block]:
     rows = [(*astuple(f.describe()), formulation.cites.get(f.identity[1], "")) for f in acting]
     sections += [
         Paragraph(
-            r"Each force that acts adds its share to $`\mathbf{Q}`$, the coefficient of its power "
-            "in the rate of each independent coordinate:"
+            r"The share of a force in $`\mathbf{Q}`$ is, for each independent coordinate, the "
+            "coefficient of the rate of that coordinate in the power of the force:"
         ),
         TextTable(("force", "acts", "share of Q", "paper"), rows),
     ]
