@@ -275,8 +275,10 @@ def _assign(array: Array, names: tuple[str, ...], values: Mapping[str, Any], wha
 def checked_point(given: Validator, system: System, state: Any, inputs: Any) -> tuple[Array, Array]:
     """Return checked states and inputs; without inputs those of a `State`, or zeros."""
     rows = given.array("state", state, last=len(system.state_names), empty=True, finite=False)
-    held = inputs_of(state, system.names_of_states) if inputs is None else inputs
+    # with given inputs, too: a `State` of another system is an error
+    held = inputs_of(state, system.names_of_states)
+    columns = held if inputs is None else inputs
     count = len(system.input_names)
-    if held is None:
+    if columns is None:
         return rows, np.zeros(count)
-    return rows, given.array("inputs", held, last=count, empty=True, finite=False)
+    return rows, given.array("inputs", columns, last=count, empty=True, finite=False)
