@@ -78,7 +78,7 @@ def _terms_by_symbol(expression: sp.Expr) -> list[tuple[sp.Symbol, tuple[sp.Expr
     return [(s, tuple(having[s])) for s in sorted(having, key=attrgetter("name"))]
 
 
-@cacheit  # type: ignore[untyped-decorator]
+@cacheit  # type: ignore[untyped-decorator]  # SymPy has no types
 def _derivative(terms: tuple[sp.Expr, ...], s: sp.Symbol) -> sp.Expr:
     """Return the derivative of a sum, which is the same for all directions of a program."""
     return sp.Add(*(_partial(term, s) for term in terms))

@@ -19,7 +19,7 @@ class Guarded(sp.Function):  # type: ignore[misc]  # SymPy has no types
         return sp.Integer(int(argindex == 1))
 
 
-class Positive(sp.Function):  # type: ignore[misc]
+class Positive(sp.Function):  # type: ignore[misc]  # SymPy has no types
     """The argument where it is positive, zero elsewhere."""
 
     nargs = 1
@@ -30,7 +30,7 @@ class Positive(sp.Function):  # type: ignore[misc]
         return IsPositive(self.args[0])
 
 
-class _Constant(sp.Function):  # type: ignore[misc]
+class _Constant(sp.Function):  # type: ignore[misc]  # SymPy has no types
     """A function whose derivative is zero, or zero by definition."""
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:

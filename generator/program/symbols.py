@@ -24,7 +24,7 @@ def symbols_of(expression: sp.Expr) -> frozenset[sp.Symbol]:
     return frozenset().union(*map(symbols_of, expression.args))
 
 
-@cacheit  # type: ignore[untyped-decorator]
+@cacheit  # type: ignore[untyped-decorator]  # SymPy has no types
 def guarded_in(expression: sp.Expr) -> frozenset[sp.Expr]:
     """Return the quantities that are guarded in an expression, collected like its symbols."""
     own = (expression.args[0],) if isinstance(expression, Guarded) else ()

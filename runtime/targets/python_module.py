@@ -58,7 +58,7 @@ def _write(library: str, emitted: Emitted, path: Path, *, force: bool, read: Pat
     """Write a module with the template, and by the back end, of a library; see `export_model`."""
     _refuse_iterations(library, emitted)
     from ..generator.backends.casadi.dialect import CASADI  # noqa: PLC0415 (an extra)
-    from ..generator.backends.jax.dialect import JAX  # noqa: PLC0415
+    from ..generator.backends.jax.dialect import JAX  # noqa: PLC0415 (an extra)
 
     dialect = {"casadi": CASADI, "jax": JAX}[library]
     with replacing(path, force=force, inputs=read) as temporary:

@@ -136,8 +136,8 @@ force at the design position (`force_at_design_N`). The stops depend on the leng
     suspension: Literal["trailing_arm"] = Field(description="the kind of suspension")
     hardpoints: TrailingArmHardpoints = Field(description="the points that define the geometry")
     # not sections of the file; code that needs them asks `steered` first
-    rack: ClassVar[None] = None  # type: ignore[misc]
-    pitman_arm: ClassVar[None] = None  # type: ignore[misc]
+    rack: ClassVar[None] = None  # type: ignore[misc] # a field of the base
+    pitman_arm: ClassVar[None] = None  # type: ignore[misc] # a field of the base
     spring: SpringSection = Field(description="the spring, between chassis and arm")
     damper: ApartDamper = Field(description="the damper, between chassis and arm")
     bodies: TrailingArmBodies = Field(description="masses and inertia")
