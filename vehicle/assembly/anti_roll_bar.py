@@ -4,12 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ...core.named_types import Array
 from ..models.axle.bar import HalfBar
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...core.quantities import variable
 from ...core.validator import Validator
 from ..corner.bushes import Bush
-from ..corner.corner import Array
 from ..corner.wheeled import WheeledSection
 from ..input.vehicle import TyreSection
 from ..models.axle.file import TorqueReaction

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...core.validator import Validator
 from ..corner.bushes import described_bushings, mirrored_bushings, softness_of_rack
-from ..corner.corner import Array
 from ..kinds import Suspension
 from ..models.axle import Axle
 from ..models.axle.equations import AxleModel

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from ...core.named_types import Array
 from ...core.vectors import cross
-from ..corner.corner import Array
 from ..models.axle import Axle
 from ..models.points import carried
 from ..models.sides import SENSE, SIDES

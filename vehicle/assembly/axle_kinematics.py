@@ -6,8 +6,8 @@ from functools import cached_property
 import numpy as np
 
 from ...core.errors import InputError
-from ...core.named_types import ArrayLike
-from ..corner.corner import Array, Corner, Vehicle
+from ...core.named_types import Array, ArrayLike
+from ..corner.corner import Corner, Vehicle
 from ..models.axle import Axle
 from ..models.axle.bar import HalfBar
 from ..models.model import Model

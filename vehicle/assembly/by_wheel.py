@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from ...core.named_types import Array
 from ...core.validator import Validator
 from ...datasets.columns import AS_COLUMNS, with_columns
-from ..corner.corner import Array
 from .quantity import Quantity
 
 WHEEL, AXLE, DATA_SET = "wheel", "axle", "data_set"

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 
 from ...core.errors import InputError
+from ...core.named_types import Array
 from ...core.validator import Validator
 from ...equations.errors import ModelError
 from ...equations.layout import rotation
 from ...systems.rest import rest
 from ...systems.state import State
-from ..corner.corner import Array
 from ..corner.wheeled import WheeledSection
 from ..input.units import in_metres
 from ..models.car.car import Car, center_of_gravity, masses, suspension_masses

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..corner.corner import Array
+from ...core.named_types import Array
 from ..models.sides import SIDES
 from .measures.measure import Measure
 from .quantity import Quantity

@@ -4,16 +4,14 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ...core.errors import InputError
+from ...core.named_types import Array, ArrayLike
 from ...core.validator import Validator
 from ..models.car.car import Car
 from ..models.sides import SIDES
 from . import motions
 from .steering_wheel import rack_motion, sense_of_rack
-
-Array = NDArray[np.float64]
 
 
 class Controls:

@@ -6,10 +6,10 @@ from typing import Any, Literal
 
 import numpy as np
 
-from ...core.named_types import ArrayLike
+from ...core.named_types import Array, ArrayLike
 from ...core.validator import Validator
 from ..corner.bushes import described_bushings, softness_of_rack
-from ..corner.corner import Array, Corner
+from ..corner.corner import Corner
 from ..kinds import Suspension
 from ..models.axle.file import TorqueReaction
 from ..models.model import Model

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from ...core.columns import BatchNumber, spread
-from ...core.named_types import ArrayLike
+from ...core.named_types import Array, ArrayLike
 from ...core.vectors import cross, turned
 from ...systems.inputs import rates_of
-from ..corner.corner import Array, CarrierMotion, Corner, SteeringAxis, Vehicle
+from ..corner.corner import CarrierMotion, Corner, SteeringAxis, Vehicle
 from ..corner.strokes import Strokes
 from ..corner.wheeled import WheeledSection
 from ..input.units import in_metres

@@ -4,13 +4,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ..kinds import Suspension
 from .load import RACK, Load
 from .part_poses import wrench_about
-
-Array = NDArray[np.float64]
 
 STEERING = "steering"
 """The name of the actuation of a rack along its axis."""

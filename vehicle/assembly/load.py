@@ -3,12 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ..corner.structure import LineForce
 from .part_poses import PartPoses
-
-Array = NDArray[np.float64]
 
 RACK = "rack"
 

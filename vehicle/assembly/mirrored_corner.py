@@ -6,7 +6,8 @@ from functools import cached_property
 
 import numpy as np
 
-from ..corner.corner import Array, Corner, Vehicle
+from ...core.named_types import Array
+from ..corner.corner import Corner, Vehicle
 from .wheel import steer, toe
 
 

@@ -3,8 +3,8 @@
 import numpy as np
 
 from ...core.errors import InputError
+from ...core.named_types import Array
 from ...core.validator import Validator
-from ..corner.corner import Array
 from ..models.axle import Axle
 from ..models.positions import PositionError, design_height, travel_range
 from ..models.sides import LEFT, RIGHT

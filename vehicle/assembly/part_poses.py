@@ -7,8 +7,8 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...core.vectors import cross
 from ...systems.allowed import LengthLimit
 from ...systems.inputs import rates_of
@@ -20,8 +20,6 @@ from ..models.points import hardpoints
 from .corner_kinematics import design_axis, vehicle_of
 from .mass import PartMass
 from .wheel import lowest_point, upward_across
-
-Array = NDArray[np.float64]
 
 CONTACT, CENTER = "contact", "wheel_center"
 """The points of a wheel at which loads act: its lowest point and its centre."""

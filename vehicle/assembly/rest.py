@@ -13,16 +13,14 @@ for two roots within one step of the grid.
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...core.named_types import ArrayLike
+from ...core.named_types import Array, ArrayLike
 from ...equations.errors import ModelError
 from ..models.positions import road_below
 from ..models.reach import AngleRange, PositionError, refuse_beyond
 from .assembly import Assembly
 from .held import RestConditions
 
-Array = NDArray[np.float64]
 Forces = Callable[[ArrayLike], Array]
 
 # Step of the grid on which an equilibrium of one coordinate is searched [rad].

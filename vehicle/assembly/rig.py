@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ..corner.corner import Array
+from ...core.named_types import Array
 from .quantity import Quantity
 
 

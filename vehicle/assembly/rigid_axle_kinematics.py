@@ -7,7 +7,7 @@ constant inclination; and roll, the wheels moving oppositely, by a radian with t
 from dataclasses import dataclass
 from functools import cached_property
 
-from ..corner.corner import Array
+from ...core.named_types import Array
 from .whole_axle_kinematics import WholeAxleKinematics
 
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 from typing import ClassVar, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...core.vectors import cross
 from ..corner.corner import UP
 from ..models.rigid_axle.axle import RigidAxle
@@ -17,8 +17,6 @@ from ..models.whole_axle import CHASSIS
 from .load import Load
 from .part_poses import CENTER, road_axes
 from .whole_axle_parts import BAR, WholeAxleParts
-
-Array = NDArray[np.float64]
 
 _LEFTWARD = np.array([0.0, 1.0, 0.0])
 

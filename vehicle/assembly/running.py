@@ -3,16 +3,14 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.errors import InputError
+from ...core.named_types import Array
 from ...equations.errors import ModelError
 from ...systems.state import State
 from ..models.car.equations import CarModel
 from .controls import Controls
 from .wheel_names import WheelNames
-
-Array = NDArray[np.float64]
 
 _MOST_STEPS, _HALVINGS = 40, 20
 # Residual accelerations and velocities [m/s^2, rad/s^2, m/s].

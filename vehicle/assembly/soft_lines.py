@@ -5,7 +5,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...core.errors import InputError
-from ..corner.corner import Array, Corner
+from ...core.named_types import Array
+from ..corner.corner import Corner
 from ..models.sides import SIDES
 from . import wheel
 from .whole_axle_kinematics import WholeAxleKinematics

@@ -12,7 +12,8 @@ from functools import cached_property
 
 import numpy as np
 
-from ..corner.corner import Array, CarrierMotion
+from ...core.named_types import Array
+from ..corner.corner import CarrierMotion
 
 # Half the distance of the two points that represent a screw axis [m].
 _HALF = 0.1

@@ -5,9 +5,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...core.named_types import Array
 from ...core.quantities import variable
 from ...core.vectors import cross
-from ..corner.corner import UP, Array
+from ..corner.corner import UP
 from ..input.pitman_arm import RELAY_ROD, PitmanLinkage
 from ..input.vehicle import Steering
 from .coupling import STEERING, STILL, BodyPose, on_both, on_the_rack, sum_of

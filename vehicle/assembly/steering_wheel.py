@@ -3,7 +3,7 @@
 import numpy as np
 
 from ...core.errors import InputError
-from ..corner.corner import Array
+from ...core.named_types import Array
 from ..models.axle import Axle
 from . import motions
 from .axle_kinematics import AxleKinematics

@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..corner.corner import Array
+from ...core.named_types import Array
 from ..models.sides import LEFT, RIGHT, SENSE, SIDES
 from ..models.twist_beam import (
     ACROSS,

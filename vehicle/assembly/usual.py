@@ -1,14 +1,12 @@
 """The default ranges of wheel travel and of the rack."""
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.errors import InputError
+from ...core.named_types import Array
 from ...core.validator import Validator
 from ..models.model import Model
 from ..models.positions import PositionError, arm_angles, design_height, travel_range
-
-Array = NDArray[np.float64]
 
 # Default ends of a sweep, if they can be reached.
 USUAL_TRAVEL = 0.080  # bump and rebound of a passenger car [m]

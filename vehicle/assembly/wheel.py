@@ -7,8 +7,9 @@ its positions, SI units. Signs are those of docs/suspension/characteristics.md. 
 
 import numpy as np
 
+from ...core.named_types import Array
 from ...core.vectors import cross
-from ..corner.corner import UP, Array, CarrierMotion, Corner, RoadWheel, SteeringAxis
+from ..corner.corner import UP, CarrierMotion, Corner, RoadWheel, SteeringAxis
 
 # -- angles of the wheel --------------------------------------------------------------------------
 

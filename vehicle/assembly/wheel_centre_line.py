@@ -8,8 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core.named_types import ArrayLike
-from ..corner.corner import Array
+from ...core.named_types import Array, ArrayLike
 from ..models.axle import Axle
 from ..models.model import Model
 from ..models.points import carried, carried_velocity

@@ -7,9 +7,9 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...core.validator import Validator
 from ..corner.bushes import described_bushings
-from ..corner.corner import Array
 from ..data.starter import words_of
 from ..models.plausibility import Plausibility
 from ..models.reach import PositionError

@@ -14,8 +14,9 @@ from typing import Any
 
 import numpy as np
 
+from ...core.named_types import Array
 from ...core.vectors import cross
-from ..corner.corner import Array, CarrierMotion, RoadWheel, Vehicle
+from ..corner.corner import CarrierMotion, RoadWheel, Vehicle
 from ..input.spring_table import rate_at
 from ..models.sides import SIDES
 from ..models.whole_axle import of_side

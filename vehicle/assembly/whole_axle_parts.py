@@ -12,6 +12,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...systems.allowed import LengthLimit
 from ..corner.corner import UP, RoadWheel
 from ..corner.structure import LineForce, Structure
@@ -24,8 +25,6 @@ from .load import Load, known
 from .mass import PartMass
 from .part_poses import CENTER, CONTACT, PartPoses
 from .wheel import lowest_point, upward_across
-
-Array = NDArray[np.float64]
 
 BAR = "bar"
 

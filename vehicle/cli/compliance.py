@@ -14,10 +14,9 @@ from .outputs import Outputs, PlotOptions, name_files, named, of_both, only, tit
 from .variation_options import At, with_position
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
     from xarray import Dataset
 
+    from ...core.named_types import Array
     from ..assembly.assembly import Assembly
     from ..assembly.rig import SweepRange
 
@@ -150,7 +149,7 @@ class _Rig(NamedTuple):
             return self.assembly.subject
         return self.assembly.with_bushings(self.bushings)
 
-    def travels(self) -> "NDArray[np.float64]":
+    def travels(self) -> "Array":
         """Return the wheel travels of curves, including that of the table [m]."""
         usual = self.assembly.usual(self.assembly.usual_motion, self.extent, rack=self.rack)
         return with_position(usual, 1e3 * self.at)

@@ -14,9 +14,7 @@ from .outputs import title_of
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-    import numpy as np
-    from numpy.typing import NDArray
-
+    from ...core.named_types import Array
     from ...systems.system import System
     from ..analysis.compliance.flexibility import WheelSupport
     from ..assembly.assembly import Assembly
@@ -238,9 +236,7 @@ def _of_bushes(
     yield elastokinematics_chapter(*soft, goals=goals)
 
 
-def _as_far_as(
-    assembly: "Assembly", over: str, goals: "Sequence[Goal]"
-) -> "NDArray[np.float64] | None":
+def _as_far_as(assembly: "Assembly", over: str, goals: "Sequence[Goal]") -> "Array | None":
     """Return positions that reach all goals; None if the default ones do."""
     from ..report.chapters.curves import positions_of
     from ..studies.evaluation import usual_positions

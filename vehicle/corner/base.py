@@ -18,6 +18,7 @@ from typing import Any, ClassVar, Self, TypeVar, get_args
 from pydantic import ConfigDict, Field, ValidationError
 
 from ...core.errors import InputError
+from ...core.named_types import Array
 from ...core.suggestions import suggestion
 from ...core.validator import Validator, shown
 from ...core.vectors import components
@@ -33,7 +34,7 @@ from ..input.places import reverse
 from ..input.stop import StopSection
 from ..input.vehicle import GravitySection, Steering, TyreSection, VehicleSection, WheelSection
 from .bushes import Bush, Bushings, bushes_of, mirrored_bushings, softness_of_rack
-from .corner import Array, CarrierMotion, Plane, SpringForce, Stroke
+from .corner import CarrierMotion, Plane, SpringForce, Stroke
 from .drawing import Drawing
 from .facts import Extended, Names
 from .geometry import geometry_problems

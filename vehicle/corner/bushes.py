@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import Annotated, Any, get_args
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import BeforeValidator, WithJsonSchema
 
+from ...core.named_types import Array
 from ...core.suggestions import suggestion
 from ...core.validator import Validator
 from ...core.vectors import cross, unit_vector
@@ -17,8 +17,6 @@ from ..input.curve import Curve, Interpolation
 from ..input.toml_file import read_sections
 from ..input.units import unit_of
 from .structure import FixedJoint, PartJoint, Points, Structure, TelescopeJoint
-
-Array = NDArray[np.float64]
 
 _STIFFNESSES = {
     "axial_N_per_mm": "stiffness along its axis",

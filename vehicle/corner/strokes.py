@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from ...core.named_types import Array
 from ...systems.system import System
-from .corner import Array, SpringForce, Stroke
+from .corner import SpringForce, Stroke
 
 
 class Strokes:

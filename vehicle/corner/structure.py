@@ -10,11 +10,10 @@ from dataclasses import dataclass, field
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...core.vectors import cross
 
-Array = NDArray[np.float64]
 Points = Mapping[str, Array]
 
 GROUND = ("chassis", "rack", "relay_rod")

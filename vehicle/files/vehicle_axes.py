@@ -3,9 +3,9 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.errors import InputError
+from ...core.named_types import Array
 from ...core.validator import Validator
 
 ISO, REARWARD = "forward left up", "rearward right up"
@@ -34,7 +34,7 @@ class Axes(NamedTuple):
     """
 
     words: str
-    directions: NDArray[np.float64]
+    directions: Array
 
     def point(self, place: Point) -> Point:
         """Return a point in axes of ISO 8855: x forward, y left, z up."""

@@ -4,12 +4,10 @@ from collections.abc import Mapping
 from typing import Any, get_args
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...core.validator import Validator
 from .curve import LEAST_GAP, Curve, Interpolation
-
-Array = NDArray[np.float64]
 
 _KEYS, _WAY = ("mm", "N"), "interpolation"
 # Greatest displacement and force of a bush.

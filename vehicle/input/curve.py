@@ -5,13 +5,11 @@ from itertools import pairwise
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import BeforeValidator
 
 from ...core.columns import number
+from ...core.named_types import Array
 from .section import Number
-
-Array = NDArray[np.float64]
 
 # The number of segments in the generated equations.
 SEGMENTS = 10

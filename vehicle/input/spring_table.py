@@ -3,12 +3,10 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from .curve import SEGMENTS
 from .spring import TABLE
-
-Array = NDArray[np.float64]
 
 
 def force_and_rate(parameters: Mapping[str, float], length: Array) -> tuple[Array, Array]:

@@ -4,7 +4,8 @@ from collections.abc import Iterable
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
+
+from ...core.named_types import Array
 
 LengthUnit = Literal["mm", "m"]
 
@@ -59,6 +60,6 @@ def in_metres(length: float, unit: LengthUnit) -> float:
     return length / 1000.0 if unit == "mm" else length
 
 
-def point_in_metres(point: Iterable[float], unit: LengthUnit) -> NDArray[np.float64]:
+def point_in_metres(point: Iterable[float], unit: LengthUnit) -> Array:
     """Return the coordinates of a point of an input file in metres."""
     return np.array([in_metres(value, unit) for value in point])

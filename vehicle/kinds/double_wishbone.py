@@ -8,10 +8,11 @@ import numpy as np
 from pydantic import Field
 
 from ...core.columns import number
+from ...core.named_types import Array
 from ...core.vectors import Vector, cross, distance_from_line, unit_vector
 from ...generated import double_wishbone, double_wishbone_general
 from ..corner.coil_sprung import CoilDamper, CoilSprung
-from ..corner.corner import Array, CarrierMotion, Plane
+from ..corner.corner import CarrierMotion, Plane
 from ..corner.drawing import Axis, Drawing
 from ..corner.facts import Names
 from ..corner.structure import (

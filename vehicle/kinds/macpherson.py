@@ -10,12 +10,13 @@ import numpy as np
 from pydantic import Field
 
 from ...core.columns import number
+from ...core.named_types import Array
 from ...core.vectors import Vector, cross, unit_vector
 from ...generated import macpherson, macpherson_free_rack, macpherson_general
 from ...systems.allowed import LengthLimit
 from ...systems.compile.build import compile_mechanism, require_generator
 from ..corner.base import Suspension
-from ..corner.corner import Array, CarrierMotion, Plane, SpringForce, Stroke
+from ..corner.corner import CarrierMotion, Plane, SpringForce, Stroke
 from ..corner.drawing import Axis, Drawing
 from ..corner.facts import Extended, Names
 from ..corner.strokes import Strokes

@@ -8,10 +8,11 @@ import numpy as np
 from pydantic import Field
 
 from ...core.columns import least_singular_value, stacked
+from ...core.named_types import Array
 from ...core.vectors import Vector, components, cross, unit_vector
 from ...generated import multi_link
 from ..corner.coil_sprung import ApartDamper, CoilSprung
-from ..corner.corner import Array, CarrierMotion, Plane
+from ..corner.corner import CarrierMotion, Plane
 from ..corner.drawing import Axis, Drawing
 from ..corner.facts import Names
 from ..corner.structure import (

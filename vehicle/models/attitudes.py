@@ -13,9 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...systems.system import System
-
-Array = NDArray[np.float64]
 
 
 class Attitudes(NamedTuple):

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.columns import BatchMask, BatchNumber, stacked
+from ...core.named_types import Array
 from ...core.physical import impossible
 from ...systems.allowed import LengthLimit
 from ..corner.geometry import problems_of_sections
@@ -22,8 +23,6 @@ from ..input.section import Section
 from ..kinds import Suspension
 from .corner_equations import equations_of
 from .model import Model
-
-Array = NDArray[np.float64]
 
 _COMPONENTS = {"x": 0, "y": 1, "z": 2}
 # Values with the opposite sign in the mirror image, by section and the end of the place.

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...core.vectors import angle_between_lines
 from ..input.bodies import RigidBody, WheelBody
 from ..input.spring import SEATS
@@ -20,8 +20,6 @@ from ..input.spring_table import ends_of_table, rate_at
 from ..input.vehicle import TyreSection, WheelSection
 from ..kinds import Suspension
 from .typical import typical_ranges
-
-Array = NDArray[np.float64]
 
 # Frequency of wheel hop of passenger cars [Hz]: TRL Report SR12 UC, vehicles over discontinuities
 # of the road.

@@ -3,15 +3,12 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.columns import spread
-from ...core.named_types import ArrayLike
+from ...core.named_types import Array, ArrayLike
 from ...core.validator import Validator
 from ...core.vectors import cross, turned
 from .model import Model
-
-Array = NDArray[np.float64]
 
 
 def hardpoints(

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import InputError
-from ...core.named_types import ArrayLike
+from ...core.named_types import Array, ArrayLike
 from ...core.validator import Validator
 from ...systems.state import State
 from ..input.vehicle import TyreSection
@@ -39,7 +39,6 @@ __all__ = [
     "travel_range",
 ]
 
-Array = NDArray[np.float64]
 
 # Newton's method needs five steps if the height is smooth; after this number every other step
 # halves the bracket, which is two degrees at first.

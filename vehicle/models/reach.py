@@ -15,14 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import KintrafoError
-from ...core.named_types import ArrayLike
+from ...core.named_types import Array, ArrayLike
 from ...core.validator import Validator
 from ...systems.system import System
 from .attitudes import Attitudes, attitudes_at, iterates
 from .model import Model
 from .swing import GOAL, UNRESOLVED, PlacesAlong, march, margins_stay, resolved
-
-Array = NDArray[np.float64]
 
 # Step of the evaluated arm angles [rad], up to a right angle from design.
 ARM_STEP = np.deg2rad(2.0)

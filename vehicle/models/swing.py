@@ -18,9 +18,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from .attitudes import Attitudes
-
-Array = NDArray[np.float64]
 
 GOAL, UNRESOLVED = -2, -3
 """The ends of a march besides a limit: the goal, and steps that have become too small."""

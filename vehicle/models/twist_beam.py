@@ -7,12 +7,12 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 from pydantic import Field
 
+from ...core.named_types import Array
 from ...core.validator import Validator
 from ...core.vectors import components
 from ...generated import twist_beam as equations
 from ..corner.bushes import Bush, Bushings, bushes_of
 from ..corner.coil_sprung import ApartDamper
-from ..corner.corner import Array
 from ..corner.structure import (
     FixedJoint,
     PartJoint,

@@ -12,12 +12,12 @@ import numpy as np
 from pydantic import ValidationError
 
 from ...core.errors import InputError
+from ...core.named_types import Array
 from ...core.validator import Validator
 from ...core.vectors import components
 from ...systems.allowed import LengthLimit
 from ...systems.compile.build import require_generator
 from ..corner.bushes import Bush
-from ..corner.corner import Array
 from ..corner.structure import FORCES_OF_A_DAMPER, LineForce, Structure
 from ..corner.wheeled import WheeledSection
 from ..data import data_sets

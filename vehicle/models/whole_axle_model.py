@@ -10,11 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import InputError
-from ...core.named_types import ArrayLike
+from ...core.named_types import Array, ArrayLike
 from ...core.validator import Validator, shown
 from ...systems.allowed import LengthLimit
 from ...systems.system import System
-from ..corner.corner import Array
 from ..corner.wheel_loads import with_wheel_loads
 from .attitudes import attitudes
 from .reach import PositionError

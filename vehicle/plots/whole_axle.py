@@ -7,8 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Ellipse, Rectangle
 
+from ...core.named_types import Array
 from ...core.validator import Validator
-from ..corner.corner import Array
 from ..models.sides import SIDES
 from ..models.whole_axle import WholeAxle
 

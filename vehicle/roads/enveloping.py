@@ -15,12 +15,10 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
-from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...core.validator import Validator
 from .road import Road, both, check_points, points
-
-Array = NDArray[np.float64]
 
 LENGTH, HEIGHT, ORDER, SHIFT = 1.0, 1.0, 1.8, 0.8
 """Default cams: a and b over the radius of the tyre, c, and l_s over the length of the contact."""

@@ -5,10 +5,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.errors import InputError
 from ...core.legible import legible, short
+from ...core.named_types import Array
 from ...core.optional import require
 from ...core.tables import read_table
 from ...core.validator import Validator
@@ -16,8 +16,6 @@ from .road import Road
 
 if TYPE_CHECKING:
     from ...core.tables import Table
-
-Array = NDArray[np.float64]
 
 _UNITS = {"distance": "m", "left_height": "m", "right_height": "m", "road_height": "m"}
 _WORDS = "distance_m, and left_height_mm with right_height_mm, or road_height_mm"

@@ -3,12 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline
 
+from ...core.named_types import Array, ArrayLike
 from ...core.validator import Validator
-
-Array = NDArray[np.float64]
 
 MOST_POINTS = 4_000_000
 """Number of points that a road has at most: 32 MB a track."""

@@ -18,12 +18,11 @@ import math
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
+from ...core.named_types import Array, ArrayLike
 from ...core.validator import Validator
 from .road import MOST_POINTS, Road
-
-Array = NDArray[np.float64]
 
 REFERENCE = 0.1
 """Spatial frequency n0 of the definition of a class [1/m]."""

@@ -5,10 +5,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...core.named_types import Array
 from ...core.quantities import variable
 from ...core.tabulated import Tabulated, significant
 from ...core.validator import Validator
-from .tyre import Array, Tyre
+from .tyre import Tyre
 
 if TYPE_CHECKING:
     import xarray as xr

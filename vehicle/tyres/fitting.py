@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...core.errors import InputError
+from ...core.named_types import Array
 from ...core.validator import Validator
 from ...formulas.coefficients import keys
 from . import coefficients as known
 from .magic_formula import MagicFormula
 from .measured import Measured, measured
-from .tyre import Array
 
 if TYPE_CHECKING:
     from xarray import Dataset

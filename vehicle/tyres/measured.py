@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...core.errors import InputError
+from ...core.named_types import Array
 from ...core.tables import read_table
 from ...core.validator import Validator
-from .tyre import Array
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.named_types import Array
 from ...core.validator import Validator
 from ...formulas.magic_formula import Contact, Forces
 
 if TYPE_CHECKING:
     from ...generator.declare.contact_laws import ContactLaw
 
-Array = NDArray[np.float64]
 
 USUAL_SPEED = 16.7
 """Speed of a tyre's measurement if its file has none [m/s]."""

@@ -5,7 +5,7 @@ from typing import Any
 import xarray as xr
 
 from ....core.memory import positions_given
-from ....core.named_types import ArrayLike
+from ....core.named_types import Array, ArrayLike
 from ....core.validator import Validator
 from ...assembly.assembly import Assembly
 from ...assembly.by_wheel import axle_coordinate, of_wheels, wheel_coordinate
@@ -14,7 +14,6 @@ from ...assembly.measures.measure import columns
 from ...assembly.of import given_assembly
 from ...assembly.quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
 from ...assembly.rig import SweepRange
-from ...corner.corner import Array
 from ...models.car.car import WHEELS
 from ...models.car.file import ENDS
 from ...models.sides import SIDES

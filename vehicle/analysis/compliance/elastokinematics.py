@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from ....core.memory import positions_given
-from ....core.named_types import ArrayLike
+from ....core.named_types import Array, ArrayLike
 from ....core.quantities import Display, variable
 from ....core.validator import Validator
 from ...assembly import wheel
@@ -16,7 +16,6 @@ from ...assembly.by_wheel import WHEEL, of_wheels, wheel_coordinate
 from ...assembly.of import given_assembly
 from ...assembly.quantity import RACK, STEERING_WHEEL, Quantity
 from ...assembly.rig import SweepRange
-from ...corner.corner import Array
 from ..characteristics.datasets import DATA_SET, KNOWN
 from .equilibrium import LOADS, ElasticEquilibrium, ElasticState
 from .linear import OF_BEAM

@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from ....core.memory import positions_given
-from ....core.named_types import ArrayLike
+from ....core.named_types import Array, ArrayLike
 from ....core.quantities import Display, display_of, variable
 from ....core.validator import Validator
 from ....core.vectors import cross
@@ -18,7 +18,7 @@ from ...assembly.of import given_assembly
 from ...assembly.part_poses import touching, wheel_axes
 from ...assembly.quantity import TRAVEL, Quantity
 from ...corner.bushes import left_out, refuse_rigid
-from ...corner.corner import Array, CarrierMotion, RoadWheel
+from ...corner.corner import CarrierMotion, RoadWheel
 from ...models.sides import SIDES
 from .flexibility import HELD, Side, WheelSupport, flexibility, refuse_without_rate
 from .rig_loads import (

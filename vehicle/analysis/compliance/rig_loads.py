@@ -5,10 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ....core.named_types import Array
 from ....core.quantities import Display
 from ....core.vectors import cross
 from ...assembly.part_poses import CENTER, CONTACT, touching, wheel_axes
-from ...corner.corner import Array, RoadWheel
+from ...corner.corner import RoadWheel
 
 Vector = tuple[float, float, float]
 

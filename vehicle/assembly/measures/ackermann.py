@@ -8,7 +8,8 @@ from typing import Protocol
 
 import numpy as np
 
-from ...corner.corner import Array, Corner
+from ....core.named_types import Array
+from ...corner.corner import Corner
 from ..wheel import steer_gradient
 
 # A smaller mean steer angle is straight ahead [rad].

@@ -5,7 +5,8 @@ Each takes an `AxleKinematics` and returns an array over its positions, SI units
 
 import numpy as np
 
-from ...corner.corner import Array, Corner
+from ....core.named_types import Array
+from ...corner.corner import Corner
 from ...models.sides import LEFT, RIGHT, SENSE
 from .. import wheel
 from ..axle_kinematics import AxleKinematics

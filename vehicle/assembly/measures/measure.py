@@ -4,7 +4,8 @@ from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Se
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
-from ...corner.corner import Array, Corner
+from ....core.named_types import Array
+from ...corner.corner import Corner
 from ..quantity import Quantity
 from .quantities import QUANTITIES
 

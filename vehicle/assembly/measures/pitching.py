@@ -9,7 +9,8 @@ if the carrier reacts the torque; it is the wheel centre if a shaft leads the to
 from collections.abc import Sequence
 from typing import Protocol
 
-from ...corner.corner import Array, Vehicle
+from ....core.named_types import Array
+from ...corner.corner import Vehicle
 from ...models.axle import Axle
 from ...models.rigid_axle.axle import RigidAxle
 

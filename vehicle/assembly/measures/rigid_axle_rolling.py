@@ -5,7 +5,7 @@ Each takes a `RigidAxleKinematics` and returns an array over its positions, SI u
 
 import numpy as np
 
-from ...corner.corner import Array
+from ....core.named_types import Array
 from ...models.rigid_axle.model import HEAVE, ROLL
 from ...models.sides import LEFT, RIGHT, SIDES
 from ..rigid_axle_kinematics import RigidAxleKinematics

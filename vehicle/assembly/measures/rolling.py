@@ -13,7 +13,8 @@ from typing import Protocol
 
 import numpy as np
 
-from ...corner.corner import Array, Vehicle
+from ....core.named_types import Array
+from ...corner.corner import Vehicle
 from ...models.sides import LEFT, RIGHT, SIDES
 
 

@@ -9,7 +9,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...corner.corner import Array, CarrierMotion, RoadWheel
+from ....core.named_types import Array
+from ...corner.corner import CarrierMotion, RoadWheel
 from ...models.sides import SENSE, SIDES
 from .. import wheel
 from ..whole_axle_kinematics import WholeAxleKinematics

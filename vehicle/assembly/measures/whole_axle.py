@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from functools import partial
 
-from ...corner.corner import Array
+from ....core.named_types import Array
 from ...models.sides import SENSE, SIDES
 from ..whole_axle_kinematics import WholeAxleKinematics
 from . import rolling

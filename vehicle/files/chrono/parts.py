@@ -5,14 +5,13 @@ from decimal import Decimal
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 
+from ....core.named_types import Array
 from ....core.vectors import cross
 from ...input.bodies import impossible_inertia
 from .keys import Part
 
-Array = NDArray[np.float64]
 # strict: neither a text nor true is a number
 Finite = Annotated[float, Field(allow_inf_nan=False, strict=True)]
 Point = tuple[Finite, Finite, Finite]

@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ....core.errors import InputError
+from ....core.named_types import Array
 from ....core.validator import Validator
 from ...input.commented_json import content
 from ...models.car import Car
@@ -38,7 +38,6 @@ from .vehicle_parts import (
     rounded,
 )
 
-Array = NDArray[np.float64]
 Kind = TypeVar("Kind", bound=Part)
 
 ENDS = ("front", "rear")

@@ -6,14 +6,13 @@ Points are in the axes of each part, whose position and orientation are in the v
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 
+from ....core.named_types import Array
 from ...input.bodies import impossible_inertia
 from .keys import Part
 from .parts import Finite, Point, elements, millimetres
 
-Array = NDArray[np.float64]
 _Quaternion = tuple[Finite, Finite, Finite, Finite]
 _Positive = Annotated[Finite, Field(gt=0.0)]
 

@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Any, ClassVar, Self
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import ValidationError
 
 from ....core.errors import InputError
+from ....core.named_types import Array
 from ....core.suggestions import suggestion
 from ....core.validator import Validator
 from ....core.vectors import components, unit_vector
@@ -29,8 +29,6 @@ from ..sides import LEFT, RIGHT
 from .bar import AntiRollBar, HalfBar, mirrored_points
 from .file import SECTIONS_OF_SIDES, AxleFile, Brakes, Drive, End
 from .steering import SteeringCurve
-
-Array = NDArray[np.float64]
 
 # Bodies to which a drop link cannot be joined.
 _NEVER_PULLED = ("tie_rod", "rack")

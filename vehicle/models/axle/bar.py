@@ -15,15 +15,13 @@ from math import pi
 from typing import Annotated, Any, get_args
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 
+from ....core.named_types import Array
 from ....core.vectors import angle_between_lines, cross, distance_from_line, unit_vector
 from ...input.hardpoints import SMALLEST_DISTANCE
 from ...input.section import AllowedRange, NonNegative, Number, Section, Triple
 from ...input.units import LengthUnit, in_metres, point_in_metres
-
-Array = NDArray[np.float64]
 
 # Least angle of a drop link to the x axis, at which its universal joint is singular [deg].
 _SMALLEST_CROSS_ANGLE = 1.0

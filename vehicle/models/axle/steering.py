@@ -4,17 +4,16 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 
 from ....core.errors import InputError
+from ....core.named_types import Array
 from ...input.curve import LEAST_GAP, Numbers
 from ...input.section import Section
 
 if TYPE_CHECKING:
     from scipy.interpolate import PchipInterpolator
 
-Array = NDArray[np.float64]
 
 _LEAST_POINTS = 2
 

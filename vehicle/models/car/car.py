@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Any, Self
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import ValidationError
 
 from ....core.errors import InputError
+from ....core.named_types import Array
 from ....core.validator import Validator, shown
 from ...data import data_sets
 from ...data.starter import AXLE, AXLES, CAR, CARS, WHOLE_AXLES, whole_axle_in, whole_axles
@@ -27,8 +27,6 @@ from ..sides import SIDES
 from ..whole_axle import WholeAxle, whole_axle_class
 from .driving import named, tyre_of
 from .file import COORDINATES, ENDS, OF_DRIVING, CarFile
-
-Array = NDArray[np.float64]
 
 AnyAxle = Axle | WholeAxle
 

@@ -7,11 +7,11 @@ from typing import Any, ClassVar
 import numpy as np
 from pydantic import Field
 
+from ....core.named_types import Array
 from ....core.validator import Validator
 from ....core.vectors import components, unit_vector
 from ...corner.bushes import Bush, Bushings, bushes_of
 from ...corner.coil_sprung import ApartDamper
-from ...corner.corner import Array
 from ...corner.structure import Structure
 from ...input.spring import SpringSection
 from ...input.stop import StopSection

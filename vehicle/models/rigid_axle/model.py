@@ -8,9 +8,9 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ....core.errors import InputError
+from ....core.named_types import Array
 from ....core.validator import Validator
 from ....generated import rigid_axle as equations
-from ...corner.corner import Array
 from ..whole_axle_model import WholeAxleModel
 from .axle import RigidAxle
 

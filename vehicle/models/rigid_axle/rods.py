@@ -10,11 +10,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ....core.named_types import Array
 from ....core.vectors import cross, unit_vector
 
-Array = NDArray[np.float64]
 Ends = tuple[Array, Array]
 """The ends of a rod at design: on the chassis, on the axle [m]."""
 
