@@ -42,12 +42,12 @@ def rows(steps: tuple[float, ...]) -> Iterator[tuple[str, ...]]:
             yield shown, "refused", "", f"{float(longest) * 1e3:g} ms at most", "", "", ""
             continue
         stepped = min(
-            seconds_of(lambda stepper=stepper: [stepper.step() for _ in range(1000)])  # type: ignore[misc]
+            seconds_of(lambda stepper=stepper: [stepper.step() for _ in range(1000)])
             for _ in range(REPEATS)
         )
         taken = min(
             seconds_of(
-                lambda step=step: simulate(  # type: ignore[misc]
+                lambda step=step: simulate(
                     model, (0.0, 20.0), start, method="RK4", step=step, t_eval=[20.0]
                 )
             )

@@ -8,4 +8,4 @@ timed.
 import sys
 
 # Exudyn reads this at its import: the module without range checks.
-sys.exudynFast = True  # type: ignore[attr-defined]  # no attribute of the standard library
+sys.exudynFast = True

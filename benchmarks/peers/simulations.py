@@ -147,13 +147,12 @@ def _cvodes(model: Any, options: dict[str, Any]) -> Callable[[float], Run]:
 def exudyn() -> Iterator[Simulator]:
     """Yield Exudyn's generalised-alpha method, directly and with Richardson's extrapolation."""
     from . import exudyn_model as peer  # noqa: PLC0415  # may not be installed
-    from .exudyn_system import Setting  # noqa: PLC0415  # may not be installed
 
-    def direct(setting: Setting) -> Run:
+    def direct(setting: Any) -> Run:
         system = peer.Exudyn(instant(start()))
         return lambda: system.run(setting)
 
-    def extrapolated(setting: Setting) -> Run:
+    def extrapolated(setting: Any) -> Run:
         system = peer.Exudyn(instant(start()))
         return lambda: peer.extrapolated(system, setting)
 
@@ -164,7 +163,7 @@ def exudyn() -> Iterator[Simulator]:
             ((6000, 8000, 10000, 12000), "", direct),
             ((800, 1000, 1200, 1600), ", extrapolated", extrapolated),
         ):
-            settings = tuple(Setting(count, radius, modified) for count in steps)
+            settings = tuple(peer.Setting(count, radius, modified) for count in steps)
             yield Simulator(name + ending, settings, prepare)
 
 

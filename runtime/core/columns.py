@@ -99,7 +99,7 @@ class BatchNumber:
     __ge__ = _comparison(np.greater_equal)
     __eq__ = _comparison(np.equal)
     __ne__ = _comparison(np.not_equal)
-    __hash__ = None  # type: ignore[assignment] # some members may be equal, others not
+    __hash__: Any = None  # not hashable: some members may be equal, others not
 
     def __neg__(self) -> "BatchNumber":
         return self.of(-self.values)

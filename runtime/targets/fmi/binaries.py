@@ -13,7 +13,6 @@ from importlib.util import find_spec
 from pathlib import Path
 from sysconfig import get_config_var
 
-from ... import generated
 from ...systems.compile.cache import appearing, cache_folder, damage, seal
 from ...systems.compile.compiler import FLAGS, Compiler, CompilerError, find_compiler
 from .files import digest, filled, token_of
@@ -60,7 +59,7 @@ def shipped(sources: Mapping[str, str], name: str) -> bytes | None:
 
     The result is None if there is none, or one from other sources.
     """
-    file = files(generated) / f"_{name}_fmu{get_config_var('EXT_SUFFIX')}"
+    file = files("kintrafo.generated") / f"_{name}_fmu{get_config_var('EXT_SUFFIX')}"
     if not file.is_file():
         return None
     content = file.read_bytes()
