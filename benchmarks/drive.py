@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import platform
-import resource
 import time
 from functools import partial
 from itertools import chain
@@ -22,7 +21,7 @@ from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.models.car.equations import CarModel, declared
 
 from .motions import REPEATED, Motion, by_methods, in_lanes, processor_seconds
-from .report import fill_page
+from .report import children_seconds, fill_page
 
 PAGE = Path(__file__).parent.parent / "docs/suspension/handling.md"
 CAR = "driving_car"
@@ -64,9 +63,9 @@ def _made() -> list[str]:
     with TemporaryDirectory() as folder:
         own = Path(folder) / derived.formulation.name
         own.mkdir()
-        begun, compiled = time.process_time(), _of_children()
+        begun, compiled = time.process_time(), children_seconds()
         build(derived, own, find_compiler())
-        writing, compiling = time.process_time() - begun, _of_children() - compiled
+        writing, compiling = time.process_time() - begun, children_seconds() - compiled
     rows = ["| equations of the driving car | operations of a call |", "|---|---:|"]
     rows += [
         f"| {words} | {operations_of(derived.emitted[name]).total():,} |"
@@ -75,11 +74,6 @@ def _made() -> list[str]:
     took = ("deriving", deriving), ("writing", writing), ("compiling", compiling)
     words = ", ".join(f"{what} {seconds:.0f} s" for what, seconds in took)
     return [*rows, "", f"Processor time of the derivation, once: {words}."]
-
-
-def _of_children() -> float:
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
 
 
 def _swung(model: CarModel) -> Motion:

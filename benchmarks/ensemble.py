@@ -9,7 +9,6 @@ integrator mapped over threads, Exudyn's variation of parameters in processes, a
 
 import ctypes
 import importlib.util
-import os
 import shutil
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -34,6 +33,7 @@ from rich.markdown import Markdown
 
 from .lanes_arithmetic import least_seconds, operations
 from .report import (
+    children_seconds,
     count,
     environment,
     fill_page,
@@ -257,7 +257,7 @@ def timed(
 
 def processor_time() -> float:
     """Return how long all cores have worked for this process and those that it has ended [s]."""
-    return time.process_time() + sum(os.times()[2:4])
+    return time.process_time() + children_seconds()
 
 
 def rates(sizes: tuple[int, ...], report: Callable[[str], None]) -> Iterator[Rate]:

@@ -30,7 +30,7 @@ from rich.console import Console
 from rich.markdown import Markdown
 
 from .jax_states import nanoseconds
-from .report import environment, fill_page, machine_line, markdown_table
+from .report import children_seconds, environment, fill_page, machine_line, markdown_table
 
 CAR = "reference_car"
 DRIVER = Path(__file__).with_name("export_steps.c")
@@ -46,9 +46,9 @@ def written(folder: Path) -> dict[int, tuple[float, float, int]]:
     for version in VERSIONS:
         path = folder / f"fmi{version}.fmu"
         command = [sys.executable, "-m", "kintrafo", "export", CAR, "--to", "fmu", "-o", str(path)]
-        begin = _of_children()
+        begin = children_seconds()
         subprocess.run([*command, "--fmi", str(version)], check=True, stdout=subprocess.DEVNULL)
-        alone = _of_children() - begin
+        alone = children_seconds() - begin
         start = equilibrium(model)
         before = time.process_time()
         export_model(model, path, "fmu", fmi=version, state=start)
@@ -58,19 +58,14 @@ def written(folder: Path) -> dict[int, tuple[float, float, int]]:
     return found
 
 
-def _of_children() -> float:
-    """Return the processor time of processes that have ended [s]."""
-    return sum(os.times()[2:4])
-
-
 def with_windows(folder: Path) -> str:
     """Return size and time of an FMU with both libraries, if there is a compiler for Windows."""
-    path, begin = folder / "both.fmu", _of_children()
+    path, begin = folder / "both.fmu", children_seconds()
     try:
         export_model(Model(CAR), path, "fmu", platforms=["linux", "windows"])
     except CompilerError as error:
         return f"No library for Windows: {error}"
-    size, taken = path.stat().st_size / 1e3, _of_children() - begin
+    size, taken = path.stat().st_size / 1e3, children_seconds() - begin
     return (
         f"With libraries for Linux and Windows an FMU has {size:.0f} kB; the compiler takes "
         f"{taken:.1f} s for that of Windows."

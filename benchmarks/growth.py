@@ -12,7 +12,6 @@ All rockers of the chain stay parallel, so that it is a pendulum whatever N is; 
 run is that against the pendulum's own equation.
 """
 
-import resource
 import shutil
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
@@ -44,6 +43,7 @@ from sympy.core.cache import clear_cache
 
 from . import large
 from .report import (
+    children_seconds,
     count,
     environment,
     fill_page,
@@ -115,9 +115,9 @@ def measure(loops: int, compiler: Compiler, rounds: int, advance: Callable[[str]
     with TemporaryDirectory() as folder:
         package = Path(folder) / f"{model.name}-growth"
         package.mkdir()
-        before = _children()
+        before = children_seconds()
         build(derived, package, compiler)
-        compiling = _children() - before
+        compiling = children_seconds() - before
         module = load(package)
     advance(f"N = {loops}: running")
     system = System(module, hanging(model))
@@ -142,12 +142,6 @@ def measure(loops: int, compiler: Compiler, rounds: int, advance: Callable[[str]
         run=run.least,
         error=abs(runs[0].y[0, -1] - pendulum(loops)),
     )
-
-
-def _children() -> float:
-    """Return the processor time of all programs that this one has started and that have ended."""
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
 
 
 def _simulated(system: System, start: Array) -> Any:

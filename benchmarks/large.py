@@ -4,7 +4,6 @@ Part of ``python -m benchmarks.growth``. The Jacobian is held against difference
 right-hand side, with an error that follows from their steps.
 """
 
-import resource
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -20,7 +19,7 @@ from kintrafo.systems.compile.compiler import Compiler
 from kintrafo.systems.compile.loader import load
 from sympy.core.cache import clear_cache
 
-from .report import count, markdown_table, power, seconds_of, timing_of
+from .report import children_seconds, count, markdown_table, power, seconds_of, timing_of
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
@@ -67,7 +66,7 @@ def measure(model: Formulation, compiler: Compiler, rounds: int, reach: float) -
     """
     clear_cache()
     found: list[Any] = []
-    children = _children()
+    children = children_seconds()
     derive = seconds_of(lambda: found.append(generate(model)))
     (derived,) = found
     with TemporaryDirectory() as folder:
@@ -75,7 +74,7 @@ def measure(model: Formulation, compiler: Compiler, rounds: int, reach: float) -
         package.mkdir()
         write = seconds_of(lambda: build(derived, package, compiler))
         module = load(package)
-        compiling = _children() - children
+        compiling = children_seconds() - children
     system, random = System(module), np.random.default_rng(0)
     states = system.design_state + random.uniform(-reach, reach, (BATCH, len(module.STATE)))
     calls = {
@@ -113,12 +112,6 @@ def _error(module: Any, system: System, state: Array) -> float:
     ) / (840.0 * STEP)
     jacobian = np.asarray(module.rhs_jacobian(state, None, system.constants))
     return float(np.abs(jacobian - columns.T).max() / np.abs(jacobian).max())
-
-
-def _children() -> float:
-    """Return the processor time of all programs that this one has started and that have ended."""
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
 
 
 def table(large: Large) -> str:

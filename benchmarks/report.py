@@ -4,6 +4,7 @@ import json
 import os
 import platform
 import re
+import resource
 import shlex
 import statistics
 import subprocess
@@ -62,6 +63,12 @@ def seconds_of(call: Callable[[], object]) -> float:
     before = time.thread_time()
     call()
     return time.thread_time() - before
+
+
+def children_seconds() -> float:
+    """Return the processor time of all ended programs that this one has started [s]."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 @contextmanager

@@ -156,7 +156,7 @@ def _listed(some: Paths) -> list[str | Path]:
     try:
         return list(some)
     except TypeError:
-        return [some]  # type: ignore[list-item]
+        return [some]  # type: ignore[list-item]  # refused by its type
 
 
 def _resolved(path: Path) -> Path:

@@ -32,7 +32,7 @@ def write(frames: Mapping[str, Any], path: Path) -> None:
     """
     require("openpyxl", purpose="Writing Excel files", extra="excel")
     from openpyxl import Workbook  # noqa: PLC0415 (an extra)
-    from openpyxl.writer.excel import ExcelWriter  # noqa: PLC0415
+    from openpyxl.writer.excel import ExcelWriter  # noqa: PLC0415 (an extra)
 
     for name, frame in frames.items():
         _check(name, *frame.shape)
@@ -56,8 +56,8 @@ def _check(name: str, rows: int, columns: int) -> None:
 
 def _fill(sheet: Any, frame: Any) -> None:
     from openpyxl.cell import WriteOnlyCell  # noqa: PLC0415 (an extra)
-    from openpyxl.styles import Font  # noqa: PLC0415
-    from openpyxl.utils import get_column_letter  # noqa: PLC0415
+    from openpyxl.styles import Font  # noqa: PLC0415 (an extra)
+    from openpyxl.utils import get_column_letter  # noqa: PLC0415 (an extra)
 
     bold = Font(bold=True)
 

@@ -61,7 +61,7 @@ def save_frames(
         draw(index)
         canvas.draw()  # type: ignore[no-untyped-call] # Matplotlib declares none
         figure.set_layout_engine("none")  # every frame has the layout of the first
-        pixels = canvas.buffer_rgba()  # type: ignore[no-untyped-call]
+        pixels = canvas.buffer_rgba()  # type: ignore[no-untyped-call] # likewise
         shown = Image.fromarray(np.asarray(pixels)).convert("RGB")
         palette = palette or _palette(shown)
         frames.append(shown.quantize(palette=palette, dither=Image.Dither.NONE))

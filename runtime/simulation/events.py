@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, cast
+from typing import Any, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,6 +41,7 @@ class SignalEvent:
 
 EventFunction = Callable[..., float]
 Event = TypeAliasType("Event", str | SignalEvent | EventFunction)
+_Kind = TypeVar("_Kind", SignalEvent, "_CheckedFunction")
 
 _MOST_CROSSINGS = 2**31 - 1
 
@@ -85,12 +86,12 @@ class Events:
         """Return the remaining events after each has occurred a number of times."""
         if not any(passed):
             return self
-        left = [
-            replace(event, terminal=int(event.terminal) - times if event.terminal else 0)
-            for event, times in zip(self._all, passed, strict=True)
-        ]
         count = len(self.signal)
-        return Events(tuple(left[:count]), tuple(left[count:]), self.order)  # type: ignore[arg-type]
+        signal, functions = (
+            _after(self.signal, passed[:count]),
+            _after(self.functions, passed[count:]),
+        )
+        return Events(signal, functions, self.order)
 
 
 NO_EVENTS = Events((), (), ())
@@ -153,6 +154,14 @@ def events_of(model: System, given: Event | Sequence[Event] | None) -> Events:
             raise InputError([problem], "events")
     order = tuple(i for i, _ in (*signal, *functions))
     return Events(tuple(e for _, e in signal), tuple(f for _, f in functions), order)
+
+
+def _after(events: tuple[_Kind, ...], passed: Sequence[int]) -> tuple[_Kind, ...]:
+    """Return events of one kind after each has occurred a number of times."""
+    return tuple(
+        replace(event, terminal=int(event.terminal) - times if event.terminal else 0)
+        for event, times in zip(events, passed, strict=True)
+    )
 
 
 def _checked(model: System, event: SignalEvent) -> SignalEvent:

@@ -37,6 +37,7 @@ def check(library: str, path: Path) -> None:
 
 def write_casadi(emitted: Emitted, path: Path, *, force: bool, read: Paths) -> Path:
     """Write functions of CasADi; see `_write`."""
+    _refuse_iterations("casadi", emitted)
     return _write("casadi", emitted, path, force=force, read=read)
 
 
@@ -56,7 +57,6 @@ def write_jax(emitted: Emitted, path: Path, *, force: bool, read: Paths) -> Path
 
 def _write(library: str, emitted: Emitted, path: Path, *, force: bool, read: Paths) -> Path:
     """Write a module with the template, and by the back end, of a library; see `export_model`."""
-    _refuse_iterations(library, emitted)
     from ..generator.backends.casadi.dialect import CASADI  # noqa: PLC0415 (an extra)
     from ..generator.backends.jax.dialect import JAX  # noqa: PLC0415 (an extra)
 
@@ -83,7 +83,7 @@ def _refuse_iterations(library: str, emitted: Emitted) -> None:
 def _facts(emitted: Emitted, derived: "Derivation", dialect: "Dialect") -> Mapping[str, Any]:
     """Return the data of the templates."""
     from ..generator.backends.arrays import differentiable, exported  # noqa: PLC0415 (an extra)
-    from ..generator.program.floors import ROUNDING  # noqa: PLC0415
+    from ..generator.program.floors import ROUNDING  # noqa: PLC0415 (an extra)
 
     system, manifest = emitted.system, emitted.manifest
     conditions = [f"{entry['meaning']}: {entry['remedy']}" for entry in manifest["assumptions"]]
