@@ -111,7 +111,7 @@ def table(found: list[Pair], cars: int) -> str:
 
 
 def sentence(found: list[Pair], cars: int, started: float) -> str:
-    """Say in words what workers cost."""
+    """Return a sentence about the cost of workers."""
     by_clock = [pair.workers.clock / pair.threads.clock for pair in found]
     of_cores = [pair.workers.cores / pair.threads.cores for pair in found]
     return (

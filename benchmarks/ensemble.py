@@ -169,7 +169,7 @@ def _spread(values: Array, width: int) -> Array:
 
 
 def bound(found: Sequence[Call], times: int) -> str:
-    """Say what the arithmetic of a right-hand side takes in the widest lanes."""
+    """Return the time of the arithmetic of a right-hand side in the widest lanes, as a text."""
     widest, name = found[-1], car().equations.NAME
     package = car().equations.__name__.rpartition(".")[0]
     file = Path(str(import_module(f"{package}._{name}_lanes").__file__))
@@ -303,7 +303,7 @@ def beside(most: int, report: Callable[[str], None]) -> Iterator[Rate]:
 
 
 def iterating(most: int) -> str:
-    """Say what a car on five links takes, whose loops iterate."""
+    """Return the time of a car on five links, whose loops iterate, as a text."""
     model = Model("multi_link_car")
     height = float(model.signal("wheel_center_z", model.design_state))
     begin = state_at_height(model, height - 0.010)
@@ -399,7 +399,7 @@ def table_of_others(found: list[Rate]) -> str:
 
 
 def _beside() -> str:
-    """Say which other tools there are, and how much else the machine had to do."""
+    """Return the versions of the other tools and the load of the machine, as a text."""
     there = [name for name in OTHERS if importlib.util.find_spec(name)]
     versions = ", ".join(f"{name} {metadata.version(name)}" for name in there)
     return f"{versions}. {load()}"
@@ -412,7 +412,7 @@ def _rounded(number: float, digits: int = 3) -> str:
 
 
 def sentence(found: list[Rate]) -> str:
-    """Say what a car costs in the cheapest way."""
+    """Return the least time of a car, as a text."""
     best, loop = min(found, key=_of_a_core), found[0]
     cost, before = _of_a_core(best), _of_a_core(loop)
     return (
@@ -423,7 +423,7 @@ def sentence(found: list[Rate]) -> str:
 
 
 def share(costs: Sequence[Call], found: list[Rate]) -> str:
-    """Say how much of a car is its right-hand sides."""
+    """Return the part of the right-hand sides in the time of a car, as a text."""
     best = min(found, key=_of_a_core)
     tolerance = float(best.setting)
     options = {"rtol": tolerance, "atol": tolerance, "t_eval": SAMPLES}

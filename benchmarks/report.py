@@ -146,7 +146,7 @@ def count(number: float) -> str:
 
 
 def load() -> str:
-    """Say how much the machine has to do."""
+    """Return the load of the machine, as a sentence."""
     return f"Load average of the {usual_threads()} cores: {os.getloadavg()[0]:.0f}."
 
 

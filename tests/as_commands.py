@@ -22,7 +22,7 @@ ROOT = Path(__file__).parents[1]
 
 
 def run_module(name: str, *arguments: object) -> None:
-    """Run a module in the folder of the repository, and see that it ends well.
+    """Run a module in the folder of the repository, and assert that its exit code is zero.
 
     Parameters
     ----------

@@ -77,7 +77,7 @@ class Fmu:
 
 
 class Instance:
-    """An instance, with all that it says."""
+    """An instance with its messages."""
 
     def __init__(
         self, fmu: Fmu, kind: str, *, token: str | None = None, logging: bool = False

@@ -1,4 +1,4 @@
-"""A force that does what a function says, on an arm and a rod."""
+"""A force with the law of a function, on an arm and a rod."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ FOLLOWER = g.Revolute(
 
 @dataclass(frozen=True)
 class Own(Force):
-    """A force that does what a function says."""
+    """A force with the law of a function."""
 
     does: Callable[[Any], Any] = field(hash=False, compare=False)
     shows: Callable[[Any, Any], Any] | None = field(default=None, hash=False, compare=False)

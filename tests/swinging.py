@@ -85,7 +85,7 @@ def some_cars(random: Random, count: int) -> list[Suspension]:
 
 @dataclass(frozen=True)
 class Asked:
-    """What a model says of its range, and angles at which it has heights within."""
+    """The range of heights of a model, and angles at which its heights are within that range."""
 
     model: Model
     reach: AngleRange

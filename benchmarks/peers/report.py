@@ -122,7 +122,7 @@ def _fastest(seconds: list[Second]) -> dict[str, Second]:
 
 
 def _times_as_fast(seconds: list[Second]) -> str:
-    """Say how `simulate`, and its solver alone, compare with the best that CasADi has."""
+    """Return a comparison of `simulate`, and of its solver alone, with the best of CasADi."""
     fastest = _fastest(seconds)
     theirs = fastest.get("CasADi CVODES tuned jit")
     solver = fastest.get("kintrafo's solver alone")

@@ -171,7 +171,7 @@ def degrees(angle: Any) -> Any:
 
 
 def length(vector: Any) -> Any:
-    """Return the length of a vector; of floats that of `numpy.linalg.norm`."""
+    """Return the length of a vector; for floats by `numpy.linalg.norm`."""
     if _of_a_batch(vector) is None:
         return float(np.linalg.norm(vector))
     square: Any = sum(component * component for component in vector)

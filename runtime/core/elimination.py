@@ -22,8 +22,8 @@ Entries = Mapping[tuple[int, int], Array]
 # A pivot is at least this part of the largest entry of its column (the usual threshold of Duff,
 # Erisman & Reid).
 _THRESHOLD = 0.1
-# Largest residual, relative to the largest sum of magnitudes of the terms of an equation: with
-# pivots of its own for each position it is some 1e-16 for each of some tens of unknowns.
+# Largest residual, relative to the largest sum of magnitudes of the terms of an equation: some
+# 1e-16 for each of some tens of unknowns, if the pivots are chosen for each position.
 _LEFT = 1e-13
 
 

@@ -101,7 +101,7 @@ class Again:
 
 
 def _row(rows: Array, place: int) -> Array:
-    """Return the row of a system, or the only row, which is that of all."""
+    """Return the row of a system, or the only row, which all systems share."""
     row: Array = rows[place if len(rows) > 1 else 0]
     return row
 

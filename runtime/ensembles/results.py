@@ -96,7 +96,7 @@ def _message(done: NDArray[np.bool_], passed: NDArray[np.bool_]) -> str:
 
 
 def _reasons(model: System, variants: Variants, collected: Collected) -> NDArray[np.object_]:
-    """Return why systems did not reach the end; empty texts for those that did."""
+    """Return the reasons of systems that did not reach the end; empty texts for the others."""
     outcome = collected.problem.outcome
     max_steps = collected.problem.accuracy.max_steps
     reasons = np.full(outcome.ends.size, "", dtype=object)

@@ -17,7 +17,7 @@ _OTHERS, _OF_COLUMN, _OF_STATE = 12, 4, 2
 
 @dataclass(frozen=True)
 class Room:
-    """The memory of results, which comes on top of the variants.
+    """The memory of results, in addition to that of the variants.
 
     Attributes
     ----------

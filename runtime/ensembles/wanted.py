@@ -92,7 +92,7 @@ class OutputSpec:
 
     @property
     def items(self) -> tuple[str, ...]:
-        """All signals that are evaluated, beginning with those of which whole series are needed."""
+        """All signals that are evaluated, beginning with the `sampled` ones."""
         return tuple(dict.fromkeys([*self.sampled, *(r.signal for r in self.reduced)]))
 
     @property
@@ -102,7 +102,7 @@ class OutputSpec:
 
     @property
     def sampled(self) -> tuple[str, ...]:
-        """Signals of which whole series are needed, beginning with those that are kept."""
+        """Signals whose whole series are needed, beginning with those of the results."""
         return tuple(dict.fromkeys([*self.signals, *(r.signal for r in self.of_series)]))
 
     @property

@@ -27,8 +27,8 @@ _SHORTEST = 1e-20
 # Calls are at irregular times, so that no periodic function looks like a constant: multiples of
 # the golden section leave no gaps.
 _GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
-# A velocity jumps if it changes by this part of its range between knots whose distance is at most
-# this part of that of calls.
+# A velocity jumps if it changes by this part of its range between two knots, and these are closer
+# than this part of the distance of calls.
 _JUMP, _CLOSE = 0.1, 0.01
 
 
@@ -114,7 +114,7 @@ def _followed(
                 "jumps there, give samples (times, values) with the time of the jump twice."
             )
         knot[(at[:-1] + at[1:])[failed] // 2] = True
-        # between any two knots there is a value that tests the curve
+        # a value between any two knots tests the curve
         at = np.flatnonzero(knot)
         bare = at[:-1][np.diff(at) == 1]
         between = times[bare] + _GOLDEN * (times[bare + 1] - times[bare])

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Values = float | NDArray[np.float64]
-"""A number of one system, or an array with that of each of many."""
+"""A number for one system, or an array of numbers for several."""
 
 
 def value_of(level: float | str, parameters: Mapping[str, Values]) -> Values:

@@ -23,7 +23,7 @@ from .trust import (
 _METHODS = {"RK45": RK45, "DOP853": DOP853, "Radau": Radau, "BDF": BDF, "LSODA": LSODA}
 # An integration fails if this number of steps together covers less than this part of the whole
 # time: 1e11 such steps would be needed. That happens close to a dead point, where the error of a
-# step is that of rounding. Steps grow tenfold at most: a first step that is too short costs some
+# step is a rounding error. Steps grow tenfold at most: a first step that is too short costs some
 # tens.
 _LOOKED_AT_EVERY, _NO_GAIN = 1000, 1e-8
 _COUNTS = ("nfev", "njev", "nlu")

@@ -38,7 +38,7 @@ def derived_inputs(inputs: Inputs) -> dict[str, str]:
 def may_jump(rates: int) -> bool:
     """Return whether an input may jump, from the number of its derivatives that equations read.
 
-    An input with an acceleration drives a mass. A rate alone is that of a damper, which a jump
-    passes without an impulse.
+    An input with an acceleration drives a mass. An input with a rate alone acts on a
+    damper, on which a jump has no impulse.
     """
     return rates < 2

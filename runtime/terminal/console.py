@@ -116,7 +116,7 @@ def table(
 
 
 def print_table(tabulated: "Tabulated", *, ruled: bool = True) -> None:
-    """Print a table of texts, narrower if it is not ruled."""
+    """Print a table of texts, with narrower columns if not `ruled`."""
     shown = table(tabulated.title, tabulated.columns, tabulated.rows, tabulated.words)
     if not ruled:
         shown.box, shown.show_edge, shown.padding = SIMPLE_HEAD, False, (0, 1, 0, 0)

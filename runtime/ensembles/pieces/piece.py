@@ -130,7 +130,7 @@ def piece_of(problem: Problem, first: int, last: int) -> Chunk:
     systems = problem.systems
 
     def own(rows: NDArray[Any]) -> NDArray[Any]:
-        """Return the rows of these systems; a single row is that of all."""
+        """Return the rows of these systems; all systems share a single row."""
         return rows if len(rows) == 1 else rows[first:last]
 
     cut = replace(

@@ -157,7 +157,7 @@ def _why_not(error: BaseException) -> str:
 
 
 def _is_guarded() -> bool:
-    """Return whether the script that workers read does nothing where it is not the main program."""
+    """Return whether the script that workers read does nothing unless it is the main program."""
     if getattr(current_process(), "_inheriting", False):  # a worker that is reading it
         return False
     script = getattr(sys.modules.get("__main__"), "__file__", None)

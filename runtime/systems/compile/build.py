@@ -270,7 +270,10 @@ def _operations_of(derived: "Derivation") -> dict[str, int]:
 
 
 def _estimated(sizes: list[int]) -> str:
-    """Return a text about the time to compile files with these operations; empty if it is short."""
+    """Return the estimated time to compile files with these operations as a text.
+
+    It is empty if the time is short.
+    """
     from ...generator.progress import WORTH_REPORTING_S
 
     in_turn = sum(sizes) / min(len(sizes), os.cpu_count() or 1)

@@ -9,8 +9,8 @@ from typing import Any
 class Crossing:
     """A zero crossing that is reported as an event.
 
-    It is that of a signal minus `level`, minus `sign` times a parameter; or that of the margin of a
-    guard.
+    The crossing quantity is a signal minus `level`, minus `sign` times a parameter; or the margin
+    of a guard.
 
     Attributes
     ----------
@@ -18,9 +18,11 @@ class Crossing:
     signal, guard : int
         Index of the signal, or -1 and that of the guard.
     level : float
+        In the SI unit of the signal.
     parameter : int
         Index of the parameter; -1 for none.
     sign : float
+        1 or -1.
     needs : int
         Index of a parameter without which it cannot occur; -1 for none.
     """
