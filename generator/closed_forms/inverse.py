@@ -33,7 +33,7 @@ _TOLERANCE = sp.Rational(1, 10**6)
 class Inverse:
     """The matrix K of a solved position: the product of a matrix and a factor.
 
-    Both come from the iteration, their derivatives are zero.
+    Both come from the iteration; their derivatives are zero.
     """
 
     matrix: Matrix

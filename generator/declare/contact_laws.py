@@ -46,7 +46,7 @@ class RollingState:
     speed
         Vcx [m/s].
     size
-        Its absolute value, smoothed [m/s].
+        Absolute value of Vcx, smoothed near standstill [m/s].
     """
 
     load: sp.Expr

@@ -59,6 +59,8 @@ class Stretch:
 
     Attributes
     ----------
+    program, name
+        Receives the steps of laws; beginning of their names.
     length, velocity
         Distance of the two ends [m] and its rate, positive in rebound [m/s].
     slide
@@ -123,6 +125,7 @@ class AnyLaw(ABC):
 def _with_formula(law: AnyLaw) -> str:
     """Return the name of a law, and its force by the names of its inputs."""
     length, velocity, slide = (sp.Symbol(name) for name in ("length", "velocity", "slide"))
+    # its formula alone, without a program for steps
     force = law.force(Stretch(None, "", length, velocity, slide))  # type: ignore[arg-type]
     return f"{law.meaning} `{force}`"
 

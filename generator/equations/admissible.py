@@ -20,6 +20,7 @@ import sympy as sp
 
 from ..program.factors import solved
 from ..program.floors import NORMAL, POSITIVE
+from ..program.newton import dot
 from .surroundings import Seen
 
 if TYPE_CHECKING:
@@ -161,7 +162,7 @@ class _Normal:
     ) -> _Normal:
         columns = {d: [row.get(d, NONE) for row in rows] for d in names}
         work = {
-            (a, b): program.define(f"normal_{a}_{b}", _dot(columns[a], columns[b]))
+            (a, b): program.define(f"normal_{a}_{b}", dot(columns[a], columns[b]))
             for i, a in enumerate(names)
             for b in names[i:]
         }
@@ -192,11 +193,7 @@ class _Normal:
     def solved(self, label: str, right: Sequence[sp.Expr]) -> dict[str, sp.Expr]:
         """Return the solution of ``A_d x = right``, by the names of the eliminated coordinates."""
         left = {
-            d: self.program.define(f"{label}_{d}", _dot(column, right))
+            d: self.program.define(f"{label}_{d}", dot(column, right))
             for d, column in self.columns.items()
         }
         return solved(self.program, self.factors, left, label, f"{label}_of_{{}}")
-
-
-def _dot(one: Sequence[sp.Expr], other: Sequence[sp.Expr]) -> sp.Expr:
-    return sum((a * b for a, b in zip(one, other, strict=True)), NONE)

@@ -55,8 +55,8 @@ def redundant(mechanism: Mechanism, driven: Collection[str] = ()) -> str:
     named, them = " or ".join(map(_named, found)), "one of them" if len(found) > 1 else "it"
     return (
         f"At the design position with the default parameters it moves as freely without {named}: "
-        "what that holds is held by others already, so it is redundant, and the forces in such a "
-        f"branch are not determined. Leave {them} out"
+        "the other joints prevent the same motions, so that it is redundant, and the forces in "
+        f"such a branch are not determined. Leave {them} out"
     )
 
 

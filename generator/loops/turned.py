@@ -44,8 +44,8 @@ def held_apart(known: Known, driven: Collection[str]) -> str:
         names = ", ".join(waiting)
         return (
             f"The links {', '.join(links)} let {other} move on {one} only without turning, if they "
-            f"are parallel and equally long; but what is solved without {names} may turn it, and "
-            f"then nothing moves. Leave {names} out{_or_else(known, pair, links, driven)}"
+            f"are parallel and equally long; but loops that close without {names} may turn it, "
+            f"and then nothing moves. Leave {names} out{_or_else(known, pair, links, driven)}"
         )
     return ""
 

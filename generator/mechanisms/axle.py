@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from .. import declare as d
 from ..declare.parameters import Owner
 from .pitman_arm import LINKAGE
-from .suspension import RACK_FORCE
+from .suspension import RACK_FORCE, with_tyres_named
 
 SIDES = ("right_", "left_")
 
@@ -46,7 +46,7 @@ def mechanism(
     end
         Name of the tyres: the end of the car.
     """
-    side = _with_tyres_called(end, corner.mechanism)
+    side = with_tyres_named(corner.mechanism, lambda _: end)
     if not pulls:
         return d.combined(name, title, _copies(corner, side, own=own))
     bar = _half_bar(side, pulls)
@@ -115,14 +115,6 @@ def _half_bar(suspension: d.Mechanism, pulls: str) -> _HalfBar:
             ),
         ),
     )
-
-
-def _with_tyres_called(end: str, suspension: d.Mechanism) -> d.Mechanism:
-    forces = tuple(
-        replace(force, name=end) if isinstance(force, d.LinearTyre) else force
-        for force in suspension.forces
-    )
-    return suspension if forces == suspension.forces else replace(suspension, forces=forces)
 
 
 def _with_half_a_bar(suspension: d.Mechanism, bar: _HalfBar) -> d.Mechanism:

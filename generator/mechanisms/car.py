@@ -17,6 +17,7 @@ from ..declare.composition import replaced
 from ..declare.parameters import Owner
 from ..program.vectors import Vector
 from . import axle, macpherson
+from .suspension import bearing_of, with_tyres_named
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -159,23 +160,12 @@ def driving(
         if not isinstance(force, d.LinearTyre):
             forces.append(force)
             continue
-        rolling = _rolling(force, _bearing(of_a_car, force), law(force.name), relaxing=relaxing)
+        bearing = bearing_of(of_a_car, force.wheel)
+        rolling = _rolling(force, bearing, law(force.name), relaxing=relaxing)
         forces += [rolling, _torque(rolling, "brake", brakes_on, chassis, slow)]
         if drive_on is not None:
             forces.append(_torque(rolling, "drive", drive_on, chassis, None))
     return replace(of_a_car, mechanism=replace(of_a_car.mechanism, forces=tuple(forces)))
-
-
-def _bearing(of_a_car: d.Formulation, tyre: d.LinearTyre) -> d.Revolute:
-    """Return the hinge about which a wheel turns on its carrier."""
-    (found,) = (
-        joint
-        for joint in of_a_car.driven
-        if isinstance(joint, d.Revolute)
-        and isinstance(joint.second, d.Rotor)
-        and joint.axis.towards == tyre.wheel.spin
-    )
-    return found
 
 
 def _torque(
@@ -265,13 +255,8 @@ def of_corners(corner: d.Formulation, *, pulls: str = "", steered: bool = True) 
 
 def of_whole_axle(whole: d.Formulation) -> d.Formulation:
     """Return an axle without sides, such as a rigid one, for a car."""
-    forces = tuple(
-        replace(force, name=force.name.replace("axle", _TYRE))
-        if isinstance(force, d.LinearTyre)
-        else force
-        for force in whole.mechanism.forces
-    )
-    return replace(whole, mechanism=replace(whole.mechanism, forces=forces))
+    mechanism = with_tyres_named(whole.mechanism, lambda name: name.replace("axle", _TYRE))
+    return replace(whole, mechanism=mechanism)
 
 
 def with_a_fixed_rack(corner: d.Formulation) -> d.Formulation:

@@ -4,9 +4,9 @@ The relay rod joins both arms by a universal joint at the Pitman arm and a ball 
 arm; the tie rods of both sides are joined to it. With the chassis it is a spatial four-bar linkage,
 closed like an arm that a rod holds, before the suspension's own loops, which stay as they are.
 
-The input is that of a rack, the way of the ball of the Pitman arm along its circle: the guide of
-the rack is the worm nut of a steering gear, which turns the arm. So the force on the rack is the
-moment of the arm over its length. Nothing of this linkage has mass.
+The input is that of a rack: the way of the ball of the Pitman arm along its circle. The guide of
+the rack represents the worm nut of a steering gear, which turns the arm, so that the force on the
+rack is the moment on the arm divided by the arm's length. The linkage has no mass.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ def steered_by_pitman_arm(corner: d.Formulation) -> d.Formulation:
     Parameters
     ----------
     corner
-        Those with a prescribed rack.
+        The equations of the suspension with a prescribed rack.
     """
     (guide,) = corner.prescribed
     source, rack = corner.mechanism, guide.second
@@ -93,7 +93,7 @@ _EVERY = {
     for model in page.MODELS
     if model.prescribed
 }
-_OFTEN = "double_wishbone_general"  # that of the light truck that comes with the project
+_OFTEN = "double_wishbone_general"  # of the light truck that comes with the project
 
 MODELS = (_EVERY[_OFTEN],)
 SELDOM = tuple(model for name, model in _EVERY.items() if name != _OFTEN)

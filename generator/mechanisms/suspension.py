@@ -15,6 +15,8 @@ from ..declare.declared import parts
 from ..declare.parameters import Owner
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from ..declare.laws import Law
 
 RACK_MOTION = d.Motion(
@@ -104,11 +106,9 @@ def spring_and_damper(
 
 def own_values(side: tuple[Any, ...], carrier: d.Body) -> tuple[Owner, ...]:
     """Return the owners of the parameters of one side's parts, without those of its carrier."""
-    return tuple(
-        part
-        for part in dict.fromkeys(parts(side))
-        if isinstance(part, Owner) and part not in parts(carrier)
-    )
+    others = set(parts(carrier))
+    found = dict.fromkeys(parts(side))
+    return tuple(part for part in found if isinstance(part, Owner) and part not in others)
 
 
 def _stop(side: Literal["bump", "rebound"], damper: str, touched: float) -> d.Stop:
@@ -138,6 +138,27 @@ def of_rubber(tyre: d.LinearTyre) -> d.LinearTyre:
 _RADIUS = d.Length("tyre_radius", 0.3, "radius of the wheel, at whose lowest point it loads")
 
 
+def with_tyres_named(mechanism: d.Mechanism, new_name: Callable[[str], str]) -> d.Mechanism:
+    """Return a mechanism with other names of its tyres, each from the present name."""
+    forces = tuple(
+        replace(force, name=new_name(force.name)) if isinstance(force, d.LinearTyre) else force
+        for force in mechanism.forces
+    )
+    return mechanism if forces == mechanism.forces else replace(mechanism, forces=forces)
+
+
+def bearing_of(declared: d.Formulation, wheel: d.Wheel) -> d.Revolute:
+    """Return the driven hinge about which a wheel turns on its carrier."""
+    (found,) = (
+        joint
+        for joint in declared.driven
+        if isinstance(joint, d.Revolute)
+        and isinstance(joint.second, d.Rotor)
+        and joint.axis.towards == wheel.spin
+    )
+    return found
+
+
 def with_wheel_loads(corner: d.Formulation) -> d.Formulation:
     """Return the equations of a suspension, or a rigid axle, with the loads of wheels as inputs.
 
@@ -147,12 +168,11 @@ def with_wheel_loads(corner: d.Formulation) -> d.Formulation:
         Those of one side, or of both wheels of a rigid axle; a wheel turns on its carrier by a
         driven hinge. The inputs of two wheels begin like their hinges: ``left_``, ``right_``.
     """
-    tyres = [force for force in corner.mechanism.forces if isinstance(force, d.LinearTyre)]
+    wheels = [tyre.wheel for tyre in corner.mechanism.every(d.LinearTyre)]
     loads = []
-    for bearing in (joint for joint in corner.driven if isinstance(joint.second, d.Rotor)):
-        assert isinstance(bearing, d.Revolute)
-        (wheel,) = (tyre.wheel for tyre in tyres if tyre.wheel.spin == bearing.axis.towards)
-        prefix = f"{bearing.name.partition('_')[0]}_" if len(tyres) > 1 else ""
+    for wheel in wheels:
+        bearing = bearing_of(corner, wheel)
+        prefix = f"{bearing.name.partition('_')[0]}_" if len(wheels) > 1 else ""
         loads.append(_loads(wheel, bearing, prefix))
     mechanism = replace(corner.mechanism, forces=(*corner.mechanism.forces, *loads))
     return replace(

@@ -130,8 +130,8 @@ class CoordinateSearch:
         what = f"mechanism {mechanism.name!r} with mobility {self.mobility}"
         if self.count < 0 or self.mobility <= 0:
             special = (
-                "If special dimensions let it move all the same, declare a Formulation that says "
-                "which joints are independent"
+                "If special dimensions let it move all the same, declare a Formulation that names "
+                "the independent joints"
             )
             return (
                 f"{what}: counting the degrees of freedom of its joints leaves nothing to move. "

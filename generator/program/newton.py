@@ -189,7 +189,7 @@ class IterationDerivation:
         squares = []
         for i, line in enumerate(held):
             for j, column in enumerate(columns):
-                kept = _dot(line, column) - (1 if i == j else 0)
+                kept = dot(line, column) - (1 if i == j else 0)
                 squares.append(self.program.define(f"kept_{i + 1}{j + 1}", kept) ** 2)
         return sp.Add(*squares, *self._failing())
 
@@ -224,13 +224,14 @@ def inverted(program: Program, rows: Matrix) -> tuple[Matrix, sp.Expr]:
     if len(rows) == len(rows[0]):
         return adjugate(program, rows)
     columns = [list(column) for column in zip(*rows, strict=True)]
-    normal = [[_dot(a, b) for b in columns] for a in columns]
+    normal = [[dot(a, b) for b in columns] for a in columns]
     inverse, scale = adjugate(program, named(program, "normal", normal))
-    product = [[_dot(line, row) for row in rows] for line in inverse]
+    product = [[dot(line, row) for row in rows] for line in inverse]
     return named(program, "inverse", product), scale
 
 
-def _dot(one: Iterable[sp.Expr], two: Iterable[sp.Expr]) -> sp.Expr:
+def dot(one: Iterable[sp.Expr], two: Iterable[sp.Expr]) -> sp.Expr:
+    """Return the scalar product of two rows of the same length."""
     return sum((a * b for a, b in zip(one, two, strict=True)), sp.Integer(0))
 
 
@@ -296,4 +297,4 @@ def _sign(order: Sequence[int]) -> int:
 
 def times(matrix: Matrix, vector: Sequence[sp.Expr]) -> list[sp.Expr]:
     """Return the product of a matrix, by rows, and a vector."""
-    return [sum((a * b for a, b in zip(row, vector, strict=True)), sp.Integer(0)) for row in matrix]
+    return [dot(row, vector) for row in matrix]

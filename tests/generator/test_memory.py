@@ -1,4 +1,4 @@
-"""What SymPy remembers of a derivation."""
+"""SymPy's cache of the results of a derivation."""
 
 import subprocess
 import sys

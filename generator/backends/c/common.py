@@ -19,6 +19,7 @@ def unbroken(
     text: str, *, width: int = WIDTH, initial_indent: str = "", subsequent_indent: str = ""
 ) -> list[str]:
     """Break code into lines of a width, between words only, however long they are."""
+    # most texts fit, and `wrap` would search them for breaks
     if 0 < len(text) <= width - len(initial_indent) and text.isprintable() and text.strip() == text:
         return [initial_indent + text]
     return textwrap.wrap(

@@ -23,7 +23,7 @@ SYMBOLS = sp.symbols("x y z")
 
 
 def write(expression: sp.Expr, dialect: Dialect = FORMULA) -> str:
-    """Write an expression that stands alone."""
+    """Write a single expression."""
     return text_of(schedule(expression), dialect)
 
 
@@ -38,7 +38,7 @@ FLOOR = sp.Float("1e-24")
 
 
 def positive(expression: sp.Expr) -> sp.Expr:
-    """Return an expression that is positive whatever the symbols are."""
+    """Return an expression that is positive for all values of the symbols."""
     return 1 + expression**2
 
 
@@ -97,7 +97,7 @@ class _Exact(ast.NodeTransformer):
 
 
 class _Functions:
-    """What the written text calls ``np``, in mpmath's precision."""
+    """The functions of ``np`` that the emitted text calls, in the precision of mpmath."""
 
     sin, cos, arcsin, arctan2, sqrt = mpmath.sin, mpmath.cos, mpmath.asin, mpmath.atan2, mpmath.sqrt
     maximum = staticmethod(max)

@@ -1,4 +1,4 @@
-"""What the derivation reports print of the motion, evaluated: it is what the compiled code gives.
+"""Formulas of motion in the derivation reports, evaluated: equal to the compiled code.
 
 The formulas are read from the committed reports as they are printed, and evaluated by this file's
 own reader of them with the poses of the compiled functions at random states.

@@ -1,4 +1,4 @@
-"""The emitted C: its values, its text, its operation counts, and what a compiler says of it."""
+"""The emitted C: its values, its text, its operation counts, and the warnings of compilers."""
 
 import ctypes
 import itertools
@@ -357,7 +357,7 @@ def test_texts_are_those_of_the_model() -> None:
 
 @each_model
 def test_ranges_are_left_to_the_manifest(name: str) -> None:
-    """As the header says: nothing in prepare compares a parameter with a number."""
+    """As in the header: `prepare` compares no parameter with a number."""
     ranges = {bound for entry in EMITTED[name].PARAMETERS.values() for bound in entry}
     assert ranges & {"least", "above", "most"}
     assert "Ranges of parameters are not" in header(name)

@@ -26,7 +26,7 @@ def drawn(
 
 
 def texts(path: Path) -> list[str]:
-    """Return what a figure says: words as text, formulas in comments before their paths."""
+    """Return the texts of a figure: words as text, formulas in comments before their paths."""
     written = path.read_text(encoding="utf-8")
     words = re.findall(r"<text[^>]*>([^<]*)</text>", written)
     return [t.strip() for t in (*words, *re.findall(r"<!-- (.*?\$.*?) -->", written))]

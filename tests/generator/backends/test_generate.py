@@ -38,7 +38,7 @@ def encoded(texts: dict[str, str]) -> dict[str, bytes]:
 
 
 def test_every_model_is_committed_and_nothing_else() -> None:
-    """What stands in the files is compared where they are generated again: ``make generate``."""
+    """Contents of the files are compared where they are generated again: ``make generate``."""
     names = {model.name for model in MODELS}
     found = read(COMMITTED)
     assert {Path(file).stem for file in found if file.endswith(".json")} == names
@@ -94,7 +94,7 @@ def test_deriving_in_another_process_gives_the_committed_files(tmp_path: Path) -
 
 
 def test_no_trace_of_machine_or_day() -> None:
-    """Neither dates nor paths stand in the emitted files, and lines end alike."""
+    """The emitted files contain no dates and no paths, and all lines end in the same way."""
     for name, text in read(COMMITTED).items():
         assert not re.search(rb"\b20\d\d-\d\d-\d\d\b|/(home|tmp|work|Users)/", text), name
         assert b"\r" not in text, name

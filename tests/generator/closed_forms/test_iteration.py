@@ -509,7 +509,7 @@ def test_without_permission_the_loop_is_refused(model: Any) -> None:
 
 
 def test_a_hinge_in_place_of_a_ball_joint_has_no_block() -> None:
-    """What is neither a body on rods nor in the catalogue is refused, permission or not."""
+    """A loop that is neither in the catalogue nor of a body on rods is refused in any case."""
     ball, line = held_by_rods.LOWER_BALL, Line(held_by_rods.ARM_BALL, held_by_rods.SPIN_AXIS)
     hinge = Revolute("lower_ball", held_by_rods.LOWER_ARM, held_by_rods.CARRIER, axis=line)
     model = changed(ARM, (ball, hinge))

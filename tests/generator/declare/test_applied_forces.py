@@ -1,4 +1,4 @@
-"""What acts on single joints, points and bodies, against the mechanism in maximal coordinates."""
+"""Forces on single joints, points and bodies, compared with maximal coordinates."""
 
 from __future__ import annotations
 

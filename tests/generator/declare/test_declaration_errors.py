@@ -1,4 +1,4 @@
-"""What a declaration can get wrong: every mistake has a message with its name and a remedy."""
+"""Mistakes in declarations: each has a message with its name and a remedy."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""The most natural mistakes in a declaration: each is told by its name, its value and a remedy.
+"""The most natural mistakes in a declaration: each message has the name, the value and a remedy.
 
 Every row is what somebody may write. Nothing is derived.
 """
@@ -369,7 +369,7 @@ kt_front kt
 
 @needs_gcc
 def test_words_of_c_and_python_can_be_parameters():
-    """What is not reserved compiles, without a warning, and is what it says."""
+    """Names that are not reserved compile without a warning, and have their own values."""
     words = WORDS.split()
     dampers = tuple(LinearDamper(DamperRate(word, 1.0, word)) for word in words)
     mechanism = with_force(ForceElement("dampers", COIL.path, dampers))
@@ -404,7 +404,7 @@ def test_macros_of_the_emitted_code_are_reserved():
 @needs_gcc
 @pytest.mark.parametrize("in_lanes", [False, True])
 def test_macros_around_the_emitted_code_are_reserved(in_lanes):
-    """Also those of the C library, of lanes, and what those call that stand for functions."""
+    """Also those of the C library and of lanes, and the functions that macros call."""
     emitted = [str(lanes.EMITTED / "multi_link.c")]
     macros = ['-DMODEL="multi_link.c"', "-DWIDTH=2"]
     read = [*macros, str(lanes.HEADERS / "model.c")] if in_lanes else emitted
@@ -420,7 +420,7 @@ def test_macros_around_the_emitted_code_are_reserved(in_lanes):
 
 
 def test_files_of_the_generated_code_are_no_names_of_models():
-    """Its files lie beside others, also where capital letters are not told from small ones."""
+    """Its files are beside others, also where file names do not distinguish capital letters."""
     headers = {Path(name).stem for name in (ELEMENTARY, *own_lanes.HEADERS)}
     for name in (*sorted(headers), "Vectors"):
         with pytest.raises(DeclarationError, match=f"needs is called {name.lower()}; rename"):

@@ -158,7 +158,7 @@ def test_names_that_code_cannot_have(old, name, refused):
 
 @pytest.mark.parametrize("name", ["rocker_length", "shared_1", "constant_1", "coupler_reach_x"])
 def test_parameter_with_the_name_of_an_internal_step(name):
-    """The step gives way, and the numbers stay."""
+    """The step gets another name, and the results are the same."""
     (model,) = four_bar.MODELS
     rate = four_bar.SPRING.rate
     renamed = changed(model, (rate, replace(rate, name=name)))

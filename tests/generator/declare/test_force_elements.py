@@ -1,4 +1,4 @@
-"""Force elements that can stand in for one another give the same equations."""
+"""Force elements that can replace each other lead to the same equations."""
 
 import dataclasses
 
@@ -73,7 +73,7 @@ class Thrust(Force):
 
 
 def test_a_force_of_one_s_own_applies_itself():
-    """What lifts every body by its weight is worth as much as no gravity."""
+    """Forces that lift every body by its weight have the effect of no gravity."""
     model = macpherson.MODELS[0]
     parameters = perturbed_parameters(np.random.default_rng(4))
     lifts = {f"{b.name}_lift": b for b in model.massive}

@@ -35,7 +35,7 @@ from own_models import Built, derive, own
 
 FIXED = MODELS[0]
 MOVING = Body("chassis", 300.0, (0.0, 0.0, 0.5), (30.0, 30.0, 30.0), order=CHASSIS.order)
-"""What is the ground of the double wishbone, as a body that moves."""
+"""The ground of the double wishbone, as a body that moves."""
 BODY = Free("body", MOVING)
 
 
@@ -169,7 +169,7 @@ def test_a_free_joint_begins_at_the_world():
 
 
 def test_any_body_can_rest_in_the_world():
-    """What is fixed need not be what is fixed in a car: the mechanism held at its knuckle."""
+    """The ground can be any body: here it is the knuckle."""
     bench = instead((CHASSIS, MOVING), (KNUCKLE, Ground("knuckle")))
     assert "chassis" in [b.name for b in bench.moving]
     assert JointGraph(bench).mobility == JointGraph(DOUBLE_WISHBONE).mobility

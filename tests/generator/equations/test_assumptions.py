@@ -1,4 +1,4 @@
-"""What the equations take for granted of the geometry: refused where it does not hold.
+"""Assumptions of the equations about the geometry: other geometry is refused.
 
 Each case changes one number by which a plane is left, a shaft misses its rod or a rotor its
 bearing. The amounts that the messages name are computed here from the numbers of the case.
@@ -84,7 +84,7 @@ def accepted(modules: list[Any], values: Mapping[str, float]) -> None:
 
 
 def refusal(modules: list[Any], values: Mapping[str, float]) -> str:
-    """Return what `prepare` says about parameters that it refuses, the same in all builds."""
+    """Return the message of `prepare` for refused parameters, which is the same in all builds."""
     messages = set()
     for module in modules:
         with pytest.raises(ParameterError) as caught:

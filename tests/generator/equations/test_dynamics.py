@@ -41,7 +41,7 @@ each_with_held_rack = pytest.mark.parametrize(
 
 @dataclass(frozen=True)
 class Compared(At):
-    """A model at an instant, and what the oracle says of it."""
+    """A model at an instant, with the results of the oracle."""
 
     solution: Solution
     reduced: ReducedEquations
@@ -159,7 +159,7 @@ def test_every_regime_of_the_force_laws() -> None:
     ],
 )
 def test_each_force_by_itself(parameter: str) -> None:
-    """What a parameter adds to Q is its force alone: no other force can hide its error."""
+    """A parameter changes Q by its own force alone: no other force can hide its error."""
     model = macpherson_general
     parameters = car_parameters(1, model)
     car = Mechanism(parameters)
@@ -191,7 +191,7 @@ def test_equations_of_motion(compared: list[Compared]) -> None:
 @each_with_held_rack
 @pytest.mark.parametrize("seed", SEEDS)
 def test_held_rack(model, seed: int) -> None:
-    """With the rack held, its velocity and acceleration are zero whatever the inputs say."""
+    """With the rack held, its velocity and acceleration are zero for any inputs."""
     parameters = car_parameters(seed, model)
     constants = model.prepare(parameters)
     rng = np.random.default_rng(seed)
@@ -222,7 +222,7 @@ def test_masses_left_out(model, seed: int) -> None:
 @pytest.mark.parametrize("element", ["xx", "yy", "zz", "xy", "xz", "yz"])
 @pytest.mark.parametrize("body", ["control_arm", "knuckle", "tie_rod", "rack", "upper_strut"])
 def test_every_element_of_inertia_counts(body: str, element: str) -> None:
-    """Each element by itself changes M as the oracle says, where the body turns about it.
+    """Each single element changes M like that of the oracle, where the body turns about it.
 
     The rack only slides, and the arm only turns about its hinge (here along x): the other elements
     must not matter.
@@ -286,7 +286,7 @@ def test_defaults_are_the_reference_car() -> None:
 
 
 def test_reference_car_rests_at_design() -> None:
-    """Spring and tyre carry the car at a wheel height of 0.3 m, whatever the wheel's speed."""
+    """Spring and tyre carry the car at a wheel height of 0.3 m, at any speed of the wheel."""
     for spin_rate in (0.0, SPIN_RATE):
         state = Instant(BETA1_DESIGN, spin_rate=spin_rate).state(macpherson)
         # Lengths of 1 m are rounded by 1e-16 m, times a tyre rate of 2e5 N/m at 0.4 m over an

@@ -27,7 +27,7 @@ END = 0.5  # s: two periods of the road, in which both stops act and the tyre li
 TIMES = np.linspace(0.0, END, 51)
 TOLERANCE = 1e-11
 BEYOND = 1e-12
-"""How far behind a kink the integration begins anew, so that it does not find it again [s]."""
+"""Time behind a kink at which the integration continues, so as not to find it again [s]."""
 
 
 @dataclass(frozen=True)

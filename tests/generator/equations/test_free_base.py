@@ -56,7 +56,7 @@ SPINNING = {
 CLOSE = {"rtol": 1e-12, "atol": 1e-13}
 FINE = {**CLOSE, "method": "DormandPrince"}
 AFLOAT = {"gravity": 0.0, "tether_stiffness": 0.0, "tether_damping": 0.0}
-"""What takes everything from the rig that is not between its own bodies."""
+"""Parameters without which only forces between its own bodies act on the rig."""
 
 
 @pytest.fixture(scope="module")
@@ -246,7 +246,7 @@ def test_outputs_are_those_of_the_oracle(box):
     ids=lambda model: model.name,
 )
 def test_loops_hang_on_it(model):
-    """What rests on the ground elsewhere, on a body in the air; the oracle closes it anew."""
+    """Mechanisms that usually have a ground, on a free body; the oracle closes their loops, too."""
     model = freed(model)
     built = Built.of(model, own(model, arrays=True, derivatives=False))
     for state, inputs, motion, expected, positions in compared(built, 3, 0.1):

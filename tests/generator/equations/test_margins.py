@@ -1,4 +1,4 @@
-"""What the margins are: the geometry that each guard watches, measured on poses of the oracle."""
+"""The margins, compared with the guarded geometry, measured on poses of the oracle."""
 
 import numpy as np
 import pytest

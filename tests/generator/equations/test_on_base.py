@@ -1,4 +1,4 @@
-"""What hangs on a base that moves: exact derivatives, by corners that do not meet."""
+"""Bodies on a moving base: exact derivatives, by corners that do not affect each other."""
 
 from __future__ import annotations
 

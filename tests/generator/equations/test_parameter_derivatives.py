@@ -263,7 +263,7 @@ def test_kinematics_as_the_study_has_them(page: dict[str, Any]) -> None:
 
 
 def test_a_motion_and_its_neighbours(page: dict[str, Any]) -> None:
-    """What a parameter does to a motion: differences of motions with other values."""
+    """The effect of a parameter on a motion, from differences of motions with other values."""
     system, step = page["four_bar"], 0.02
 
     def end(mass: float) -> Any:

@@ -60,7 +60,7 @@ def of(system: kintrafo.System, mass: float) -> dict[str, float]:
 
 
 def test_a_constant_mass_matrix(slides: kintrafo.System) -> None:
-    """Each mass is refused, whatever its rounding leaves; the smallest mass between is enough."""
+    """Each mass is refused, for any rounding; the smallest mass between is enough."""
     for mass in MASSES:
         with pytest.raises(kintrafo.ParameterError, match="'high' can change, alone or with"):
             kintrafo.System(slides.equations, of(slides, mass))

@@ -1,4 +1,4 @@
-"""What rolls and what glides along an edge: constraints on speeds, which are eliminated."""
+"""Rolling, and gliding along an edge: constraints on speeds, which are eliminated."""
 
 from dataclasses import replace
 
@@ -154,7 +154,7 @@ def test_a_wheel_rolls_on_above_its_critical_speed(omega):
 
 
 def test_a_push_acts_on_the_speeds_that_are_left():
-    """``(C + m r^2) omega' = F r`` of a force ahead, said in two ways."""
+    """``(C + m r^2) omega' = F r`` of a force ahead, declared in two ways."""
     push = g.Input("push", "N", "force at the centre, ahead")
     none = [g.Input(f"none_{i}", "N" if i < 5 else "N m", "nothing") for i in range(10)]
     loads = g.WheelLoads(

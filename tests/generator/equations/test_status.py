@@ -1,4 +1,4 @@
-"""What the generated functions say where they have no result: never a silent NaN."""
+"""The status of the generated functions where they have no result: never a silent NaN."""
 
 import pickle
 import re
@@ -571,7 +571,7 @@ def test_residuals_of_arrays_are_those_of_their_elements(model) -> None:
 
 @each_model
 def test_arrays_are_single_states_side_by_side(model) -> None:
-    """Leading dimensions broadcast, and each element is what a call by itself gives."""
+    """Leading dimensions broadcast, and each element equals the result of a single call."""
     for function in COMMON[model.NAME]:
         call = getattr(model, function)
         instants = [Instant(BETA1_DESIGN + 0.1 * k, 0.3, 0.01, 1.0, 50.0, 0.1) for k in (-1, 0, 1)]

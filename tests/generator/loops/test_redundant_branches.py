@@ -1,4 +1,4 @@
-"""What is redundant, and what leaves its plane, is named: counts and symbols help nobody."""
+"""Messages name redundant branches and bodies that leave their plane."""
 
 from __future__ import annotations
 

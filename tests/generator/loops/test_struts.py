@@ -203,7 +203,7 @@ FOOT, HEAD = Point("foot", (0.3, 0.05, 0.0)), Point("head", (0.4, 0.1, 1.0))
 def test_a_strut_whose_direction_is_given_as_numbers_is_told_to_be_between(
     numbers: tuple[float, float, float],
 ) -> None:
-    """What it says to do, done, closes in closed form."""
+    """The remedy in the message leads to a closed form."""
     words = re.escape("Direction('leg', between=(foot, head))")
     with pytest.raises(NoClosedFormError, match=words):
         CataloguePlan.of(leg_on_a_plate(Direction("leg", fixed=numbers)))

@@ -337,7 +337,7 @@ def test_loop_of_hinges_has_no_closed_form() -> None:
 
 
 def test_undetermined_body() -> None:
-    """Without the spin coordinate nothing says how the wheel is turned."""
+    """Without the spin coordinate nothing determines the turn of the wheel."""
     model = replace(MODEL, independent=MODEL.independent[:1])
     with pytest.raises(NoClosedFormError, match="nothing determines the pose of wheel"):
         CataloguePlan.of(model)

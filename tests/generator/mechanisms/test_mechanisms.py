@@ -66,7 +66,7 @@ SCALES = {
 
 @dataclass(frozen=True)
 class At:
-    """A model at a state and inputs, with the motion that it says its bodies have."""
+    """A model at a state and inputs, with the motion that it computes for its bodies."""
 
     built: Built
     state: Array
@@ -90,7 +90,7 @@ class At:
 
     @cached_property
     def solved(self) -> Reduced:
-        """What several tests compare with."""
+        """The reference of several tests."""
         return self.reduced()
 
 

@@ -287,7 +287,7 @@ def test_derivatives_are_those_of_sympy(four_bar: Derivation) -> None:
 
 
 def test_what_is_common_is_what_sympy_finds() -> None:
-    """Names and what they stand for; with them every expression is what it was."""
+    """Common parts are the same; when they are inserted, every expression is the original one."""
     a, b, c, d = sp.symbols("a b c d")
     expressions = [
         (a + b + c) * sp.sqrt(a + b),

@@ -1,4 +1,4 @@
-"""What sums and products have in common, compared with SymPy's own search."""
+"""Common parts of sums and products, compared with those that SymPy finds."""
 
 import random
 
@@ -26,7 +26,7 @@ def _made(random_: random.Random, depth: int) -> sp.Expr:
 
 
 def test_the_same_is_regrouped_as_by_sympy() -> None:
-    """Names of what is shared, and the order of all operations, follow from it."""
+    """The names of common parts, and the order of all operations, depend on it."""
     random_ = random.Random(1)
     for _ in range(60):
         expressions = [_made(random_, 3) for _ in range(8)]

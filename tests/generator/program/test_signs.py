@@ -50,7 +50,7 @@ def test_a_product_hands_the_sign_on() -> None:
 
 
 def test_a_named_negative_gives_its_name_to_what_has_none() -> None:
-    """What says nothing is called after the step that is its negative; what has a name keeps it."""
+    """A common part takes its name from the step of its negative; other steps keep theirs."""
     program = without_signs({U: A * B, T: -U}, C + T)
     assert written(program) == {"minus_t": A * B}
     program = without_signs({S: A * B, T: -S}, C + T)

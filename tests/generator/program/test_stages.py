@@ -91,7 +91,7 @@ def function(name: str, steps: dict[str, sp.Expr], *results: sp.Expr) -> Functio
 
 
 def test_a_name_of_two_values_is_told_apart() -> None:
-    """What is put together in another order has other bits, so that it is another value."""
+    """A sum or product in another order has other bits, and so is another value."""
     x, y, z, a, b = sp.symbols("x y z a b")
     one = function("one", {"b": x + y, "a": b * z}, a)
     other = function("other", {"shared_1": y * z, "a": x * sp.Symbol("shared_1")}, a, -a)

@@ -86,7 +86,7 @@ def test_characteristics_over_the_arm_are_those_of_the_rods(bench: Any) -> None:
 
 
 def test_a_parallelogram_moves_its_rod_along_a_circle() -> None:
-    """What is left out of the idler arm is the mirror image: both tie rods move alike."""
+    """Omitted values of the idler arm are mirrored ones: both tie rods move alike."""
     alike = {"pivot_mm": [-390.0, 300.0, 265.0], "axis": [0.0, 0.0, 2.0]}
     car = RIGHT.with_changes({"pitman_arm": alike | {"ball_mm": [-140.0, 300.0, 265.0]}})
     racks = np.array([-0.08, 0.05])
