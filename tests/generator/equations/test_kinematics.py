@@ -184,19 +184,17 @@ def test_paper_equations_from_the_coordinates(travel: list[Placed]) -> None:
         z = z / np.linalg.norm(z)
         basis = np.array([np.cross(line, z), line, z])
 
-        def by_chain(name: str) -> Array:
-            """Return where the chain of joints through the strut takes a point of the knuckle."""
-            x, y, z = basis @ (point[name] - point["strut_lower"])  # noqa: B023
-            c, s = np.cos(beta10), np.sin(beta10)  # noqa: B023
-            swung = np.array([c * x - s * z, length + y, s * x + c * z])  # noqa: B023
-            return point["strut_top"] + frame @ swung  # noqa: B023
-
         radius = np.linalg.norm(point["ball_joint"] - car.hinge_foot)
         _, h_y, h_z = car.hinge
         ball = car.hinge_foot + radius * (np.sin(beta1) * h_y + np.cos(beta1) * h_z)
-        # a few roundings of lengths below 1 m
-        assert by_chain("ball_joint") == pytest.approx(ball, abs=1e-14)
-        assert by_chain("wheel_center") == pytest.approx(place.pose.position[WHEEL - 1], abs=1e-14)
+        wheel = place.pose.position[WHEEL - 1]
+        c, s = np.cos(beta10), np.sin(beta10)
+        for name, expected in (("ball_joint", ball), ("wheel_center", wheel)):
+            x, y, z = basis @ (point[name] - point["strut_lower"])
+            swung = np.array([c * x - s * z, length + y, s * x + c * z])
+            by_chain = point["strut_top"] + frame @ swung
+            # a few roundings of lengths below 1 m
+            assert by_chain == pytest.approx(expected, abs=1e-14)
 
 
 @pytest.mark.parametrize(
