@@ -112,7 +112,7 @@ class Assembly(ABC):
 
     @property
     def steered(self) -> bool:
-        """Whether it has a rack."""
+        """Whether its wheels are steered, by a rack or a Pitman arm."""
         return bool(self.subject.steered())
 
     @property

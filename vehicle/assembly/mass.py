@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core.named_types import Array
+from ...core.physical import ELEMENTS
 
 
 @dataclass(frozen=True)
@@ -44,9 +45,7 @@ class PartMass:
 
 
 def _tensor(parameters: Mapping[str, float], name: str) -> Array:
-    xx, yy, zz, xy, xz, yz = (
-        parameters[f"{name}_inertia_{element}"] for element in ("xx", "yy", "zz", "xy", "xz", "yz")
-    )
+    xx, yy, zz, xy, xz, yz = (parameters[f"{name}_inertia_{element}"] for element in ELEMENTS)
     return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
 
 

@@ -53,7 +53,7 @@ def steering_force(poses: PartPoses, loads: Sequence[Load]) -> Array:
 def steering_of(
     gear: Steering | PitmanLinkage, over: str, found: "xr.Dataset"
 ) -> "dict[str, xr.Variable]":
-    """Return the force of the steering on a rack, or the moment of a Pitman arm besides.
+    """Return the force of the steering by name, and the moment of a Pitman arm.
 
     `over` is the dimension of the positions, and `found` has the loads.
     """
@@ -140,11 +140,11 @@ def _on_the_rod(wrench: Array, rod: Array, tangent: Array, across: Array) -> tup
     Parameters
     ----------
     wrench : ndarray, shape (n, 6)
-        Applied force and moment about that joint.
+        Applied force [N] and moment about that joint [N m].
     rod : ndarray, shape (n, 3)
-        From it to the idler arm [m].
+        From that joint to the joint at the idler arm [m].
     tangent : ndarray, shape (n, 3)
-        Along the circle of the idler arm.
+        Tangent to the circle of the idler arm's ball.
     across : ndarray, shape (n, 3)
         Across both axes of the joint.
     """
@@ -160,11 +160,11 @@ def _on_the_rod(wrench: Array, rod: Array, tangent: Array, across: Array) -> tup
 
 
 def _on_its_pivot(part: str, loads: Sequence[Load], pivot: Array, axis: Array) -> list[Load]:
-    """Return what holds an arm at its pivot: its bearing, and the steering about its axis."""
+    """Return the loads of an arm's bearing, and of the steering about its axis, at its pivot."""
     wrench = sum_of(loads, part, pivot)
     force, moment = -wrench[:, :3], -wrench[:, 3:]
     point = "pitman_pivot" if part == ARM else "idler_pivot"
-    if part == IDLER:  # which has none but what rounding leaves
+    if part == IDLER:  # its moment about the axis is rounding
         return on_both(part, "chassis", Load(part, point, "chassis", force, moment, pivot))
     about = (moment @ axis)[:, None] * axis
     steering = Load(part, point, STEERING, STILL, about, pivot)

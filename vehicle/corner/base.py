@@ -225,7 +225,7 @@ class Suspension(WheeledSection):
 
     @classmethod
     def steered(cls) -> bool:
-        """Return whether there is a rack."""
+        """Return whether the wheel is steered, by a rack or a Pitman arm."""
         return bool(cls.NAMES.rack)
 
     def refuse_without_rack(self, what: str) -> None:
@@ -254,7 +254,7 @@ class Suspension(WheeledSection):
     def steering_gear(self) -> Steering | PitmanLinkage:
         """The section that moves the tie rod: a rack, or a Pitman arm with its linkage."""
         gear = self.rack or self.pitman_arm
-        assert gear is not None  # only steered suspensions are asked
+        assert gear is not None  # only steered suspensions have this property
         return gear
 
     @property

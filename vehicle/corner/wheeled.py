@@ -36,7 +36,7 @@ class WheeledSection(DescribedSection):
 
     @classmethod
     def steered(cls) -> bool:
-        """Return whether there is a rack."""
+        """Return whether the wheels are steered, by a rack or a Pitman arm."""
         return False
 
     @property

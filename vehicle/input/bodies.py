@@ -7,12 +7,11 @@ import numpy as np
 from pydantic import Field
 
 from ...core.columns import greatest, sorted_moments
+from ...core.physical import ELEMENTS
 from ...core.vectors import Vector, components
 from .hardpoints import Hardpoints
 from .section import NonNegative, Number, Positive, Section, Triple
 from .units import point_in_metres
-
-_ELEMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 
 # Rounding of a principal moment of inertia, relative to the largest element.
 _ROUNDING = 1e-9
@@ -48,7 +47,7 @@ class RigidBody(Section):
 
     def elements(self) -> dict[str, float]:
         """Return the elements of the inertia tensor by name [kg m^2]."""
-        return {name: getattr(self, f"inertia_{name}_kg_m2") for name in _ELEMENTS}
+        return {name: getattr(self, f"inertia_{name}_kg_m2") for name in ELEMENTS}
 
     def centre_of_mass(self, points: Hardpoints) -> Vector:
         """Return the centre of mass at design, chassis axes [m]."""
@@ -186,7 +185,7 @@ def impossible_inertia(elements: Mapping[str, float]) -> str:
     scale = greatest(abs(value) for value in elements.values())
     if scale == 0.0:
         return ""
-    xx, yy, zz, xy, xz, yz = (elements[name] / scale for name in _ELEMENTS)
+    xx, yy, zz, xy, xz, yz = (elements[name] / scale for name in ELEMENTS)
     moments = sorted_moments([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     small, middle, large = moments
     listed = ", ".join(f"{scale * moment:.4g}" for moment in moments)

@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from ...core.columns import hypot, number
+from ...core.physical import ELEMENTS
 from ...core.vectors import (
     Vector,
     angle_between_lines,
@@ -23,8 +24,8 @@ from .units import in_metres
 RELAY_ROD = "relay_rod"
 
 _NAMES = {"pitman_arm": "Pitman arm", "idler_arm": "idler arm"}
+_POINTS = ("pivot", "ball", "idler_pivot", "idler_ball")
 _UP = np.array([0.0, 0.0, 1.0])
-_ELEMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 # Nearer than this to the vertical, the relay rod turns in its universal joint, in degrees.
 _SMALLEST_CROSS_ANGLE = 1.0
 _NO_DIRECTION = 1e-6
@@ -40,8 +41,9 @@ class PitmanLinkage(Section):
     """A Pitman arm, a relay rod to an idler arm, both on the chassis; no part has mass.
 
     Points are in chassis axes, at the middle position. The relay rod carries the tie rods. The
-    default of the idler arm is the mirror image of the Pitman arm. The arm turns right-handed
-    about its axis for a positive displacement, which is the way of its ball along its circle.
+    default of the idler arm is the mirror image of the Pitman arm. The displacement of the steering
+    is the arc length that the ball of the Pitman arm has moved along its circle [m]; for a positive
+    one the arm turns right-handed about its axis.
     """
 
     BODIES: ClassVar[Mapping[str, tuple[str, str]]] = {
@@ -70,7 +72,7 @@ class PitmanLinkage(Section):
     )
 
     def metres(self, name: str) -> Vector:
-        """Return the place of ``pivot``, ``ball``, ``idler_pivot`` or ``idler_ball`` [m]."""
+        """Return the position of ``pivot``, ``ball``, ``idler_pivot`` or ``idler_ball`` [m]."""
         given = getattr(self, f"{name}_mm")
         if given is None:
             x, y, z = self.metres(name.removeprefix("idler_"))
@@ -78,9 +80,8 @@ class PitmanLinkage(Section):
         return np.array([in_metres(value, "mm") for value in given])
 
     def given_points(self) -> dict[str, Vector]:
-        """Return the places of the points that the file has, by their text in it [m]."""
-        names = ("pivot", "ball", "idler_pivot", "idler_ball")
-        given = [name for name in names if getattr(self, f"{name}_mm") is not None]
+        """Return the positions of the points in the file, by section and key [m]."""
+        given = [name for name in _POINTS if getattr(self, f"{name}_mm") is not None]
         return {f"[pitman_arm] {name}_mm": self.metres(name) for name in given}
 
     def direction_of(self, arm: str) -> Vector:
@@ -100,11 +101,11 @@ class PitmanLinkage(Section):
     WORDS: ClassVar[str] = "steered by a Pitman arm"
     """How both wheels of an axle are steered."""
     TURN_KEY: ClassVar[str] = "[pitman_arm] gear_ratio"
-    """The key of its travel for one turn of the steering wheel."""
+    """The key from which its travel for one turn of the steering wheel follows."""
     TIE_RODS_ON: ClassVar[str] = RELAY_ROD
     """The part that the tie rods are joined to."""
     MOVED: ClassVar[tuple[str, ...]] = ("pitman_ball", "idler_ball")
-    """Points that this part carries besides."""
+    """Points of the steering that this part carries."""
 
     def direction(self) -> Vector:
         """Return the direction in which the ball moves from the middle, a unit vector."""
@@ -112,27 +113,26 @@ class PitmanLinkage(Section):
         return unit_vector(cross(self.direction_of("pitman_arm"), arm))
 
     def travel_per_turn(self) -> float | None:
-        """Return the way of the ball for one turn of the steering wheel [m]; None if unknown."""
+        """Return the arc length that the ball moves in one turn of the steering wheel [m].
+
+        None without a gear ratio.
+        """
         return None if self.gear_ratio is None else 2.0 * math.pi * self.length() / self.gear_ratio
 
     def points(self) -> dict[str, Vector]:
         """Return the points of the linkage at design by name [m]."""
-        return {
-            "pitman_pivot": self.metres("pivot"),
-            "pitman_ball": self.metres("ball"),
-            "idler_pivot": self.metres("idler_pivot"),
-            "idler_ball": self.metres("idler_ball"),
-        }
+        names = ("pitman_pivot", "pitman_ball", "idler_pivot", "idler_ball")
+        return {name: self.metres(name.removeprefix("pitman_")) for name in names}
 
     def centers_of_mass(self) -> dict[str, Vector]:
-        """Return the point about which the equations count each part: its middle [m]."""
+        """Return the reference point of each part in the equations: its middle [m]."""
         return {
             body: 0.5 * (self.metres(first) + self.metres(second))
             for body, (first, second) in self.BODIES.items()
         }
 
     def parameters(self) -> dict[str, float]:
-        """Return places, axes and bodies by their names in the equations, in SI units."""
+        """Return points, axes and bodies by their names in the equations, in SI units."""
         values = components("rack_axis", self.direction()) | {"pitman_turn": 1.0 / self.length()}
         for name, place in self.points().items():
             values |= components(name, place)
@@ -140,7 +140,7 @@ class PitmanLinkage(Section):
         values |= components("idler_axis", self.direction_of("idler_arm"))
         for body, center in self.centers_of_mass().items():
             values |= {f"{body}_mass": 0.0, **components(f"{body}_com", center)}
-            values |= {f"{body}_inertia_{element}": 0.0 for element in _ELEMENTS}
+            values |= {f"{body}_inertia_{element}": 0.0 for element in ELEMENTS}
         return values
 
     @staticmethod
@@ -161,10 +161,7 @@ class PitmanLinkage(Section):
         ]
         if problems:
             return problems
-        problems = [
-            *self._arm_problems("pitman_arm", "pivot", "ball"),
-            *self._arm_problems("idler_arm", "idler_pivot", "idler_ball"),
-        ]
+        problems = [problem for arm in _NAMES for problem in self._arm_problems(arm)]
         rod = self.metres("idler_ball") - self.metres("ball")
         length = hypot(*rod)
         if length < SMALLEST_DISTANCE:
@@ -174,8 +171,9 @@ class PitmanLinkage(Section):
             )
         return problems or self._rod_problems(rod)
 
-    def _arm_problems(self, arm: str, pivot: str, ball: str) -> list[str]:
-        """Check that an arm has a length."""
+    def _arm_problems(self, arm: str) -> list[str]:
+        """Return the problem of an arm without length."""
+        pivot, ball = self.BODIES[arm]
         base = self.metres(pivot)
         length = distance_from_line(self.metres(ball), base, base + self.direction_of(arm))
         if length >= SMALLEST_DISTANCE:
@@ -187,7 +185,7 @@ class PitmanLinkage(Section):
         return [problem]
 
     def _rod_problems(self, rod: Vector) -> list[str]:
-        """Check that both arms move the relay rod along it, and that its joint holds it."""
+        """Return the problems of an arm in line with the rod, and of an upright rod."""
         problems = []
         angle = angle_between_lines(rod, _UP)
         if angle < _SMALLEST_CROSS_ANGLE:
@@ -196,15 +194,13 @@ class PitmanLinkage(Section):
                 f"vertical; at least {_SMALLEST_CROSS_ANGLE:g} deg are needed for its universal "
                 "joint to hold it. Move one of the two points."
             )
-        for arm, pivot, ball in (
-            ("pitman_arm", "pivot", "ball"),
-            ("idler_arm", "idler_pivot", "idler_ball"),
-        ):
+        for arm, name in _NAMES.items():
+            pivot, ball = self.BODIES[arm]
             across = cross(self.direction_of(arm), self.metres(ball) - self.metres(pivot))
             lever = abs(number(across @ unit_vector(rod)))
             if lever < SMALLEST_DISTANCE:
                 problems.append(
-                    f"the relay rod pulls at the {_NAMES[arm]} with a lever of "
+                    f"the relay rod pulls at the {name} with a lever of "
                     f"{1e3 * lever:.3f} mm; at least {1e3 * SMALLEST_DISTANCE:g} mm are needed, or "
                     f"the linkage is at its dead centre. Move {ball}_mm, so that arm and rod are "
                     "not in line."

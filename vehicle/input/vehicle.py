@@ -119,7 +119,7 @@ class Steering(Section):
     TIE_RODS_ON: ClassVar[str] = "rack"
     """The part that the tie rods are joined to."""
     MOVED: ClassVar[tuple[str, ...]] = ()
-    """Points that this part carries besides."""
+    """Points of the steering that this part carries."""
 
     axis: Triple = Field(description="direction in which the rack moves for positive displacement")
     travel_per_turn_mm: Positive | None = Field(

@@ -15,7 +15,7 @@ from ...core.validator import Validator
 from .road import Road
 
 if TYPE_CHECKING:
-    from ...core.tables import Table
+    from ...core.tables import Column, Table
 
 _UNITS = {"distance": "m", "left_height": "m", "right_height": "m", "road_height": "m"}
 _WORDS = "distance_m, and left_height_mm with right_height_mm, or road_height_mm"
@@ -79,7 +79,7 @@ def _evenly(distance: Array, left: Array, right: Array, spacing: float | None, s
 def _table(path: str | Path) -> tuple[Array, Array, Array]:
     sheet = read_table(path)
     columns = sheet.columns(_UNITS)
-    _check(sheet, [column.name for column in columns])
+    _check(sheet, columns)
     values = sheet.values_of(columns, _UNITS)
     distance = values["distance"]
     wrong = np.flatnonzero(np.diff(distance) <= 0.0)
@@ -93,14 +93,10 @@ def _table(path: str | Path) -> tuple[Array, Array, Array]:
     return distance, values["left_height"], values["right_height"]
 
 
-def _check(sheet: "Table", names: list[str]) -> None:
-    problems = [
-        problem
-        for column in sheet.columns(_UNITS)
-        if (problem := sheet.unit_problem(column, _UNITS[column.name]))
-    ]
+def _check(sheet: "Table", columns: "list[Column]") -> None:
+    problems = sheet.problems_of(columns, _UNITS)
     wanted = ({"distance", "road_height"}, {"distance", "left_height", "right_height"})
-    if set(names) not in wanted or len(set(names)) < len(names):
+    if {column.name for column in columns} not in wanted:
         problems.append(f"the columns {_WORDS} are needed; there is {sheet.names}.")
     if problems:
         raise InputError(problems, sheet.source)

@@ -253,7 +253,7 @@ class Axle(Described):
         return {side: self.bar.half(mirrored=side != self.bar_side) for side in self.sides}
 
     def steered(self) -> bool:
-        """Return whether there is a rack."""
+        """Return whether the wheels are steered, by a rack or a Pitman arm."""
         return self.right.steered()
 
     # -- interface for a car ----------------------------------------------------------------------
@@ -419,7 +419,7 @@ def _problems_of_sides(axle: Axle) -> list[str]:
 
 
 def _problems_of_steering(right: Suspension, left: Suspension) -> list[str]:
-    """See that both sides are steered by the same rack, or by the same Pitman arm."""
+    """Return the problem of sides with different racks or Pitman arms."""
     if right.rack is not None and left.rack is not None:
         axes = [unit_vector(rack.axis) for rack in (right.rack, left.rack)]
         if np.abs(axes[0] - axes[1]).max() <= _SAME_AXIS:

@@ -12,6 +12,7 @@ from pydantic import ValidationError
 
 from ....core.errors import InputError
 from ....core.named_types import Array
+from ....core.physical import ELEMENTS
 from ....core.validator import Validator, shown
 from ...data import data_sets
 from ...data.starter import AXLE, AXLES, CAR, CARS, WHOLE_AXLES, whole_axle_in, whole_axles
@@ -290,7 +291,7 @@ class Car(Described):
         return f"car, {' and '.join(axle.heading() for axle in self.axles.values())}"
 
     def steered(self) -> bool:
-        """Return whether it has a rack at the front axle."""
+        """Return whether its front wheels are steered, by a rack or a Pitman arm."""
         return (self.corner or self.axles["front"]).steered()
 
     @property
@@ -324,7 +325,7 @@ class Car(Described):
         body = self.described.body
         turns = {"pitch": "yy", "roll": "xx"}
         used = {turns[name] for name in self.coordinates if name in turns}
-        used |= {"xx", "yy", "zz", "xy", "xz", "yz"} if "roll" in self.coordinates else set()
+        used |= set(ELEMENTS) if "roll" in self.coordinates else set()
         given = {f"inertia_{name}_kg_m2": name for name, v in body.elements().items() if v}
         words = [f"[body] {key}" for key, name in given.items() if name not in used]
         if body.com_mm is not None and self.coordinates == ("heave",):
@@ -407,12 +408,11 @@ def _problems_of_axles(car: Car) -> list[str]:
         for end, axle in car.axles.items()
         if axle.end != end
     ]
-    problems += [
-        "rear: [steering]: the rear wheels are not steered, and their rack is a part of the body. "
-        "Remove that section."
-        for axle in [car.axles["rear"]]
-        if axle.steering is not None
-    ]
+    if car.axles["rear"].steering is not None:
+        problems.append(
+            "rear: [steering]: the rear wheels are not steered, and their rack is a part of the "
+            "body. Remove that section."
+        )
     problems += [
         f"{end}: [rods] {', '.join(axle.to_dict()['rods'])}: an axle on five rods moves only on "
         "its bushes, and rods are rigid in a car. Leave one of them out."

@@ -1,6 +1,5 @@
 """The equations of motion of a car: packaged for some, otherwise derived at first use."""
 
-import importlib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -15,6 +14,7 @@ from ....systems.allowed import LengthLimit
 from ....systems.compile.build import compile_mechanism, require_generator
 from ....systems.system import System
 from ..model import Model
+from ..packaged import packaged_equations
 from ..sides import SIDES
 from .car import Car
 from .driving import Air
@@ -97,12 +97,9 @@ def _equations(car: Car, progress: Report | None) -> ModuleType:
     Cars that differ only in values have the same equations.
     """
     if not car.drives:  # the terms of driving cars depend on the coefficients of their tyres
-        packaged = f"kintrafo.generated.{name_of(car)}"
-        try:
-            return importlib.import_module(packaged)
-        except ModuleNotFoundError as error:
-            if error.name != packaged:
-                raise
+        packaged = packaged_equations(name_of(car))
+        if packaged is not None:
+            return packaged
     declaration = declared(car)
     known = _LAST.get(declaration.name)
     if known is not None and known[0] is declaration:
