@@ -190,7 +190,7 @@ class AxleAssembly(HeldAssembly):
             return
         if self.motions[motion].along is not STEERING_WHEEL:
             given.fail(
-                "along: nothing says how the steering wheel moves the rack. Give "
+                "along: the ratio of steering wheel and rack is missing. Give "
                 f"{self.axle.right.steering_gear.TURN_KEY} in the hardpoint file, or [steering] in "
                 "the axle's; or take the motion 'rack', over displacements of it."
             )

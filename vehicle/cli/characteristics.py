@@ -205,7 +205,9 @@ def _positions(
         held["rack"] and assembly.usual_motion not in motions
     ):
         over = ", ".join(motions)
-        raise typer.BadParameter(f"--travel and --rack are for what is held; --over is {over}")
+        raise typer.BadParameter(
+            f"--travel is for motions of the rack, --rack for those of wheels; --over is {over}"
+        )
     found, written = {}, []
     for motion in motions:
         along = {
@@ -272,7 +274,7 @@ def _refuse_options(
     if assembly.steered:
         return
     of_rack = {"--rack-extent": rack_extent, "--rack": rack or None, "--travel": travel or None}
-    refuse_options("what has a rack", of_rack)
+    refuse_options("steered wheels", of_rack)
 
 
 def _title(assembly: "Assembly", file: str, motion: str) -> str:

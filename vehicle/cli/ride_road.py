@@ -50,7 +50,7 @@ class RoadOptions:
     contact_length: Annotated[
         float | None,
         option(
-            "Length of the contact patch of a tyre, which then envelopes short waves and edges "
+            "Length of the contact patch of a tyre, which then envelops short waves and edges "
             "(two elliptical cams). A kerb needs it. Default: the contact is a point.",
             "MM",
         ),

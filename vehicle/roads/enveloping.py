@@ -28,7 +28,7 @@ _AT_ONCE = 4096  # positions of a cam
 
 
 def enveloped(road: Road, *, radius: float, contact_length: float) -> Road:
-    """Return the effective road of a tyre that envelopes short obstacles, by two elliptical cams.
+    """Return the effective road of a tyre that envelops short obstacles, by two elliptical cams.
 
     Long waves remain, short ones are lowered, and an edge becomes a ramp that begins before it.
     Effective inclinations and longitudinal forces are not modelled.

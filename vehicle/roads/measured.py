@@ -12,7 +12,7 @@ from ...core.named_types import Array
 from ...core.optional import require
 from ...core.tables import read_table
 from ...core.validator import Validator
-from .road import Road
+from .road import MOST_POINTS, Road
 
 if TYPE_CHECKING:
     from ...core.tables import Column, Table
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 _UNITS = {"distance": "m", "left_height": "m", "right_height": "m", "road_height": "m"}
 _WORDS = "distance_m, and left_height_mm with right_height_mm, or road_height_mm"
 _CRG = ".crg"
-_MOST_POINTS = 4_000_000
 
 
 def read(path: str | Path, *, track: float = 1.5, spacing: float | None = None) -> Road:
@@ -64,9 +63,9 @@ def _evenly(distance: Array, left: Array, right: Array, spacing: float | None, s
     step = float(np.diff(distance).min()) if spacing is None else spacing
     length = float(distance[-1] - distance[0])
     count = round(length / step) + 1
-    if not 4 <= count <= _MOST_POINTS:
+    if not 4 <= count <= MOST_POINTS:
         problem = (
-            f"{length:g} m at a spacing of {step:g} m are {count} points; 4 to {_MOST_POINTS:,} "
+            f"{length:g} m at a spacing of {step:g} m are {count} points; 4 to {MOST_POINTS:,} "
             "are possible. Give a longer road, or another spacing."
         )
         raise InputError([problem], source)

@@ -42,7 +42,7 @@ _SIZES: Mapping[str, float] = {
 }  # fmt: skip
 """Typical sizes of coefficients, by the first two letters of their names."""
 _STEP = 1e-5  # of finite differences, in typical sizes
-_TELLS = 0.5  # greatest standard error of a determined coefficient, in half-widths of the bounds
+_MOST_ERROR = 0.5  # standard error of a determined coefficient, in half-widths of the bounds
 
 
 @dataclass(frozen=True)
@@ -272,7 +272,7 @@ def _doubtful(problem: _Problem, names: tuple[str, ...]) -> dict[str, list[str]]
     values = np.array([problem.start.coefficients[name] for name in names])
     effects = problem.effects(names, values)
     _, singular, directions = np.linalg.svd(effects, full_matrices=False)
-    least = 1.0 / (_TELLS * _WIDE)
+    least = 1.0 / (_MOST_ERROR * _WIDE)
     found: dict[str, list[str]] = {}
     for value, direction in zip(singular, directions, strict=True):
         if value > max(least, 1e-7 * singular[0]):
