@@ -1,4 +1,4 @@
-"""Modules run as ``python -m`` runs them, but in this process: another one imports for a second."""
+"""Modules run as by ``python -m``, but in this process: the imports of another take a second."""
 
 from __future__ import annotations
 

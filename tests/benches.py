@@ -32,7 +32,7 @@ SKEWED = Suspension.load("double_wishbone_car").with_changes(
 
 
 class Bench:
-    """A corner of which everything is measured anew, gradients by central differences."""
+    """A corner whose quantities are measured independently, gradients by central differences."""
 
     def __init__(self, suspension: Suspension) -> None:
         self.suspension: Any = suspension

@@ -1,7 +1,7 @@
 """Options and fixtures of all tests.
 
-What takes long to import is imported where it is used: the process that hands out tests to others
-reads this file as well, and they wait for it.
+Modules with a long import are imported inside functions: the process that distributes the tests
+reads this file, too, and the other processes wait for it.
 """
 
 from __future__ import annotations
@@ -33,20 +33,20 @@ if TYPE_CHECKING:
     Pages = dict[str, tuple[Hashable, ...]]
     """Groups of curves by name, with their variables."""
 
-# SymPy reads it when it is imported, which some tests do before `kintrafo.generator.memory` can say
-# so.
+# SymPy reads it at its import, which in some tests comes before that of
+# `kintrafo.generator.memory`.
 os.environ.setdefault("SYMPY_CACHE_SIZE", "None")
 
-# As many processes as cores run tests: threads of theirs would only wait for each other.
+# As many processes as cores run tests: their threads would only wait for each other.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-# How long an example takes is the machine's affair, and that of what else it does.
+# The time of an example depends on the machine and its load.
 settings.register_profile("calm", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("calm")
 
-# What tests compile as a user does, they compile once for all processes and later runs, and not
-# into the cache of whoever runs them. Without optimisation it takes a tenth of the time, and
-# without contraction the bits are the same.
+# Models that tests compile like a user are compiled once for all processes and later runs, in a
+# separate cache. Without optimisation this takes a tenth of the time, and without contraction the
+# bits are the same.
 os.environ["KINTRAFO_CACHE"] = str(kept.KEPT / "cache")
 os.environ.setdefault("CFLAGS", "-O0")
 
@@ -104,13 +104,13 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_sessionstart(session: pytest.Session) -> None:
-    """Remove what tests compiled long ago, before workers start."""
+    """Remove models that tests compiled long ago, before workers start."""
     if not hasattr(session.config, "workerinput"):
         kept.forget()
 
 
 def pytest_itemcollected(item: pytest.Item) -> None:
-    """Mark what holds numbers against an oracle: their last bits are a processor's."""
+    """Mark tests that compare with an oracle: last bits of numbers depend on the processor."""
     if _compares(getattr(item, "module", None)):
         item.add_marker("numbers")
 
@@ -122,12 +122,12 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 def pytest_configure() -> None:
-    """Let Python's search for circles of objects rest: it goes through all that was derived."""
+    """Switch off Python's search for cycles of objects, which visits all derived expressions."""
     gc.disable()
 
 
 def pytest_collection_finish() -> None:
-    """Let that search pass over what was imported: it stays."""
+    """Exclude imported objects from that search, since they stay."""
     gc.freeze()
 
 
@@ -147,7 +147,7 @@ def pytest_unconfigure(config: pytest.Config) -> None:
 
 @pytest.fixture(scope="module", autouse=True)
 def _circles_of_files_are_freed() -> Iterator[None]:
-    """Look for circles where files have taken much memory; pass over what stays from then on."""
+    """Free cycles of objects after files that took much memory; then exclude the rest."""
     global _most  # noqa: PLW0603 (of this process)
     yield
     most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
@@ -172,7 +172,7 @@ def _compares(module: ModuleType | None) -> bool:
 
 @pytest.fixture
 def interruptible() -> Iterator[None]:
-    """Let Python hear of interrupts: what a script starts in the background ignores them."""
+    """Let Python handle interrupts, which programs in the background of a script ignore."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)
@@ -217,7 +217,7 @@ def as_stored(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Callab
 
 @pytest.fixture
 def refused(as_stored: Callable[..., None]) -> Callable[..., Any]:
-    """Let calls fail with one kind of error, and compare its messages with those stored."""
+    """Assert that calls raise one kind of error, and compare its messages with those stored."""
 
     def compare(error: type[Exception], *calls: Callable[[], object]) -> Any:
         caught = []
@@ -243,7 +243,7 @@ def derived() -> Callable[[str], Derivation]:
 
 @pytest.fixture
 def coarse_report(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let reports have few positions, where the numbers between them do not matter."""
+    """Reduce the positions in reports, for tests that do not need numbers between them."""
     from kintrafo.vehicle.report.grid import Grid, GridAxis
 
     grid = Grid(GridAxis(-0.03, 0.015, 5), GridAxis(-0.03, 0.015, 5))
@@ -252,7 +252,7 @@ def coarse_report(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def few_frames(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let GIFs show every tenth frame, where it does not matter how smoothly they move."""
+    """Reduce GIFs to every tenth frame, for tests that do not need smooth motion."""
     from kintrafo.pages import animation
 
     whole = animation.frames
@@ -267,7 +267,7 @@ def few_frames(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def few_generations(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let a search for a front be short, where it does not matter how good it is."""
+    """Shorten the search for a front, for tests that do not need a good one."""
     from kintrafo.vehicle import studies as variation
 
     whole = variation.pareto
@@ -280,7 +280,7 @@ def few_generations(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def one_picture(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let chapters show their first picture again and again; drawing all of them takes seconds."""
+    """Repeat the first picture in all chapters; drawing all pictures takes seconds."""
     from kintrafo.vehicle.report.chapters.chapter import ChapterPicture
 
     _draw_roughly(monkeypatch)
@@ -297,7 +297,7 @@ def one_picture(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def rough_drawings(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let figures be coarse, and their parts where they come to lie: to find room takes longest."""
+    """Draw coarse figures without a layout of their parts, which takes longest."""
     _draw_roughly(monkeypatch)
 
 
@@ -316,13 +316,13 @@ def _draw_roughly(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def first_page_of_curves(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let figures show the first group of curves only; drawing all of them takes seconds."""
+    """Draw only the first group of curves; drawing all groups takes seconds."""
     _draw_pages(monkeypatch, lambda _: {})
 
 
 @pytest.fixture
 def each_page_of_curves_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let figures show the groups of curves that none before has shown; or else the first."""
+    """Draw the groups of curves that no earlier figure has, or else the first."""
     drawn: set[str] = set()
 
     def fresh(pages: Pages) -> Pages:
@@ -334,8 +334,7 @@ def each_page_of_curves_once(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def _draw_pages(monkeypatch: pytest.MonkeyPatch, wanted: Callable[[Pages], Pages]) -> None:
-    """Draw those of the pages that are wanted, and the first where none is."""
-
+    """Draw the wanted pages, or the first one if none is wanted."""
     from kintrafo.vehicle.plots.curves import grouped
 
     _draw_roughly(monkeypatch)
@@ -349,7 +348,7 @@ def _draw_pages(monkeypatch: pytest.MonkeyPatch, wanted: Callable[[Pages], Pages
 
 @pytest.fixture(scope="module")
 def driver() -> Iterator[Any]:
-    """Return what starts browsers."""
+    """Return the object that starts browsers."""
     playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
     with playwright.sync_playwright() as running:
         yield running.chromium
@@ -357,7 +356,7 @@ def driver() -> Iterator[Any]:
 
 @pytest.fixture(scope="module")
 def browser(driver: Any) -> Iterator[Any]:
-    """Return a browser in which the processor draws WebGL, so that it is there on every machine."""
+    """Return a browser in which the processor draws WebGL, as on machines without graphics."""
     from browser import SOFTWARE_GL, running
 
     with running(driver, *SOFTWARE_GL) as launched:

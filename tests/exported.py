@@ -1,4 +1,4 @@
-"""Systems that are exported in tests, and what is compiled of them."""
+"""Systems that are exported in tests, and their compiled programs."""
 
 import importlib
 import subprocess
@@ -34,7 +34,7 @@ def system_named(name: str) -> kintrafo.System:
 
 
 def _prescribed() -> Formulation:
-    """Return the four-bar linkage, its rocker turned by somebody."""
+    """Return the four-bar linkage with a prescribed angle of its rocker."""
     plain = tuple(f for f in four_bar.FOUR_BAR.forces if not isinstance(f, JointForce))
     given = {four_bar.D: Motion("drive", "rad", "angle of the rocker")}
     mechanism = replace(four_bar.FOUR_BAR, forces=plain)

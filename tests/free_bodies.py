@@ -1,4 +1,4 @@
-"""Bodies that move freely in the world, and what hangs on them."""
+"""Bodies that move freely in the world, with bodies and forces on them."""
 
 from __future__ import annotations
 
@@ -141,7 +141,7 @@ def _spring(
 
 
 def unit_quaternion(random: np.random.Generator) -> np.ndarray:
-    """Return a rotation, any one as likely as any other."""
+    """Return a random rotation with a uniform distribution."""
     q = random.normal(size=4)
     return q / np.linalg.norm(q)
 

@@ -1,4 +1,4 @@
-"""Where a model puts its bodies, and nothing else of it: over NumPy arrays, and soon derived."""
+"""Only the positions of the bodies of a model: over NumPy arrays, and quickly derived."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Functional mock-up units: what an importer sees and computes is what this package has."""
+"""Functional mock-up units: importers read and compute the values of this package."""
 
 import ctypes
 import os
@@ -31,7 +31,7 @@ VERSIONS = (2, 3)
 NAMES = ("four_bar", "reference_car")
 KINDS = ("ModelExchange", "CoSimulation")
 SHORT = {"rocker_pin_x": 0.05, "rocker_pin_y": 0.2}
-"""Of a coupler that is too short for a whole turn of the crank [m]."""
+"""Parameters of a coupler that is too short for a whole turn of the crank [m]."""
 
 
 @pytest.fixture(scope="module")
@@ -176,7 +176,7 @@ def test_the_sources_compile_silently(fmu, version, tmp_path):
 @pytest.mark.parametrize("version", VERSIONS)
 @pytest.mark.parametrize("name", NAMES)
 def test_values_are_the_same_bits(fmu, name, version):
-    """Derivatives and outputs at the start are what the equations give."""
+    """Derivatives and outputs at the start are those of the equations."""
     system, at = system_named(name), start(name)
     inputs = getattr(at, "inputs", system.inputs())
     instance = fmu(name, version).instance("ModelExchange")
@@ -231,7 +231,7 @@ def test_units_are_powers_of_base_units(unit_text, wanted):
 @pytest.mark.parametrize("version", VERSIONS)
 @pytest.mark.parametrize("name", NAMES)
 def test_derivatives_are_those_of_the_linearisation(fmu, name, version):
-    """By differences of central values as well, which share no code with the Jacobians."""
+    """And those of central differences, which share no code with the Jacobians."""
     system, at = system_named(name), start(name)
     linear = kintrafo.linearise(system, at, getattr(at, "inputs", None))
     instance = fmu(name, version).instance("ModelExchange")
@@ -376,7 +376,7 @@ def test_steps_follow_the_motion(fmu, version, step, implicit):
 
 @pytest.mark.parametrize("version", VERSIONS)
 def test_inputs_go_on_by_their_derivatives(fmu, version):
-    """A rack that moves is given once, by place and velocity: within a step it goes on so."""
+    """A moving rack has one position and one velocity; within a step it moves at this velocity."""
     instance = fmu("reference_car", version).instance()
     assert instance.initialise(tolerance=1e-12, rack_velocity=0.1) == OK
     for k in range(5):
@@ -390,7 +390,7 @@ def test_inputs_go_on_by_their_derivatives(fmu, version):
 
 
 def test_slopes_of_inputs(fmu):
-    """FMI 2.0 sets them by order; those that the model takes are inputs themselves."""
+    """FMI 2.0 sets them by order; derivatives that the model takes are inputs, too."""
     instance = fmu("reference_car", 2).instance()
     assert instance.initialise(tolerance=1e-12) == OK
     given = {"road_height": 2, "rack_position": 2}
@@ -415,7 +415,7 @@ def test_slopes_of_inputs(fmu):
 
 @pytest.mark.parametrize("version", VERSIONS)
 def test_a_motion_that_ends_is_told(fmu, version):
-    """A crank that is driven to its dead point: the step says when and why, nothing crashes."""
+    """A crank is driven to its dead point: the message of the step has the time and the reason."""
     system = kintrafo.System(system_named("four_bar").equations, SHORT)
     torque = {"crank_torque": 10.0}
     with pytest.raises(kintrafo.SimulationError) as refused:
@@ -468,7 +468,7 @@ def integrated(instance, end, length):
 @pytest.mark.parametrize("version", VERSIONS)
 @pytest.mark.parametrize(("torque", "rate"), [(10.0, 0.0), (-5.5, -5.8), (4.3, -5.6), (1.0, 1.0)])
 def test_steps_of_an_importer_do_not_pass_a_dead_point(fmu, version, torque, rate):
-    """Behind it the equations have another motion, which a solver sees nothing wrong with."""
+    """Beyond it the equations have another motion, which a solver accepts."""
     system = kintrafo.System(system_named("four_bar").equations, SHORT)
     given = {"crank_torque": torque, "crank_angle_rate": rate}
     try:
@@ -614,7 +614,7 @@ def test_a_thousand_instances_need_little_memory(fmu):
 
 @pytest.mark.parametrize("version", VERSIONS)
 def test_parameters_are_those_that_are_set(fmu, version):
-    """The library serves any parameter set: constants are made of what is set."""
+    """One library has any parameter set: constants are computed from the set values."""
     system = kintrafo.System(system_named("four_bar").equations, {"crank_mass": 2.0})
     instance = fmu("four_bar", version).instance("ModelExchange")
     assert instance.initialise(**{"parameters.crank_mass": 2.0}) == OK
@@ -655,7 +655,7 @@ def test_parameters_out_of_range(fmu, version, values, words):
     [({"ixx": 0.05}, True), ({"ixx": 1.0}, False), ({"ixy": 0.5}, False), ({"ixx": -0.01}, False)],
 )
 def test_inertia_of_no_body(fmu, values, fine):
-    """As `prepare` of Python refuses it, which looks at the principal moments."""
+    """Refused as by `prepare` in Python, which checks the principal moments."""
     system = system_named("reference_car")
     body = next(n for n in system.parameters if n.endswith("_inertia_xx")).removesuffix(
         "_inertia_xx"
