@@ -373,7 +373,7 @@ def test_motions_that_cannot_be_are_refused() -> None:
 def test_loads_that_nothing_holds_are_refused(
     monkeypatch: pytest.MonkeyPatch, refused: Any
 ) -> None:
-    module = import_module("kintrafo.vehicle.analysis.compliance.nonlinear")
+    module = import_module("kintrafo.vehicle.analysis.compliance.under_load")
     monkeypatch.setattr(module, "_LEAST_STEP", 0.3)  # a short search for the greatest one
     weak = {"arm_rear": {"axial_N_per_mm": 1.0, "radial_N_per_mm": 1.0}}
     refused(PositionError, lambda: compliance.nonlinear(axle_of(STRUT), weak, "braking", [9e5]))

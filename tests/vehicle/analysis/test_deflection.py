@@ -25,8 +25,8 @@ from kintrafo.core.validator import Validator
 from kintrafo.core.vectors import unit_vector
 from kintrafo.vehicle.analysis.compliance.connections import CompliantJoints
 from kintrafo.vehicle.analysis.compliance.equilibrium import ElasticEquilibrium, ElasticState
-from kintrafo.vehicle.analysis.compliance.nonlinear import BY_NAME, unit_load
 from kintrafo.vehicle.analysis.compliance.on_bushes import at_height, on_bushes, on_joints, softs_of
+from kintrafo.vehicle.analysis.compliance.rig_loads import BY_NAME
 from kintrafo.vehicle.analysis.compliance.rigid_displacements import (
     Angles,
     Distances,
@@ -35,6 +35,7 @@ from kintrafo.vehicle.analysis.compliance.rigid_displacements import (
     RigidDisplacements,
     Torsions,
 )
+from kintrafo.vehicle.analysis.compliance.under_load import unit_load
 from kintrafo.vehicle.assembly import wheel
 from kintrafo.vehicle.assembly.corner import CornerAssembly
 from kintrafo.vehicle.assembly.of import assembly_of

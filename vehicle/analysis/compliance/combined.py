@@ -1,7 +1,6 @@
 """Wheels on bushes over travel and a load together, as in the combined test of a rig."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,29 +9,10 @@ import xarray as xr
 from ....core.named_types import ArrayLike
 from ....core.validator import Validator
 from ...assembly.by_wheel import WHEEL, of_wheels, wheel_coordinate
-from ...assembly.of import given_assembly
 from ...assembly.quantity import TRAVEL
-from .flexibility import HELD, WheelSupport, refuse_without_rate
-from .nonlinear import (
-    LOAD,
-    amounts_of,
-    load_coordinate,
-    parts_of,
-    under_amounts,
-    unit_load,
-    words_of,
-)
-from .on_bushes import (
-    CURVES,
-    HARDPOINTS,
-    WHEEL_LOAD,
-    Hardpoints,
-    at_height,
-    on_bushes,
-    on_joints,
-    softs_of,
-)
-from .rig_loads import BY_NAME
+from .flexibility import WheelSupport
+from .on_bushes import CURVES, WHEEL_LOAD, Hardpoints, on_bushes
+from .under_load import LOAD, WheelsUnderLoad, amounts_of, assembly_given, load_coordinate
 
 
 def combined(
@@ -93,30 +73,18 @@ def combined(
     [[-0.22, 0.0, 0.21], [0.06, 0.27, 0.46]]
     """
     with Validator("combined") as given:
-        assembly = given_assembly(given, subject)
-        given.among("under", under, BY_NAME)
-        given.among("held", held, HELD)
-        given.among("hardpoints", hardpoints, HARDPOINTS)
+        assembly = assembly_given(given, subject, under, held, hardpoints)
         rack_position = given.number("rack_position", rack_position, "m")
         wanted = amounts_of(given, amounts)
         if travel is not None:
             travel = given.array("travel", travel, "m", dimensions=[1])
-        if not given.failed:
-            assembly.refuse_holding(given, assembly.usual_motion, 0.0, rack_position)
-            parts = parts_of(given, assembly, under, wheels)
-        softs = softs_of(given, assembly, bushings, hardpoints)
-        if not given.failed:
-            refuse_without_rate(given, held, *assembly.tyres)
+        loaded = WheelsUnderLoad.given(
+            given, assembly, bushings, under, wheels, rack_position, held, hardpoints
+        )
     if travel is None:
         travel = assembly.usual(assembly.usual_motion, rack=rack_position)
     travels = np.asarray(travel)
-    load = replace(BY_NAME[under], words=words_of(under, wheels, parts))
-    poses = assembly.poses(assembly.at_travel(travels, rack_position))
-    suspension = on_joints(assembly, poses, softs)
-    base = at_height(suspension, travels)
-    of_each = zip(parts, suspension.wheels, strict=True)
-    unit = np.stack([part * unit_load(load, one) for part, one in of_each], axis=1)
-    states = under_amounts(suspension, base, unit, held, load, wanted)
+    suspension, _, states = loaded.equilibria(travels, wanted)
     moved = [
         [on_bushes(suspension, state, which) for state in states]
         for which in range(len(assembly.wheels))
@@ -129,9 +97,9 @@ def combined(
     road = np.moveaxis(np.stack([state.road for state in states]), -1, 0)
     data[WHEEL_LOAD.name] = of_wheels(WHEEL_LOAD, dims, [*road])
     coordinates = {
-        LOAD: load_coordinate(load, wanted),
+        LOAD: load_coordinate(loaded.load, wanted),
         TRAVEL.name: xr.Variable(TRAVEL.name, travels, TRAVEL.attributes()),
         WHEEL: wheel_coordinate(assembly.wheels),
     }
-    how = {"held": HELD[held], "hardpoints": HARDPOINTS[hardpoints]}
-    return xr.Dataset(data, coordinates, {"title": f"wheels under {load.words}"} | how)
+    title = {"title": f"wheels under {loaded.load.words}"}
+    return xr.Dataset(data, coordinates, title | loaded.described)

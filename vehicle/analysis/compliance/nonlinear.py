@@ -7,37 +7,20 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ....core.memory import positions_given
 from ....core.named_types import Array, ArrayLike
-from ....core.quantities import attributes, variable
+from ....core.quantities import variable
 from ....core.validator import Validator
 from ...assembly import wheel
-from ...assembly.assembly import HeldAssembly
 from ...assembly.by_wheel import WHEEL, of_wheels, wheel_coordinate
-from ...assembly.of import given_assembly
-from ...assembly.part_poses import CENTER, CONTACT
+from ...assembly.part_poses import CONTACT
 from ...assembly.quantity import Quantity
-from ...corner.corner import RoadWheel
-from ...models.reach import PositionError
 from ..characteristics.datasets import DATA_SET
 from .equilibrium import ElasticEquilibrium, ElasticState
-from .flexibility import HELD, WheelSupport, refuse_without_rate
+from .flexibility import WheelSupport
 from .linear import OF_BEAM, linear
-from .on_bushes import (
-    HARDPOINTS,
-    WHEEL_LOAD,
-    Hardpoints,
-    at_height,
-    gives_way,
-    on_bushes,
-    on_joints,
-    place_of_beam,
-    softs_of,
-)
-from .rig_loads import BY_NAME, RigLoad, give_of_tyre, load_at_contact, loadings, sense_of
-
-LOAD = "load"
-"""Dimension of the amounts of the load."""
+from .on_bushes import WHEEL_LOAD, Hardpoints, gives_way, on_bushes, place_of_beam
+from .rig_loads import RigLoad, give_of_tyre, loadings, sense_of
+from .under_load import LOAD, WheelsUnderLoad, amounts_of, assembly_given, load_coordinate
 
 _QUANTITIES = {
     "toe": Quantity("toe_change", "rad", "change of toe angle", "of the wheel", "positive toe-in"),
@@ -53,20 +36,6 @@ _QUANTITIES = {
         "positive in the direction of a positive force",
     ),
 }  # fmt: skip
-WHEELS = {
-    "parallel": "both wheels, in one direction",
-    "opposed": "both wheels, oppositely",
-    "left": "the left wheel",
-    "right": "the right wheel",
-}
-"""Loaded wheels of an axle."""
-
-_PARALLEL = "parallel"
-_GREATEST = 1e6
-# A tyre slides before it deflects this far [m].
-_FARTHEST_TYRE = 0.2
-# The smallest step of a load, as a part of it.
-_LEAST_STEP = 1e-3
 
 
 def nonlinear(
@@ -159,28 +128,17 @@ def nonlinear(
     0.0
     """
     with Validator("deflection") as given:
-        assembly = given_assembly(given, subject)
-        given.among("under", under, BY_NAME)
-        given.among("held", held, HELD)
-        given.among("hardpoints", hardpoints, HARDPOINTS)
+        assembly = assembly_given(given, subject, under, held, hardpoints)
         travel = given.number("travel", travel, "m")
         rack_position = given.number("rack_position", rack_position, "m")
         wanted = amounts_of(given, amounts)
-        if not given.failed:
-            assembly.refuse_holding(given, assembly.usual_motion, 0.0, rack_position)
-            parts = parts_of(given, assembly, under, wheels)
-        softs = softs_of(given, assembly, bushings, hardpoints)
-        if not given.failed:
-            refuse_without_rate(given, held, *assembly.tyres)
-    load = replace(BY_NAME[under], words=words_of(under, wheels, parts))
-    at = np.array([travel])
-    suspension = on_joints(assembly, assembly.poses(assembly.at_travel(at, rack_position)), softs)
-    base = at_height(suspension, at)
-    of_each = zip(parts, suspension.wheels, strict=True)
-    unit = np.stack([part * unit_load(load, wheel) for part, wheel in of_each], axis=1)
-    states = under_amounts(suspension, base, unit, held, load, wanted)
+        loaded = WheelsUnderLoad.given(
+            given, assembly, bushings, under, wheels, rack_position, held, hardpoints
+        )
+    load, parts, at = loaded.load, loaded.parts, np.array([travel])
+    suspension, base, states = loaded.equilibria(at, wanted)
     to_first_order = None
-    if gives_way(softs):
+    if gives_way(loaded.softs):
         to_first_order = linear(subject, bushings, at, rack_position=rack_position, held=held)
     straight = _straight(to_first_order, load, parts, wanted)
     data = _changes_of_wheels(
@@ -192,45 +150,13 @@ def nonlinear(
         torque = np.concatenate([suspension.torque_of_bar(state) for state in states])
         words = f"torque of the anti-roll bar, {assembly.BAR_SIGN}"
         data["bar_torque"] = variable(LOAD, torque, words, "N m")
-    how = {"held": HELD[held], "hardpoints": HARDPOINTS[hardpoints]}
     coordinates = {
         DATA_SET: ["equilibrium", "linear"],
         LOAD: load_coordinate(load, wanted),
         WHEEL: wheel_coordinate(assembly.wheels),
     }
-    return xr.Dataset(data, coordinates, {"title": f"deflection under {load.words}"} | how)
-
-
-def parts_of(
-    given: Validator, assembly: HeldAssembly, under: str, wheels: Any
-) -> tuple[float, ...]:
-    """Return the factors of a load on the wheels."""
-    ways = {how.name: how.parts for how in loadings(BY_NAME[under], assembly.wheels)}
-    if len(assembly.wheels) == 1:
-        if wheels is not None:
-            given.fail("wheels: a corner has one wheel. Leave it out, or give an axle.")
-        return ways[""]
-    if wheels is None or isinstance(wheels, str):
-        for which, wheel in enumerate(assembly.wheels):
-            ways[wheel] = tuple(np.eye(len(assembly.wheels))[which].tolist())
-        given.among("wheels", wheels or _PARALLEL, WHEELS)
-        return ways.get(wheels or _PARALLEL, ())
-    both = given.array("wheels", wheels, "1", dimensions=[1])
-    if both.shape != (len(assembly.wheels),) or not (np.abs(both) <= 1.0).all():
-        given.fail("wheels: two numbers from -1 to 1 are needed, of the left and right wheel.")
-    return tuple(both.tolist())
-
-
-def words_of(under: str, wheels: str | Sequence[float] | None, parts: Sequence[float]) -> str:
-    """Return a load on some wheels in words."""
-    load = BY_NAME[under]
-    for how in loadings(load, parts):
-        if how.name == (wheels or _PARALLEL) or not how.name:
-            return how.title(load)
-    if isinstance(wheels, str):
-        return f"{load.words} of {WHEELS[wheels]}"
-    left, right = parts
-    return f"{how.title(load).rpartition(', ')[0]}, {left:g} of it left and {right:g} right"
+    title = {"title": f"deflection under {load.words}"}
+    return xr.Dataset(data, coordinates, title | loaded.described)
 
 
 def _straight(
@@ -252,102 +178,6 @@ def _straight(
         )
 
     return found
-
-
-def amounts_of(given: Validator, amounts: ArrayLike) -> Array:
-    """Return the amounts of a load, or add an error."""
-    wanted = positions_given(given, "amounts", amounts, "N or N m")
-    if not (np.abs(wanted) <= _GREATEST).all():
-        given.fail(f"amounts: numbers of {_GREATEST:g} N or N m or less are needed.")
-    return wanted
-
-
-def unit_load(load: RigLoad, on_road: RoadWheel) -> Array:
-    """Return a load of 1 N or 1 N m for `ElasticEquilibrium.under`, (n, 9)."""
-    at_contact = load_at_contact(load, on_road)
-    force, still = at_contact[:, :3], np.zeros((len(at_contact), 3))
-    if load.at == CENTER:
-        return np.concatenate([still, still, force], axis=1)
-    return np.concatenate([at_contact, still], axis=1)
-
-
-def under_amounts(
-    suspension: ElasticEquilibrium,
-    base: ElasticState,
-    unit: Array,
-    held: WheelSupport,
-    load: RigLoad,
-    wanted: Array,
-) -> list[ElasticState]:
-    """Return the equilibria under some amounts of a load, each found from a smaller one."""
-    _refuse_on_tyres(suspension, load, wanted)
-    found: dict[float, ElasticState] = {}
-    for sense in (1.0, -1.0):
-        state, at = base, 0.0
-        for amount in sorted({a for a in wanted.tolist() if sense * a >= 0.0}, key=abs):
-            state = _towards(suspension, base, state, (at, amount), unit, held, load)
-            at, found[amount] = amount, state
-    states = [found[amount] for amount in wanted.tolist()]
-    _refuse_beyond(suspension, states, load, wanted)
-    return states
-
-
-def _towards(
-    suspension: ElasticEquilibrium,
-    base: ElasticState,
-    state: ElasticState,
-    amounts: tuple[float, float],
-    unit: Array,
-    held: WheelSupport,
-    load: RigLoad,
-) -> ElasticState:
-    """Return the equilibrium under one amount of a load from that under another, in steps."""
-    at, end = amounts
-    step = end - at
-    while at != end:
-        to = end if abs(step) >= abs(end - at) else at + step
-        there = suspension.under(to * unit, held, state, base)
-        if there.found.all():
-            state, at, step = there, to, 2.0 * step
-            continue
-        step *= 0.5
-        if abs(step) <= _LEAST_STEP * abs(end):
-            raise PositionError(
-                f"no stable equilibrium was found under {load.words} of more than {at:.4g} "
-                f"{load.unit}: the bushes do not hold the linkage. Use smaller loads or "
-                "stiffer bushes."
-            )
-    return state
-
-
-def _refuse_on_tyres(suspension: ElasticEquilibrium, load: RigLoad, wanted: Array) -> None:
-    """Raise an error for loads with an impossible deflection of the stationary tyre."""
-    soft = max(float(give_of_tyre(load, wheel) or 0.0) for wheel in suspension.wheels)
-    worst = float(wanted[np.abs(wanted).argmax()]) if wanted.size else 0.0
-    if abs(worst) * soft > _FARTHEST_TYRE:
-        raise PositionError(
-            f"under {load.words} of {worst:.4g} {load.unit} the stationary tyre deflects by "
-            f"{1e3 * abs(worst) * soft:.4g} mm, more than any tyre can: "
-            f"{1e3 * _FARTHEST_TYRE:g} mm: it slides before. Leave greater loads out, or correct "
-            "its rates in [tyre]."
-        )
-
-
-def _refuse_beyond(
-    suspension: ElasticEquilibrium, states: list[ElasticState], load: RigLoad, wanted: Array
-) -> None:
-    """Raise an error for loads with an impossible deflection of a bush, or damper or strut."""
-    for which in np.argsort(np.abs(wanted), kind="stable"):
-        if strained := suspension.overstretched(states[which]):
-            raise PositionError(
-                f"under {load.words} of {wanted[which]:.4g} {load.unit} {strained}. Leave greater "
-                "loads out, or make it stiffer."
-            )
-        if words := suspension.beyond(states[which]):
-            raise PositionError(
-                f"under {load.words} of {wanted[which]:.4g} {load.unit} {words[0]}. Leave greater "
-                "ones out, or give the file stops that hold it before."
-            )
 
 
 def _changes_of_wheels(
@@ -421,10 +251,3 @@ def _changes_of_beam(
             (DATA_SET, LOAD), both, f"change of {words}, {sign}", unit
         )
     return data
-
-
-def load_coordinate(load: RigLoad, amounts: Array) -> xr.Variable:
-    """Return the coordinate of results over a load."""
-    words = load.words.partition(" ")[2]
-    shown = {"display_units": "kN", "display_factor": 1e-3} if load.unit == "N" else {}
-    return xr.Variable(LOAD, amounts, attributes(words, load.unit) | shown)
