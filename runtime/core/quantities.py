@@ -117,6 +117,11 @@ def long_name(data: "xr.DataArray") -> str:
     return str(data.attrs.get("long_name") or str(data.name).replace("_", " "))
 
 
+def names_in_words(coordinate: "xr.DataArray") -> list[str]:
+    """Return the names of a coordinate, one or more, in words: ``front left``."""
+    return [str(name).replace("_", " ") for name in coordinate.values.ravel()]
+
+
 def heading_of(data: "xr.DataArray") -> str:
     """Return the name of a variable in words, with its display unit."""
     return bracketed(long_name(data), data.attrs)

@@ -108,7 +108,7 @@ def command(
 
 def _rest(found: "Dataset", file: str) -> "list[Table]":
     """Return a table with a column for each wheel, and one of the body."""
-    from ...core.quantities import displayed, heading_of
+    from ...core.quantities import displayed, heading_of, names_in_words
     from ..analysis.ride.rest import wheels_and_body
     from ..assembly.by_wheel import WHEEL
 
@@ -117,13 +117,9 @@ def _rest(found: "Dataset", file: str) -> "list[Table]":
         for some in wheels_and_body(found)
     )
     return [
-        table(f"{file}: at rest", ("wheels", *_words(found[WHEEL])), wheels),
+        table(f"{file}: at rest", ("wheels", *names_in_words(found[WHEEL])), wheels),
         table(f"{file}: at rest", ("body", "value"), body),
     ]
-
-
-def _words(names: "DataArray") -> list[str]:
-    return [str(name).replace("_", " ") for name in names.values.ravel()]
 
 
 def _modes(found: "Dataset", file: str) -> "Table":
@@ -139,7 +135,7 @@ def _modes(found: "Dataset", file: str) -> "Table":
 
 def _ride(motion: "Dataset", linear: "Dataset | None", title: str) -> "list[Table]":
     """Return a table of the body, and one with a column for each wheel."""
-    from ...core.quantities import heading_of
+    from ...core.quantities import heading_of, names_in_words
     from ..analysis.ride.rest import wheels_and_body
     from ..assembly.by_wheel import WHEEL
 
@@ -158,7 +154,7 @@ def _ride(motion: "Dataset", linear: "Dataset | None", title: str) -> "list[Tabl
     ]
     return [
         table(title, ("body", *heads), of_body),
-        table(title, ("wheels", "", *_words(motion[WHEEL])), of_wheels, words=(0, 1)),
+        table(title, ("wheels", "", *names_in_words(motion[WHEEL])), of_wheels, words=(0, 1)),
     ]
 
 

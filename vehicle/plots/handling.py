@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ...core.files import Paths
-from ...core.quantities import displayed, heading_of, long_name
+from ...core.quantities import displayed, heading_of, long_name, names_in_words
 from ...pictures.curves import draw, named_values, varying
 from ...pictures.figures import BLUE, ORANGE, STYLE, save, written_plainly
 from ..assembly.by_wheel import WHEEL
@@ -95,8 +95,7 @@ def _along(dataset: xr.Dataset) -> str:
 def for_print(dataset: xr.Dataset, along: str) -> xr.Dataset:
     """Return curves with the names of wheels in words, and a sideslip angle without jumps."""
     if WHEEL in dataset.dims:
-        words = [str(name).replace("_", " ") for name in dataset[WHEEL].values]
-        dataset = dataset.assign_coords({WHEEL: words})
+        dataset = dataset.assign_coords({WHEEL: names_in_words(dataset[WHEEL])})
     if along == "time" and _SIDESLIP in dataset:
         angle = dataset[_SIDESLIP]
         turned = np.unwrap(angle.values, axis=angle.get_axis_num(along))

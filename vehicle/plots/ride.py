@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
-from ...core.quantities import displayed, heading_of
+from ...core.quantities import displayed, heading_of, names_in_words
 from ...core.validator import Validator
 from ...pictures.curves import draw
 from ...pictures.figures import small
@@ -43,8 +43,7 @@ def response_figures(response: xr.Dataset) -> dict[str, Figure]:
     if whole.sizes.get(_ROAD_WHEEL) == 1:
         whole = whole.squeeze(_ROAD_WHEEL, drop=True)
     else:
-        words = [str(name).replace("_", " ") for name in whole[_ROAD_WHEEL].values]
-        whole = whole.assign_coords({_ROAD_WHEEL: words})
+        whole = whole.assign_coords({_ROAD_WHEEL: names_in_words(whole[_ROAD_WHEEL])})
     by_road = [str(name) for name in whole if str(name).endswith("_by_road")]
     names = [*(str(name) for name in whole if name not in by_road), *by_road]
     return {heading_of(whole[name]): _figure(whole[name]) for name in names}

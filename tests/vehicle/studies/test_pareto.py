@@ -183,7 +183,7 @@ def test_the_seed_decides(kintrafo: Any, tmp_path: Path) -> None:
     for name, seed in (("a.csv", 5), ("b.csv", 5), ("c.csv", 6)):
         options = (*QUICK, "--seed", seed, "-o", name)
         assert kintrafo("pareto", "reference_car", "s.toml", *options)[0] == 0
-    assert np.random.get_state()[1].tolist() == before  # noqa: NPY002
+    assert np.random.get_state()[1].tolist() == before  # noqa: NPY002 (the same)
     texts = [(tmp_path / f"{name}.csv").read_bytes() for name in "abc"]
     assert texts[0] == texts[1] != texts[2]
     heading = b"member,toe_deviation [deg],roll_center_height_kinematic_least [mm],"

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import xarray as xr
 
-from ....core.quantities import displayed, long_name, unit_or_stroke
+from ....core.quantities import displayed, long_name, names_in_words, unit_or_stroke
 from ....core.tabulated import Tabulated, significant
 from ...assembly.by_wheel import AXLE, WHEEL
 
@@ -27,7 +27,7 @@ def at_design(dataset: xr.Dataset, title: str) -> list[Tabulated]:
     """
     if WHEEL not in dataset.dims:
         return _tables(title, [("at design", ("value",), [*dataset.values()])])
-    wheels = [str(name).replace("_", " ") for name in dataset[WHEEL].values]
+    wheels = names_in_words(dataset[WHEEL])
     data = [*dataset.values()]
     of_wheels = [each for each in data if WHEEL in each.dims]
     of_axle = [each for each in data if WHEEL not in each.dims]

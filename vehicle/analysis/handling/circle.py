@@ -354,8 +354,8 @@ def described(
     }
     along = "lateral_acceleration"
     curves: dict[str, Any] = {
-        name: quantity(along, values[name], *described)
-        for name, described in (_OF_DRIVER | {n: QUANTITIES[n] for n in _OF_BODY}).items()
+        name: quantity(along, values[name], *words)
+        for name, words in (_OF_DRIVER | {n: QUANTITIES[n] for n in _OF_BODY}).items()
     }
     curves |= {
         name: quantity(along, gradients[name], words, _PER) for name, words in _GRADIENTS.items()

@@ -27,7 +27,7 @@ _GAINS = {
     "sideslip_gain": ("sideslip angle by steering wheel angle", "1"),
     "roll_gain": ("roll angle by steering wheel angle", "1"),
 }
-_LEFT_OUT = ("curvature", "travel_speed", "yaw_rate", "sideslip_angle", "roll_angle")
+_ZERO_OR_KNOWN = ("curvature", "travel_speed", "yaw_rate", "sideslip_angle", "roll_angle")
 
 
 def straight_running(
@@ -79,7 +79,7 @@ def at_speed(car: DrivingCar, speed: float) -> xr.Dataset:
         raise PositionError(problem) from None
     _, turn = described(turns, straight, {0.0: straight}, np.nan)
     found = turn[""].isel(lateral_acceleration=0)
-    found = found.drop_vars(["lateral_acceleration", *_LEFT_OUT])
+    found = found.drop_vars(["lateral_acceleration", *_ZERO_OR_KNOWN])
     wheel = float(found["steering_wheel_gradient"])
     gains = (
         1.0 / speed,  # the lateral acceleration is speed times yaw velocity
@@ -103,21 +103,23 @@ def _metrics(car: DrivingCar, curves: xr.Dataset) -> dict[str, Any]:
     if changes.size:
         low, high = speeds[changes[0]], speeds[changes[0] + 1]
 
-        def angle(speed: float) -> float:
+        def angle_by_yaw_rate(speed: float) -> float:
             return float(1.0 / at_speed(car, speed)["yaw_rate_gain"])
 
-        found = float(brentq(angle, low, high, xtol=_RESOLVED))
+        found = float(brentq(angle_by_yaw_rate, low, high, xtol=_RESOLVED))
         words = "critical speed, where the gain of the yaw velocity has no bound"
         return {"critical_speed": quantity((), found, words, "m/s")}
     top = int(np.argmax(gains))
     if not 0 < top < gains.size - 1:
         return {}
 
-    def less(speed: float) -> float:
+    def negative_gain(speed: float) -> float:
         return -float(at_speed(car, speed)["yaw_rate_gain"])
 
     between = (speeds[top - 1], speeds[top + 1])
-    best = minimize_scalar(less, bounds=between, method="bounded", options={"xatol": _RESOLVED})
+    best = minimize_scalar(
+        negative_gain, bounds=between, method="bounded", options={"xatol": _RESOLVED}
+    )
     name, words = "speed_of_greatest_gain", "speed of the greatest gain of the yaw velocity"
     if float(at_speed(car, float(best.x))["understeer_gradient"]) > 0.0:
         name, words = "characteristic_speed", f"characteristic speed, {words}"

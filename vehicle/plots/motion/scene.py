@@ -167,15 +167,16 @@ def _tracks(road: Road, car: MovingCar, centers: Array, way: Array) -> list[Arra
 
 def _spinning(car: MovingCar) -> list[int]:
     """Return the indices of the bodies that rotate with the spin angles of the wheels."""
-    model = car.model
-    before = model.evaluate("orientations", model.design_state)
-    found = []
-    for spin in car.spins:
-        state = model.design_state.copy()
-        state[model.state_names.index(spin)] += 0.5 * np.pi
-        changed = np.abs(model.evaluate("orientations", state) - before).max(axis=(1, 2))
-        found.append(int(changed.argmax()))
-    return found
+    before = car.model.evaluate("orientations", car.model.design_state)
+    changes = [np.abs(_turned(car, spin) - before).max(axis=(1, 2)) for spin in car.spins]
+    return [int(change.argmax()) for change in changes]
+
+
+def _turned(car: MovingCar, spin: str) -> Array:
+    """Return the orientations at design with a wheel turned by a quarter, (bodies, 3, 3)."""
+    state = car.model.design_state.copy()
+    state[car.model.state_names.index(spin)] += 0.5 * np.pi
+    return car.model.evaluate("orientations", state)
 
 
 def _wheels(
@@ -186,9 +187,7 @@ def _wheels(
     design = model.evaluate("orientations", model.design_state)[bodies]
     axes = []
     for spin, body, start in zip(car.spins, bodies, design, strict=True):
-        state = model.design_state.copy()
-        state[model.state_names.index(spin)] += 0.5 * np.pi
-        turn = model.evaluate("orientations", state)[body] @ start.T
+        turn = _turned(car, spin)[body] @ start.T
         # the antisymmetric part of a quarter of a turn is the axis
         skew = 0.5 * (turn - turn.T)
         axis = start.T @ unit_vector(np.array([skew[2, 1], skew[0, 2], skew[1, 0]]))

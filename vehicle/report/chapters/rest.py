@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ....core.quantities import displayed, heading_of
+from ....core.quantities import displayed, heading_of, names_in_words
 from ....core.tabulated import Tabulated, number
 from ...analysis.ride.rest import of_state, wheels_and_body
 from ...analysis.ride.subject import car_assembly, riding_car
@@ -56,7 +56,7 @@ def rest_chapter(subject: Any) -> Chapter:
 def _tables(found: xr.Dataset) -> tuple[Tabulated, ...]:
     """Return a table of the wheels, with a column for each, and one of the body."""
     of_wheels, of_body = wheels_and_body(found)
-    wheels = [str(name).replace("_", " ") for name in found[WHEEL].values.ravel()]
+    wheels = names_in_words(found[WHEEL])
     return tuple(
         Tabulated(title, ("", *heads), tuple((heading_of(d), *_written(d)) for d in some))
         for title, heads, some in (("Wheels", wheels, of_wheels), ("Body", ["value"], of_body))

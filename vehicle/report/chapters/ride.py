@@ -5,7 +5,7 @@ from typing import Any
 import xarray as xr
 from matplotlib import rc_context
 
-from ....core.quantities import long_name
+from ....core.quantities import long_name, names_in_words
 from ....core.tabulated import Tabulated, significant
 from ....pictures.figures import STYLE
 from ... import roads
@@ -64,9 +64,9 @@ def ride_chapter(subject: Any) -> Chapter:
 
 
 def _modes(found: xr.Dataset) -> Tabulated:
-    names = [str(name).replace("_", " ") for name in found["mode"].values]
-    columns = [found["frequency"].values, found["damping_ratio"].values]
-    rows = tuple((name, f"{f:.2f}", f"{d:.3f}") for name, f, d in zip(names, *columns, strict=True))
+    numbers = [found[name].values for name in ("frequency", "damping_ratio")]
+    columns = names_in_words(found["mode"]), *numbers
+    rows = tuple((name, f"{f:.2f}", f"{d:.3f}") for name, f, d in zip(*columns, strict=True))
     return Tabulated("Modes", ("mode", "frequency [Hz]", "damping ratio"), rows)
 
 
@@ -88,8 +88,7 @@ def _levels(response: xr.Dataset) -> Tabulated:
 def _by_wheel(data: xr.DataArray, value: Any) -> list[tuple[str, float]]:
     if WHEEL not in data.dims:
         return [("", value)]
-    names = [str(name).replace("_", " ") for name in data[WHEEL].values]
-    return list(zip(names, value, strict=True))
+    return list(zip(names_in_words(data[WHEEL]), value, strict=True))
 
 
 _RMS = {"rms": "RMS", "weighted_rms": "RMS weighted by W_k of ISO 2631-1"}

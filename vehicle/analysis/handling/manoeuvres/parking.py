@@ -79,7 +79,7 @@ class Parking(Manoeuvre):
         default=230.0, description="inflation pressure of the steered tyres"
     )
     twist_deg: Positive = Field(
-        default=4.0, description="turn of a wheel in which 63 % of its moment of friction is there"
+        default=4.0, description="turn of a wheel after which its moment is 63 % of that in sliding"
     )
 
     def problems(self) -> list[str]:
@@ -98,8 +98,8 @@ class Parking(Manoeuvre):
         steer, loads, lifting = self._at_rest(car, angles, progress)
         slopes = CubicSpline(angles, steer, axis=-1)(angles, 1)
         # from the middle to the left, to the right and to the left again
-        there = np.arange(-count, count + 1)
-        path = np.concatenate([np.arange(count + 1), there[::-1][1:], there[1:]]) + count
+        rows = np.arange(angles.size)
+        path = np.concatenate([rows[count:], rows[::-1][1:], rows[1:]])
         moments = self.moments(steer[:, path], loads[:, path])
         rubbing = (moments * slopes[:, path]).sum(axis=0)
         values = {
