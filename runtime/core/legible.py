@@ -8,6 +8,7 @@ _STRANGE = re.compile("[\x00-\x1f\x7f-\x9f\ud800-\udfff]")
 # The same without tabs and ends of lines.
 _STRANGE_IN_TEXTS = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ud800-\udfff]")
 _MOST_KEYS = 20_000
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _BYTES = range(0xDC80, 0xDD00)  # Python's form of bytes from 0x80 on that are not UTF-8 (PEP 383)
 
 
@@ -31,6 +32,17 @@ def short(text: str, most: int = 80) -> str:
     'rate = 100000...'
     """
     return text if len(text) <= most else f"{text[: most - 3]}..."
+
+
+def power_of_ten(exponent: int) -> str:
+    """Return a power of ten as it is typeset.
+
+    Examples
+    --------
+    >>> power_of_ten(-12)
+    '10⁻¹²'
+    """
+    return f"10{str(exponent).translate(_SUPERSCRIPTS)}"
 
 
 def readable(text: str) -> str:

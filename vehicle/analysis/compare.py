@@ -158,7 +158,7 @@ def with_compliance(
     travels : ndarray
         Wheel travel, of an axle in parallel [m].
     held : {'height', 'tyre', 'spring', 'locked'}
-        What holds the wheels under loads.
+        Support of the wheels under loads.
     rack_position : float, optional
         [m]
     """

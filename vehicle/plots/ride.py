@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
+from ...core.legible import power_of_ten
 from ...core.quantities import displayed, heading_of, names_in_words
 from ...core.validator import Validator
 from ...pictures.curves import draw
@@ -14,7 +15,6 @@ from ...pictures.figures import small
 from .by_axle import by_axle
 
 _ROAD_WHEEL = "road_wheel"
-_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 # Most dimensions: responses of each wheel to the road under each wheel are too many lines.
 _MOST = 2
 # Least value of an axis, relative to the greatest value of its curve.
@@ -68,12 +68,6 @@ def _make_logarithmic(axes: Axes, values: NDArray[np.float64]) -> None:
     axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     axes.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
     axes.yaxis.set_major_locator(LogLocator(numticks=6))
-    axes.yaxis.set_major_formatter(FuncFormatter(_power))
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda y, _: power_of_ten(round(np.log10(y)))))
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_minor_formatter(NullFormatter())
-
-
-def _power(value: float, place: int) -> str:
-    """Return a power of ten as it is typeset."""
-    del place
-    return f"10{str(round(np.log10(value))).translate(_RAISED)}"

@@ -9,7 +9,7 @@ import numpy as np
 from jinja2 import Environment
 
 from ...core.files import Paths, refuse, replacing
-from ...core.legible import legible
+from ...core.legible import legible, power_of_ten
 from ...core.named_types import Array
 from ...core.validator import Validator, shown
 from ...pages.embedded import asset, page_environment
@@ -36,8 +36,6 @@ from .tables import input_tables, summary
 
 ENDINGS = (".html", ".htm")
 """Endings of the names of reports."""
-
-_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 @dataclass(frozen=True)
@@ -334,4 +332,4 @@ def _upper_limit(error: float) -> str:
         digit, exponent = 1, exponent + 1
     if -4 <= exponent <= 2:
         return f"{digit * 10.0**exponent:.{max(-exponent, 0)}f}"
-    return f"{digit} \u00b7 10{str(exponent).translate(_SUPERSCRIPTS)}"
+    return f"{digit} \u00b7 {power_of_ten(exponent)}"

@@ -20,7 +20,7 @@ from ...assembly.quantity import Quantity
 from ...models.reach import PositionError
 from .body_motion import QUANTITIES
 from .car import DrivingCar
-from .driven import STEERING_TORQUE
+from .driven import OF_DRIVER, OF_WHEELS, STEER, STEERING_TORQUE
 from .result import HandlingResult, quantity
 from .steady import NoSteadyMotionError, Steady, SteadyCondition, SteadyMotion
 
@@ -46,11 +46,11 @@ _SMALL = 1e-4
 _PER = "rad s^2/m"
 _OF_BODY = ("yaw_rate", "roll_angle", "pitch_angle", "sideslip_angle")
 _OF_DRIVER = {
-    "steering_wheel_angle": ("steering wheel angle, positive to the left", "rad"),
+    "steering_wheel_angle": OF_DRIVER["steering_wheel_angle"],
     "steer_angle": ("mean steer angle of the steered wheels, positive to the left", "rad"),
     "travel_speed": ("horizontal speed of the reference point", "m/s"),
     "curvature": ("curvature of the path, positive to the left", "1/m"),
-    "drive_torque": ("torque of all driven wheels together", "N m"),
+    "drive_torque": OF_DRIVER["drive_torque"],
     "growth": ("growth rate of the least stable small motion, positive unstable", "1/s"),
 }
 _GRADIENTS = {
@@ -62,16 +62,10 @@ _GRADIENTS = {
         "understeer gradient by the steered wheels, positive understeering"
     ),
 }
-_OF_WHEELS = {
-    "fx": "longitudinal force of the road on the tyre, positive forward",
-    "fy": "lateral force of the road on the tyre, positive to the left",
-    "fz": "vertical force of the road on the tyre",
-    "slip": "longitudinal slip, positive in driving",
-    "slip_angle": "slip angle, positive moving to the left",
-    "camber": "camber to the vertical along the heading, positive with the top outboard",
-    "steer": "steer angle of the wheel to the body, positive to the left",
+_OF_WHEELS = OF_WHEELS | {
+    "camber": ("camber to the vertical along the heading, positive with the top outboard", "rad"),
+    "steer": STEER,
 }
-_UNITS = {"fx": "N", "fy": "N", "fz": "N", "slip": "1"}
 _OF_TORQUE = {
     "steering_torque": STEERING_TORQUE,
     "steering_torque_gradient": (
@@ -86,7 +80,7 @@ def columns_of_turns(wheels: Sequence[str]) -> dict[str, Quantity]:
     every |= {name: (words, _PER) for name, words in _GRADIENTS.items()} | _OF_TORQUE
     found = {name: _column(name, *described) for name, described in every.items()}
     by_wheel = [
-        _column(name, words, _UNITS.get(name, "rad")).of_wheel(wheel)
+        _column(name, *words).of_wheel(wheel)
         for name, words in _OF_WHEELS.items()
         for wheel in wheels
     ]
@@ -366,7 +360,7 @@ def described(
     signals = np.array([model.evaluate("signals", one.state, one.inputs) for one in steady]).T
     for name, words in _OF_WHEELS.items():
         rows = signals[turns.car.signal_rows(name, wheels)]
-        curves[name] = quantity((WHEEL, along), rows, words, _UNITS.get(name, "rad"))
+        curves[name] = quantity((WHEEL, along), rows, *words)
     coordinates = {
         along: quantity(along, axis, *QUANTITIES[along]),
         WHEEL: wheel_coordinate(wheels),

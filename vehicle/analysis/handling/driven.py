@@ -33,14 +33,18 @@ OF_WHEELS = {
 }
 """Quantities of each wheel: meaning and unit."""
 
+STEER = ("steer angle of the wheel to the body, positive to the left", "rad")
+"""Meaning and unit."""
+
 STEERING_TORQUE = ("torque of the steering wheel, positive to the left", "N m")
 """Meaning and unit."""
 
-_OF_DRIVER = {
+OF_DRIVER = {
     "steering_wheel_angle": ("steering wheel angle, positive to the left", "rad"),
     "drive_torque": ("torque of all driven wheels together", "N m"),
     "brake_pedal": ("part of the greatest torque of the brakes", "1"),
 }
+"""Actions of the driver: meaning and unit."""
 
 
 class Sampling(NamedTuple):
@@ -180,8 +184,8 @@ def _dataset(car: DrivingCar, rows: list[tuple[float, Array, Array, float, Pedal
         turned = np.unwrap(values) if name == "yaw_angle" else values
         found[name] = quantity("time", turned, *QUANTITIES[name])
     drives, brakes = zip(*pedals, strict=True)
-    for name, values in zip(_OF_DRIVER, (angles, drives, brakes), strict=True):
-        found[name] = quantity("time", np.array(values), *_OF_DRIVER[name])
+    for name, values in zip(OF_DRIVER, (angles, drives, brakes), strict=True):
+        found[name] = quantity("time", np.array(values), *OF_DRIVER[name])
     torque = car.steering_torque(np.array(angles), every, acting)
     if torque is not None:
         found["steering_torque"] = quantity("time", torque, *STEERING_TORQUE)

@@ -23,7 +23,7 @@ from ....assembly.by_wheel import WHEEL, wheel_coordinate
 from ....assembly.equilibrium import equilibrium
 from ....input.section import AllowedRange, Number, Positive
 from ..car import DrivingCar
-from ..driven import STEERING_TORQUE
+from ..driven import OF_DRIVER, OF_WHEELS, STEER, STEERING_TORQUE
 from ..result import HandlingResult, quantity
 from .manoeuvre import Manoeuvre, Progress
 
@@ -50,8 +50,8 @@ _DESCRIBED = {
     "friction_torque": ("torque of the steering wheel that turns the tyres on the road", "N m"),
 }
 _OF_WHEELS = {
-    "steer": ("steer angle of the wheel to the body, positive to the left", "rad"),
-    "fz": ("vertical force of the road on the tyre", "N"),
+    "steer": STEER,
+    "fz": OF_WHEELS["fz"],
     "mz": ("moment of the wheel on the road as it turns, positive to the left", "N m"),
 }
 _GREATEST = {
@@ -111,9 +111,8 @@ class Parking(Manoeuvre):
         of_wheels = {"steer": steer[:, path], "fz": loads[:, path], "mz": moments}
         for name, words in _OF_WHEELS.items():
             curves[name] = quantity((WHEEL, ALONG), of_wheels[name], *words)
-        words = ("steering wheel angle, positive to the left", "rad")
         coordinates = {
-            ALONG: quantity(ALONG, angles[path], *words),
+            ALONG: quantity(ALONG, angles[path], *OF_DRIVER[ALONG]),
             WHEEL: wheel_coordinate(car.steered),
         }
         title = f"{self.TITLE}, stationary"
