@@ -158,7 +158,7 @@ def test_rest_is_that_of_the_whole_axle() -> None:
 
 
 @pytest.mark.parametrize("axle", [AXLE, BENT], ids=["reference", "bent"])
-def test_the_whole_axle_stands_where_the_equations_say(axle: Axle) -> None:
+def test_the_axle_rests_in_the_position_of_the_equations(axle: Axle) -> None:
     """Forces of the compiled equations of the whole, by the work of vertical ones at the wheels."""
     if find_compiler() is None:
         pytest.skip("no C compiler")

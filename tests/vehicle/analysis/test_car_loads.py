@@ -57,7 +57,7 @@ def air(motion):
     return force, moment
 
 
-def test_what_the_joints_carry_is_what_the_equations_need(loads) -> None:
+def test_loads_of_the_joints_agree_with_the_equations_of_motion(loads) -> None:
     """Equations in minimal coordinates and the balance of all parts agree."""
     # rounding of differences of velocities, times masses
     assert np.abs(loads["holding_force"]).max() < 1e-5

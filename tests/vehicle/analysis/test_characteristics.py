@@ -550,7 +550,7 @@ def both():
     return characteristics.over(MODEL, "travel"), characteristics.over(MODEL, "rack")
 
 
-def test_every_variable_says_what_it_is():
+def test_every_variable_has_its_definition():
     factors = {
         ("rad", "deg"): 180.0 / np.pi,
         ("m", "mm"): 1e3,

@@ -33,7 +33,7 @@ DATA = ROOT / "vehicle/data"
 )
 @pytest.mark.parametrize("some", [False, True])
 @pytest.mark.parametrize("car", [STRUT, WISHBONES, LINKED, TRAILING], ids=lambda car: car.TITLE)
-def test_the_wheel_gives_way_as_springs_do(
+def test_the_wheel_deflects_as_on_springs(
     car: Suspension, some: bool, held: Any, travel: float, rack: float
 ) -> None:
     """Forces by statics and least energy against stiffnesses and constraints, two theories."""
@@ -99,7 +99,7 @@ def test_a_stiffer_bush_gives_less() -> None:
     np.testing.assert_allclose(soft["flexibility"], 1e8 * rigid["flexibility"], rtol=1e-9)
 
 
-def test_a_rod_gives_way_at_either_end() -> None:
+def test_a_rod_deflects_at_either_end() -> None:
     model = Model("reference_car")
     inner, outer = (
         compliance.linear(model, {f"tie_rod_{end}": {"axial_N_per_mm": 500.0}}, [0.0])

@@ -351,12 +351,12 @@ def test_a_left_car_is_the_mirror_image() -> None:
 
 
 @pytest.mark.parametrize("name", ["push_rod_car", "pull_rod_car", "offset_strut_car"])
-def test_every_kind_is_told(name: str) -> None:
+def test_other_kinds_deflect_nearly_linearly(name: str) -> None:
     model = Model(name)
     point = "arm_rear" if name == "offset_strut_car" else "lower_arm_rear"
     bushes = {point: {"axial_N_per_mm": 400.0, "radial_N_per_mm": 3000.0}}
     found = compliance.nonlinear(model, bushes, "lateral", [10.0])
-    # what the static load does in turned bushes is some per cent
+    # the static load in turned bushes has an effect of some per cent
     np.testing.assert_allclose(*found["toe_change"].values, rtol=0.05)
 
 

@@ -378,7 +378,7 @@ def test_a_path_keeps_to_the_middle_of_its_lanes() -> None:
 @pytest.mark.parametrize(("reference", "last", "count"), [
     (30.0, 270.0, 16), (45.0, 292.5, 11), (50.0, 300.0, 10),
 ])  # fmt: skip
-def test_amplitudes_end_as_the_standard_says(reference, last, count) -> None:
+def test_amplitudes_end_by_the_standard(reference, last, count) -> None:
     found = amplitudes_of(reference)
     assert found[0] == 1.5 * reference
     assert found[-1] == last

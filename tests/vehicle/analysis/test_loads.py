@@ -70,7 +70,7 @@ def total(found: xr.Dataset, part: str, by: str, about: np.ndarray) -> np.ndarra
 
 @pytest.mark.parametrize("free", [False, True])
 @pytest.mark.parametrize("seed", range(4))
-def test_joints_carry_what_multipliers_say(seed: int, free: bool) -> None:
+def test_loads_of_the_joints_are_the_multipliers(seed: int, free: bool) -> None:
     """Newton and Euler in closed form against maximal coordinates, in any motion."""
     random = np.random.default_rng(seed)
     model = Model(heavy(OFFSET) if free else OFFSET, free_rack=free)
@@ -133,7 +133,7 @@ def left_of(found: xr.Dataset) -> dict[str, np.ndarray]:
     }
 
 
-def test_a_rack_that_moves_by_itself_is_in_equilibrium_with_its_inertia() -> None:
+def test_a_free_rack_is_in_equilibrium_with_its_inertia() -> None:
     model = Model(heavy(CAR), free_rack=True)
     rest = equilibrium(model, spin_rate=50.0)
     motion = simulate(model, (0.0, 0.05), rest, inputs={"rack_force": lambda t: 300.0 * t})
@@ -251,7 +251,7 @@ def test_motions_need_no_other_force(car: Suspension, free: bool) -> None:
 @pytest.mark.parametrize(
     "car", [CAR, WISHBONES, OFFSET, PUSHED, PULLED, LINKED], ids=lambda car: car.TITLE
 )
-def test_at_rest_it_stands_as_the_equations_say(car: Suspension) -> None:
+def test_at_rest_positions_are_those_of_the_equations(car: Suspension) -> None:
     model = Model(car)
     rest = equilibrium(model)
     found = loads.static(model, STILL).sel(case="static")

@@ -270,7 +270,7 @@ def test_arguments_that_cannot_be_used(subject: Any) -> None:
         loads.along(Suspension.load("reference_car"), 3)  # type: ignore[arg-type]
 
 
-def test_dead_points_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_dead_points_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
     """As if all equations were at one."""
     monkeypatch.setattr("kintrafo.vehicle.analysis.loads.balance._WORST_CONDITION", 1.0)
     for name, subject in SHORT.items():
@@ -307,7 +307,7 @@ def test_a_motion_of_another_is_refused(name: str, other: Any) -> None:
         ("rigid_axle", "beam", "panhard_rod", "beam at panhard_rod_axle by panhard_rod"),
     ],
 )  # fmt: skip
-def test_the_command_tells_both_sides(
+def test_the_command_prints_both_sides(
     request: pytest.FixtureRequest, tmp_path: Any, file: str, part: str, shown: str, load: str
 ) -> None:
     forces = {"left": "[0, 0.5, 0.7]", "right": "[0, 1, 1.3]"}

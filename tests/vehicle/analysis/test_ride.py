@@ -347,7 +347,7 @@ def test_numbers_over_speed_are_those_of_the_spectra(whole: kintrafo.CarModel) -
         kintrafo.ride.by_speed(whole, [10.0], seat="drivr")
 
 
-def test_four_wheels_ride_as_the_linear_equations_say(whole: kintrafo.CarModel) -> None:
+def test_four_wheels_ride_by_the_linear_equations(whole: kintrafo.CarModel) -> None:
     speed = 20.0
     road = iso8608("A", length=1200.0, seed=4, track=assembly_of(whole).track)
     motion = kintrafo.ride.over(whole, road, speed, settle=4.0)

@@ -262,12 +262,12 @@ def test_compliance_of_several_is_compared(name: str) -> None:
             np.testing.assert_array_equal(found["toe"].sel(data_set=label), kinematic["toe"])
 
 
-def test_what_gives_way_alone_gives_way_by_its_softness() -> None:
+def test_a_single_bush_deflects_by_its_softness() -> None:
     models = dict(zip("ab", SOFT_ONES["car"], strict=True))
     travels = np.array([-0.02, 0.0, 0.02])
     locked = compare.differences(compare.compare(models, travels, held="locked"))
     toe = next(d for d in locked if d.name == "toe_by_lateral")
-    assert toe.other == pytest.approx(2.0 * toe.first, rel=1e-9)  # nothing else gives way
+    assert toe.other == pytest.approx(2.0 * toe.first, rel=1e-9)  # nothing else deflects
     assert abs(toe.first) > 1e-7
     assert "toe_by_lateral" not in compare.compare(models, travels)
 

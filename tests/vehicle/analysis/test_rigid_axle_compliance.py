@@ -195,7 +195,7 @@ OF["five"] = OF["Panhard rod"] | {"right_upper_link_axle": {"axial_N_per_mm": 70
     ],
     ids=["three links", "triangulated", "lopsided", "five rods"],
 )
-def test_the_axle_gives_way_as_springs_do(
+def test_the_axle_deflects_as_on_springs(
     axle: RigidAxle, rods: str, held: Any, travel: float
 ) -> None:
     """Forces by statics and least energy against stiffnesses and constraints, two theories."""

@@ -76,7 +76,7 @@ def test_curves_of_wheels_are_those_of_each_axle() -> None:
     assert set(names) <= set(by_axle(motion))
 
 
-def test_a_car_that_cannot_turn_says_why() -> None:
+def test_chapters_of_a_car_that_does_not_drive_have_the_reason() -> None:
     car = kintrafo.load("reference_vehicle")
     for chapter in (handling.steady_turns_chapter(car), handling.step_steer_chapter(car)):
         assert "does not travel" in chapter.words[0]
@@ -113,7 +113,7 @@ def test_curves_of_a_car_are_small_pictures(monkeypatch) -> None:
 
 
 @pytest.mark.parametrize("option", ["--cases", "--bushes"])
-def test_what_is_about_an_axle_needs_its_file(kintrafo, option) -> None:
+def test_options_of_axles_need_the_file_of_one(kintrafo, option) -> None:
     code, _, message = kintrafo("report", "quarter_car", option, "some.toml")
     assert code == 2
     assert "an axle or a suspension" in message

@@ -105,7 +105,9 @@ def test_derivatives_of_steady_turns() -> None:
         ("steering_wheel_deg=30", "steering_wheel_angle", np.deg2rad(30.0)),
     ],
 )
-def test_something_is_constant_in_steady_turns(option: str, constant: str, value: float) -> None:
+def test_the_chosen_quantity_is_constant_in_steady_turns(
+    option: str, constant: str, value: float
+) -> None:
     over, at = f"{TURNS}:{option}", [1.0, 3.0]
     names = ["travel_speed", "curvature", "steering_wheel_angle", "roll_angle"]
     own = variation.cars(DRIVES, {MASS: [1300.0]}, over=over, positions=[-3.0, *at], names=names)

@@ -289,7 +289,7 @@ def test_the_chapter_of_compliance_draws_those_of_its_wheels(
         )
 
 
-def test_compliance_tells_and_draws_them(
+def test_compliance_prints_and_draws_them(
     goals: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Bushes of a file of their own count, as they do in its curves."""

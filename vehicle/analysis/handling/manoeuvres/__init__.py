@@ -17,10 +17,11 @@ from .path_following import PathFollowing
 from .sine_sweep import SineSweep
 from .sine_with_dwell import SineWithDwell
 from .slowly_increasing_steer import SlowlyIncreasingSteer
+from .speed_range import SpeedRange
 from .step_steer import StepSteer
 
 __all__ = [
     "MANOEUVRES", "Acceleration", "BrakingInTurn", "Circle", "CoastDown", "DoubleLaneChange",
     "Manoeuvre", "Parking", "PathFollowing", "SineSweep", "SineWithDwell", "SlowlyIncreasingSteer",
-    "StepSteer", "StraightBraking", "load_manoeuvre",
+    "SpeedRange", "StepSteer", "StraightBraking", "load_manoeuvre",
 ]  # fmt: skip

@@ -53,7 +53,7 @@ class BrakingManoeuvre(SimulatedManoeuvre):
             raise InputError([problem], self.TITLE)
         return self.deceleration_m_per_s2 / most
 
-    def see_that_it_ends(self, motion: xr.Dataset, key: str, speed: float) -> None:
+    def refuse_without_end(self, motion: xr.Dataset, key: str, speed: float) -> None:
         """Raise an error for a motion whose last speed is above a limit [m/s]."""
         last = float(motion["speed"][-1])
         if last > speed:

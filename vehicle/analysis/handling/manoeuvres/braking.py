@@ -34,7 +34,7 @@ class StraightBraking(UntilSpeed, BrakingManoeuvre):
             car, straight, Fixed(straight.unknowns["steering_wheel"]), pushes, self.duration_s,
             until=self.ended, progress=progress,
         )  # fmt: skip
-        self.see_that_it_ends(motion, "until_km_per_h", end)
+        self.refuse_without_end(motion, "until_km_per_h", end)
         time, speed, x = (motion[name].values for name in ("time", "speed", "x"))
         begun = float(np.interp(self.start_s, time, x))
         slowed = first_crossing(time, -speed, -end)

@@ -40,7 +40,7 @@ class BrakingInTurn(UntilSpeed, BrakingManoeuvre, TurningManoeuvre):
             car, turn, Fixed(turn.unknowns["steering_wheel"]), pushes, self.duration_s,
             until=self.ended, progress=progress,
         )  # fmt: skip
-        self.see_that_it_ends(motion, "until_km_per_h", self.end_speed)
+        self.refuse_without_end(motion, "until_km_per_h", self.end_speed)
         return HandlingResult(self.judged(self._numbers(motion) | greatest(motion)), {"": motion})
 
     def _steady(self, car: DrivingCar) -> Steady:
