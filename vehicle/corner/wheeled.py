@@ -40,6 +40,11 @@ class WheeledSection(DescribedSection):
         return False
 
     @property
+    def steered_by(self) -> str:
+        """The key of the section of its steering; empty without steering."""
+        return ""
+
+    @property
     def steering_gear(self) -> Any:
         """The section of its steering; None without steering."""
         return None

@@ -256,6 +256,11 @@ class Axle(Described):
         """Return whether the wheels are steered, by a rack or a Pitman arm."""
         return self.right.steered()
 
+    @property
+    def steered_by(self) -> str:
+        """The key of the section of its steering, the same in the files of both sides."""
+        return self.right.steered_by
+
     # -- interface for a car ----------------------------------------------------------------------
 
     whole: ClassVar[bool] = False

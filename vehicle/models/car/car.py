@@ -332,11 +332,9 @@ class Car(Described):
             words.append("[body] com_mm")
         words += self._unused_of_driving()
         rear = self.axles.get("rear")
-        if isinstance(rear, Axle) and rear.steered():
-            section = rear.right.steered_by
-            words.append(
-                f"rear axle: [{section}] (a part of the body, and its tie rods hold the toe)"
-            )
+        if rear is not None and rear.steered():
+            held = "a part of the body, and its tie rods hold the toe"
+            words.append(f"rear axle: [{rear.steered_by}] ({held})")
         return tuple(words)
 
     def _unused_of_driving(self) -> list[str]:
