@@ -5,7 +5,7 @@ z up), in which everything is computed, and SAE J670 with z down (x forward, y r
 edition of SAE J670 has only these axes; that of 2008 allows both.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -14,9 +14,10 @@ import xarray as xr
 from ...core.quantities import attributes, displayed, long_name, unit_or_stroke
 from ...core.tabulated import Tabulated, significant
 from ...core.validator import Validator
-from ..assembly.assembly import Assembly
+from ..assembly.assembly import HeldAssembly
 from ..assembly.by_wheel import flat
 from ..assembly.of import given_assembly
+from ..models.car.file import ENDS
 from ..models.sides import SIDES
 from .characteristics.datasets import dataset
 from .compliance.flexibility import HELD, WheelSupport
@@ -28,6 +29,7 @@ QUANTITY = "quantity"
 
 _SIDES = ("_left", "_right")
 _LEFTWARD, _RIGHTWARD = "to the left", "to the right"
+_STEERED, _COMPLIANCE = "steered", "compliance"
 # Characteristics by the part of the sheet; those that an assembly does not have are left out.
 _PARTS = {
     "at rest": (
@@ -45,10 +47,9 @@ _PARTS = {
         "wheel_rate_alone", "roll_motion_ratio", "roll_moment_gradient", "roll_stiffness",
         "roll_stiffness_springs", "roll_stiffness_bar", "bar_share", "roll_stiffness_with_tyres",
     ),
-    "steered": ("steer_gradient", "steering_ratio"),
+    _STEERED: ("steer_gradient", "steering_ratio"),
 }  # fmt: skip
-_COMPLIANCE = "compliance"
-_OTHER_SIGN = "the other sign"
+_OTHER_SIGN, _MIRRORED = "the other sign", "mirror images"
 # Headings of compliances on one page. Displacements count inward by a lateral force, and rearward
 # by the others.
 _KINDS = {
@@ -69,20 +70,22 @@ def sheet(
 
     Parameters
     ----------
-    subject : Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
+    subject : Suspension, Model, Axle, AxleModel, RigidAxle, RigidAxleModel, Car or CarModel
+        Of a car, the sheet has both axles, or the corner of a quarter car; its body is held.
     bushings : mapping, optional
         As in `kintrafo.compliance.linear`, instead of those of the file. Without bushes the sheet
-        has no compliance.
+        has no compliance. An error for a car, whose bushes are those of the files of its axles.
     held : {'height', 'tyre', 'spring', 'locked'}, optional
         Support of the wheels under the loads of the compliance, see `kintrafo.compliance.linear`.
 
     Returns
     -------
     xarray.Dataset
-        Over ``quantity``, the names of the characteristics and compliances: the values with the
-        signs of ``iso_8855`` and of ``sae_j670`` (z down), in the display units of ``unit``;
-        ``part`` of the sheet, ``meaning``, ``definition``, and the meaning of a positive value in
-        ``iso_8855_sign`` and ``sae_j670_sign``.
+        Over ``quantity``, the names of the characteristics and compliances, of a wheel or an axle
+        with its place at the end, such as ``toe_left``, ``toe_front_left`` and ``track_front``: the
+        values with the signs of ``iso_8855`` and of ``sae_j670`` (z down), in the display units of
+        ``unit``; ``part`` of the sheet, ``meaning``, ``definition``, and the meaning of a positive
+        value in ``iso_8855_sign`` and ``sae_j670_sign``.
 
     Raises
     ------
@@ -104,13 +107,42 @@ def sheet(
     (True, 'deg/mm')
     """
     with Validator("sheet") as given:
-        assembly = given_assembly(given, subject)
+        assembly = given_assembly(given, subject, cars=True)
         given.among("held", held, HELD)
-    found = dict(_kinematic(assembly))
+        if bushings is not None and assembly.body_moves:
+            given.fail(
+                "bushings: the bushes of a car are [bushings] in the files of its axles. Leave the "
+                "argument out, or give an axle."
+            )
+    found = dict(
+        (name, data) if end not in ENDS else _placed(name, data, end)
+        for end, held_part in assembly.held_parts.items()
+        for name, data in _of_axle(held_part, bushings, held)
+        if end != ENDS[1] or data[0] != _STEERED  # the rack of a rear axle is fixed
+    )
+    sides = _MIRRORED if assembly.symmetric else "different"
+    return _dataset(found, held).assign_attrs(sides=sides)
+
+
+def _of_axle(
+    assembly: HeldAssembly, bushings: Mapping[str, Any] | None, held: WheelSupport
+) -> Iterator[tuple[str, tuple[str, xr.DataArray]]]:
+    """Yield the quantities of a suspension or an axle with the parts of the sheet, by name."""
+    yield from _kinematic(assembly)
     if bushings is not None or assembly.has_bushes:
         soft = flat(linear(assembly, bushings, [0.0], held=held)).drop_dims(["moved", "by"])
-        found |= {str(name): (_COMPLIANCE, data) for name, data in soft.items()}
-    return _dataset(found, held)
+        yield from ((str(name), (_COMPLIANCE, data)) for name, data in soft.items())
+
+
+def _placed(
+    name: str, row: tuple[str, xr.DataArray], end: str
+) -> tuple[str, tuple[str, xr.DataArray]]:
+    """Return the name and the row of a quantity with the end of a car before its side."""
+    stem, (part, data) = without_side(name), row
+    side = name.removeprefix(stem)
+    words = long_name(data).removesuffix(side.replace("_", ", "))
+    words += f", {end}{side}".replace("_", " ")
+    return f"{stem}_{end}{side}", (part, data.assign_attrs(long_name=words))
 
 
 def tabulated(found: xr.Dataset, title: str) -> list[Tabulated]:
@@ -131,24 +163,43 @@ def tabulated(found: xr.Dataset, title: str) -> list[Tabulated]:
     with Validator("tabulated") as given:
         given.dataset(found, over=QUANTITY)
         given.text("title", title)
-    parts = dict.fromkeys(map(str, found["part"].values))
-    on_axle = any(str(name).endswith(_SIDES) for name in found[QUANTITY].values)
-    values = (*SIDES, "axle") if on_axle else ("value",)
-    heads = ("", *values, "unit", "in ISO 8855", "in SAE J670, z down")
-    words = frozenset({0, *range(len(values) + 1, len(heads))})
+    columns = _columns(found)
+    heads = ("", *columns.values(), "unit", "in ISO 8855", "in SAE J670, z down")
+    words = frozenset({0, *range(len(columns) + 1, len(heads))})
     tables = []
-    for part in parts:
+    for part in dict.fromkeys(map(str, found["part"].values)):
         here = found.isel({QUANTITY: np.flatnonzero(found["part"].values == part)})
-        rows = tuple(_rows(here, values))
+        rows = tuple(_rows(here, columns))
         held = f", {found.attrs['held']}" if part == _COMPLIANCE else ""
         tables.append(Tabulated(f"{title}{part}{held}", heads, rows, words))
     return tables
 
 
+def _columns(found: xr.Dataset) -> dict[str, str]:
+    """Return the headings of the columns of values, by the place at the end of a name."""
+    places = {_place(str(name)) for name in found[QUANTITY].values}
+    of_car = {
+        f"_{end}{side}": f"{end} {side.removeprefix('_') or 'axle'}"
+        for end in ENDS
+        for side in (*_SIDES, "")
+        if f"_{end}{side}" in places
+    }
+    if of_car:
+        return of_car
+    on_axle = not places.isdisjoint(_SIDES)
+    return dict(zip((*_SIDES, ""), (*SIDES, "axle"), strict=True)) if on_axle else {"": "value"}
+
+
+def _place(name: str) -> str:
+    """Return the wheel or axle at the end of a name, such as ``_left``; empty without one."""
+    return name.removeprefix(without_side(name))
+
+
 def one_page(found: xr.Dataset, title: str) -> list[Tabulated]:
     """Return the sheet without the definitions of signs, so that it fits one page.
 
-    The sign of quantities marked with an asterisk is the opposite in SAE J670 with z down.
+    The sign of quantities marked with an asterisk is the opposite in SAE J670 with z down. A car
+    whose sides are mirror images has one column for each axle, with the values of the left wheels.
 
     Parameters
     ----------
@@ -162,6 +213,10 @@ def one_page(found: xr.Dataset, title: str) -> list[Tabulated]:
         The kinematic gradients, a row for each; then the compliances, a row for each load and at
         most six columns in a table.
     """
+    on_car = any(place.startswith(f"_{ENDS[0]}") for place in _columns(found))
+    if on_car and found.attrs["sides"] == _MIRRORED:
+        found = _of_left_wheels(found)
+        title += ", left wheels"
     rows = []
     for part in tabulated(found.isel({QUANTITY: found["part"].values != _COMPLIANCE}), ""):
         values = part.columns[1:-3]
@@ -181,12 +236,13 @@ def _by_load(found: xr.Dataset) -> Iterator[Tabulated]:
         stem = without_side(name)
         kind, _, load = stem.partition("_by_")
         unit, _, each = own["unit"].partition("/")
-        words = own["meaning"].removesuffix(", left").removesuffix(", right").partition(" by ")[2]
+        side = name.removeprefix(stem)
+        words = _without_place(own["meaning"], side).partition(" by ")[2]
         _, comma, together = words.partition(", ")
         row = f"{load.partition('_')[0]}, {together}" if comma else words.removeprefix("a ")
         sae = _in_sae(own["iso_8855_sign"], own["sae_j670_sign"])
-        side = name.removeprefix(stem).removeprefix("_")
-        column = "\n".join(filter(None, (_marked(_KINDS[kind], sae), side, f"[{unit}]")))
+        where = side.replace("_", " ").strip()
+        column = "\n".join(filter(None, (_marked(_KINDS[kind], sae), where, f"[{unit}]")))
         cells.setdefault(column, {})[row] = significant(own["iso_8855"], 4)
         per[each] = None
     rows = list(dict.fromkeys(row for column in cells.values() for row in column))
@@ -195,6 +251,23 @@ def _by_load(found: xr.Dataset) -> Iterator[Tabulated]:
         columns = list(cells)[first : first + 6]
         body = tuple((row, *(cells[column].get(row, "") for column in columns)) for row in rows)
         yield Tabulated(f"{title}, {found.attrs['held']}", ("", *columns), body)
+
+
+def _without_place(meaning: str, place: str) -> str:
+    """Return a meaning without the wheel or axle at its end, which a name ends in."""
+    return meaning.removesuffix(f", {place.replace('_', ' ').strip()}")
+
+
+def _of_left_wheels(found: xr.Dataset) -> xr.Dataset:
+    """Return the sheet of a car without right wheels, and left ones named by their axles."""
+    left, right = _SIDES
+    names = [str(name) for name in found[QUANTITY].values]
+    here = found.isel({QUANTITY: [not name.endswith(right) for name in names]})
+    here = here.assign_coords(
+        {QUANTITY: [n.removesuffix(left) for n in names if not n.endswith(right)]}
+    )
+    meanings = [str(m).removesuffix(" left") for m in here["meaning"].values]
+    return here.assign(meaning=(QUANTITY, meanings))
 
 
 def _marked(words: str, sae: str) -> str:
@@ -206,23 +279,22 @@ def _in_sae(iso_sign: str, sae_sign: str) -> str:
     return "the same" if iso_sign == sae_sign else _OTHER_SIGN
 
 
-def _rows(here: xr.Dataset, values: Sequence[str]) -> Iterator[tuple[str, ...]]:
-    """Yield the rows of a part, each with both wheels."""
+def _rows(here: xr.Dataset, places: Iterable[str]) -> Iterator[tuple[str, ...]]:
+    """Yield the rows of a part, each with the values of all places."""
     names = [str(name) for name in here[QUANTITY].values]
     for stem in dict.fromkeys(map(without_side, names)):
-        cells = dict.fromkeys(values, "")
+        cells = dict.fromkeys(places, "")
         for name in (name for name in names if without_side(name) == stem):
             own = here.sel({QUANTITY: name})
-            column = name.removeprefix(f"{stem}_") if name != stem else values[-1]
-            cells[column] = significant(float(own["iso_8855"]))
+            place = name.removeprefix(stem)
+            cells[place] = significant(float(own["iso_8855"]))
         meaning, unit, iso, sae = (
             str(own[key].values) for key in ("meaning", "unit", "iso_8855_sign", "sae_j670_sign")
         )
-        meaning = meaning.removesuffix(", left").removesuffix(", right")
-        yield (meaning, *cells.values(), unit, iso, _in_sae(iso, sae))
+        yield (_without_place(meaning, place), *cells.values(), unit, iso, _in_sae(iso, sae))
 
 
-def _kinematic(assembly: Assembly) -> Iterator[tuple[str, tuple[str, xr.DataArray]]]:
+def _kinematic(assembly: HeldAssembly) -> Iterator[tuple[str, tuple[str, xr.DataArray]]]:
     """Yield the characteristics at design with the parts of the sheet, by their names."""
     known: dict[str, xr.DataArray] = {}
     steering = () if assembly.steered_by is None else (assembly.steered_by,)

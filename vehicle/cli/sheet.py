@@ -11,6 +11,7 @@ EXAMPLES = (
     "kintrafo sheet my_car.toml --bushes bushes.toml",
     "kintrafo sheet my_axle.toml -o sheet.csv",
     "kintrafo sheet rigid_axle --bushes axle_bushes.toml",
+    "kintrafo sheet bmw_e90",
 )
 
 
@@ -23,14 +24,14 @@ def command(
 ) -> None:
     """Print the K&C sheet: kinematic and compliance gradients at design, as measured on a rig.
 
-    The sheet has definitions, and the signs of ISO 8855 and of SAE J670 (z down). It has compliance
+    A car has both axles side by side, on a held body. The sheet has definitions, and the signs of ISO 8855 and of SAE J670 (z down). It has compliance
     if the file has bushes, or with --bushes.
     """
     from ...datasets import export
     from ..analysis.sheet import one_page, sheet
 
     outputs = output.files(file, bushes)
-    found = sheet(assembly_of_file(file, "sheet"), bushes_of(file, bushes), held=held)
+    found = sheet(assembly_of_file(file), bushes_of(file, bushes), held=held)
     written = outputs.write_data(found)
     if output.json:
         print_json(export.as_dict(found))

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from kintrafo import Axle, InputError, Model, RigidAxle, characteristics, compliance, load
 from kintrafo.vehicle.analysis.sheet import sheet, tabulated
+from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.models.positions import arm_angles, design_height
 from kintrafo.vehicle.models.reach import at_rest
 from kintrafo.vehicle.models.sides import SIDES
@@ -120,3 +121,36 @@ def test_the_command_prints_it_and_writes_definitions(kintrafo):
     assert float(steer["iso_8855"]) == -float(steer["sae_j670"]) != 0.0
     assert steer["sae_j670_sign"].endswith("steers to the right")
     assert steer["definition"]
+
+
+def test_a_car_has_the_sheets_of_its_axles():
+    """Values of both axle files, without the steering of the rear, whose rack is fixed."""
+    car = load("reference_vehicle")
+    soft = {"front": BUSHES, "rear": {"upper_arm_rear": BUSHES["arm_rear"]}}
+    axles = {end: assembly_of(axle).with_bushings(soft[end]) for end, axle in car.axles.items()}
+    found = sheet(car.with_changes({end: axle.to_dict() for end, axle in axles.items()}))
+    values = dict(zip(found["quantity"].values, found["iso_8855"].values, strict=True))
+    wanted = {}
+    for end, axle in axles.items():
+        own = sheet(axle)
+        rows = zip(own["quantity"].values, own["part"].values, own["iso_8855"].values, strict=True)
+        for name, part, value in rows:
+            stem = name.removesuffix("_left").removesuffix("_right")
+            if end == "front" or part != "steered":
+                wanted[f"{stem}_{end}{name.removeprefix(stem)}"] = value
+    assert values == wanted
+    assert "toe_by_lateral_opposed_rear_right" in values
+    assert "steer_gradient_rear_left" not in values
+    with pytest.raises(InputError, match="bushings: the bushes of a car are"):
+        sheet(car, BUSHES)
+
+
+def test_the_page_of_a_car_has_a_column_for_each_axle_of_mirror_images(kintrafo):
+    code, out, err = kintrafo("sheet", "bmw_e90")
+    assert code == 0, err
+    assert "front axle   rear axle" in out
+    car = load("bmw_e90")
+    row = next(line for line in out.splitlines() if line.startswith("bump steer"))
+    steer = [sheet(axle).sel(quantity="bump_steer_left") for axle in car.axles.values()]
+    cells = [float(cell) for cell in row.split()[2:4]]
+    assert cells == pytest.approx([one["iso_8855"].item() for one in steer], rel=1e-4)
