@@ -24,8 +24,8 @@ def command(
 ) -> None:
     """Print the K&C sheet: kinematic and compliance gradients at design, as measured on a rig.
 
-    A car has both axles side by side, on a held body. The sheet has definitions, and the signs of ISO 8855 and of SAE J670 (z down). It has compliance
-    if the file has bushes, or with --bushes.
+    A car has both axles side by side, on a held body. The sheet has definitions, and the signs of
+    ISO 8855 and of SAE J670 (z down). It has compliance if the file has bushes, or with --bushes.
     """
     from ...datasets import export
     from ..analysis.sheet import one_page, sheet
