@@ -1,6 +1,6 @@
 """Equations for other programs: files that need nothing of this package.
 
-A target is one file with a function that writes it, named in `export`. Targets use the manifest and
+A target is one file with its `Target`, listed in `export`. Targets use the manifest and
 the emitted C of a system; `python_module` uses its derivation.
 """
 

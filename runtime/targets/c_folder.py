@@ -14,6 +14,7 @@ from ..simulation.lanes.own import HEADERS, READER
 from .casadi_external import externals
 from .emitted import Emitted
 from .jax_ffi import handlers
+from .target import Target
 from .text import environment
 
 STEPS, STEP = 100, 1e-4
@@ -130,3 +131,6 @@ def _refuse_others(path: Path, texts: Mapping[str, str]) -> None:
         shown = ", ".join(others[:3]) + (", ..." if len(others) > 3 else "")
         problem = f"this folder holds other files: {shown}. Name a new folder, or an empty one."
         raise InputError([problem], str(path))
+
+
+TARGET = Target("c", "_c", write, check, folder=True)

@@ -1,7 +1,6 @@
 """Export of a system to files for other programs."""
 
-from collections.abc import Callable, Mapping
-from functools import partial
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -12,29 +11,13 @@ from ..systems.state import inputs_of
 from ..systems.system import System
 from . import c_folder, fmu, python_module
 from .emitted import Emitted
+from .target import Target
 
-Write = Callable[..., Path]
-TARGETS: Mapping[str, Write] = {
-    "c": c_folder.write,
-    "fmu": fmu.write,
-    "casadi": python_module.write_casadi,
-    "jax": python_module.write_jax,
+TARGETS: Mapping[str, Target] = {
+    target.name: target
+    for target in (c_folder.TARGET, fmu.TARGET, python_module.CASADI, python_module.JAX)
 }
-"""Function that writes each kind of export: of an `Emitted` and a path, with options of its own."""
-CHECKS: Mapping[str, Callable[..., None]] = {
-    "c": c_folder.check,
-    "fmu": fmu.check,
-    "casadi": partial(python_module.check, "casadi"),
-    "jax": partial(python_module.check, "jax"),
-}
-"""Check of a path, and of options of its own, before a model exists."""
-ENDINGS: Mapping[str, str] = {
-    "c": "_c",
-    "fmu": fmu.ENDING,
-    "casadi": f"_casadi{python_module.ENDING}",
-    "jax": f"_jax{python_module.ENDING}",
-}
-"""Endings of names of files if no path is given."""
+"""The kinds of export by name."""
 
 
 def export_model(
@@ -118,7 +101,7 @@ def export_model(
         first[system.input_names.index(name)] = values[system.input_names.index(name)]
     _evaluate(system, start, first)
     emitted = Emitted(system, start, first)
-    return TARGETS[to](emitted, Path(path), force=force, read=read, **options)
+    return TARGETS[to].write(emitted, Path(path), force=force, read=read, **options)
 
 
 def check_export(
@@ -144,8 +127,8 @@ def check_export(
         given.flag("force", force)
         if not given.failed:
             _refuse_options(given, to, options)
-    CHECKS[to](Path(path), **options)
-    if to != "c":  # a folder of files with their own names
+    TARGETS[to].check(Path(path), **options)
+    if not TARGETS[to].folder:
         refuse([path], force=force, inputs=read)
 
 
@@ -158,7 +141,7 @@ def _evaluate(system: System, state: ArrayLike, inputs: ArrayLike) -> None:
 
 def _refuse_options(given: Validator, to: str, options: Mapping[str, Any]) -> None:
     """Refuse options that only another kind of export has."""
-    known = TARGETS[to].__kwdefaults__ or {}
+    known = TARGETS[to].options
     for name in options:
         if name not in known:
             has = ", ".join(known) or "none"

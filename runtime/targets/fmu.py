@@ -14,6 +14,7 @@ from .fmi import binaries, fmi2, fmi3
 from .fmi.description import ModelDescription
 from .fmi.sources import library_files, source_files
 from .fmi.tables import tables
+from .target import Target
 
 ENDING = ".fmu"
 VERSIONS: Mapping[int, ModuleType] = {2: fmi2, 3: fmi3}
@@ -79,3 +80,6 @@ def _pack(path: Path, found: Mapping[str, bytes]) -> None:
             entry.compress_type = zipfile.ZIP_DEFLATED
             entry.external_attr = 0o644 << 16
             archive.writestr(entry, content)
+
+
+TARGET = Target("fmu", ENDING, write, check)

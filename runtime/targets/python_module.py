@@ -2,6 +2,7 @@
 
 import warnings
 from collections.abc import Mapping
+from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,6 +13,7 @@ from ..core.errors import InputError
 from ..core.files import Paths, replacing
 from ..systems.compile.build import derived_again, require_generator
 from .emitted import Emitted
+from .target import Target
 from .text import environment
 
 if TYPE_CHECKING:
@@ -119,3 +121,7 @@ def _described(function: Any) -> dict[str, Any]:
         "shape": tuple(map(int, function.shape)),
         "count": int(np.prod(function.shape)),
     }
+
+
+CASADI = Target("casadi", f"_casadi{ENDING}", write_casadi, partial(check, "casadi"), derives=True)
+JAX = Target("jax", f"_jax{ENDING}", write_jax, partial(check, "jax"), derives=True)

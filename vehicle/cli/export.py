@@ -71,11 +71,12 @@ def command(
     """
     from ...core.errors import InputError
     from ...core.validator import Validator
-    from ...targets.export import ENDINGS, check_export, export_model
+    from ...targets.export import TARGETS, check_export, export_model
     from ..files.point_table import write_points
     from ..kinds import Suspension
 
-    endings = {**ENDINGS, "points": "_points.csv"}
+    endings = {name: target.ending for name, target in TARGETS.items()}
+    endings["points"] = "_points.csv"
     with Validator("export") as given:
         given.among("--to", to, endings)
     refuse_which(file, model)
@@ -91,8 +92,8 @@ def command(
         suspension = subject_of(file, kind, _NOT_A_TABLE)
         facts = {"path": str(write_points(suspension, path, force=force, inputs=[file])), "to": to}
     else:
-        # casadi and jax derive the equations again, which takes minutes for a car
-        text = "deriving the equations, and writing them" if to in ("casadi", "jax") else "export"
+        # deriving takes minutes for a car
+        text = "deriving the equations, and writing them" if TARGETS[to].derives else "export"
         chosen: Any = {name: value for name, value in options.items() if value is not None}
         chosen |= {"force": force, "read": [file]}
         check_export(path, to, **chosen)  # before anything is derived
