@@ -4,26 +4,26 @@ import os
 import signal
 from pathlib import Path
 
-from kintrafo.ensembles.pieces import queue
-from kintrafo.ensembles.pieces.piece import Chunk, ChunkResult, Common
+from kintrafo.ensembles.chunks import queue
+from kintrafo.ensembles.chunks.chunk import Chunk, ChunkResult, Common
 
 DO = queue._do
 
 
-def lost_once(flag: str, common: Common, piece: Chunk) -> ChunkResult:
-    """Simulate a piece; the first worker that is asked for it is killed."""
+def lost_once(flag: str, common: Common, chunk: Chunk) -> ChunkResult:
+    """Simulate a chunk; the first worker that is asked for it is killed."""
     try:
         Path(flag).touch(exist_ok=False)
     except FileExistsError:
-        return DO(common, piece)
+        return DO(common, chunk)
     os.kill(os.getpid(), signal.SIGKILL)
     raise AssertionError
 
 
-def noted(folder: str, common: Common, piece: Chunk) -> ChunkResult:
-    """Simulate a piece, and note that it was begun."""
-    (Path(folder) / str(piece.first)).touch()
-    return DO(common, piece)
+def noted(folder: str, common: Common, chunk: Chunk) -> ChunkResult:
+    """Simulate a chunk, and note that it was begun."""
+    (Path(folder) / str(chunk.first)).touch()
+    return DO(common, chunk)
 
 
 def use_cache(folder: str) -> None:

@@ -134,7 +134,7 @@ class CardanShaft(ClosedForm):
             self._yoke.solution,
         )
 
-    def carry_out(self, kin: Kinematics) -> None:
+    def emit(self, kin: Kinematics) -> None:
         """Place the shaft between the centres, and turn the driven body until its cross fits."""
         shaft = self.shaft
         ends = (shaft.anchor_body, shaft.anchor), (self.parent, shaft.end)

@@ -147,7 +147,7 @@ class CarrierOnRods(Iteration):
             f"method, at most {ITERATIONS} iterations"
         )
 
-    def carry_out(self, kin: Kinematics) -> None:
+    def emit(self, kin: Kinematics) -> None:
         """Find the pose of the body, and its motion."""
         held = _BodyOnRods.of(kin, self)
         _place(kin, held, _corrected(kin, held))

@@ -125,7 +125,7 @@ class CoupledLoops(Tree, Iteration):
             f"of {self.joint_names}, by Newton's method, at most {ITERATIONS} iterations"
         )
 
-    def carry_out(self, kin: Kinematics) -> None:
+    def emit(self, kin: Kinematics) -> None:
         """Find the coordinates of hinges and guides that close the loops, and their rates."""
         solved = _corrected(kin, self, _geometry(kin, self))
         _place(kin, self, solved)

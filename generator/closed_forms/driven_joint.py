@@ -65,7 +65,7 @@ class PlaceByJoint(Follower):
         """Its title in the derivation."""
         return f"{self.body}: {self.joint.kind} joint"
 
-    def carry_out(self, kin: Kinematics) -> None:
+    def emit(self, kin: Kinematics) -> None:
         """Place the body from its parent."""
         if isinstance(self.joint, Revolute):
             _place_revolute(kin, self.joint, self.parent, self.body)

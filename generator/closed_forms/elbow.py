@@ -177,7 +177,7 @@ class PlaceElbow(PlannedStep):
         known.guided[self.pair.far_hinge.name] = self  # known, but not to place the second link
         return known.add_all([self.pair.hinge, self.pair.far_hinge])
 
-    def carry_out(self, kin: Kinematics) -> None:
+    def emit(self, kin: Kinematics) -> None:
         """Turn the first link until the end of the second one meets its target."""
         program, pair, body = kin.program, self.pair, self.pair.first
         extent = extent_squared(kin, self)

@@ -41,5 +41,5 @@ class PlaceFree(Follower):
         """Its title in the derivation."""
         return f"{self.about}: free in the world"
 
-    def carry_out(self, kin: Kinematics) -> None:
+    def emit(self, kin: Kinematics) -> None:
         """Do nothing: bodies that hang on it are solved in its own axes, in which it rests."""

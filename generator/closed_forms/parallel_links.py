@@ -163,7 +163,7 @@ class ParallelLinks(ClosedForm):
             "make the way from hinge to hinge the same in all of them",
         )
 
-    def carry_out(self, kin: Kinematics) -> None:
+    def emit(self, kin: Kinematics) -> None:
         """Move the body along, and the link."""
         near, far = self.link.near.axis.through, self.leader.far.axis.through
         if self.body not in kin.placed:

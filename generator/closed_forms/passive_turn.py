@@ -39,7 +39,7 @@ class PlacePassive(Leftover):
         """Its title in the derivation."""
         return f"{self.body}: passive turn about its line"
 
-    def carry_out(self, kin: Kinematics) -> None:
+    def emit(self, kin: Kinematics) -> None:
         """Turn the link about its line by an arbitrary rule."""
         body, record = self.body, line_from_own_end(kin, self.body)
         parent = kin.placed[record.anchor_body]

@@ -40,7 +40,7 @@ class PlaceByPin(Placement):
         """Its title in the derivation."""
         return f"{self.body}: pinned to {self.pin_body}"
 
-    def carry_out(self, kin: Kinematics) -> None:
+    def emit(self, kin: Kinematics) -> None:
         """Turn the body about its hinge until the points meet."""
         program, body = kin.program, self.body
         kin.meetings.setdefault(

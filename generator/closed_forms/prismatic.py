@@ -47,7 +47,7 @@ class PrismaticByLength(HeldOnJoint):
         """Solution of the equation, for the report."""
         return f"quadratic in the slide of {self.joint.name}, branch as at design"
 
-    def carry_out(self, kin: Kinematics) -> None:
+    def emit(self, kin: Kinematics) -> None:
         """Move the body along its guide until the leg fits."""
         leg = self.leg
         self.meet(kin)

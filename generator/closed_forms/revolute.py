@@ -30,7 +30,7 @@ class RevoluteByLength(HeldOnJoint):
     rank: ClassVar[int] = 5
     kind = Revolute
 
-    def carry_out(self, kin: Kinematics) -> None:
+    def emit(self, kin: Kinematics) -> None:
         """Turn the body about its hinge until the leg fits."""
         leg = self.leg
         self.meet(kin)

@@ -109,7 +109,7 @@ class RPR(_OnPins, ClosedForm):
             "explicit: the way along the guide is the root of a difference of squares",
         )
 
-    def carry_out(self, kin: Kinematics) -> None:
+    def emit(self, kin: Kinematics) -> None:
         """Find slide and direction of a telescope between two placed pins."""
         telescope = self.telescope
         program, near, joint = kin.program, telescope.near, telescope.joint
@@ -141,7 +141,7 @@ class PlaceTelescope(_OnPins):
         """Its title in the derivation."""
         return f"{self.telescope.links}: telescope"
 
-    def carry_out(self, kin: Kinematics) -> None:
+    def emit(self, kin: Kinematics) -> None:
         """Find the direction of the telescope."""
         pins = _Pins.of(kin, self, self.telescope)
         _place(kin, pins, pins.guide.known_extension(kin, extent_squared(kin, self)))

@@ -109,7 +109,7 @@ class ScotchYoke(ClosedForm):
             "explicit: the parts of the way along slot and guide",
         )
 
-    def carry_out(self, kin: Kinematics) -> None:
+    def emit(self, kin: Kinematics) -> None:
         """Find both slides, and place block and yoke."""
         base = kin.placed[self.base]
         axes, pin = _Oblique.of(kin, self, base), kin.point_motion(self.pin_body, self.pin)

@@ -86,7 +86,7 @@ class SingleCross(ClosedForm):
     def words(self, closing: Closing | None) -> tuple[str, str]:
         return f"the axes of {self.yoke.cross.name} at right angles", self.yoke.solution
 
-    def carry_out(self, kin: Kinematics) -> None:
+    def emit(self, kin: Kinematics) -> None:
         """Turn the driven body until the cross fits."""
         cross, driving = self.yoke.cross, kin.placed[self.yoke.driving]
         axes = [

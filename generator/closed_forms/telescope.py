@@ -106,7 +106,7 @@ class Telescope(ClosedForm):
             "explicit: the length is the root of a sum of squares",
         )
 
-    def carry_out(self, kin: Kinematics) -> None:
+    def emit(self, kin: Kinematics) -> None:
         """Find length and direction between two known points."""
         ends = self.ends
         kin.spans[ends.joint.name] = ends

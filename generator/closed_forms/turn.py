@@ -58,7 +58,7 @@ class TurnByLength(HeldByLeg):
         joints += filter(known.joins, known.mechanism.joints_of(body))
         return known.add_all(joints)
 
-    def carry_out(self, kin: Kinematics) -> None:
+    def emit(self, kin: Kinematics) -> None:
         """Turn the body about its known line until the rod fits."""
         leg = self.leg
         kin.turned[leg.body] = RodEnds(leg.body, leg.rod, leg.end, leg.anchor, leg.anchor_body)

@@ -56,7 +56,7 @@ class PlaceByUniversalJoint(Follower):
         """Its title in the derivation."""
         return f"{self.body}: cross of the universal joint"
 
-    def carry_out(self, kin: Kinematics) -> None:
+    def emit(self, kin: Kinematics) -> None:
         """Turn the shaft about its line."""
         turn_with(kin, self.body, self.parent, self.joint)
 

@@ -83,7 +83,7 @@ class UPS(ClosedForm):
             "explicit: the length is the root of a sum of squares",
         )
 
-    def carry_out(self, kin: Kinematics) -> None:
+    def emit(self, kin: Kinematics) -> None:
         """Find slide and line of a strut between two known points."""
         strut = self.strut
         program, name = kin.program, strut.joint.name
@@ -118,7 +118,7 @@ class PlaceByGuide(Follower):
         """Its title in the derivation."""
         return f"{self.body}: on the guide of {self.strut.near}"
 
-    def carry_out(self, kin: Kinematics) -> None:
+    def emit(self, kin: Kinematics) -> None:
         """Place the link: it turns like the first one, with its end at a placed point."""
         strut = self.strut
         place_turned_alike(kin, self.body, kin.placed[strut.near], strut.end_body, strut.end)

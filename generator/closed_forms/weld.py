@@ -36,7 +36,7 @@ class PlaceWelded(Follower):
         """Its title in the derivation."""
         return f"{self.body}: welded to {self.parent}"
 
-    def carry_out(self, kin: Kinematics) -> None:
+    def emit(self, kin: Kinematics) -> None:
         """Give the body the pose and the motion of the other one."""
         parent = kin.placed[self.parent]
         kin.placed[self.body] = BodyMotion(

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from .surroundings import Surroundings
 
 
-class Course(NamedTuple):
+class PathLength(NamedTuple):
     """Length of a path at an instant, and its rate.
 
     Attributes
@@ -107,7 +107,7 @@ class AnyPath(ABC):
         return ()
 
     @abstractmethod
-    def course(self, at: Surroundings, name: str) -> Course:
+    def path_length(self, at: Surroundings, name: str) -> PathLength:
         """Append its length and its rate.
 
         Parameters
@@ -156,8 +156,8 @@ class AlongTelescope(AnyPath):
         )
 
     @override
-    def course(self, at: Surroundings, name: str) -> Course:
-        return Course(*at.telescope(self.joint.name))
+    def path_length(self, at: Surroundings, name: str) -> PathLength:
+        return PathLength(*at.telescope(self.joint.name))
 
 
 @declared
@@ -187,7 +187,7 @@ class AlongLine(AnyPath):
         return (one.name, start), (other.name, end)
 
     @override
-    def course(self, at: Surroundings, name: str) -> Course:
+    def path_length(self, at: Surroundings, name: str) -> PathLength:
         program = at.program
         way, rates = at.between(*self.ends)
         span = program.vector(f"{name}_span", way)
@@ -203,7 +203,7 @@ class AlongLine(AnyPath):
         motion = {
             k: program.define(f"d_{name}_length_{k}", direction.dot(v)) for k, v in rates.items()
         }
-        return Course(length, motion)
+        return PathLength(length, motion)
 
     def _extent_squared(self, at: Surroundings, name: str) -> sp.Expr:
         """Append the square of the extent of the two points at the design position."""
@@ -238,14 +238,14 @@ class TwistOfHinges(AnyPath):
             raise DeclarationError("TwistOfHinges", [problem])
 
     @override
-    def course(self, at: Surroundings, name: str) -> Course:
+    def path_length(self, at: Surroundings, name: str) -> PathLength:
         twist, motion = sp.Integer(0), dict.fromkeys(at.coordinates, sp.Integer(0))
         for sense, hinge in ((-1, self.first), (1, self.second)):
             angle, rates = at.hinge(hinge.name)
             twist += sense * angle
             for k, rate in rates.items():
                 motion[k] += sense * rate
-        return Course(twist, {k: rate for k, rate in motion.items() if rate != 0})
+        return PathLength(twist, {k: rate for k, rate in motion.items() if rate != 0})
 
 
 @declared
@@ -266,8 +266,8 @@ class AlongHinge(AnyPath):
     words: ClassVar[Words] = _OF_A_HINGE
 
     @override
-    def course(self, at: Surroundings, name: str) -> Course:
-        return Course(*at.hinge(self.hinge.name))
+    def path_length(self, at: Surroundings, name: str) -> PathLength:
+        return PathLength(*at.hinge(self.hinge.name))
 
 
 @declared
@@ -289,8 +289,8 @@ class AlongGuide(AnyPath):
     of_either_sign: ClassVar[bool] = True
 
     @override
-    def course(self, at: Surroundings, name: str) -> Course:
-        return Course(*at.guide(self.guide.name))
+    def path_length(self, at: Surroundings, name: str) -> PathLength:
+        return PathLength(*at.guide(self.guide.name))
 
 
 Path = AlongTelescope | AlongLine | AlongHinge | AlongGuide | TwistOfHinges

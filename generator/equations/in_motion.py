@@ -190,7 +190,7 @@ def _moved(
     kin = Kinematics(program, coordinates, plan.loops, bodies, origin, free)
     for step in steps:
         program.section(step.title)
-        step.carry_out(kin)
+        step.emit(kin)
     return kin
 
 

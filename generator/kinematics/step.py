@@ -36,7 +36,7 @@ class KinematicStep(ABC):
         return ()
 
     @abstractmethod
-    def carry_out(self, kin: Kinematics) -> None:
+    def emit(self, kin: Kinematics) -> None:
         """Append poses, velocities and biases."""
 
     def origin_on(self, ground: str) -> Point | None:

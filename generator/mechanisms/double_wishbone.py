@@ -18,9 +18,9 @@ from .suspension import (
     actuator,
     damper,
     further_laws,
-    of_rubber,
     spring,
     spring_table,
+    with_damping_and_liftoff,
 )
 
 if TYPE_CHECKING:
@@ -127,7 +127,8 @@ GENERAL = replace(
     name="double_wishbone_general",
     title="Double wishbone suspension with stops",
     forces=_forces(
-        (SPRING, spring_table(), DAMPER, *further_laws("damper", 1.0), ACTUATOR), of_rubber(TYRE)
+        (SPRING, spring_table(), DAMPER, *further_laws("damper", 1.0), ACTUATOR),
+        with_damping_and_liftoff(TYRE),
     ),
 )
 

@@ -10,7 +10,14 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from .. import declare as d
-from .suspension import RACK_FORCE, RACK_MOTION, ROAD_HEIGHT, further_laws, of_rubber, spring_table
+from .suspension import (
+    RACK_FORCE,
+    RACK_MOTION,
+    ROAD_HEIGHT,
+    further_laws,
+    spring_table,
+    with_damping_and_liftoff,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -151,7 +158,7 @@ GENERAL_FORCES = (
         d.AlongTelescope(OFFSET_BC, STRUT_LENGTH),
         (DAMPER, *further_laws("strut", 0.85), d.Actuator(STRUT_FORCE)),
     ),
-    of_rubber(TYRE),
+    with_damping_and_liftoff(TYRE),
     d.JointForce(Y, RACK_FORCE),
 )
 

@@ -16,10 +16,10 @@ from .suspension import (
     RACK_MOTION,
     actuator,
     damper,
-    of_rubber,
     spring,
     spring_and_damper,
     tyre,
+    with_damping_and_liftoff,
 )
 
 Place = tuple[float, float, float]
@@ -124,7 +124,13 @@ MULTI_LINK = d.Mechanism(
         RACK_GUIDE,
         BEARING,
     ),
-    forces=(d.Weight(), COIL, SHOCK, of_rubber(TYRE), d.JointForce(RACK_GUIDE, RACK_FORCE)),
+    forces=(
+        d.Weight(),
+        COIL,
+        SHOCK,
+        with_damping_and_liftoff(TYRE),
+        d.JointForce(RACK_GUIDE, RACK_FORCE),
+    ),
     coordinates=(
         SENSOR_HINGE.angle(
             "sensor_angle",

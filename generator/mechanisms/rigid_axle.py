@@ -16,7 +16,15 @@ from __future__ import annotations
 
 from .. import declare as d
 from ..program.vectors import UNIT_Y
-from .suspension import actuator, damper, of_rubber, own_values, spring, spring_and_damper, tyre
+from .suspension import (
+    actuator,
+    damper,
+    own_values,
+    spring,
+    spring_and_damper,
+    tyre,
+    with_damping_and_liftoff,
+)
 
 Place = tuple[float, float, float]
 
@@ -82,7 +90,7 @@ OF_A_SIDE = (
         ((CHASSIS, DAMPER_TOP), (BEAM, DAMPER_SEAT)),
         (SPRING, ACTUATOR, DAMPER),
     ),
-    of_rubber(TYRE),
+    with_damping_and_liftoff(TYRE),
 )
 
 BAR = d.ForceElement(

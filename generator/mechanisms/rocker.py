@@ -11,7 +11,13 @@ from dataclasses import dataclass, replace
 from .. import declare as d
 from . import double_wishbone as wishbones
 from .double_wishbone import ACTUATOR, CHASSIS, DAMPER, DOUBLE_WISHBONE, RACK_GUIDE, TYRE, WEIGHT
-from .suspension import RACK_FORCE, RACK_MOTION, further_laws, of_rubber, spring_table
+from .suspension import (
+    RACK_FORCE,
+    RACK_MOTION,
+    further_laws,
+    spring_table,
+    with_damping_and_liftoff,
+)
 
 
 @dataclass(frozen=True)
@@ -77,7 +83,7 @@ def model(arm: d.Body, at: Rocker, spring: d.LinearSpring) -> d.Formulation:
         name=name,
         title=title,
         joints=(*DOUBLE_WISHBONE.joints, hinge, ball, cross),
-        forces=(WEIGHT, coil, of_rubber(TYRE), d.JointForce(RACK_GUIDE, RACK_FORCE)),
+        forces=(WEIGHT, coil, with_damping_and_liftoff(TYRE), d.JointForce(RACK_GUIDE, RACK_FORCE)),
         coordinates=(*DOUBLE_WISHBONE.coordinates, angle),
     )
     arms = wishbones.LOWER_ARM, wishbones.KNUCKLE, wishbones.UPPER_ARM

@@ -123,7 +123,7 @@ def _stop(side: Literal["bump", "rebound"], damper: str, touched: float) -> d.St
     )
 
 
-def of_rubber(tyre: d.LinearTyre) -> d.LinearTyre:
+def with_damping_and_liftoff(tyre: d.LinearTyre) -> d.LinearTyre:
     """Return a tyre that also damps and lifts off."""
     return replace(
         tyre,

@@ -9,7 +9,7 @@ ground at z = 0.
 from __future__ import annotations
 
 from .. import declare as d
-from .suspension import actuator, damper, of_rubber, spring, spring_and_damper, tyre
+from .suspension import actuator, damper, spring, spring_and_damper, tyre, with_damping_and_liftoff
 
 ARM_INNER = d.Point("arm_inner", (0.40, -0.27, 0.28), "inner bearing of the arm on the chassis")
 ARM_OUTER = d.Point("arm_outer", (0.52, -0.63, 0.28), "outer bearing of the arm on the chassis")
@@ -43,7 +43,7 @@ TRAILING_ARM = d.Mechanism(
     name="trailing_arm",
     title="Trailing arm",
     joints=(HINGE, BEARING),
-    forces=(d.Weight(), COIL, SHOCK, of_rubber(TYRE)),
+    forces=(d.Weight(), COIL, SHOCK, with_damping_and_liftoff(TYRE)),
     coordinates=(
         HINGE.angle(
             "arm_angle", "angle of the arm from the chassis vertical; falls as the wheel rises"

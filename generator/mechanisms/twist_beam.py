@@ -23,7 +23,15 @@ from dataclasses import replace
 
 from .. import declare as d
 from ..program.vectors import UNIT_Y
-from .suspension import actuator, damper, of_rubber, own_values, spring, spring_and_damper, tyre
+from .suspension import (
+    actuator,
+    damper,
+    own_values,
+    spring,
+    spring_and_damper,
+    tyre,
+    with_damping_and_liftoff,
+)
 
 PIVOT = d.Point("pivot", (0.42, -0.56, 0.315), "pivot of the arm on the chassis")
 SHEAR_CENTER = d.Point("shear_center", (0.22, 0.0, 0.345), "shear centre of the beam, its middle")
@@ -54,7 +62,7 @@ OF_A_SIDE = (
         ((CHASSIS, DAMPER_TOP), (ARM, DAMPER_SEAT)),
         (SPRING, ACTUATOR, DAMPER),
     ),
-    of_rubber(TYRE),
+    with_damping_and_liftoff(TYRE),
 )
 
 _SIDE = d.Mechanism(

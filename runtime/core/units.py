@@ -13,6 +13,9 @@ LENGTHS = {
 }
 """Units of length in metres; those of the inch are exact."""
 
+KM_PER_H = 3.6
+"""A speed of 1 m/s in km/h."""
+
 _UNITS = {
     **{name: ("m", float(length)) for name, length in LENGTHS.items()},
     "s": ("s", 1.0),
@@ -26,7 +29,7 @@ _UNITS = {
     "100 N m": ("N m", 1e2),
     "kN m": ("N m", 1e3),
     "m/s": ("m/s", 1.0),
-    "km/h": ("m/s", 1.0 / 3.6),
+    "km/h": ("m/s", 1.0 / KM_PER_H),
     "s^2": ("s^2", 1.0),
     "g": ("m/s^2", 9.80665),
     "Pa": ("Pa", 1.0),

@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 from ..core.named_types import Array
 from ..simulation.lanes.problem import End, Problem
-from .again import Again
+from .output_spec import OutputSpec, Reduced
 from .series import frequencies, percentile, spectra
-from .wanted import OutputSpec, Reduced
+from .stiff_fallback import StiffFallback
 
 
 @dataclass
@@ -31,7 +31,7 @@ class Collected:
 
     problem: Problem
     asked: OutputSpec
-    again: Again | None
+    again: StiffFallback | None
     samples: Array = field(init=False)
     of_series: dict[Reduced, Array] = field(init=False)
     solvers: NDArray[np.object_] = field(init=False)
@@ -73,7 +73,7 @@ class Collected:
                 found[first + done] = percentile(series, reduced.level)
 
     def _do_again(
-        self, again: Again, first: int, samples: Array, stopped: Callable[[], bool]
+        self, again: StiffFallback, first: int, samples: Array, stopped: Callable[[], bool]
     ) -> None:
         beyond_it = np.isin(self.problem.outcome.ends[first : first + len(samples)], BEYOND_IT)
         for place in np.flatnonzero(beyond_it).tolist():

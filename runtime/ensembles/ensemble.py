@@ -19,16 +19,16 @@ from ..simulation.lanes.run import run, usual_threads
 from ..simulation.validity import bounds_of
 from ..systems.state import inputs_of
 from ..systems.system import System
-from .again import Again
+from .chunks.checkpoint import checkpoint_in
+from .chunks.gather import run_in_chunks
+from .chunks.workers import workers_of
 from .collected import Collected
-from .drives import InputSets, drives_of
-from .pieces.kept import kept_in
-from .pieces.whole import run_in_pieces
-from .pieces.workers import workers_of
+from .input_sets import InputSets, input_sets_of
+from .output_spec import OutputSpec, asked_of
 from .results import dataset_of
 from .room import Room
+from .stiff_fallback import StiffFallback
 from .variants import Variants, impossible_sets, variants_of
-from .wanted import OutputSpec, asked_of
 
 _OUTPUTS = 201
 # Steps in lanes that take about the time of BDF for a system (``make benchmark-stiff``): after as
@@ -188,16 +188,16 @@ def ensemble(
     own = variants_of(model, variants, courses, rows, Room(model, asked, cores, width))
     _check_together(model, y0, courses, own, asked)
     held = inputs_of(y0, model.names_of_states)
-    drives = drives_of(model, courses, own, span, held=held, max_step=accuracy.max_step)
+    drives = input_sets_of(model, courses, own, span, held=held, max_step=accuracy.max_step)
     asked = replace(asked, bounds=tuple(bounds_of(model, own.parameters)))
     systems = _systems(model, own, state, drives)
     stiff_after = _STIFF_AFTER if stiff else 0
     problem = Problem(model, systems, asked.for_c(model), accuracy, width, stiff_after)
-    collected = Collected(problem, asked, Again(problem) if stiff else None)
-    folder = None if kept is None else kept_in(kept, collected)
+    collected = Collected(problem, asked, StiffFallback(problem) if stiff else None)
+    folder = None if kept is None else checkpoint_in(kept, collected)
     with _shown_progress(own.count, wanted=progress) as report:
         if workers or folder:
-            run_in_pieces(collected, workers, cores, folder, report)
+            run_in_chunks(collected, workers, cores, folder, report)
         else:
             run(problem, cores, collected, report)
     return dataset_of(model, own, collected)

@@ -6,8 +6,8 @@ from ..core.memory import refuse_beyond
 from ..core.validator import Validator
 from ..simulation.lanes.run import SAMPLES
 from ..systems.system import System
+from .output_spec import OutputSpec
 from .series import TOGETHER
-from .wanted import OutputSpec
 
 _BYTES = 8
 # Numbers of a system: its end (kind, time, reason, solver); four copies of its own values, which

@@ -1,4 +1,4 @@
-"""What one kind of export consists of."""
+"""The record of a kind of export."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -12,6 +12,7 @@ from ...core.errors import InputError
 from ...core.named_types import Array
 from ...core.suggestions import nearest, suggestion
 from ...core.tables import Table, read_table
+from ...core.units import KM_PER_H
 from ...core.validator import Validator
 from ...simulation.interpolation import Between, Samples
 from ..corner.wheel_loads import UNITS
@@ -143,7 +144,7 @@ def _times(
     """Return times that begin with zero [s], or raise an `InputError` if they decrease."""
     if "distance" in columns:
         if speed is None or not (math.isfinite(speed) and speed > 0.0):
-            given = "none is given" if speed is None else f"{speed * 3.6:g} km/h is given"
+            given = "none is given" if speed is None else f"{speed * KM_PER_H:g} km/h is given"
             problem = f"a road over distance_m needs a speed of more than 0 km/h; {given}."
             raise InputError([problem], source)
         with np.errstate(over="ignore"):

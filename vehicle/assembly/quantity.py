@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from ...core.quantities import Display, display_of
+from ...core.units import KM_PER_H
 
 _DEG_PER_MM = display_of({"units": "rad"}).factor * 1e-3
 
@@ -75,4 +76,4 @@ LATERAL_ACCELERATION = Quantity("lateral_acceleration", "m/s^2", "lateral accele
     "positive to the left")  # fmt: skip
 SPEED = Quantity("speed", "m/s", "speed",
     "of the car along the road",
-    "positive forward", Display("km/h", 3.6))  # fmt: skip
+    "positive forward", Display("km/h", KM_PER_H))  # fmt: skip

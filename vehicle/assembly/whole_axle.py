@@ -28,11 +28,9 @@ from .rig import RigPosition, SweepRange
 from .soft_lines import SoftLines, lines_of_beam
 from .usual import CLEARANCE, USUAL_TRAVEL, grid
 from .wheel_names import WheelNames
-from .whole_axle_kinematics import WholeAxleKinematics
+from .whole_axle_kinematics import RISES, WholeAxleKinematics
 from .whole_axle_parts import WholeAxleParts
 
-# Travel of each wheel per travel of the motion; in roll it is the half track times the sine.
-_SHARES = {"bump": (1.0, 1.0), "left": (1.0, 0.0), "right": (0.0, 1.0)}
 # Greatest travel of both wheels in the search for the range [m].
 _FAR = 0.4
 _NO_REST = (
@@ -122,7 +120,7 @@ class WholeAxleAssembly(HeldAssembly):
         if motion == "roll":
             half = self.axle.half_track * np.sin(along)
             return -half, half
-        left, right = _SHARES[motion]
+        left, right = RISES[motion]
         return left * along, right * along
 
     def position(

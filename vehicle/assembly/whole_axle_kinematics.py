@@ -26,7 +26,8 @@ from .wheel import lowest_point_rate
 from .wheel_centre_line import inclination_rate
 from .whole_axle_parts import WholeAxleParts
 
-_WHEELS = {"heave": (1.0, 1.0), "roll": (1.0, -1.0), "left": (1.0, 0.0), "right": (0.0, 1.0)}
+RISES = {"bump": (1.0, 1.0), "roll": (1.0, -1.0), "left": (1.0, 0.0), "right": (0.0, 1.0)}
+"""Rise of the left and the right wheel per metre of a motion of both."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +78,7 @@ class WholeAxleKinematics:
     def corners(self) -> dict[str, TravellingWheel]:
         """Both wheels, each with its motion in parallel travel."""
         return {
-            side: TravellingWheel(**vars(wheel), travel=self.motion(side, "heave"))
+            side: TravellingWheel(**vars(wheel), travel=self.motion(side, "bump"))
             for side, wheel in zip(SIDES, self.parts.wheels.values(), strict=True)
         }
 
@@ -139,7 +140,7 @@ class WholeAxleKinematics:
         """Rates of both coordinates in each motion of the wheels, (n, 2) [rad/m]."""
         return {
             how: np.linalg.solve(self.heights, np.array(rise)[:, None])[..., 0]
-            for how, rise in _WHEELS.items()
+            for how, rise in RISES.items()
         }
 
     def _in_motion(self, how: str, by_coordinate: list[Array]) -> Array:
@@ -188,7 +189,7 @@ class WholeAxleKinematics:
         """
         by_travel = -self.inclination_rate[:, None]
         moved = np.stack([self.contact_in(side, "roll")[:, 1] for side in SIDES], -1)
-        return np.array(_WHEELS["roll"]) / by_travel, moved / by_travel
+        return np.array(RISES["roll"]) / by_travel, moved / by_travel
 
     def path_slope(self, torque_on: str, side: str = "") -> Array:
         """Return the slope v_x / v_z of the path of the point of a longitudinal force [1].
@@ -198,7 +199,7 @@ class WholeAxleKinematics:
         """
         place = self.wheel_center if torque_on == "body" else self.contact
         sides = (side,) if side else SIDES
-        velocity = np.mean([self.carried_in(one, place(one), "heave") for one in sides], axis=0)
+        velocity = np.mean([self.carried_in(one, place(one), "bump") for one in sides], axis=0)
         slope: Array = velocity[:, 0] / velocity[:, 2]
         return slope
 

@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING, Annotated, Any
 
 from ...core.tabulated import significant
+from ...core.units import KM_PER_H
 from ...terminal.console import console, print_json, problems, table
 from .loading import car_of, derived, naming, note_unused
 from .options import argument, option
@@ -68,7 +69,7 @@ def command(
     assembly = car_of(file)
     with naming(file):
         assembly.require_riding()
-    v = speed / 3.6
+    v = speed / KM_PER_H
     profile, duration = road.for_time(assembly, v, duration)
     times = {
         "duration": duration,

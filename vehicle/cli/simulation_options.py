@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ...core.units import KM_PER_H
 from ...terminal.console import note
 from .options import metres, option, refuse_options
 
@@ -76,7 +77,7 @@ class ScenarioOptions:
         self._refuse_details()
         recording = None
         if self.measured is not None:
-            speed = None if self.speed is None else self.speed / 3.6
+            speed = None if self.speed is None else self.speed / KM_PER_H
             recording = measured(self.measured, speed=speed)
         if recording is not None and recording.left_out:
             names = ", ".join(recording.left_out)

@@ -18,7 +18,7 @@ from ...core.vectors import (
     unit_vector,
 )
 from .hardpoints import SMALLEST_DISTANCE
-from .section import AllowedRange, Number, Section, Triple
+from .section import AllowedRange, Number, Section, Triple, without_direction
 from .units import in_metres
 
 RELAY_ROD = "relay_rod"
@@ -28,7 +28,6 @@ _POINTS = ("pivot", "ball", "idler_pivot", "idler_ball")
 _UP = np.array([0.0, 0.0, 1.0])
 # Nearer than this to the vertical, the relay rod turns in its universal joint, in degrees.
 _SMALLEST_CROSS_ANGLE = 1.0
-_NO_DIRECTION = 1e-6
 
 GearRatio = Annotated[
     Number,
@@ -152,14 +151,8 @@ class PitmanLinkage(Section):
     def problems(self) -> list[str]:
         """Return the reasons why the linkage cannot move, or is at a dead centre in the middle."""
         axes = {"axis": self.axis, "idler_axis": self.idler_axis}
-        problems = [
-            f"{key} = {list(axis)} (without unit) has the length {hypot(*axis):g} and no "
-            f"direction; allowed are lengths of more than {_NO_DIRECTION:g}. Enter "
-            "[0.0, 0.0, 1.0] for an arm that turns to the left."
-            for key, axis in axes.items()
-            if axis is not None and not _NO_DIRECTION < hypot(*axis) < math.inf
-        ]
-        if problems:
+        remedy = "Enter [0.0, 0.0, 1.0] for an arm that turns to the left."
+        if problems := without_direction(axes, remedy):
             return problems
         problems = [problem for arm in _NAMES for problem in self._arm_problems(arm)]
         rod = self.metres("idler_ball") - self.metres("ball")

@@ -1,5 +1,6 @@
 """The base of sections of input files, and the types of their values."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, Self
@@ -9,6 +10,7 @@ from pydantic import AllowInfNan, BaseModel, BeforeValidator, ConfigDict, Field,
 from pydantic import model_validator as validator_of_model
 from pydantic_core import PydanticCustomError
 
+from ...core.columns import hypot
 from .units import unit_of
 
 
@@ -61,6 +63,16 @@ Positive = Annotated[
 ]
 
 Triple = Annotated[tuple[Number, Number, Number], BeforeValidator(_three_numbers)]
+
+
+def without_direction(axes: Mapping[str, Triple | None], remedy: str) -> list[str]:
+    """Return the problems of axes by key whose length is hardly more than zero, with a remedy."""
+    return [
+        f"{key} = {list(axis)} (without unit) has the length {hypot(*axis):g} and no direction; "
+        f"allowed are lengths of more than 1e-6. {remedy}"
+        for key, axis in axes.items()
+        if axis is not None and not 1e-6 < hypot(*axis) < math.inf
+    ]
 
 
 _THEIRS = frozenset(dir(BaseModel))

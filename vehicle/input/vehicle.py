@@ -1,14 +1,22 @@
 """The sections of vehicle, wheel, tyre, steering rack and gravity."""
 
-import math
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
-from ...core.columns import hypot, radians, tan
+from ...core.columns import radians, tan
 from ...core.vectors import Vector, components, unit_vector
 from .places import reverse
-from .section import AllowedRange, Flag, NonNegative, Number, Positive, Section, Triple
+from .section import (
+    AllowedRange,
+    Flag,
+    NonNegative,
+    Number,
+    Positive,
+    Section,
+    Triple,
+    without_direction,
+)
 from .units import in_metres
 
 Angle = Annotated[
@@ -128,15 +136,8 @@ class Steering(Section):
 
     def problems(self) -> list[str]:
         """Return the problem of an axis without a direction."""
-        length = hypot(*self.axis)
-        if 1e-6 < length < math.inf:
-            return []
-        problem = (
-            f"axis = {list(self.axis)} (without unit) has the length {length:g} and no direction; "
-            "allowed are lengths of more than 1e-6. Enter [0.0, 1.0, 0.0] for a rack that moves "
-            "to the left."
-        )
-        return [problem]
+        remedy = "Enter [0.0, 1.0, 0.0] for a rack that moves to the left."
+        return without_direction({"axis": self.axis}, remedy)
 
     def direction(self) -> Vector:
         """Return the direction of positive displacement, a unit vector."""

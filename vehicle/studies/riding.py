@@ -6,6 +6,7 @@ from typing import Any
 import xarray as xr
 
 from ...core.named_types import Array
+from ...core.units import KM_PER_H
 from ...core.validator import Validator
 from ..analysis.ride.by_speed import OF_CAR, OF_WHEELS, by_speed
 from ..assembly.assembly import Assembly
@@ -39,6 +40,6 @@ def axis(given: Validator, options: Mapping[str, Any]) -> SweepAxis:
     def curves(assembly: Assembly, speeds: Array) -> xr.Dataset:
         return by_speed(assembly, speeds, road, seat=seat)
 
-    usual = tuple(v / 3.6 for v in _USUAL_KM_PER_H)
+    usual = tuple(v / KM_PER_H for v in _USUAL_KM_PER_H)
     words = f"speed on a road of {known}{place}"
-    return SweepAxis(SPEED, _KNOWN, words, curves, usual, _AT_KM_PER_H / 3.6)
+    return SweepAxis(SPEED, _KNOWN, words, curves, usual, _AT_KM_PER_H / KM_PER_H)

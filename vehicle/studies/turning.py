@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 
 from ...core.named_types import Array
+from ...core.units import KM_PER_H
 from ...core.validator import Validator
 from ..analysis.handling.circle import columns_of_turns, turns_at
 from ..analysis.handling.steady import SteadyCondition
@@ -24,7 +25,7 @@ TURNING_SPEED_KM_PER_H = 100.0
 # Constant quantities: kind, factor from the unit of the key to SI units, greatest value in the unit
 # of the key, and words.
 _CONSTANT = {
-    "speed_km_per_h": ("speed", 1.0 / 3.6, GREATEST_SPEED, "speed of {:g} km/h"),
+    "speed_km_per_h": ("speed", 1.0 / KM_PER_H, GREATEST_SPEED, "speed of {:g} km/h"),
     "radius_m": ("curvature", 1.0, 1e5, "radius of {:g} m"),
     "steering_wheel_deg": ("steering_wheel", np.pi / 180.0, 2000.0, "steering wheel of {:g} deg"),
 }

@@ -117,18 +117,18 @@ class ForceElement(Force):
     def act(self, at: Surroundings) -> Action:
         """Append the sum of the laws; a force that pushes the ends apart acts on the length."""
         program, name = at.program, self.name
-        course = self.path.course(at, name)
-        rates = [m * at.rate(k) for k, m in course.motion.items()]
+        path = self.path.path_length(at, name)
+        rates = [m * at.rate(k) for k, m in path.motion.items()]
         velocity = program.define(f"{name}_velocity", sum(rates, sp.Integer(0)))
-        stretch = Stretch(program, name, course.length, velocity, course.slide)
-        values, total = {self._of_length: course.length, self._of_rate: velocity}, sp.Integer(0)
+        stretch = Stretch(program, name, path.length, velocity, path.slide)
+        values, total = {self._of_length: path.length, self._of_rate: velocity}, sp.Integer(0)
         for shown, laws in self._by_signal(at.mechanism).items():
             own = sum((law.force(stretch) for law in laws), sp.Integer(0))
             values[shown] = program.define(shown, own)
             total += values[shown]
         total = program.define(f"{name}_total_force", total)
         own = {state: rate for law in self.laws for state, rate in law.rates(stretch).items()}
-        return Action({k: total * m for k, m in course.motion.items()}, values, total, own)
+        return Action({k: total * m for k, m in path.motion.items()}, values, total, own)
 
     def _by_signal(self, mechanism: Whole) -> dict[str, list[Law]]:
         """Return the laws by the names of their signals; those of one name are shown together."""

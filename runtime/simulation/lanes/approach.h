@@ -11,7 +11,7 @@
 
 enum { NO_GUARD = -1 };
 
-static real smallest_step(const crew *w)
+static real smallest_step(const lane_pool *w)
 {
     double of_time = KT_SMALLEST_OF_TIME * (w->p->end - w->p->start);
     real of_step = KT_SMALLEST_OF_STEP * w->longest;
@@ -19,13 +19,13 @@ static real smallest_step(const crew *w)
 }
 
 /* Set a guard for lanes without one. */
-static void blame(crew *w, bits lanes, int guard)
+static void blame(lane_pool *w, bits lanes, int guard)
 {
     w->guard = choose_bits(lanes & (w->guard == NO_GUARD), (bits){0} + guard, w->guard);
 }
 
 /* Note guards whose margins at the end of a step must be positive and are not. */
-static void see_crossed(crew *w, bits lanes)
+static void see_crossed(lane_pool *w, bits lanes)
 {
     for (int i = 0; i < w->p->guard_count; ++i) {
         if (w->p->guards[i] & KT_ACTS) {
@@ -35,7 +35,7 @@ static void see_crossed(crew *w, bits lanes)
 }
 
 /* Return the lanes in which the change of a margin is so large that its rate is needed. */
-static bits changed(const crew *w, real step, real next)
+static bits changed(const lane_pool *w, real step, real next)
 {
     real little = KT_LITTLE / greater(next / step, SPREAD(1.0));
     bits found = {0};
@@ -49,7 +49,7 @@ static bits changed(const crew *w, real step, real next)
 }
 
 /* Evaluate the margins a short time after the step's end, along a tangent. */
-static void look_ahead(crew *w, real time, real lapse)
+static void look_ahead(lane_pool *w, real time, real lapse)
 {
     int n = w->p->state_count, positions = w->p->position_count;
     const real *rates = w->rates + (STAGES - 1) * n; /* at the end */
@@ -61,7 +61,7 @@ static void look_ahead(crew *w, real time, real lapse)
 }
 
 /* Note guards whose margins rise as if they had been zero within the step. */
-static void see_reflected(crew *w, bits lanes, real lapse, real step)
+static void see_reflected(lane_pool *w, bits lanes, real lapse, real step)
 {
     for (int i = 0; i < w->p->guard_count; ++i) {
         if (w->p->guards[i] & KT_SINGULAR) {
@@ -72,7 +72,7 @@ static void see_reflected(crew *w, bits lanes, real lapse, real step)
 }
 
 /* Limit the steps of some lanes by the margins ahead; note the guards of lanes at a dead point. */
-static void limit(crew *w, bits lanes, real lapse, real step)
+static void limit(lane_pool *w, bits lanes, real lapse, real step)
 {
     real longest = SPREAD(INFINITY);
     bits over = {0}, nearest = (bits){0} + NO_GUARD;
@@ -97,7 +97,7 @@ static void limit(crew *w, bits lanes, real lapse, real step)
 }
 
 /* Accept the margins at the step's end as those of the state that is reached. */
-static void reach(crew *w, bits lanes)
+static void reach(lane_pool *w, bits lanes)
 {
     for (int i = 0; i < w->p->guard_count; ++i) {
         w->before[i] = choose(lanes, w->now[i], w->before[i]);

@@ -3,7 +3,7 @@
 #define KINTRAFO_COURSES_H
 
 #include "../native/pieces.h"
-#include "crew.h"
+#include "lane_pool.h"
 
 static void load_piece(course_now *now, const kt_course *course, int lane, int piece)
 {
@@ -19,7 +19,7 @@ static void load_piece(course_now *now, const kt_course *course, int lane, int p
 }
 
 /* Start a segment. */
-static void open_courses(crew *w, int lane)
+static void open_courses(lane_pool *w, int lane)
 {
     const kt_segment *segment = segment_of(w, lane);
     for (int i = 0; i < w->p->course_count; ++i) {
@@ -28,7 +28,7 @@ static void open_courses(crew *w, int lane)
 }
 
 /* Load for each lane the piece of its time. */
-static void follow_course(crew *w, int which, real time)
+static void follow_course(lane_pool *w, int which, real time)
 {
     course_now *now = &w->courses[which];
     bits gone = w->running & ((time < now->left) | (time >= now->right));
@@ -46,7 +46,7 @@ static void follow_course(crew *w, int which, real time)
     }
 }
 
-static void evaluate_inputs(crew *w, real time)
+static void evaluate_inputs(lane_pool *w, real time)
 {
     for (int i = 0; i < w->p->course_count; ++i) {
         follow_course(w, i, time);

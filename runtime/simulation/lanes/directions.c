@@ -15,7 +15,7 @@ typedef struct {
     real *rates;       /* change of its rates at each stage: stages x states */
     real *shown;       /* change of signals and state at an output */
     bits refused;
-} crew;
+} lane_pool;
 
 /* Set all lanes to a row of numbers. */
 static void spread(real *to, const double *row, int count)
@@ -36,7 +36,7 @@ static void take(real *to, const double *rows, int size, long first, int count)
 }
 
 /* Return the weighted sum of changes of rates, for an element of the state. */
-static real added(const crew *w, const double *weights, int stages, int element, double length)
+static real added(const lane_pool *w, const double *weights, int stages, int element, double length)
 {
     real sum = {0.0};
     for (int s = 0; s < stages; ++s) {
@@ -46,7 +46,7 @@ static real added(const crew *w, const double *weights, int stages, int element,
 }
 
 /* Compute the changes of the rates of all stages, and of the state at the end. */
-static void go_through(crew *w, long step)
+static void go_through(lane_pool *w, long step)
 {
     const kt_motion *m = w->m;
     int n = m->state_count;
@@ -65,7 +65,7 @@ static void go_through(crew *w, long step)
 }
 
 /* Compute the changes of signals and state at an output within a step. */
-static void show(crew *w, long output, double length)
+static void show(lane_pool *w, long output, double length)
 {
     const kt_motion *m = w->m;
     int n = m->state_count;
@@ -81,7 +81,7 @@ static void show(crew *w, long output, double length)
     }
 }
 
-static void keep(const crew *w, long output, long first, int count)
+static void keep(const lane_pool *w, long output, long first, int count)
 {
     const kt_motion *m = w->m;
     for (int l = 0; l < count; ++l) {
@@ -93,7 +93,7 @@ static void keep(const crew *w, long output, long first, int count)
 }
 
 /* Integrate at most as many directions as there are lanes. */
-static void follow(crew *w, long first, int count)
+static void follow(lane_pool *w, long first, int count)
 {
     const kt_motion *m = w->m;
     long output = 0;
@@ -112,7 +112,7 @@ static void follow(crew *w, long first, int count)
 
 int NAME_OF(kt_follow_, WIDTH)(const kt_motion *m, long first, long last)
 {
-    crew w = {
+    lane_pool w = {
         .m = m, .rhs = (kt_tangent)m->rhs_tangent, .signals = (kt_tangent)m->signals_tangent,
     };
     int n = m->state_count;

@@ -25,7 +25,7 @@ static void set_parameters(const kt_problem *p, long first, int count, real *par
 }
 
 /* Prepare the next systems, as many as there are lanes. */
-static void fill_queue(crew *w)
+static void fill_queue(lane_pool *w)
 {
     const kt_problem *p = w->p;
     waiting *q = &w->queue;
@@ -49,14 +49,14 @@ static void fill_queue(crew *w)
 /* -- begin and end of a system ---------------------------------------------------------------- */
 
 /* Set the goal: the next milestone, or else the end of the segment. */
-static void set_goal(crew *w, int lane)
+static void set_goal(lane_pool *w, int lane)
 {
     const kt_segment *s = segment_of(w, lane);
     long next = w->milestone[lane];
     w->goal[lane] = next < s->milestone_count ? s->milestones[next] : s->end;
 }
 
-static void open_segment(crew *w, int lane)
+static void open_segment(lane_pool *w, int lane)
 {
     w->milestone[lane] = w->turn[lane] = 0;
     w->fresh[lane] = -1;
@@ -70,7 +70,7 @@ static void open_segment(crew *w, int lane)
     set_goal(w, lane);
 }
 
-static void end_system(crew *w, int lane, int end, int code, double time)
+static void end_system(lane_pool *w, int lane, int end, int code, double time)
 {
     const kt_problem *p = w->p;
     long system = w->system[lane];
@@ -92,7 +92,7 @@ static void end_system(crew *w, int lane, int end, int code, double time)
 }
 
 /* Assign a prepared system to a lane. */
-static void begin_system(crew *w, int lane)
+static void begin_system(lane_pool *w, int lane)
 {
     const kt_problem *p = w->p;
     const waiting *q = &w->queue;
@@ -128,7 +128,7 @@ static void begin_system(crew *w, int lane)
 }
 
 /* Assign systems to idle lanes. */
-static void refill(crew *w)
+static void refill(lane_pool *w)
 {
     for (int l = 0; l < WIDTH; ++l) {
         while (!w->running[l]) {
@@ -149,7 +149,7 @@ static void refill(crew *w)
 /* -- a step ----------------------------------------------------------------------------------- */
 
 /* Return the first extremum of a lane's inputs that limits a step of some length, or else the goal. */
-static double next_turn(crew *w, int lane, double step)
+static double next_turn(lane_pool *w, int lane, double step)
 {
     const kt_segment *s = segment_of(w, lane);
     double time = w->time[lane], far = time + 2.0 * step;
@@ -166,7 +166,7 @@ static double next_turn(crew *w, int lane, double step)
 }
 
 /* Set the target of each lane: its goal, or an earlier extremum of its inputs. */
-static void take_aim(crew *w, real step)
+static void take_aim(lane_pool *w, real step)
 {
     w->aim = w->goal;
     for (int l = 0; l < WIDTH; ++l) {
@@ -177,7 +177,7 @@ static void take_aim(crew *w, real step)
 }
 
 /* Return the lengths of steps; `lands` are the lanes that reach their target. */
-static real planned(crew *w, bits *lands)
+static real planned(lane_pool *w, bits *lands)
 {
     real most = lesser(lesser(w->step, w->trusted), SPREAD(w->p->max_step));
     take_aim(w, most);
@@ -190,7 +190,7 @@ static real planned(crew *w, bits *lands)
 }
 
 /* Compute the rates of all stages and the state at the end; return the lanes that the model refuses. */
-static bits attempt(crew *w, real step)
+static bits attempt(lane_pool *w, real step)
 {
     int n = w->p->state_count;
     w->status = (bits){0};
@@ -211,7 +211,7 @@ static bits attempt(crew *w, real step)
 }
 
 /* Return the mean square of some numbers, each divided by its tolerance. */
-static real mean_square(const crew *w, const real *numbers)
+static real mean_square(const lane_pool *w, const real *numbers)
 {
     int n = w->p->state_count;
     real sum = {0.0};
@@ -223,7 +223,7 @@ static real mean_square(const crew *w, const real *numbers)
     return sum / (double)n;
 }
 
-static real error_of(crew *w, real step)
+static real error_of(lane_pool *w, real step)
 {
     int n = w->p->state_count;
     for (int i = 0; i < n; ++i) {
@@ -241,7 +241,7 @@ static real error_of(crew *w, real step)
  * Differential Equations II, IV.2. The last two stages are at one time, and the difference of their rates shows
  * the rate of the fastest motion; if it times the step is more than 3.25, the method is not stable.
  */
-static void see_stiff(crew *w, bits good, real step)
+static void see_stiff(lane_pool *w, bits good, real step)
 {
     const kt_problem *p = w->p;
     int n = p->state_count;
@@ -263,7 +263,7 @@ static void see_stiff(crew *w, bits good, real step)
 }
 
 /* Return the first step, from the size of the state and of its rates at the start. */
-static real first_step(const crew *w)
+static real first_step(const lane_pool *w)
 {
     const kt_problem *p = w->p;
     real size = mean_square(w, w->state);
@@ -275,7 +275,7 @@ static real first_step(const crew *w)
 }
 
 /* Return the next step after an accepted one, or after one with too large an error. */
-static real next_step(crew *w, real step, real error, bits good)
+static real next_step(lane_pool *w, real step, real error, bits good)
 {
     real now = bounded_logarithm(error);
     /* logarithms of squares */
@@ -293,7 +293,7 @@ static real next_step(crew *w, real step, real error, bits good)
 /* -- acceptance of a step ---------------------------------------------------------------------- */
 
 /* Check the margins; return the lanes whose margins ahead were evaluated, and the lapse. */
-static bits ask_margins(crew *w, bits lanes, real reached, real step, real next, real *lapse)
+static bits ask_margins(lane_pool *w, bits lanes, real reached, real step, real next, real *lapse)
 {
     w->guard = (bits){0} + NO_GUARD;
     *lapse = choose(w->fresh, SPREAD(KT_SMALLEST_OF_STEP * (w->p->end - w->p->start)), KT_LAPSE * step);
@@ -308,7 +308,7 @@ static bits ask_margins(crew *w, bits lanes, real reached, real step, real next,
 }
 
 /* Accept the step's end as the state that is reached. */
-static void commit(crew *w, bits lanes, real step, real reached)
+static void commit(lane_pool *w, bits lanes, real step, real reached)
 {
     int n = w->p->state_count;
     for (int i = 0; i < n; ++i) {
@@ -323,7 +323,7 @@ static void commit(crew *w, bits lanes, real step, real reached)
 }
 
 /* Continue to the next milestone or segment; a system ends with its last segment. */
-static void pass_goal(crew *w, int lane)
+static void pass_goal(lane_pool *w, int lane)
 {
     const kt_problem *p = w->p;
     if (w->milestone[lane] < segment_of(w, lane)->milestone_count) {
@@ -338,7 +338,7 @@ static void pass_goal(crew *w, int lane)
 }
 
 /* End a system whose steps cannot become shorter. */
-static void give_up(crew *w, int lane, real step)
+static void give_up(lane_pool *w, int lane, real step)
 {
     if (w->guard[lane] != NO_GUARD) {
         end_system(w, lane, KT_DEAD_POINT, (int)w->guard[lane], w->time[lane]);
@@ -350,7 +350,7 @@ static void give_up(crew *w, int lane, real step)
 }
 
 /* Continue or end systems after a step. */
-static void settle(crew *w, bits good, bits lands, bits refused, real step)
+static void settle(lane_pool *w, bits good, bits lands, bits refused, real step)
 {
     const kt_problem *p = w->p;
     real rounding = ROUNDING * greater(magnitude(w->time), SPREAD(p->end - p->start));
@@ -380,7 +380,7 @@ static void settle(crew *w, bits good, bits lands, bits refused, real step)
 /* -- all steps -------------------------------------------------------------------------------- */
 
 /* Take a step in every lane, or note that it must be shorter. */
-static void sweep(crew *w)
+static void sweep(lane_pool *w)
 {
     bits lands, fresh = w->fresh;
     real step = planned(w, &lands), lapse;
@@ -412,7 +412,7 @@ static void sweep(crew *w)
 }
 
 /* Return 0, or 1 without memory. */
-static int open_crew(crew *w, const kt_problem *p)
+static int open_lane_pool(lane_pool *w, const kt_problem *p)
 {
     int n = p->state_count, shown = p->signal_count + n, margins = p->guard_count;
     if (shown < p->parameter_count) {
@@ -438,12 +438,12 @@ static int open_crew(crew *w, const kt_problem *p)
 
 int NAME_OF(kt_integrate_, WIDTH)(const kt_problem *p, long first, long last, const volatile int *stop)
 {
-    crew w = {
+    lane_pool w = {
         .p = p, .next = first, .last = last, .prepare = (kt_prepare)p->prepare,
         .design_state = (kt_prepare)p->design_state, .rhs = (kt_function)p->rhs,
         .signals = (kt_function)p->signals, .margins = (kt_function)p->margins,
     };
-    if (open_crew(&w, p)) {
+    if (open_lane_pool(&w, p)) {
         return 1;
     }
     for (refill(&w); any(w.running) && !*stop; refill(&w)) {

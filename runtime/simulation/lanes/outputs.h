@@ -11,7 +11,7 @@ static double due_time(const kt_problem *p, long output)
     return output < p->time_count ? p->times[output] : INFINITY;
 }
 
-static void begin_outputs(crew *w, int lane)
+static void begin_outputs(lane_pool *w, int lane)
 {
     static const double nothing[] = {
         [KT_GREATEST] = -INFINITY, [KT_LEAST] = INFINITY, [KT_FIRST] = NAN, [KT_SUM] = 0.0,
@@ -30,7 +30,7 @@ static void begin_outputs(crew *w, int lane)
 }
 
 /* Compute the polynomial that interpolates the states within a step. */
-static void find_terms(crew *w, real step)
+static void find_terms(lane_pool *w, real step)
 {
     int n = w->p->state_count;
     for (int i = 0; i < n; ++i) {
@@ -49,7 +49,7 @@ static void find_terms(crew *w, real step)
 }
 
 /* Evaluate the state at a part of the step, and the signals there; note the status if they are refused. */
-static bits show(crew *w, real part, real time)
+static bits show(lane_pool *w, real part, real time)
 {
     const kt_problem *p = w->p;
     int n = p->state_count;
@@ -67,7 +67,7 @@ static bits show(crew *w, real part, real time)
 }
 
 /* Load the weights of the outputs in time, and their distances from the ones before. */
-static real weights_now(const crew *w, bits lanes, real *lapse)
+static real weights_now(const lane_pool *w, bits lanes, real *lapse)
 {
     real weight = {0.0};
     *lapse = weight;
@@ -89,7 +89,7 @@ static real part_above(real from, real to)
     return choose(part > 0.0, part, nothing); /* also for NaN */
 }
 
-static void reduce(crew *w, bits lanes)
+static void reduce(lane_pool *w, bits lanes)
 {
     const kt_problem *p = w->p;
     if (!p->reduction_count) {
@@ -113,7 +113,7 @@ static void reduce(crew *w, bits lanes)
     }
 }
 
-static void see_bounds(crew *w, bits lanes)
+static void see_bounds(lane_pool *w, bits lanes)
 {
     const kt_problem *p = w->p;
     for (int i = 0; i < p->bound_count; ++i) {
@@ -124,7 +124,7 @@ static void see_bounds(crew *w, bits lanes)
 }
 
 /* Store the outputs that are due, and advance to the next ones. */
-static void keep(crew *w, bits lanes)
+static void keep(lane_pool *w, bits lanes)
 {
     const kt_problem *p = w->p;
     reduce(w, lanes);
@@ -147,7 +147,7 @@ static void copy(real *to, const real *from, int count)
 }
 
 /* Restore some lanes to their state before the step's outputs; samples are written again. */
-static void take_back(crew *w, bits lanes, const long *output)
+static void take_back(lane_pool *w, bits lanes, const long *output)
 {
     for (int i = 0; i < w->p->reduction_count; ++i) {
         w->kept[i] = choose(lanes, w->kept_before[i], w->kept[i]);
@@ -167,7 +167,7 @@ static void take_back(crew *w, bits lanes, const long *output)
  * Write the outputs that are due within a step. Returns the lanes in which the model refuses an output: they have
  * none of this step.
  */
-static bits put_out(crew *w, bits lanes, real reached)
+static bits put_out(lane_pool *w, bits lanes, real reached)
 {
     real step = reached - w->time;
     bits pending = lanes & (w->due <= reached), refused = {0};

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import kintrafo
 import numpy as np
-from kintrafo.ensembles.pieces import cutting
+from kintrafo.ensembles.chunks import cutting
 
 from ..attempts import WrongError
 from .cache import DAMAGE as OF_FILES
@@ -26,7 +26,7 @@ SHORT = 20
 
 @cache
 def sound() -> tuple[Path, bytes]:
-    """Return the folder of an ensemble, in pieces of few cars, and its numbers."""
+    """Return the folder of an ensemble, in chunks of few cars, and its numbers."""
     cutting._FEWEST = cutting._MOST = 4
     folder = Path(tempfile.mkdtemp()) / "kept"
     atexit.register(shutil.rmtree, folder.parent, ignore_errors=True)
@@ -70,16 +70,16 @@ def _of_another(random: Generator, folder: Path) -> None:
         path.write_text(json.dumps(wrong[random.integers(len(wrong))]))
 
 
-def _pieces(folder: Path) -> list[Path]:
+def _chunks(folder: Path) -> list[Path]:
     return sorted(path for path in folder.glob("*.npz") if path.is_file())
 
 
 def _in_the_directory(random: Generator, folder: Path) -> None:
     """Change one bit of the list of arrays at the end of a file."""
-    pieces = _pieces(folder)
-    if not pieces:
+    chunks = _chunks(folder)
+    if not chunks:
         return
-    path = pieces[random.integers(len(pieces))]
+    path = chunks[random.integers(len(chunks))]
     content = bytearray(path.read_bytes())
     first = content.find(b"PK\x01\x02")
     if first >= 0:
@@ -89,12 +89,12 @@ def _in_the_directory(random: Generator, folder: Path) -> None:
 
 def _exchange(random: Generator, folder: Path) -> None:
     """Exchange two files, each of which is sound."""
-    pieces = _pieces(folder)
-    if len(pieces) > 1:
-        one, other = random.choice(len(pieces), 2, replace=False)
-        contents = pieces[one].read_bytes(), pieces[other].read_bytes()
-        pieces[other].write_bytes(contents[0])
-        pieces[one].write_bytes(contents[1])
+    chunks = _chunks(folder)
+    if len(chunks) > 1:
+        one, other = random.choice(len(chunks), 2, replace=False)
+        contents = chunks[one].read_bytes(), chunks[other].read_bytes()
+        chunks[other].write_bytes(contents[0])
+        chunks[one].write_bytes(contents[1])
 
 
 DAMAGE = (*OF_FILES, *OF_FILES, _of_another, *(_in_the_directory,) * 8, *(_exchange,) * 2)

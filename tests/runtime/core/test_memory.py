@@ -38,7 +38,7 @@ ensembles = import_module("kintrafo.ensembles.ensemble")
 def little(monkeypatch):
     """Leave a megabyte, and let nothing be simulated."""
     monkeypatch.setattr(memory, "free", lambda: 1e6)
-    for name in ("run", "run_in_pieces"):
+    for name in ("run", "run_in_chunks"):
         monkeypatch.setattr(ensembles, name, None)
 
 

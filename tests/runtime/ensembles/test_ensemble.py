@@ -365,20 +365,20 @@ def test_series_do_not_fill_the_memory(car: Model, start: Any, monkeypatch: Any)
 def test_what_is_kept_is_written_and_goes_on_in_pieces(
     car: Model, start: Any, tmp_path: Path
 ) -> None:
-    """An ensemble in pieces, each written to a file, is the whole, to the last bit."""
+    """An ensemble in chunks, each written to a file, is the whole, to the last bit."""
     cars = some_cars(9)
     options: dict[str, Any] = {
         "t_eval": TIMES,
         "reductions": {"camber": [("psd", 16), ("percentile", 95.0), ("above", 0.0)]},
     }
     whole = ensemble(car, cars, SPAN, start, **options)
-    pieces = []
+    chunks = []
     for first, last in ((0, 4), (4, 9)):
         part = {name: values[first:last] for name, values in cars.items()}
         found = ensemble(car, part, SPAN, start, **options)
         export.write(found, tmp_path / f"{first}.nc")
-        pieces.append(xr.load_dataset(tmp_path / f"{first}.nc", engine="scipy"))
-    together = xr.concat(pieces, "car")
+        chunks.append(xr.load_dataset(tmp_path / f"{first}.nc", engine="scipy"))
+    together = xr.concat(chunks, "car")
     for name in ("camber_psd", "camber_percentile_95", "camber_above_0", "final_state"):
         assert together[name].values.tobytes() == whole[name].values.tobytes(), name
         assert together[name].dims == whole[name].dims

@@ -24,7 +24,7 @@ import pytest
 import xarray as xr
 from kintrafo import InputError, Model, System, ensemble, state_at_height
 from kintrafo.core.optional import MissingPackageError
-from kintrafo.ensembles.pieces import cutting, piece, queue, versions, whole, workers
+from kintrafo.ensembles.chunks import chunk, cutting, gather, queue, versions, workers
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.simulation.lanes import library
 from kintrafo.systems.compile.shipped import shipped
@@ -61,21 +61,21 @@ def start(car: Model) -> Any:
 
 @pytest.fixture
 def small(monkeypatch: Any) -> None:
-    """Make pieces of few cars, whose ends fall anywhere."""
+    """Make chunks of few cars, whose ends fall anywhere."""
     monkeypatch.setattr(cutting, "_FEWEST", 7)
     monkeypatch.setattr(cutting, "_MOST", 7)
 
 
 @pytest.fixture
 def done(monkeypatch: Any) -> list[tuple[int, int]]:
-    """Note which pieces are simulated here."""
+    """Note which chunks are simulated here."""
     found: list[tuple[int, int]] = []
 
     def noted(common: Any, some: Any, *given: Any) -> Any:
         found.append((some.first, some.first + some.systems.count))
-        return piece.found_of(common, some, *given)
+        return chunk.found_of(common, some, *given)
 
-    monkeypatch.setattr(whole, "found_of", noted)
+    monkeypatch.setattr(gather, "found_of", noted)
     return found
 
 
@@ -95,7 +95,7 @@ def test_the_same_bits_by_workers(client: Any, car: Model, start: Any) -> None:
 
 
 def test_local_workers_share_the_threads(car: Model, start: Any) -> None:
-    """One piece, and one worker with all threads."""
+    """One chunk, and one worker with all threads."""
     cars = some_cars(20)
     found = ensemble(car, cars, SPAN, start, cluster=1, threads=2, **KEPT)
     same(found, ensemble(car, cars, SPAN, start, **KEPT))
@@ -129,7 +129,7 @@ def test_equations_that_were_compiled_here(client: Any, tmp_path: Path, monkeypa
     options = {"signals": model.signal_names[:1]}
     home = Path(model.equations.__file__).parent
     elsewhere = replace(shipped(model.equations), file=f"/missing/{home.name}/four_bar.py")
-    monkeypatch.setattr(piece, "shipped", lambda _: elsewhere)
+    monkeypatch.setattr(chunk, "shipped", lambda _: elsewhere)
     before = os.environ["KINTRAFO_CACHE"]
     client.run(at_workers.use_cache, str(tmp_path))
     try:
@@ -168,7 +168,7 @@ def test_what_a_lost_worker_did_is_done_again(
 def test_what_loses_one_worker_after_another() -> None:
     """What the scheduler tells then, and where it is gone itself."""
     shown = {
-        distributed.scheduler.KilledWorker("piece", None, 3): "systems 7 to 14: several workers",
+        distributed.scheduler.KilledWorker("chunk", None, 3): "systems 7 to 14: several workers",
         CancelledError(): "the scheduler was lost, or",
         OSError("nobody there"): "the scheduler was lost: nobody there",
     }
@@ -215,15 +215,15 @@ def test_few_pieces_are_held_at_a_time(
         nonlocal held, most
         held += 1
         most = max(most, held)
-        return piece.piece_of(*given)
+        return chunk.chunk_of(*given)
 
     def put(*given: Any) -> None:
         nonlocal held
         held -= 1
-        piece.put(*given)
+        chunk.put(*given)
 
-    monkeypatch.setattr(queue, "piece_of", cut)
-    monkeypatch.setattr(whole, "put", put)
+    monkeypatch.setattr(queue, "chunk_of", cut)
+    monkeypatch.setattr(gather, "put", put)
     ensemble(car, some_cars(210), (0.0, 0.01), start, cluster=client, **KEPT)
     assert held == 0
     assert most <= 6  # three for each of two threads
@@ -231,13 +231,13 @@ def test_few_pieces_are_held_at_a_time(
 
 def test_progress_is_told(client: Any, car: Model, start: Any, monkeypatch: Any) -> None:
     shown: list[int] = []
-    real = ensembles.run_in_pieces
+    real = ensembles.run_in_chunks
 
     def noted(*given: Any) -> None:
         *others, report = given
         real(*others, lambda count: (shown.append(count), report(count)))
 
-    monkeypatch.setattr(ensembles, "run_in_pieces", noted)
+    monkeypatch.setattr(ensembles, "run_in_chunks", noted)
     ensemble(car, some_cars(50), SPAN, start, progress=True, cluster=client)
     assert shown == sorted(shown)
     assert shown[-1] == 50
@@ -250,7 +250,7 @@ def test_progress_is_told(client: Any, car: Model, start: Any, monkeypatch: Any)
 def test_it_goes_on_from_what_was_kept(
     client: Any, car: Model, start: Any, tmp_path: Path, done: Any, monkeypatch: Any
 ) -> None:
-    """After an interruption only what is missing is done, in whatever pieces, here or there."""
+    """After an interruption only what is missing is done, in whatever chunks, here or there."""
     cars, options = of_all_kinds(car)
     expected = ensemble(car, cars, SPAN, start, **options)
     folder = tmp_path / "kept"
@@ -258,10 +258,10 @@ def test_it_goes_on_from_what_was_kept(
     def interrupted(common: Any, some: Any, *given: Any) -> Any:
         if some.first == 14:
             raise KeyboardInterrupt
-        return piece.found_of(common, some, *given)
+        return chunk.found_of(common, some, *given)
 
     with monkeypatch.context() as patched:
-        patched.setattr(whole, "found_of", interrupted)
+        patched.setattr(gather, "found_of", interrupted)
         with pytest.raises(KeyboardInterrupt):
             ensemble(car, cars, SPAN, start, kept=folder, **options)
     monkeypatch.setattr(cutting, "_MOST", 20)
@@ -318,7 +318,7 @@ def test_a_folder_of_another_ensemble_is_refused(car: Model, tmp_path: Path, sta
 
 def test_versions_are_part_of_what_is_kept(car: Model, tmp_path: Path, monkeypatch: Any) -> None:
     ensemble(car, None, SPAN, kept=tmp_path)
-    identity = import_module("kintrafo.ensembles.pieces.identity")
+    identity = import_module("kintrafo.ensembles.chunks.identity")
     monkeypatch.setattr(identity, "versions", lambda: {"NumPy": "0.1"})
     with pytest.raises(InputError, match="other the version of kintrafo or its packages"):
         ensemble(car, None, SPAN, kept=tmp_path)
@@ -481,11 +481,13 @@ def test_workers_with_other_versions(client: Any, car: Model, monkeypatch: Any) 
 
 
 def test_a_worker_that_came_later_with_other_versions(car: Model, monkeypatch: Any) -> None:
-    real = piece.common_of
+    real = chunk.common_of
     monkeypatch.setattr(
-        whole, "common_of", lambda found: replace(real(found), versions={"kintrafo": "9.9"})
+        gather, "common_of", lambda found: replace(real(found), versions={"kintrafo": "9.9"})
     )
-    monkeypatch.setattr(ensembles, "kept_in", lambda *_: SimpleNamespace(found=list, keep=None))
+    monkeypatch.setattr(
+        ensembles, "checkpoint_in", lambda *_: SimpleNamespace(found=list, keep=None)
+    )
     with pytest.raises(InputError, match=r"asked by a process that has kintrafo 9\.9"):
         ensemble(car, None, SPAN, kept="here")
 
@@ -500,7 +502,7 @@ def test_a_folder_where_a_file_should_be(car: Model, tmp_path: Path) -> None:
     ensemble(car, None, SPAN, kept=tmp_path)
     (tmp_path / "systems-000000000-000000001.npz").unlink()
     (tmp_path / "systems-000000000-000000001.npz").mkdir()
-    with pytest.raises(InputError, match="not a file, but named as a saved piece"):
+    with pytest.raises(InputError, match="not a file, but named as a saved chunk"):
         ensemble(car, None, SPAN, kept=tmp_path)
 
 

@@ -14,6 +14,7 @@ import xarray as xr
 from ....core.errors import InputError
 from ....core.named_types import Array
 from ....core.quantities import Display
+from ....core.units import KM_PER_H
 from ....equations.errors import ModelError
 from ...assembly.by_wheel import WHEEL, wheel_coordinate
 from ...assembly.quantity import Quantity
@@ -394,7 +395,7 @@ def _none(first: SteadyCondition) -> str:
 
 def _words(first: SteadyCondition) -> str:
     if first.kind == "speed":
-        return f"constant speed of {3.6 * first.value:g} km/h"
+        return f"constant speed of {KM_PER_H * first.value:g} km/h"
     if first.kind == "steering_wheel":
         return f"constant steering wheel angle of {np.rad2deg(abs(first.value)):g} deg"
     return f"constant radius of {abs(1.0 / first.value):g} m"

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 import xarray as xr
 
 from ....core.quantities import variable
+from ....core.units import KM_PER_H
 from ..run import Run
 
 
@@ -49,7 +50,7 @@ _DEGREES = 180.0 / math.pi
 # Display units by SI unit, with the factor of values.
 _READ = {
     "m": ("m", 1.0),
-    "m/s": ("km/h", 3.6),
+    "m/s": ("km/h", KM_PER_H),
     "rad s^2/m": ("deg/g", 9.80665 * _DEGREES),
     "N m s^2/m": ("N m/g", 9.80665),
     "m/(s^2 rad)": ("m/s^2/deg", 1.0 / _DEGREES),

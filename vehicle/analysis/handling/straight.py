@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 
 from ....core.named_types import Array
+from ....core.units import KM_PER_H
 from ....equations.errors import ModelError
 from ...models.reach import PositionError
 from .car import DrivingCar
@@ -63,7 +64,7 @@ def straight_running(
             progress((i + 1) / speeds.size)
     curves = xr.concat(rows, SPEED, combine_attrs="override", coords="minimal", compat="override")
     axis = quantity(SPEED, speeds, "speed", "m/s")
-    first, last = (f"{3.6 * speed:g}" for speed in (speeds[0], speeds[-1]))
+    first, last = (f"{KM_PER_H * speed:g}" for speed in (speeds[0], speeds[-1]))
     title = {"title": f"straight running, {first} to {last} km/h"}
     curves = curves.assign_coords({SPEED: axis}).assign_attrs(title)
     return HandlingResult(xr.Dataset(_metrics(car, curves), attrs=title), {"": curves})
@@ -75,7 +76,7 @@ def at_speed(car: DrivingCar, speed: float) -> xr.Dataset:
     try:
         straight = turns.begin(0.0)
     except (NoSteadyMotionError, ModelError):
-        problem = f"the car does not run straight ahead at {3.6 * speed:g} km/h. Choose less."
+        problem = f"the car does not run straight ahead at {KM_PER_H * speed:g} km/h. Choose less."
         raise PositionError(problem) from None
     _, turn = described(turns, straight, {0.0: straight}, np.nan)
     found = turn[""].isel(lateral_acceleration=0)

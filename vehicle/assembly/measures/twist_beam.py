@@ -40,7 +40,7 @@ def roll_center_height(of: WholeAxleKinematics) -> Array:
     line = line / length
     across = np.stack([-line[:, 1], line[:, 0]], -1)
     roll, heave = (
-        np.stack([of.contact_in(side, how)[:, 1:] for side in SIDES]) for how in ("roll", "heave")
+        np.stack([of.contact_in(side, how)[:, 1:] for side in SIDES]) for how in ("roll", "bump")
     )
     times = -dot(across, roll.mean(axis=0)) / dot(across, heave.mean(axis=0))
     moved = roll + times[:, None] * heave

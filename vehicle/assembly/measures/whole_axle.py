@@ -50,12 +50,12 @@ SPRINGS = (
     of_wheel("spring_length", signal("spring_length"), definition="distance of the spring's seats"),
     of_wheel("damper_length", signal("damper_length"), definition="distance of the damper's ends"),
     of_wheel(
-        "motion_ratio", partial(_ratio, "spring", "heave"),
+        "motion_ratio", partial(_ratio, "spring", "bump"),
         definition="compression of the spring per travel of both wheels",
     ),
     of_wheel("roll_motion_ratio", partial(_ratio, "spring", "roll")),
     of_wheel(
-        "damper_motion_ratio", partial(_ratio, "damper", "heave"),
+        "damper_motion_ratio", partial(_ratio, "damper", "bump"),
         definition="compression of the damper per travel of both wheels",
     ),
     of_wheel("damper_roll_motion_ratio", partial(_ratio, "damper", "roll")),

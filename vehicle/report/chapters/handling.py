@@ -5,6 +5,7 @@ from typing import Any
 from ....core.errors import KintrafoError
 from ....core.quantities import displayed, heading_of
 from ....core.tabulated import Tabulated, significant
+from ....core.units import KM_PER_H
 from ...analysis.handling import circle, drive
 from ...analysis.handling.result import HandlingResult
 from ...plots.by_axle import by_axle, names_by_axle
@@ -14,7 +15,7 @@ from .chapter import Chapter, not_valid
 from .curves import small_pictures
 
 # Speed of the steady turns [m/s], and their step, for the curvature near the limit [m/s^2].
-_SPEED, _STEP = 80.0 / 3.6, 0.1
+_SPEED, _STEP = 80.0 / KM_PER_H, 0.1
 
 
 def steady_turns_chapter(subject: Any) -> Chapter:

@@ -7,6 +7,7 @@ from matplotlib import rc_context
 
 from ....core.quantities import long_name, names_in_words
 from ....core.tabulated import Tabulated, significant
+from ....core.units import KM_PER_H
 from ....pictures.figures import STYLE
 from ... import roads
 from ...analysis import ride
@@ -17,9 +18,9 @@ from ...plots.ride import response_figures
 from .chapter import Chapter, ChapterPicture, not_valid
 
 # A rough road, and the speed on it [m/s].
-_CLASS, _SPEED = "B", 80.0 / 3.6
+_CLASS, _SPEED = "B", 80.0 / KM_PER_H
 # A bump: height, length and place [m], speed over it [m/s], and duration of the motion [s].
-_HEIGHT, _LENGTH, _AT, _SLOWLY, _DURATION = 0.04, 2.0, 2.0, 30.0 / 3.6, 3.0
+_HEIGHT, _LENGTH, _AT, _SLOWLY, _DURATION = 0.04, 2.0, 2.0, 30.0 / KM_PER_H, 3.0
 
 
 def ride_chapter(subject: Any) -> Chapter:
@@ -49,8 +50,8 @@ def ride_chapter(subject: Any) -> Chapter:
         panels = tuple(ChapterPicture.of(figure, words) for words, figure in figures.items())
     words = [
         "Modes and responses are those of the exact linearisation at rest, without friction.",
-        f"The rough road is of class {_CLASS} of ISO 8608, at {3.6 * _SPEED:g} km/h.",
-        f"The car is shown over {bump.words} at {3.6 * _SLOWLY:g} km/h, from rest.",
+        f"The rough road is of class {_CLASS} of ISO 8608, at {KM_PER_H * _SPEED:g} km/h.",
+        f"The car is shown over {bump.words} at {KM_PER_H * _SLOWLY:g} km/h, from rest.",
     ]
     if whole.drives:
         words.append("The body does not travel here: it heaves, pitches and rolls.")

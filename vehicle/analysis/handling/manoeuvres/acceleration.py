@@ -6,6 +6,7 @@ import numpy as np
 from pydantic import Field
 
 from .....core.errors import InputError
+from .....core.units import KM_PER_H
 from ....input.section import NonNegative, Positive
 from ..car import DrivingCar
 from ..drivers import Fixed, HeldTorque
@@ -43,8 +44,8 @@ class Acceleration(UntilSpeed):
         if speed[-1] < end:
             problem = (
                 f"until_km_per_h = {self.until_km_per_h:g} km/h: after duration_s = "
-                f"{self.duration_s:g} s the speed is {3.6 * speed[-1]:.1f} km/h. Raise torque_Nm "
-                "or duration_s, or choose less."
+                f"{self.duration_s:g} s the speed is {KM_PER_H * speed[-1]:.1f} km/h. Raise "
+                "torque_Nm or duration_s, or choose less."
             )
             raise InputError([problem], self.TITLE)
         reached = first_crossing(time, speed, end)

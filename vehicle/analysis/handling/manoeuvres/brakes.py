@@ -4,6 +4,7 @@ import xarray as xr
 from pydantic import Field
 
 from .....core.errors import InputError
+from .....core.units import KM_PER_H
 from ....input.section import NonNegative, Positive
 from ....models.car.car import Car
 from ..car import DrivingCar
@@ -58,7 +59,7 @@ class BrakingManoeuvre(SimulatedManoeuvre):
         last = float(motion["speed"][-1])
         if last > speed:
             problem = (
-                f"{key}: after duration_s = {self.duration_s:g} s the speed is {3.6 * last:.1f} "
-                "km/h. Raise duration_s, or brake more."
+                f"{key}: after duration_s = {self.duration_s:g} s the speed is "
+                f"{KM_PER_H * last:.1f} km/h. Raise duration_s, or brake more."
             )
             raise InputError([problem], self.TITLE)

@@ -5,6 +5,7 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
+from .....core.units import KM_PER_H
 from ....input.section import NonNegative, Positive
 from ..car import DrivingCar
 from ..circle import steady_turns
@@ -58,7 +59,7 @@ class Circle(Manoeuvre):
         elif self.steering_wheel_deg is not None:
             first = SteadyCondition("steering_wheel", math.radians(self.steering_wheel_deg))
         else:
-            first = SteadyCondition("speed", (self.speed_km_per_h or 0.0) / 3.6)
+            first = SteadyCondition("speed", (self.speed_km_per_h or 0.0) / KM_PER_H)
         return steady_turns(
             car, first.turned(sense), sense=sense, step=self.step_m_per_s2, progress=progress
         )

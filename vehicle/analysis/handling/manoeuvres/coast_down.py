@@ -6,6 +6,7 @@ import numpy as np
 from pydantic import Field
 
 from .....core.errors import InputError
+from .....core.units import KM_PER_H
 from ....input.section import Positive
 from ..car import DrivingCar
 from ..drivers import Fixed, HeldTorque
@@ -36,7 +37,7 @@ class CoastDown(UntilSpeed):
         if speed[-1] > end:
             problem = (
                 f"until_km_per_h = {self.until_km_per_h:g} km/h: after duration_s = "
-                f"{self.duration_s:g} s the speed is {3.6 * speed[-1]:.1f} km/h, by little or "
+                f"{self.duration_s:g} s the speed is {KM_PER_H * speed[-1]:.1f} km/h, by little or "
                 "no resistance. Give the car [air] and tyres with rolling resistance, or raise "
                 "duration_s."
             )

@@ -9,6 +9,7 @@ from pydantic import Field
 
 from .....core.errors import InputError
 from .....core.named_types import Array
+from .....core.units import KM_PER_H
 from ....input.section import Positive
 from ..car import DrivingCar
 from ..circle import Turns
@@ -20,7 +21,6 @@ from .manoeuvre import Manoeuvre, Number, Progress
 
 # Approximate time in which a driver halves a deviation from the speed [s].
 _PATIENCE = 1.0
-_KM_PER_H = 3.6
 
 
 class SimulatedManoeuvre(Manoeuvre):
@@ -50,7 +50,7 @@ class SimulatedManoeuvre(Manoeuvre):
     @property
     def speed(self) -> float:
         """Speed at the beginning [m/s]."""
-        return self.speed_km_per_h / _KM_PER_H
+        return self.speed_km_per_h / KM_PER_H
 
     @property
     def sense(self) -> int:

@@ -5,6 +5,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
+from .....core.units import KM_PER_H
 from ....input.section import Positive
 from ..car import DrivingCar
 from ..result import HandlingResult
@@ -40,4 +41,4 @@ class SpeedRange(Manoeuvre):
         """Return curves by speed, and the speed of the greatest gain or the critical one."""
         count = int((self.to_km_per_h - self.from_km_per_h) / self.step_km_per_h + 1e-9)
         speeds = self.from_km_per_h + self.step_km_per_h * np.arange(count + 1, dtype=np.float64)
-        return straight_running(car, speeds / 3.6, progress=progress)
+        return straight_running(car, speeds / KM_PER_H, progress=progress)

@@ -4,6 +4,7 @@ from typing import ClassVar
 
 from pydantic import Field
 
+from .....core.units import KM_PER_H
 from ....input.section import Positive
 from ..drivers import Observation
 from .simulated import SimulatedManoeuvre
@@ -32,7 +33,7 @@ class UntilSpeed(SimulatedManoeuvre):
     @property
     def end_speed(self) -> float:
         """Speed at which it ends [m/s]."""
-        return self.until_km_per_h / 3.6
+        return self.until_km_per_h / KM_PER_H
 
     def ended(self, seen: Observation) -> bool:
         """Return whether the car has reached the end speed."""

@@ -20,9 +20,9 @@ from numpy.typing import NDArray
 from ...core.errors import InputError
 from ...core.files import as_input_errors, replacing
 from ..collected import Collected
+from .chunk import ChunkResult, taken
 from .cutting import Span
 from .identity import Identity, identity_of
-from .piece import ChunkResult, taken
 
 _NAME = "ensemble.json"
 _FILE = re.compile(r"systems-(\d+)-(\d+)\.npz")
@@ -31,7 +31,7 @@ Arrays = dict[str, NDArray[Any]]
 
 
 @dataclass(frozen=True)
-class Kept:
+class Checkpoint:
     """A folder of one ensemble.
 
     Attributes
@@ -60,13 +60,13 @@ class Kept:
             if name is None:
                 continue
             if not path.is_file():  # nor could it be replaced by one
-                _refuse(path, "not a file, but named as a saved piece. Remove it.")
+                _refuse(path, "not a file, but named as a saved chunk. Remove it.")
             span = int(name[1]), int(name[2])
             try:
                 yield self._found(span, _arrays_in(path.read_bytes()))
             except (OSError, ValueError):
                 message = (
-                    f"{path}: the saved piece is damaged. Systems {span[0]} to {span[1]} are "
+                    f"{path}: the saved chunk is damaged. Systems {span[0]} to {span[1]} are "
                     "simulated again."
                 )
                 warnings.warn(message, RuntimeWarning, stacklevel=2)
@@ -137,7 +137,7 @@ def _layout(arrays: Arrays) -> list[tuple[str, str, tuple[int, ...]]]:
     ]
 
 
-def kept_in(folder: str | Path, collected: Collected) -> Kept:
+def checkpoint_in(folder: str | Path, collected: Collected) -> Checkpoint:
     """Return the folder of an ensemble, created if there is none.
 
     Raises
@@ -158,7 +158,7 @@ def kept_in(folder: str | Path, collected: Collected) -> Kept:
             with replacing(path / _NAME, force=True) as temporary:
                 temporary.write_text(json.dumps(identity, indent=1), encoding="utf-8")
     whole = json.dumps(identity, sort_keys=True).encode()
-    return Kept(path, hashlib.sha256(whole).hexdigest(), collected)
+    return Checkpoint(path, hashlib.sha256(whole).hexdigest(), collected)
 
 
 def _check(path: Path, identity: Identity) -> None:

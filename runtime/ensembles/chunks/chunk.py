@@ -19,9 +19,9 @@ from ...simulation.lanes.run import run
 from ...simulation.signals import TimeInputs
 from ...systems.compile.shipped import SerializedModel, shipped
 from ...systems.system import System
-from ..again import Again
 from ..collected import Collected
-from ..wanted import OutputSpec
+from ..output_spec import OutputSpec
+from ..stiff_fallback import StiffFallback
 from .versions import differences, versions
 
 Report = Callable[[int], None]
@@ -125,7 +125,7 @@ def common_of(collected: Collected) -> Common:
     )
 
 
-def piece_of(problem: Problem, first: int, last: int) -> Chunk:
+def chunk_of(problem: Problem, first: int, last: int) -> Chunk:
     """Return some of the systems of a problem."""
     systems = problem.systems
 
@@ -147,7 +147,7 @@ def piece_of(problem: Problem, first: int, last: int) -> Chunk:
 
 
 def found_of(
-    common: Common, piece: Chunk, threads: int, report: Report | None = None
+    common: Common, chunk: Chunk, threads: int, report: Report | None = None
 ) -> ChunkResult:
     """Return the results of a chunk, which is simulated here.
 
@@ -162,20 +162,20 @@ def found_of(
         raise InputError([text], "ensemble")
     problem = Problem(
         System(common.equations.module(), common.parameters),
-        replace(piece.systems, drives=common.drives),
-        replace(common.wanted, limits=piece.limits),
+        replace(chunk.systems, drives=common.drives),
+        replace(common.wanted, limits=chunk.limits),
         common.accuracy,
         # vectors of another width give the same bits
         max((w for w in widths() if w <= common.width), default=0),
         common.stiff_after,
     )
-    collected = Collected(problem, common.asked, Again(problem) if common.again else None)
+    collected = Collected(problem, common.asked, StiffFallback(problem) if common.again else None)
     run(problem, threads, collected, report)
     return replace(
-        taken(collected, 0, piece.systems.count),
-        first=piece.first,
-        last=piece.first + piece.systems.count,
-        reasons={piece.first + place: why for place, why in collected.reasons.items()},
+        taken(collected, 0, chunk.systems.count),
+        first=chunk.first,
+        last=chunk.first + chunk.systems.count,
+        reasons={chunk.first + place: why for place, why in collected.reasons.items()},
     )
 
 

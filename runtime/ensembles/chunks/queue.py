@@ -10,8 +10,8 @@ from typing import Any
 
 from ...core.errors import KintrafoError
 from ...simulation.lanes.problem import Problem
+from .chunk import Chunk, ChunkResult, Common, chunk_of, found_of
 from .cutting import Span
-from .piece import Chunk, ChunkResult, Common, found_of, piece_of
 
 # Submitted chunks for each thread: enough that none waits, few enough for the memory.
 _AHEAD = 3
@@ -89,9 +89,9 @@ class _Queue:
         with _reached():
             most = _AHEAD * max(1, sum(self.client.nthreads().values()))
             for first, last in islice(self.left, max(0, most - len(self.waiting))):
-                piece = piece_of(self.problem, first, last)
+                chunk = chunk_of(self.problem, first, last)
                 key = f"kintrafo-{self.shared.key}-{first}"
-                future = self.client.submit(_do, self.shared, piece, pure=False, key=key)
+                future = self.client.submit(_do, self.shared, chunk, pure=False, key=key)
                 self.waiting[future] = first, last
                 future.add_done_callback(self.done.put)
 
@@ -147,7 +147,7 @@ def _result(future: Any, span: Span) -> ChunkResult:
     return found
 
 
-def _do(common: Common, piece: Chunk) -> ChunkResult:
+def _do(common: Common, chunk: Chunk) -> ChunkResult:
     """Simulate a chunk in one thread of a worker."""
     from distributed import get_worker  # noqa: PLC0415 (of an extra)
 
@@ -159,4 +159,4 @@ def _do(common: Common, piece: Chunk) -> ChunkResult:
         if task is None or task.state == "cancelled":
             raise InterruptedError(key)
 
-    return found_of(common, piece, 1, stop_if_cancelled)
+    return found_of(common, chunk, 1, stop_if_cancelled)

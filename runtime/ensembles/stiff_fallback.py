@@ -14,7 +14,7 @@ from ..systems.system import System
 
 
 @dataclass(frozen=True)
-class Again:
+class StiffFallback:
     """Simulation of single systems of a problem by an implicit method.
 
     Attributes

@@ -33,7 +33,7 @@ class InputSets:
     constant: Array
 
 
-def drives_of(
+def input_sets_of(
     model: System,
     inputs: Mapping[str, Any],
     variants: Variants,

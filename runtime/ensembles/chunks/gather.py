@@ -4,18 +4,18 @@ from collections.abc import Iterable, Iterator
 from contextlib import closing, contextmanager
 
 from ..collected import Collected
+from .checkpoint import Checkpoint
+from .chunk import ChunkResult, Report, chunk_of, common_of, found_of, put
 from .cutting import Span, left_of, spans_of
-from .kept import Kept
-from .piece import ChunkResult, Report, common_of, found_of, piece_of, put
 from .queue import by_workers
 from .workers import Workers
 
 
-def run_in_pieces(
+def run_in_chunks(
     collected: Collected,
     workers: Workers | None,
     threads: int,
-    kept: Kept | None,
+    kept: Checkpoint | None,
     report: Report | None,
 ) -> None:
     """Simulate an ensemble in chunks, except those that a folder has already.
@@ -28,7 +28,7 @@ def run_in_pieces(
         None: threads of this process.
     threads : int
         Of this process.
-    kept : Kept or None
+    kept : Checkpoint or None
         The folder that each chunk is written to as soon as it is done.
     report : callable, optional
         Called now and then with the number of finished systems.
@@ -44,30 +44,30 @@ def run_in_pieces(
     notify(count)
     if not left:
         return
-    with _pieces(collected, workers, threads, left) as pieces:
-        for piece in pieces:
-            if piece is not None:
-                put(piece, collected)
+    with _chunks(collected, workers, threads, left) as chunks:
+        for chunk in chunks:
+            if chunk is not None:
+                put(chunk, collected)
                 if kept:
-                    kept.keep(piece)
-                count += piece.last - piece.first
+                    kept.keep(chunk)
+                count += chunk.last - chunk.first
             notify(count)
 
 
 @contextmanager
-def _pieces(
+def _chunks(
     collected: Collected, workers: Workers | None, threads: int, left: list[Span]
 ) -> Iterator[Iterable[ChunkResult | None]]:
     """Yield an iterator over results of chunks; workers of our own end with the block."""
     if workers is None:
         common = common_of(collected)
         yield (
-            found_of(common, piece_of(collected.problem, first, last), threads)
+            found_of(common, chunk_of(collected.problem, first, last), threads)
             for first, last in spans_of(collected, left, threads)
         )
         return
     with workers.client() as client:
         cores = max(1, sum(client.nthreads().values()))
         spans = spans_of(collected, left, cores)
-        with closing(by_workers(client, common_of(collected), collected.problem, spans)) as pieces:
-            yield pieces
+        with closing(by_workers(client, common_of(collected), collected.problem, spans)) as chunks:
+            yield chunks

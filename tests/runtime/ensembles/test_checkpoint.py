@@ -7,7 +7,7 @@ from importlib import import_module
 import numpy as np
 import pytest
 from kintrafo import Model, ensemble
-from kintrafo.ensembles.pieces import cutting, kept
+from kintrafo.ensembles.chunks import checkpoint, cutting
 from kintrafo.simulation.lanes import library
 
 pytestmark = pytest.mark.skipif(not library.widths(), reason="built without lanes")
@@ -27,7 +27,11 @@ def folder(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patched:
         for name in ("_FEWEST", "_MOST"):
             patched.setattr(cutting, name, 2)
-        patched.setattr(ensembles, "kept_in", lambda *g: found.append(kept.kept_in(*g)) or found[0])
+        patched.setattr(
+            ensembles,
+            "checkpoint_in",
+            lambda *g: found.append(checkpoint.checkpoint_in(*g)) or found[0],
+        )
         rates = {"damper_rate": np.linspace(1e3, 2e3, 6)}
         where = tmp_path_factory.mktemp("ensemble")
         ensemble(Model("reference_car"), rates, (0.0, 0.01), kept=where, **GIVEN)
@@ -44,7 +48,7 @@ def path(folder):
 
 
 def spans(folder):
-    return [(piece.first, piece.last) for piece in folder.found()]
+    return [(chunk.first, chunk.last) for chunk in folder.found()]
 
 
 def check_damaged(folder):
@@ -67,9 +71,9 @@ def test_every_bit_counts(path):
         for bit in range(8):
             content[place] ^= 1 << bit
             with pytest.raises(ValueError, match="digest"):
-                kept._arrays_in(bytes(content))
+                checkpoint._arrays_in(bytes(content))
             content[place] ^= 1 << bit
-    assert kept._arrays_in(bytes(content))
+    assert checkpoint._arrays_in(bytes(content))
 
 
 def test_every_byte_counts(path):
@@ -78,7 +82,7 @@ def test_every_byte_counts(path):
     cut = (content[a:b] for end in range(len(content)) for a, b in ((0, end), (end + 1, None)))
     for changed in (*cut, content + b"\0", b"\0" + content, content + content):
         with pytest.raises(ValueError, match="digest"):
-            kept._arrays_in(changed)
+            checkpoint._arrays_in(changed)
 
 
 def test_damage_is_told_and_left_out(folder, path):
@@ -103,7 +107,7 @@ SOUND = {
 @pytest.mark.parametrize("name", SOUND)
 def test_names_types_and_shapes_are_exact(folder, path, name):
     """What has a right digest, but lacks an array, or has another one in its place."""
-    sound = kept._arrays_in(path.read_bytes())
+    sound = checkpoint._arrays_in(path.read_bytes())
     values = sound[name]
     others = [
         None,  # no such array
@@ -119,7 +123,7 @@ def test_names_types_and_shapes_are_exact(folder, path, name):
 
 
 def test_nothing_more_and_of_nothing_else(folder, path):
-    sound = kept._arrays_in(path.read_bytes())
+    sound = checkpoint._arrays_in(path.read_bytes())
     assert {name: values.dtype.str for name, values in sound.items()} == SOUND
     write(path, sound)
     assert spans(folder) == [(0, 2), (2, 4), (4, 6)]
@@ -137,4 +141,4 @@ def write(path, arrays):
     """Write a file that is whole."""
     content = io.BytesIO()
     np.savez(content, **arrays)
-    path.write_bytes(content.getvalue() + kept._digest(content.getvalue()))
+    path.write_bytes(content.getvalue() + checkpoint._digest(content.getvalue()))

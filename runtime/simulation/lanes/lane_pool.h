@@ -61,14 +61,14 @@ typedef struct {
     /* reasons to refuse the last step */
     bits status; /* status words of the model */
     bits guard;  /* a guard whose margin refuses it; -1: none */
-} crew;
+} lane_pool;
 
 INLINE long drive_number(const kt_problem *p, long system)
 {
     return p->drive_of ? p->drive_of[system] : 0;
 }
 
-INLINE const kt_segment *segment_of(const crew *w, int lane)
+INLINE const kt_segment *segment_of(const lane_pool *w, int lane)
 {
     const kt_problem *p = w->p;
     return &p->drives[drive_number(p, w->system[lane])].segments[w->segment[lane]];
