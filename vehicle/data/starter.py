@@ -128,14 +128,14 @@ def whole_axle_in(data: Container[str]) -> str | None:
 
 
 def words_of(key: str) -> str:
-    """Return the name of a kind in `whole_axles`, with its article.
+    """Return the name of the object with a top-level key in its file, with its article.
 
     Examples
     --------
-    >>> words_of("rigid_axle")
-    'a rigid axle'
+    >>> words_of("rigid_axle"), words_of("axle")
+    ('a rigid axle', 'an axle')
     """
-    return f"a {key.replace('_', ' ')}"
+    return f"{'an' if key[0] in 'aeiou' else 'a'} {key.replace('_', ' ')}"
 
 
 def not_of_a_suspension(key: str) -> str:

@@ -1,17 +1,28 @@
 """The base of objects that a file describes: suspensions, axles and cars."""
 
 from abc import abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from importlib.resources.abc import Traversable
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, ClassVar, Self
+
+from pydantic import ValidationError
 
 from ...core.errors import InputError
 from ...core.validator import Validator, shown
 from ..data import data_sets, find
-from ..data.starter import AXLE, AXLES, CAR, CARS, all_packaged, whole_axle_in, whole_axles
-from .messages import is_named
+from ..data.starter import (
+    AXLE,
+    AXLES,
+    CAR,
+    CARS,
+    all_packaged,
+    whole_axle_in,
+    whole_axles,
+    words_of,
+)
+from .messages import is_named, messages_of
 from .places import put
 from .section import Section
 from .toml_file import read_toml
@@ -159,6 +170,92 @@ class Described:
             given.path("path", path)
             given.flag("force", force)
         return write_toml(self, path, force=force)
+
+
+class DescribedParts(Described):
+    """An object whose file names the files of its parts.
+
+    Attributes
+    ----------
+    KEY : str
+        The top-level key of such a file.
+    FILE : type
+        The section of the file itself.
+    PACKAGE : str
+        The package of the packaged files.
+    """
+
+    KEY: ClassVar[str]
+    FILE: ClassVar[type[Section]]
+    PACKAGE: ClassVar[str]
+
+    @classmethod
+    def packaged(cls) -> Mapping[str, Traversable]:
+        """Return the packaged files, by name."""
+        return data_sets(cls.PACKAGE)
+
+    @classmethod
+    def _of_file(cls, data: Mapping[str, Any], source: str, folder: Path) -> Self:
+        return cls.from_dict(data, source, folder=folder)
+
+    @classmethod
+    def from_dict(
+        cls, data: Mapping[str, Any], source: str = "input data", *, folder: str | Path = "."
+    ) -> Self:
+        """Return an object from nested dictionaries with the keys of the file.
+
+        Parameters
+        ----------
+        data : mapping
+            The sections, with their keys and units as in the file. A part is the name of a file, an
+            object such as a `Suspension`, or the nested dictionaries of one.
+        source : str, optional
+            Origin of the data, for error messages.
+        folder : str or pathlib.Path, optional
+            The folder to which paths are relative.
+
+        Raises
+        ------
+        InputError
+            If the data are not valid; it lists all problems.
+        """
+        check_keys(source, "data", data, f"keys and values of {words_of(cls.KEY)}'s file")
+        with Validator(source) as checked:
+            checked.path("folder", folder)
+        if cls.KEY not in data:
+            raise InputError([cls._without_key(data)], source)
+        try:
+            described = cls.FILE(**data)
+        except ValidationError as error:
+            raise InputError(messages_of(error, cls.FILE, data), source) from None
+        return cls._of_parts(described, Path(folder), source)
+
+    @classmethod
+    @abstractmethod
+    def _without_key(cls, data: Mapping[str, Any]) -> str:
+        """Return the problem of data without the top-level key."""
+
+    @classmethod
+    @abstractmethod
+    def _of_parts(cls, described: Any, folder: Path, source: str) -> Self:
+        """Return an object from its own file, whose parts are in a folder."""
+
+    def _changed_data(
+        self, changes: Mapping[str, Any], parts: Iterable[str]
+    ) -> tuple[dict[str, Any], dict[str, dict[str, Any]], str]:
+        """Return the sections with changes, the changes of each part, and words for messages."""
+        data, problems = self.to_dict(), list[str]()
+        of_part: dict[str, dict[str, Any]] = {name: {} for name in parts}
+        for place, value in changes.items():
+            section, _, key = place.partition(".")
+            if section in of_part and key:
+                of_part[section][key] = value
+            elif problem := put(data, place, value):
+                problems.append(problem)
+        source = f"{self.KEY} with changed {', '.join(changes)}"
+        if problems:
+            raise InputError(problems, source)
+        return data, of_part, source
 
 
 class DescribedSection(Described, Section):

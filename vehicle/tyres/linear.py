@@ -1,7 +1,7 @@
 """A tyre with forces linear in slip and limited by friction."""
 
-from dataclasses import asdict, dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar, Self
+from dataclasses import asdict, dataclass
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -9,10 +9,7 @@ from ...core.validator import Validator
 from ...formulas import linear_contact
 from ...formulas.arithmetic import ARRAYS
 from ...formulas.magic_formula import Forces
-from .tyre import States, Tyre
-
-if TYPE_CHECKING:
-    from ...generator.declare.contact_laws import ContactLaw
+from .tyre import States, SymmetricTyre
 
 _POSITIVE = ("radius", "effective_radius", "vertical_stiffness", "slip_stiffness",
              "cornering_stiffness", "friction", "relaxation_x", "relaxation_y", "lowest_speed",
@@ -22,7 +19,7 @@ _OF_EQUATIONS = ("effective_radius", "vertical_stiffness", "relaxation_x", "rela
 
 
 @dataclass(frozen=True, kw_only=True)
-class LinearSlip(Tyre):
+class LinearSlip(SymmetricTyre):
     """A tyre with forces that are linear at small slip and approach the limit of friction.
 
     Attributes
@@ -45,6 +42,7 @@ class LinearSlip(Tyre):
     """
 
     law: ClassVar[str] = "linear"
+    CONTACT_LAW: ClassVar[str] = "LinearContact"
     radius: float
     effective_radius: float
     vertical_stiffness: float
@@ -73,36 +71,10 @@ class LinearSlip(Tyre):
         """Empty: the tyre is valid for all states."""
         return {}
 
-    def mirrored(self) -> Self:
-        """Return the mirror image; a linear tyre is symmetric."""
-        return replace(self)
-
-    def contact_law(self, name: str = "tyre") -> "ContactLaw":
-        """Return the `kintrafo.generator.LinearContact` with this prefix of its parameters."""
-        from ...generator import LinearContact  # noqa: PLC0415 (an extra)
-
-        return LinearContact(name=name)
-
-    def parameters(self, name: str = "tyre", *, relaxing: bool = False) -> dict[str, float]:
-        """Return the values of the parameters of `contact_law`.
-
-        Parameters
-        ----------
-        name : str, optional
-            Prefix of their names.
-        relaxing : bool, optional
-            Without effect: this tyre always has relaxation lengths.
-
-        Returns
-        -------
-        dict of str to float
-            By name, such as ``"tyre_friction"``, in SI units.
-        """
-        del relaxing
+    def _values(self) -> dict[str, float]:
         own = asdict(self)
         found = {key: own[key] for key in (*linear_contact.COEFFICIENTS, *_OF_EQUATIONS)}
-        found |= {"unloaded_radius": self.radius, "vxlow": self.lowest_speed}
-        return {f"{name}_{key}": value for key, value in found.items()}
+        return found | {"unloaded_radius": self.radius, "vxlow": self.lowest_speed}
 
     def _state(self, at: States) -> tuple[Forces, dict[str, Any]]:
         return linear_contact.forces(ARRAYS, asdict(self), at.contact(), self.radius), {

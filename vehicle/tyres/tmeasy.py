@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
@@ -15,10 +15,7 @@ from ...formulas import tmeasy
 from ...formulas.arithmetic import ARRAYS
 from ...formulas.magic_formula import Forces
 from ..input.commented_json import content
-from .tyre import States, Tyre
-
-if TYPE_CHECKING:
-    from ...generator.declare.contact_laws import ContactLaw
+from .tyre import States, SymmetricTyre
 
 _DESIGN = {
     "radius": ("Design", "Unloaded Radius [m]"),
@@ -69,7 +66,7 @@ _FORMAL = {("Name",), ("Type",), ("Template",)}
 
 
 @dataclass(frozen=True)
-class TMeasy(Tyre):
+class TMeasy(SymmetricTyre):
     """A tyre of TMeasy: curves given by slope, maximum and sliding force at two loads.
 
     Attributes
@@ -79,6 +76,7 @@ class TMeasy(Tyre):
     """
 
     law: ClassVar[str] = "tmeasy"
+    CONTACT_LAW: ClassVar[str] = "TMeasyContact"
     values: Mapping[str, float]
     name: str = "TMeasy"
     left_out: tuple[str, ...] = ()
@@ -132,35 +130,8 @@ class TMeasy(Tyre):
         """Range of the load, up to the greatest one of the file [N]."""
         return {"load": (0.0, self.values["greatest_load"])}
 
-    def mirrored(self) -> Self:
-        """Return the mirror image; a TMeasy tyre is symmetric."""
-        return replace(self)
-
-    def contact_law(self, name: str = "tyre") -> "ContactLaw":
-        """Return the `kintrafo.generator.TMeasyContact` with this prefix of its parameters."""
-        from ...generator import TMeasyContact  # noqa: PLC0415 (an extra)
-
-        return TMeasyContact(name=name)
-
-    def parameters(self, name: str = "tyre", *, relaxing: bool = False) -> dict[str, float]:
-        """Return the values of the parameters of `contact_law`.
-
-        Parameters
-        ----------
-        name : str, optional
-            Prefix of their names.
-        relaxing : bool, optional
-            Without effect: relaxation lengths follow from the stiffnesses.
-
-        Returns
-        -------
-        dict of str to float
-            By name, such as ``"tyre_x_slope_1"``, in SI units.
-        """
-        del relaxing
-        found = {key: self.values[key] for key in tmeasy.COEFFICIENTS}
-        found |= {"vxlow": self.lowest_speed}
-        return {f"{name}_{key}": value for key, value in found.items()}
+    def _values(self) -> dict[str, float]:
+        return {key: self.values[key] for key in tmeasy.COEFFICIENTS} | {"vxlow": self.lowest_speed}
 
     def with_friction(self, friction: float) -> Self:
         """Return the tyre on a road with another coefficient of friction.

@@ -2,6 +2,7 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
+from copy import copy
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
@@ -291,3 +292,48 @@ class Tyre(ABC):
                 outside[name] = beyond
                 found[name] = np.clip(values, None if name == "load" else low, high)
         return outside
+
+
+class SymmetricTyre(Tyre):
+    """A tyre that is its own mirror image, and whose contact law has no options.
+
+    Attributes
+    ----------
+    CONTACT_LAW : str
+        Name of the class of its contact law in `kintrafo.generator`.
+    """
+
+    CONTACT_LAW: ClassVar[str]
+
+    def mirrored(self) -> Self:
+        """Return the mirror image, which has the same values."""
+        return copy(self)
+
+    def contact_law(self, name: str = "tyre") -> "ContactLaw":
+        """Return the contact law of `kintrafo.generator` with this prefix of its parameters."""
+        from ... import generator  # noqa: PLC0415 (an extra)
+
+        law: ContactLaw = getattr(generator, self.CONTACT_LAW)(name=name)
+        return law
+
+    def parameters(self, name: str = "tyre", *, relaxing: bool = False) -> dict[str, float]:
+        """Return the values of the parameters of `contact_law`.
+
+        Parameters
+        ----------
+        name : str, optional
+            Prefix of their names.
+        relaxing : bool, optional
+            Without effect: relaxation lengths are known, or follow from the stiffnesses.
+
+        Returns
+        -------
+        dict of str to float
+            By name, such as ``"tyre_friction"``, in SI units.
+        """
+        del relaxing
+        return {f"{name}_{key}": value for key, value in self._values().items()}
+
+    @abstractmethod
+    def _values(self) -> dict[str, float]:
+        """Return the values of the parameters by their names without the prefix."""

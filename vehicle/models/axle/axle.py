@@ -3,12 +3,10 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any, ClassVar, Self
 
 import numpy as np
-from pydantic import ValidationError
 
 from ....core.errors import InputError
 from ....core.named_types import Array
@@ -19,9 +17,7 @@ from ....systems.allowed import LengthLimit
 from ...corner.bushes import RACK
 from ...data import data_sets
 from ...data.starter import AXLE, AXLES, CAR, not_of_a_suspension, whole_axle_in
-from ...input.described import Described, check_keys, described_by, parts_of
-from ...input.messages import messages_of
-from ...input.places import put
+from ...input.described import DescribedParts, check_keys, described_by, parts_of
 from ...input.vehicle import GravitySection, VehicleSection
 from ...kinds import Suspension
 from ..model import Model
@@ -45,7 +41,7 @@ _OF_THE_RACK = (("rack", "travel_per_turn_mm"),)
 
 
 @dataclass(frozen=True)
-class Axle(Described):
+class Axle(DescribedParts):
     """The data of an axle of two suspensions, with a common rack and an anti-roll bar. Immutable.
 
     Make one with `load` or `from_dict`.
@@ -89,51 +85,14 @@ class Axle(Described):
 
     NEEDED = 'a kintrafo.Axle, such as Axle.load("reference_axle"), is needed'
 
-    @classmethod
-    def packaged(cls) -> Mapping[str, Traversable]:
-        """Return the packaged files, by name."""
-        return data_sets(AXLES)
+    KEY = AXLE
+    FILE = AxleFile
+    PACKAGE = AXLES
 
     @classmethod
-    def _of_file(cls, data: Mapping[str, Any], source: str, folder: Path) -> Self:
-        return cls.from_dict(data, source, folder=folder)
-
-    @classmethod
-    def from_dict(
-        cls,
-        data: Mapping[str, Any],
-        source: str = "input data",
-        *,
-        folder: str | Path = ".",
-    ) -> Self:
-        """Return an axle from nested dictionaries with the keys of the file.
-
-        Parameters
-        ----------
-        data : mapping
-            The sections, with their keys and units as in the file. A side is the name of a file, a
-            `Suspension`, or the nested dictionaries of one.
-        source : str, optional
-            Origin of the data, for error messages.
-        folder : str or pathlib.Path, optional
-            The folder to which paths of sides are relative.
-
-        Raises
-        ------
-        InputError
-            If the data are not valid; it lists all problems.
-        """
-        check_keys(source, "data", data, "keys and values of an axle's file")
-        with Validator(source) as checked:
-            checked.path("folder", folder)
-        if AXLE not in data:
-            _refuse_other_files(data, source)
-        try:
-            described = AxleFile(**data)
-        except ValidationError as error:
-            raise InputError(messages_of(error, AxleFile, data), source) from None
+    def _of_parts(cls, described: AxleFile, folder: Path, source: str) -> Self:
         makers = dict.fromkeys(SECTIONS_OF_SIDES, _suspension)
-        sides = parts_of(described, makers, Path(folder), source)
+        sides = parts_of(described, makers, folder, source)
         bar_side = sides["side"].vehicle.side if "side" in sides else RIGHT
         if "side" in sides:
             one = sides["side"]
@@ -154,6 +113,23 @@ class Axle(Described):
         if problems:
             raise InputError(problems, source)
         return axle
+
+    @classmethod
+    def _without_key(cls, data: Mapping[str, Any]) -> str:
+        other = whole_axle_in(data)
+        if other is not None:
+            return not_of_a_suspension(other)
+        if CAR in data:
+            return (
+                "this is the file of a car, and that of an axle is needed. Give a file that it "
+                "names as `front` or `rear`."
+            )
+        if "hardpoints" in data:
+            return (
+                "this is the file of one suspension, not of an axle. Name it in an axle's file, as "
+                "`side`; `kintrafo new FILE --axle` writes one."
+            )
+        return f'{AXLE} is missing: where the axle is. Add a line `{AXLE} = "front"` or "rear".'
 
     def to_dict(self, *, exclude_defaults: bool = False) -> dict[str, Any]:
         """Return the sections as nested dictionaries, which `from_dict` takes back unchanged.
@@ -200,17 +176,7 @@ class Axle(Described):
         with Validator("axle") as checked:
             if not self.symmetric and any(key.startswith("side.") for key in changes):
                 checked.fail("side: the file gives right and left. Name one of these.")
-        of_side: dict[str, dict[str, Any]] = {"side": {}, RIGHT: {}, LEFT: {}}
-        data, problems = self.to_dict(), list[str]()
-        for place, value in changes.items():
-            section, _, key = place.partition(".")
-            if section in of_side and key:
-                of_side[section][key] = value
-            elif problem := put(data, place, value):
-                problems.append(problem)
-        source = f"axle with changed {', '.join(changes)}"
-        if problems:
-            raise InputError(problems, source)
+        data, of_side, source = self._changed_data(changes, ("side", RIGHT, LEFT))
         apart = self._changed(of_side)
         if self.symmetric and not (of_side[RIGHT] or of_side[LEFT]):
             apart = {"side": apart[self.bar_side]}
@@ -348,24 +314,6 @@ class Axle(Described):
         """Return the name of the axle."""
         kinds = " and ".join(dict.fromkeys(side.TITLE for side in self.sides.values()))
         return f"{self.end} axle, {kinds}"
-
-
-def _refuse_other_files(data: Mapping[str, Any], source: str) -> None:
-    problem = f'{AXLE} is missing: where the axle is. Add a line `{AXLE} = "front"` or "rear".'
-    other = whole_axle_in(data)
-    if other is not None:
-        problem = not_of_a_suspension(other)
-    elif CAR in data:
-        problem = (
-            "this is the file of a car, and that of an axle is needed. Give a file that it names "
-            "as `front` or `rear`."
-        )
-    elif "hardpoints" in data:
-        problem = (
-            "this is the file of one suspension, not of an axle. Name it in an axle's file, as "
-            "`side`; `kintrafo new FILE --axle` writes one."
-        )
-    raise InputError([problem], source)
 
 
 def _suspension(given: Any, folder: Path, key: str) -> Suspension:

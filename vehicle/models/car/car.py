@@ -3,12 +3,10 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any, Self
 
 import numpy as np
-from pydantic import ValidationError
 
 from ....core.errors import InputError
 from ....core.named_types import Array
@@ -16,9 +14,7 @@ from ....core.physical import ELEMENTS
 from ....core.validator import Validator, shown
 from ...data import data_sets
 from ...data.starter import AXLE, AXLES, CAR, CARS, WHOLE_AXLES, whole_axle_in, whole_axles
-from ...input.described import Described, check_keys, described_by, parts_of
-from ...input.messages import messages_of
-from ...input.places import put
+from ...input.described import DescribedParts, check_keys, described_by, parts_of
 from ...input.toml_file import read_toml
 from ...input.units import in_metres, point_in_metres
 from ...kinds import Suspension
@@ -46,7 +42,7 @@ _PARTS = ("corner", *ENDS)
 
 
 @dataclass(frozen=True)
-class Car(Described):
+class Car(DescribedParts):
     """A car: a body on two axles, or a quarter of one on one suspension. Immutable.
 
     Make one with `load` or `from_dict`.
@@ -77,50 +73,21 @@ class Car(Described):
 
     NEEDED = 'a kintrafo.Car, such as kintrafo.load("reference_vehicle"), is needed'
 
-    @classmethod
-    def packaged(cls) -> Mapping[str, Traversable]:
-        """Return the packaged files, by name."""
-        return data_sets(CARS)
+    KEY = CAR
+    FILE = CarFile
+    PACKAGE = CARS
 
     @classmethod
-    def _of_file(cls, data: Mapping[str, Any], source: str, folder: Path) -> Self:
-        return cls.from_dict(data, source, folder=folder)
+    def _without_key(cls, data: Mapping[str, Any]) -> str:
+        del data
+        return f'{CAR} is missing: how the body moves. Add a line `{CAR} = "roll"`.'
 
     @classmethod
-    def from_dict(
-        cls, data: Mapping[str, Any], source: str = "input data", *, folder: str | Path = "."
-    ) -> Self:
-        """Return a car from nested dictionaries with the keys of the file.
-
-        Parameters
-        ----------
-        data : mapping
-            The sections, with their keys and units as in the file. A corner or an axle is the name
-            of a file, an object, or the nested dictionaries of one.
-        source : str, optional
-            Origin of the data, for error messages.
-        folder : str or pathlib.Path, optional
-            The folder to which paths are relative.
-
-        Raises
-        ------
-        InputError
-            If the data are not valid; it lists all problems.
-        """
-        check_keys(source, "data", data, "keys and values of a car's file")
-        with Validator(source) as checked:
-            checked.path("folder", folder)
-        if CAR not in data:
-            problem = f'{CAR} is missing: how the body moves. Add a line `{CAR} = "roll"`.'
-            raise InputError([problem], source)
-        try:
-            described = CarFile(**data)
-        except ValidationError as error:
-            raise InputError(messages_of(error, CarFile, data), source) from None
+    def _of_parts(cls, described: CarFile, folder: Path, source: str) -> Self:
         makers = {"corner": Suspension.given, **dict.fromkeys(ENDS, _axle)}
-        parts = parts_of(described, makers, Path(folder), source)
+        parts = parts_of(described, makers, folder, source)
         axles = {end: parts[end] for end in ENDS if end in parts}
-        described, tyres = _with_tyres(described, Path(folder), source)
+        described, tyres = _with_tyres(described, folder, source)
         car = cls(described, parts.get("corner"), axles, tyres)
         problems = _problems_of_axles(car) if axles else []
         problems += _problems_of_gravity(car)
@@ -198,19 +165,8 @@ class Car(Described):
         400.0
         """
         check_keys("car", "changes", changes, "places and values")
-        data = self.to_dict()
-        data |= self.parts
-        of_part: dict[str, dict[str, Any]] = {name: {} for name in self.parts}
-        problems = []
-        for place, value in changes.items():
-            section, _, key = place.partition(".")
-            if section in of_part and key:
-                of_part[section][key] = value
-            elif problem := put(data, place, value):
-                problems.append(problem)
-        source = f"car with changed {', '.join(changes)}"
-        if problems:
-            raise InputError(problems, source)
+        data, of_part, source = self._changed_data(changes, self.parts)
+        data |= {name: part for name, part in self.parts.items() if name not in changes}
         for name, own in of_part.items():
             if own:
                 data[name] = self.parts[name].with_changes(own)
