@@ -7,7 +7,8 @@ position with any number of them.
 The search of load cases (`analysis.loads.static_equilibrium`) has other forces: virtual work of the
 loads on the wheels, for many cases on one grid, down to a known rounding. Here any input of the
 equations acts (actuators, roads, forces of a program), and the range of one wheel is also searched
-for two roots within one step of the grid.
+for two roots within one step of the grid. `kintrafo.rest` has constant inputs; here the road under
+a wheel with a given load follows the wheel, and an unstable state is no solution.
 """
 
 from collections.abc import Callable
