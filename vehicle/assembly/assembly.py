@@ -141,9 +141,9 @@ class Assembly(ABC):
         return ()
 
     @property
-    def held_parts(self) -> "Mapping[str, Assembly]":
-        """The assemblies with a held body of which it consists, by name; by default itself."""
-        return {"": self}
+    @abstractmethod
+    def held_parts(self) -> "Mapping[str, HeldAssembly]":
+        """The assemblies with a held body of which it consists, by name."""
 
     @property
     def body_moves(self) -> bool:
@@ -372,6 +372,11 @@ class HeldAssembly(Assembly):
     """An assembly whose body is held: a corner, an axle, or an axle without sides."""
 
     # -- its parts ---------------------------------------------------------------------------------
+
+    @property
+    def held_parts(self) -> "Mapping[str, HeldAssembly]":
+        """Itself."""
+        return {"": self}
 
     @abstractmethod
     def coordinates_of(self, suffix: str) -> dict[str, str]:
