@@ -182,7 +182,7 @@ package: .venv/.ready ## Build a source package and a wheel from it, and import 
 		print('compiled by it:', kintrafo.compile(FOUR_BAR, folder='cache').__name__)"
 
 wheel: package ## A wheel that needs neither compiler nor SUNDIALS, tried in an empty environment
-	@.ci/wheel
+	@.ci/wheel $(ARGS)
 
 baseline: build ## Store the present operation counts as the baseline
 	@$(PYTHON) -m pytest -q tests/generator/backends/test_operation_counts.py --update-baseline

@@ -27,7 +27,7 @@ def check(path: Path, *, fmi: int = 2, platforms: Sequence[str] = binaries.HERE)
     """Refuse arguments that `write` cannot use, by an InputError."""
     with Validator("export") as given:
         given.among("fmi", str(fmi), map(str, VERSIONS))
-        given.names("platforms", platforms, binaries.PLATFORMS)
+        given.names("platforms", platforms, binaries.ENDINGS)
         if path.suffix.lower() != ENDING:
             shown = path.with_suffix(ENDING) if path.name else f"model{ENDING}"
             given.fail(f"{path}: the name of this file must end in {ENDING}. Write {shown}.")
@@ -60,8 +60,8 @@ def contents(emitted: Emitted, fmi: int, platforms: Sequence[str]) -> dict[str, 
     compiled = [name for name in sources if name.endswith(".c")]
     found = {"modelDescription.xml": version.model_description(known, compiled).encode()}
     for platform in platforms:
-        ending = ".dll" if platform == "windows" else ".so"
-        place = f"binaries/{version.FOLDERS[platform]}/{known.identifier}{ending}"
+        file = f"{known.identifier}{binaries.ENDINGS[platform]}"
+        place = f"binaries/{version.FOLDERS[platform]}/{file}"
         found[place] = binaries.library(
             any_numbers, known.identifier, platform, token, known.values
         )

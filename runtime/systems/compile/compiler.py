@@ -47,10 +47,13 @@ class Compiler:
         Program and options.
     version : str
         First line of its version message.
+    linking : tuple of str
+        Options of a shared library; by default those of this system.
     """
 
     command: tuple[str, ...]
     version: str
+    linking: tuple[str, ...] = _LINK_FLAGS
 
     def build(
         self, sources: Sequence[Path], library: Path, done: Callable[[int], None] | None = None
@@ -79,7 +82,7 @@ class Compiler:
         with tempfile.TemporaryDirectory(dir=library.parent, prefix=".compiling-") as folder:
             try:
                 self._run(parts, folder, done or (lambda _: None))
-                self._run([(*_LINK_FLAGS, *objects, "-o", library, "-lm")], folder)
+                self._run([(*self.linking, *objects, "-o", library, "-lm")], folder)
             except BaseException:
                 library.unlink(missing_ok=True)
                 raise

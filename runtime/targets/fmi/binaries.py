@@ -1,6 +1,7 @@
 """Shared libraries of FMUs, each compiled once for a model and filled with numbers for each export.
 
-Those of models that come with the project are compiled with it.
+Those of models that come with the project are compiled with it: for this machine by `setup.py`, for
+Windows when a wheel is built (`.ci/fill.py`).
 """
 
 import hashlib
@@ -17,8 +18,8 @@ from ...systems.compile.cache import appearing, cache_folder, damage, seal
 from ...systems.compile.compiler import FLAGS, Compiler, CompilerError, find_compiler
 from .files import digest, filled, token_of
 
-PLATFORMS = ("linux", "windows")
-"""Platforms of libraries, all for x86-64 processors."""
+ENDINGS = {"linux": ".so", "windows": ".dll"}
+"""Endings of the files of libraries by platform; all are for x86-64 processors."""
 HERE = ("linux",) if (sys.platform, machine.machine()) == ("linux", "x86_64") else ()
 """The platform of this machine, if it is among them."""
 
@@ -30,7 +31,9 @@ _MORE = (
     "-Wl,--gc-sections",
     "-fno-lto",  # else a compiler folds the numbers as constants
 )
+_SHARED = ("-shared",)
 _MINGW = "x86_64-w64-mingw32-gcc"
+_NO_DATE = ("-Wl,--no-insert-timestamp",)  # the same library at any time
 _NO_COMPILER = (
     "there is no C compiler. Install one (on Debian: apt-get install gcc libc6-dev), or name one "
     "in CC; or export without libraries (platforms=(), in a command --platform none), for programs "
@@ -50,28 +53,31 @@ def library(
     The files may have other numbers. A CompilerError is raised if a compiler is needed and there is
     none, or it fails.
     """
-    made = shipped(sources, name) if platform == "linux" else None
-    return filled(made or _compiled(sources, name, platform), token, values)
+    made = shipped(sources, name, platform)
+    return filled(made or compiled(sources, name, platform), token, values)
 
 
-def shipped(sources: Mapping[str, str], name: str) -> bytes | None:
-    """Return the library for Linux that was compiled with this package, from these sources.
+def shipped(sources: Mapping[str, str], name: str, platform: str) -> bytes | None:
+    """Return the library for a platform that was compiled with this package, from these sources.
 
     The result is None if there is none, or one from other sources.
     """
-    file = files("kintrafo.generated") / f"_{name}_fmu{get_config_var('EXT_SUFFIX')}"
-    if not file.is_file():
-        return None
-    content = file.read_bytes()
-    return content if token_of(content) == digest(sources) else None
+    built_here = [get_config_var("EXT_SUFFIX")] if platform in HERE else []
+    for ending in (*built_here, ENDINGS[platform]):
+        file = files("kintrafo.generated") / f"_{name}_fmu{ending}"
+        if file.is_file():
+            content = file.read_bytes()
+            if token_of(content) == digest(sources):
+                return content
+    return None
 
 
-def _compiled(sources: Mapping[str, str], name: str, platform: str) -> bytes:
+def compiled(sources: Mapping[str, str], name: str, platform: str) -> bytes:
     """Return the library of a model from the cache, or compile it."""
     compiler = _compiler(platform)
     text = "\0".join((digest(sources), *compiler.command, compiler.version))
     folder = cache_folder() / f"fmu_{name}-{hashlib.sha256(text.encode()).hexdigest()[:16]}"
-    file = f"{name}{'.dll' if platform == 'windows' else '.so'}"
+    file = f"{name}{ENDINGS[platform]}"
     if damage(folder):
         with appearing(folder) as temporary:
             (temporary / file).write_bytes(_built(compiler, sources, temporary / "build", file))
@@ -106,12 +112,12 @@ def _compiler(platform: str) -> Compiler:
 
 
 def _cross_compiler() -> Compiler:
-    flags = tuple(flag for flag in FLAGS if flag != "-fPIC")
-    if shutil.which(_MINGW):
-        return Compiler((_MINGW, *flags, *_MORE, "-s", "-static-libgcc"), _MINGW)
+    flags = (*(flag for flag in FLAGS if flag != "-fPIC"), *_MORE, "-s")
     if find_spec("ziglang"):
         from importlib.metadata import version  # noqa: PLC0415 (only where it is installed)
 
         zig = (sys.executable, "-m", "ziglang", "cc", "-target", "x86_64-windows-gnu")
-        return Compiler((*zig, *flags, *_MORE, "-s"), f"ziglang {version('ziglang')}")
+        return Compiler((*zig, *flags), f"ziglang {version('ziglang')}", _SHARED)
+    if shutil.which(_MINGW):
+        return Compiler((_MINGW, *flags, "-static-libgcc", *_NO_DATE), _MINGW, _SHARED)
     raise CompilerError(_NO_CROSS_COMPILER)

@@ -15,6 +15,7 @@ import pytest
 from c_text import EMITTED
 from exported import needs_library, system_named
 from folders import ROOT
+from kintrafo.core.folders import cache_folder
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.targets.emitted import Emitted
 from kintrafo.targets.fmi import binaries
@@ -853,16 +854,16 @@ def test_a_shipped_library_is_used_for_its_sources_only(name):
     """Where this fails, run ``make build``: what was built is not what the sources say."""
     system = kintrafo.System(EMITTED[name])
     sources = library_files(Emitted(system, system.design_state, system.inputs()))
-    library = binaries.shipped(sources, name)
+    library = binaries.shipped(sources, name, "linux")
     assert library is not None
     assert len(library) < 1_500_000
     assert f"{sys.base_prefix}/lib".encode() not in library  # where Python is here
     changed = dict(sources)
     changed["model.c"] += " "
-    assert binaries.shipped(changed, name) is None
+    assert binaries.shipped(changed, name, "linux") is None
     renamed = {f"{path}x" if path == "instance.h" else path: text for path, text in sources.items()}
-    assert binaries.shipped(renamed, name) is None
-    assert binaries.shipped(sources, f"{name}_of_another_name") is None
+    assert binaries.shipped(renamed, name, "linux") is None
+    assert binaries.shipped(sources, f"{name}_of_another_name", "linux") is None
 
 
 def test_a_shipped_library_computes_what_a_compiled_one_does(tmp_path, monkeypatch):
@@ -912,12 +913,23 @@ def test_an_fmu_of_a_shipped_model_needs_no_compiler(tmp_path, name):
 
 @pytest.mark.skipif(shutil.which(MINGW) is None, reason=f"{MINGW} is not installed")
 def test_a_library_for_windows(tmp_path):
+    """It exports the functions of FMI only, and has no folder of this machine."""
     path = tmp_path / "a.fmu"
     kintrafo.export_model(system_named("four_bar"), path, "fmu", platforms=["linux", "windows"])
     with zipfile.ZipFile(path) as archive:
         content = archive.read("binaries/win64/four_bar.dll")
     assert content[:2] == b"MZ"
-    assert b"fmi2DoStep\0" in content
+    (tmp_path / "a.dll").write_bytes(content)
+    shown = subprocess.run(
+        ["x86_64-w64-mingw32-objdump", "-p", str(tmp_path / "a.dll")],
+        check=True, capture_output=True, text=True,
+    ).stdout  # fmt: skip
+    table = shown.partition("[Ordinal/Name Pointer] Table")[2].partition("\n\n")[0]
+    exported = {line.split()[-1] for line in table.splitlines() if "[" in line}
+    assert {"fmi2DoStep", "fmi3DoStep"} <= exported
+    assert {name[:4] for name in exported} == {"fmi2", "fmi3"}
+    for folder in (ROOT, cache_folder(), Path.home()):
+        assert f"{folder}/".encode() not in content
     # with both libraries
     assert path.stat().st_size < 400_000
 
