@@ -99,7 +99,7 @@ def refuse(
     paths : iterable of str or pathlib.Path
         Files to be written.
     force, inputs
-        As for `replacing`.
+        Whether a file that kintrafo did not write is replaced; files that are never replaced.
     endings : sequence of str, optional
         Allowed endings of names; any by default.
 

@@ -254,11 +254,13 @@ def _broadcast(
         # labels in another order would assign initial states to other systems
         alike = xr.align(*start.values(), *columns.values(), join="exact")
         together = xr.broadcast(*alike)
-    except ValueError as error:
+    except ValueError:
         what = "variants" if rows is None else "variants and the rows of y0"
+        sizes = {name: dict(column.sizes) for name, column in columns.items()}
+        sizes |= {} if rows is None else {"y0": {CAR: rows}}
         arguments.fail(
             f"{what} do not match: rows of equal length, and the same labels in the "
-            f"same order, are needed ({error})."
+            f"same order, are needed. Sizes are {sizes}."
         )
         return {}, {}
     shape = dict(together[0].sizes) if together else {}
@@ -287,8 +289,9 @@ def _coordinates(
         column = columns.get(str(name))
         if column is None or not np.all(column.variable == values):
             arguments.fail(
-                f"variants have a coordinate {name!r}, which is not what {name!r} is: coordinates "
-                "of a dict are labels alone. Give an xarray.Dataset, or rename the coordinate."
+                f"variants have a coordinate {name!r} that does not have the values of {name!r}: "
+                "coordinates of a dict are only labels. Give an xarray.Dataset, or rename the "
+                "coordinate."
             )
     return found
 

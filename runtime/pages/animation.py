@@ -107,7 +107,7 @@ def frames(times: Array, fps: float, slower: float = 1.0) -> tuple[Array, Indice
     times : ndarray, shape (n,)
         Of the outputs [s].
     fps, slower
-        As for `frames_in`, with its errors.
+        Frames per second, and the factor by which the motion is slower; see `frames_in`.
     """
     count = frames_in(abs(float(times[-1] - times[0])), fps, slower)
     wanted = np.linspace(times[0], times[-1], count)

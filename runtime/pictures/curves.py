@@ -389,17 +389,29 @@ def _name_lines(result: Figure, page: _Page, *, vertical: bool) -> None:
 
 
 def _unnamed(page: _Page) -> _Named:
-    """Name few lines beside them if a panel has space; return those that need a legend."""
-    named = False
-    pairs = list(zip(page.panels, page.curves, strict=True))
+    """Name few lines beside them if a panel has space; return those that need a legend.
+
+    Of several families without space, such as wheels and axles, the first one is returned, and the
+    others get a legend in their first panel.
+    """
+    named: set[str | None] = set()
+    pairs = [(a, d) for a, d in zip(page.panels, page.curves, strict=True) if d.ndim > 1]
     for axes, data in pairs:
         family = _family(data)
-        if page.dense or family is None or data.ndim < 2 or data.sizes[family] > _FEW_NAMES:
+        if page.dense or family is None or data.sizes[family] > _FEW_NAMES:
             continue
         names = [name for name, _ in _lines(data)[1]]
-        named |= label_lines(axes, _drawn_lines(axes, len(names)), names, page.shape)
-    several = next(((axes, data) for axes, data in pairs if data.ndim > 1), None)
-    return _Named() if named or several is None else _named_lines(*several)
+        if label_lines(axes, _drawn_lines(axes, len(names)), names, page.shape):
+            named.add(family)
+    first: dict[str | None, tuple[Axes, xr.DataArray]] = {}
+    for axes, data in pairs:
+        if _family(data) not in named:
+            first.setdefault(_family(data), (axes, data))
+    panels = list(first.values())
+    for axes, data in panels[1:]:
+        lines = _named_lines(axes, data)
+        axes.legend(lines.handles, lines.labels, title=lines.title, loc="best", fontsize=8)
+    return _named_lines(*panels[0]) if panels else _Named()
 
 
 def _named_once(panels: Array, curves: Sequence[xr.DataArray]) -> _Named | None:

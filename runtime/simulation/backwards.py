@@ -78,7 +78,8 @@ def motion_gradient(
     system : System
         Equations that were compiled with ``parameter_derivatives=True``.
     t_span, y0, inputs, rtol, atol, max_step
-        As for `simulate` with the method 'DormandPrince'; the motion runs forward in time.
+        Time span [s], initial state, inputs and tolerances, as for `simulate` with the method
+        'DormandPrince'; the motion runs forward in time.
     of : mapping of str to str or array_like
         The number is a sum over signals, or elements of the state, by name: of each the 'mean' or
         'rms' (about the mean) over the times ``t_eval``, or the sum of its values at these times,
@@ -95,7 +96,7 @@ def motion_gradient(
     InputError
         If an argument cannot be used, or the rates jump during the motion.
     SimulationError
-        As for `simulate`.
+        If the integration does not reach the end; the message has the time and the reason.
 
     Notes
     -----

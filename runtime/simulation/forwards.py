@@ -70,7 +70,8 @@ def motion_sensitivity(
     system : System
         Equations that were compiled with ``parameter_derivatives=True``.
     t_span, y0, inputs, rtol, atol, max_step
-        As for `simulate` with the method 'DormandPrince'; the motion runs forward in time.
+        Time span [s], initial state, inputs and tolerances, as for `simulate` with the method
+        'DormandPrince'; the motion runs forward in time.
     by : sequence of str, or mapping
         Variables: names of parameters, of elements of the initial state, and of inputs that are
         constant in time. Or a mapping of directions: for each, under any name, the changes of
@@ -90,7 +91,7 @@ def motion_sensitivity(
         If an argument cannot be used, a direction breaks an assumption of the equations, or the
         rates jump during the motion.
     SimulationError
-        As for `simulate`.
+        If the integration does not reach the end; the message has the time and the reason.
 
     Notes
     -----

@@ -61,7 +61,9 @@ class Simulation(OptimizeResult):
     inputs : ndarray, shape (n, number of inputs)
         Inputs at these times, in the order of ``model.input_names``, SI units.
     sol, t_events, y_events, nfev, njev, nlu, status, message, success
-        As in ``scipy.integrate.solve_ivp``.
+        Interpolant of the states, times and states of events, numbers of evaluations, Jacobians and
+        factorisations, code and text of the end, and whether the end was reached: fields of
+        ``scipy.integrate.solve_ivp``.
     steps : int
         Steps taken.
     error_test_failures, order : int

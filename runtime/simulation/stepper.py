@@ -56,6 +56,7 @@ class Stepper:
     Attributes
     ----------
     model : System
+        The equations.
     length : float
         Length of a step [s]; it cannot be changed.
     state : ndarray, shape (number of state elements,)

@@ -97,7 +97,7 @@ def gradient(
     system : System
         Equations that were compiled with ``parameter_derivatives=True``.
     function : str
-        As for `derivative`.
+        Name of the differentiated function, such as 'rhs'.
     weights : array_like
         Weights of the elements of the result, in its shape; more dimensions in front are broadcast
         with the leading ones of the state.
@@ -175,7 +175,7 @@ def design_derivative(system: System, along: Mapping[str, ArrayLike]) -> dict[st
     Raises
     ------
     InputError
-        As for `derivative`.
+        If an argument cannot be used, or the equations have no such derivatives.
     """
     with Validator("design_derivative") as given:
         directions = checked_directions(given, system)

@@ -54,11 +54,13 @@ class Linearisation:
     rate : ndarray, shape (states,)
         Time derivative of this state; see `steady`.
     A : ndarray, shape (states, states)
+        Exact derivatives of the rate of the state with respect to the state, SI units.
     B : ndarray, shape (states, inputs)
+        Those of the rate with respect to the inputs.
     C : ndarray, shape (outputs, states)
+        Those of the outputs with respect to the state.
     D : ndarray, shape (outputs, inputs)
-        Exact derivatives, SI units: of the rate with respect to state (A) and inputs (B), and of
-        the outputs with respect to state (C) and inputs (D).
+        Those of the outputs with respect to the inputs.
     layout : StateLayout
         Positions, speeds and internal states in the state.
     constant : bool

@@ -135,7 +135,8 @@ def mode_of_states(
     Parameters
     ----------
     matrix, names, lift
-        As for `modes_of`.
+        Matrix of the linear equations [1/s], names of the states, and the states of its rows; see
+        `modes_of`.
     places : sequence of int
         Indices of the states in the matrix: a coordinate and its rate.
 
@@ -175,7 +176,7 @@ def modes_of_motions(
     Parameters
     ----------
     matrix, names
-        As for `modes_of`.
+        Matrix of the linear equations [1/s], and names of the states.
     motions : ndarray, shape (motions, states)
         Amplitude of each motion from the states; there are at least as many modes.
     weights : ndarray, shape (motions,)

@@ -200,7 +200,7 @@ class System:
         name : str
             One of `signal_names`.
         state, inputs : array_like
-            As for `signals`.
+            One state and its inputs, or arrays of them.
 
         Returns
         -------

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from ..core.tabulated import Tabulated
 
 _WIDTH_OF_FILES = 110  # for output that is not on a terminal
+_EDGE = 3  # a line and a blank on either side of a cell
 # Strides of the positions in a table, so that round distances stay round.
 _STRIDES = [factor * 10**power for power in range(9) for factor in (1, 2, 5)]
 
@@ -63,10 +64,11 @@ def progress_bar(text: str) -> Iterator[Callable[[float], None]]:
         yield lambda done: progress.update(task, completed=done)
 
 
-def curve_table(dataset: "Dataset", names: Sequence[str], title: str) -> Table:
-    """Return a table of some variables of a dataset over one dimension.
+def print_curves(dataset: "Dataset", names: Sequence[str], title: str) -> None:
+    """Print some variables of a dataset over one dimension.
 
-    It has at most 17 rows, among them zero if that is a position.
+    A table has at most 17 rows, among them zero if that is a position. Columns that do not fit into
+    the width of the terminal are in further tables.
     """
     from ..core.quantities import bracketed, displayed
 
@@ -74,8 +76,27 @@ def curve_table(dataset: "Dataset", names: Sequence[str], title: str) -> Table:
     columns = [dataset[str(along)], *(dataset[name] for name in names)]
     headings = [bracketed(str(c.name).replace("_", " "), c.attrs) for c in columns]
     values = [displayed(column) for column in columns]
-    rows = ([number(float(column[row])) for column in values] for row in _rows(values[0]))
-    return table(title, headings, rows, words=())
+    rows = [[number(float(column[row])) for column in values] for row in _rows(values[0])]
+    for chosen in _fitting(headings, rows, console.width):
+        cells = ([row[i] for i in chosen] for row in rows)
+        console.print(table(title, [headings[i] for i in chosen], cells, words=()))
+
+
+def _fitting(
+    headings: Sequence[str], rows: Sequence[Sequence[str]], width: int
+) -> Iterator[list[int]]:
+    """Yield the columns of each table that is no wider than `width`; the first is in all."""
+    widths = [
+        _EDGE + max(len(text) for text in (*heading.split(), *(row[i] for row in rows)))
+        for i, heading in enumerate(headings)
+    ]
+    chosen, used = [0], widths[0] + 1
+    for i, needed in enumerate(widths[1:], 1):
+        if used + needed > width and len(chosen) > 1:
+            yield chosen
+            chosen, used = [0], widths[0] + 1
+        chosen, used = [*chosen, i], used + needed
+    yield chosen
 
 
 def _rows(positions: Any) -> list[int]:

@@ -229,7 +229,7 @@ def _curves(assembly: Assembly, measured: xr.Dataset, held_by: WheelSupport) -> 
     assert motion is not None  # checked by `beside`
     along = assembly.motions[motion].along
     travel = 0.0 if along is TRAVEL else held(TRAVEL)
-    rack = 0.0 if along is RACK or not assembly.steered else held(RACK)
+    rack = 0.0 if along.name == RACK.name or not assembly.steered else held(RACK)
     values = measured[along.name].values
     found = dataset(assembly, motion, values, travel=travel, rack=rack)
     if along is TRAVEL and assembly.has_bushes and {*map(str, measured)} & {*_SOFT}:

@@ -45,6 +45,7 @@ class Run(NamedTuple):
     Attributes
     ----------
     car : MovingCar
+        The car, with its equations.
     motion : xarray.Dataset
         Its motion over time.
     states, inputs : ndarray, shape (n, states) and (n, inputs)

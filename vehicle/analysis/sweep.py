@@ -92,7 +92,8 @@ def positions(
     meaning = "wheel travel, positive in bump"
     coordinates = {TRAVEL: variable((TRAVEL,) * travels.ndim, travels, meaning, "m")}
     if assembly.steered:
-        meaning = "rack displacement, positive along its axis"
+        gear = assembly.steering_displacement
+        meaning = f"{gear.long_name}, {gear.sign}"
         coordinates[RACK] = variable((RACK,) * racks.ndim, racks, meaning, "m")
     flat = xr.Dataset(found, coordinates, {"title": "positions of the suspension"})
     return flat if len(assembly.wheels) == 1 else by_ending(flat, assembly.wheels)

@@ -23,7 +23,7 @@ from .held import RestConditions
 from .load import Load, known
 from .measures.measure import Measure, values
 from .part_poses import PartPoses
-from .quantity import RACK, Quantity
+from .quantity import RACK, Quantity, displaced_by
 from .rig import RigMotion, RigPosition, SweepRange, WheelReach
 from .soft_lines import SoftLines
 from .wheel_names import WheelNames
@@ -114,6 +114,17 @@ class Assembly(ABC):
     def steered(self) -> bool:
         """Whether its wheels are steered, by a rack or a Pitman arm."""
         return bool(self.subject.steered())
+
+    @property
+    def steering_displacement(self) -> Quantity:
+        """The displacement of the rack, or of the ball of a Pitman arm."""
+        return displaced_by(next((f.steered_by for f in self.wheeled if f.steered_by), ""))
+
+    def motion_of_steering(self, wheels: str) -> RigMotion:
+        """Return the motion of the rack or the Pitman arm, with `wheels` at one height."""
+        along = self.steering_displacement
+        moves = ("rack", "moves") if along is RACK else ("Pitman arm", "turns")
+        return RigMotion(along, f"the {' '.join(moves)}, {wheels} at one height", f"the {moves[0]}")
 
     @property
     @abstractmethod
@@ -219,7 +230,7 @@ class Assembly(ABC):
     def held_in(self, motion: str, travel: float, rack: float) -> dict[Quantity, float]:
         """Return the constant quantities of a motion, for the coordinates of its results."""
         del motion, travel
-        return {RACK: rack} if self.steered else {}
+        return {self.steering_displacement: rack} if self.steered else {}
 
     @abstractmethod
     def refuse_holding(self, given: Validator, motion: str, travel: float, rack: float) -> None:

@@ -30,7 +30,7 @@ from .load import Load
 from .measures.axle import OVER_RACK, OVER_STEERING, OVER_TRAVEL
 from .measures.measure import Measure
 from .part_poses import CornerParts, PartPoses, states_with
-from .quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
+from .quantity import ROLL, STEERING_WHEEL, TRAVEL, Quantity
 from .rest import settled
 from .rig import RigMotion, RigPosition, SweepRange, WheelReach
 from .soft_lines import SoftLines
@@ -61,10 +61,11 @@ class AxleAssembly(HeldAssembly):
         self._model = model
         self.motions = motions_of_two(motions.MOTIONS)
         if self.steered:
-            over = STEERING_WHEEL if motions.turns_the_rack(axle) else RACK
+            by_gear = self.motion_of_steering("both wheels")
+            over = STEERING_WHEEL if motions.turns_the_rack(axle) else by_gear.along
             self.motions |= {
                 "steer": RigMotion(over, motions.MOTIONS["steer"], "steering"),
-                "rack": RigMotion(RACK, "the rack moves, both wheels at one height", "the rack"),
+                "rack": by_gear,
             }
 
     @property

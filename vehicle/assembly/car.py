@@ -38,8 +38,12 @@ from .whole_axle import whole_axle_assembly
 
 _MOTIONS = {
     "heave": RigMotion(HEAVE, "the body rises and falls on all wheels", "heave of the body"),
-    "pitch": RigMotion(PITCH, "the axles travel oppositely, as the body pitches", "pitch"),
-    "roll": RigMotion(ROLL, "the wheels of both axles travel oppositely", "roll"),
+    "pitch": RigMotion(
+        PITCH, "the axles travel in opposite directions, as the body pitches", "pitch"
+    ),
+    "roll": RigMotion(
+        ROLL, "left and right wheels travel in opposite directions, as the body rolls", "roll"
+    ),
 }
 # Usual pitch to either side, and its step [rad].
 _MOST_PITCH, _PITCH_STEP = np.deg2rad(2.0), np.deg2rad(0.1)

@@ -24,7 +24,7 @@ from .measures.corner import OF_STEERING, OVER_RACK, OVER_TRAVEL
 from .measures.measure import Measure
 from .mirrored_corner import MirroredCorner
 from .part_poses import CornerParts, PartPoses, states_with
-from .quantity import RACK, TRAVEL, Quantity
+from .quantity import TRAVEL, Quantity
 from .rest import forces_of, nearest
 from .rig import RigMotion, RigPosition, SweepRange, WheelReach
 from .soft_lines import SoftLines, soft_lines
@@ -33,7 +33,6 @@ from .usual import usual_rack, usual_travel
 from .wheel_names import WheelNames
 
 _TRAVEL = {"travel": RigMotion(TRAVEL, "the wheel rises and falls", "wheel travel")}
-_RACK = {"rack": RigMotion(RACK, "the rack moves, the wheel at one height", "the rack")}
 
 
 class CornerAssembly(HeldAssembly):
@@ -43,7 +42,9 @@ class CornerAssembly(HeldAssembly):
         self.model: Model = model
         self.subject: Suspension = model.suspension
         self.wheels = (model.suspension.vehicle.side,)
-        self.motions = _TRAVEL | _RACK if self.steered else _TRAVEL
+        self.motions = dict(_TRAVEL)
+        if self.steered:
+            self.motions["rack"] = self.motion_of_steering("the wheel")
 
     @property
     def wheeled(self) -> Sequence[Suspension]:

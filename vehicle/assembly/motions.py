@@ -14,7 +14,7 @@ from .wheel_centre_line import WheelCentreLine
 
 MOTIONS = {
     "bump": "both wheels rise and fall together",
-    "roll": "the wheels move oppositely, as when the body rolls",
+    "roll": "the wheels move in opposite directions, as the body rolls",
     "left": "the left wheel moves, the right one stays at design",
     "right": "the right wheel moves, the left one stays at design",
     "steer": "the steering wheel turns, both wheels at one height",

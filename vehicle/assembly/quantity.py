@@ -55,9 +55,11 @@ TRAVEL = Quantity("wheel_travel", "m", "wheel travel",
     "height of the wheel centre above its design height",
     "positive in bump")  # fmt: skip
 RACK = Quantity("rack_position", "m", "rack displacement",
-    "displacement of the rack along its axis from its middle position; of a Pitman arm, the way of "
-    "its ball along its circle",
-    "positive along the rack's axis, or as the arm turns right-handed about its axis")  # fmt: skip
+    "displacement of the rack along its axis from its middle position",
+    "positive along the rack's axis")  # fmt: skip
+PITMAN_BALL = Quantity(RACK.name, "m", "displacement of the Pitman arm's ball",
+    "length of the arc on which the ball of the Pitman arm moves, from its middle position",
+    "positive right-handed about the axis of the arm")  # fmt: skip
 ROLL = Quantity("roll_angle", "rad", "roll angle",
     "inclination of the line through the wheel centres, which move oppositely, to the plane of the "
     "body's x and y axes, from that at design",
@@ -77,3 +79,8 @@ LATERAL_ACCELERATION = Quantity("lateral_acceleration", "m/s^2", "lateral accele
 SPEED = Quantity("speed", "m/s", "speed",
     "of the car along the road",
     "positive forward", Display("km/h", KM_PER_H))  # fmt: skip
+
+
+def displaced_by(key: str) -> Quantity:
+    """Return the displacement that steers, given the key of the section of the steering."""
+    return PITMAN_BALL if key == "pitman_arm" else RACK

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ...terminal.console import console, curve_table, print_json, print_table, say
+from ...terminal.console import console, print_curves, print_json, print_table, say
 from . import goals as wanted
 from .loading import assembly_of_file
 from .options import Bump, File, Of, Rebound, among, metres, option, refuse_options
@@ -230,7 +230,7 @@ def _positions(
             own, title = dataset, f"{file}: positions over {motion}"
             if "wheel" in dataset.dims:
                 own, title = dataset.sel(wheel=wheel, drop=True), f"{title}, {wheel}"
-            console.print(curve_table(own, [name for name in _POSITIONS if name in own], title))
+            print_curves(own, [name for name in _POSITIONS if name in own], title)
     name_files(written)
 
 
@@ -305,4 +305,4 @@ def _print(
             flattened = flat(shown)
             if flattened.data_vars:
                 words = f"{file}: {assembly.motions[motion].words}"
-                console.print(curve_table(flattened, list(map(str, flattened)), words))
+                print_curves(flattened, list(map(str, flattened)), words)

@@ -139,7 +139,8 @@ def _write(
     if chosen.TRAVELS:
         cones = found.curves.get("_cones")
         motion = found.curves[""]
-        written += outputs.draw(write_path, motion, cones=cones, title=title, suffix="_path")
+        drawn = {"cones": cones, "wanted": chosen.wanted_path()}
+        written += outputs.draw(write_path, motion, **drawn, title=title, suffix="_path")
     return written
 
 

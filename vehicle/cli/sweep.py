@@ -214,7 +214,7 @@ def _table(dataset: "Dataset", names: list[str], file: str) -> "Table":
     from ...core.quantities import display_of, heading_of
 
     rows, caption = dataset[names].to_dataframe().reset_index(), None
-    title = f"{file}: {len(rows)} suspensions"
+    title = f"{file}: {len(rows)} suspension{'s' * (len(rows) > 1)}"
     if len(rows) > _ROWS:
         numbers = [rows[name].dropna() for name in names]
         extremes = {i for some in numbers if some.size for i in (some.idxmin(), some.idxmax())}

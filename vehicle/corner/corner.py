@@ -189,7 +189,7 @@ class Corner(RoadWheel):
     Attributes
     ----------
     vehicle, center, design_center, axis, design_axis
-        As for `RoadWheel`.
+        Data of the vehicle, wheel centre and spin axis, and both at design; see `RoadWheel`.
     steering_axis : SteeringAxis or None
         None if the wheel is not steered.
     travel : CarrierMotion

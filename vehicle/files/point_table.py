@@ -336,7 +336,8 @@ def write_merged(
     found : Merged
         Result of `merged`.
     path, force, inputs
-        As for `write_points`; the name ends in ``.toml``.
+        File to write, which ends in ``.toml``; whether a file that kintrafo did not write is
+        replaced; files that are never replaced.
 
     Raises
     ------

@@ -207,7 +207,7 @@ def _chosen(by_key: Mapping[str, type[Section]], kinds: dict[str, Any]) -> dict[
 
 def _named_manoeuvre(manoeuvres: Manoeuvres) -> dict[str, Any]:
     """Return the schema of files of manoeuvres, each of which names its manoeuvre."""
-    words = {"description": "which manoeuvre this is", "enum": list(manoeuvres)}
+    words = {"description": "name of the manoeuvre", "enum": list(manoeuvres)}
     chosen = [
         {"if": {"properties": {MANOEUVRE: {"const": name}}}, "then": _reference(model)}
         for name, model in manoeuvres.items()
@@ -358,6 +358,9 @@ def _default(entry: dict[str, Any]) -> str:
     return "-" if value is None else json.dumps(value)
 
 
+_SORTS = {"boolean": "true or false", "object": "a table"}
+
+
 def _allowed(entry: dict[str, Any]) -> str:
     """Return the range of a value as text."""
     options = [entry, *entry.get("anyOf", ())]
@@ -365,10 +368,10 @@ def _allowed(entry: dict[str, Any]) -> str:
         choices = [option["const"]] if "const" in option else option.get("enum", ())
         if choices:
             return " or ".join(f'`"{value}"`' for value in choices)
-        if option.get("type") == "boolean":
-            return "true or false"
         if option.get("type") == "array":
             return "three numbers" if option.get("maxItems") else "numbers"
+        if str(option.get("type")) in _SORTS:
+            return _SORTS[option["type"]]
         if "exclusiveMinimum" in option:
             most = f", at most {option['maximum']:g}" if "maximum" in option else ""
             return f"more than {option['exclusiveMinimum']:g}{most}"

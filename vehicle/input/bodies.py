@@ -111,8 +111,8 @@ class WheelBody(Section):
     )
     inertia_shaft_kg_m2: NonNegative = Field(
         default=0.0,
-        description="part of inertia_spin_kg_m2 that is of a drive shaft, which turns with the "
-        "wheel and adds nothing to inertia_diametral_kg_m2",
+        description="spin inertia of a drive shaft, as a part of inertia_spin_kg_m2; it adds "
+        "nothing to inertia_diametral_kg_m2",
     )
 
     def problems(self) -> list[str]:

@@ -122,7 +122,7 @@ def _wrong(place: _Place, detail: ErrorDetails) -> str:
         )
     if detail["type"] == "literal_error":
         return f"{value} must be {detail['ctx']['expected']}. Choose one of them."
-    return f"{value} {_EXPECTATIONS.get(detail['type'], detail['msg'])}"
+    return f"{value} {_EXPECTATIONS.get(detail['type'], 'cannot be used. Correct it.')}"
 
 
 def _unknown(place: _Place, value: Any) -> str:

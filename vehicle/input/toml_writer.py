@@ -91,7 +91,7 @@ def write_several(
     files : mapping
         The object and the lines of the comment of each file, by its path, which ends in ``.toml``.
     force, inputs
-        As for `write_toml`.
+        Whether a file that kintrafo did not write is replaced; files that are never replaced.
     """
     read = inputs if isinstance(inputs, str) else list(inputs)  # a text is refused below
     rule: dict[str, Any] = {"force": force, "inputs": read}

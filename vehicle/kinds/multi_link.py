@@ -124,10 +124,10 @@ class MultiLinkHardpoints(Hardpoints):
         shift, turn = free[-1, :3], free[-1, 3:]
         most = np.abs(free[-1]).argmax()
         words = f"turns about {'xyz'[most - 3]}" if most > 2 else f"moves along {'xyz'[most]}"
-        times = "infinitely many" if firm[-1] < 1e-9 else f"{1.0 / firm[-1]:.0f}"
+        times = "more than a million" if firm[-1] < 1e-9 else f"{1.0 / firm[-1]:.0f}"
         found = np.round([*shift, *turn], 2).tolist()
         problem = (
-            f"{self.text(*(f'{link}_outer' for link in _WORDS))}: the five links hardly hold the "
+            f"{self.text(*(f'{link}_outer' for link in _WORDS))}: the five links do not hold the "
             f"knuckle, which {words} (shift and turn {found}): its displacement is {times} "
             f"times the elongation of a link, with the wheel at its height; at most {_LOOSEST:g} "
             "times are allowed. Move the links: no two on one line, no three of a plane through "

@@ -39,13 +39,15 @@ class Model(System):
     Attributes
     ----------
     suspension : Suspension
+        The data of the file.
     equations : module
         A module of `kintrafo.generated`, the shortest one with all elements of the suspension; or
         equations compiled for it.
     names : Names
         Names of the coordinates of every suspension in these equations.
     parameters, constants, design_state
-        As for `System`.
+        Numbers of the equations by name, the constants that follow from them, and the state at
+        design.
 
     Examples
     --------

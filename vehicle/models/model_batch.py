@@ -46,7 +46,7 @@ class ModelBatch(Model):
         Values that differ, by place in the file and in its unit; the first one is that of
         `suspension`.
     free_rack : bool
-        As for `Model`.
+        Whether the rack is a coordinate of the equations.
 
     Attributes
     ----------

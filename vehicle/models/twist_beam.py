@@ -74,7 +74,7 @@ class BeamSection(Section):
     )
     shear_center_z_mm: Number = Field(description="the same, upward")
     rate_Nm_per_deg: _Rate = Field(  # noqa: N815 (N is the newton)
-        description="torque of the beam by its twist, warping and a bar inside of it included"
+        description="torque per twist of the beam, with warping and a bar inside the beam"
     )
 
     @property
@@ -323,14 +323,16 @@ class TwistBeamModel(WholeAxleModel):
     axle : TwistBeamAxle, str or Path
         The data, or the name of a packaged data set or path of a TOML file.
     wheel_loads : bool, optional
-        As for `WholeAxleModel`.
+        Whether the equations have loads on the wheels as inputs.
 
     Attributes
     ----------
     axle : TwistBeamAxle
+        The data of the file.
     parameters, constants, design_state
-        As for `System`. The states are ``lift`` [rad], positive with the wheels up, ``twist``
-        [rad], positive with the left wheel up, and the angles of the wheels.
+        Numbers, constants and state at design of the equations. The states are ``lift`` [rad],
+        positive with the wheels up, ``twist`` [rad], positive with the left wheel up, and the
+        angles of the wheels.
 
     Examples
     --------

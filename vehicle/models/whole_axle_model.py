@@ -46,7 +46,8 @@ class WholeAxleModel(System):
     ----------
     axle : WholeAxle
     parameters, constants, design_state
-        As for `System`.
+        Numbers of the equations by name, the constants that follow from them, and the state at
+        design.
     AXLE : type of WholeAxle
         Type of its data.
     EQUATIONS : module

@@ -17,11 +17,12 @@ from matplotlib.figure import Figure
 from ...core.errors import InputError
 from ...core.files import Paths, refuse, replacing
 from ...core.named_types import Array
-from ...core.quantities import displayed
+from ...core.quantities import displayed, names_in_words
 from ...core.validator import Validator, shown
 from ...pictures.curves import COLUMNS, dimension_along, draw, drawable, is_constant
 from ...pictures.figures import METADATA, STYLE, lay_out, save
 from ..analysis.characteristics.groups import ORDER, group_of
+from ..assembly.by_wheel import AXLE, WHEEL
 from ..studies.goals import Goal
 from .goals import about, mark_sides
 
@@ -39,7 +40,10 @@ _FEWEST_FIRST = 4
 # Differences of equal curves by rounding, in SI units.
 _ROUNDING = {"rtol": 1e-9, "atol": 1e-12}
 # Positions with the design at zero, unlike time.
-_WITH_DESIGN = ("wheel_travel", "rack_position", "roll_angle", "steering_wheel_angle")
+_WITH_DESIGN = (
+    "wheel_travel", "rack_position", "roll_angle", "steering_wheel_angle", "body_heave",
+    "body_pitch",
+)  # fmt: skip
 # Positions on the vertical axis, as suspension engineers draw them.
 _UPRIGHT = ("wheel_travel",)
 
@@ -303,7 +307,9 @@ def figure(
     def mark(axes: Axes, data: xr.DataArray, along: str, colours: Mapping[str, str]) -> Array:
         return mark_sides(axes, about(goals, data, along), colours)
 
+    words = {dim: names_in_words(dataset[dim]) for dim in (WHEEL, AXLE) if dim in dataset.dims}
     return draw(
-        dataset, names, title=title, alone=alone, columns=columns, positions=_WITH_DESIGN,
+        dataset.assign_coords(words), names, title=title, alone=alone, columns=columns,
+        positions=_WITH_DESIGN,
         upright=_UPRIGHT, mark=mark,
     )  # fmt: skip

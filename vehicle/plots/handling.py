@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ...core.files import Paths
+from ...core.named_types import Array
 from ...core.quantities import displayed, heading_of, long_name, names_in_words
 from ...pictures.curves import draw, named_values, varying
 from ...pictures.figures import BLUE, ORANGE, STYLE, save, written_plainly
@@ -67,7 +68,8 @@ def write_curves(
     path : str or pathlib.Path
         Its ending is the format.
     title, force, inputs
-        As in `kintrafo.plots.write`.
+        Title of the figure; whether a file that kintrafo did not write is replaced; files that are
+        never replaced.
 
     Returns
     -------
@@ -108,6 +110,7 @@ def write_path(
     path: str | Path,
     *,
     cones: xr.Dataset | None = None,
+    wanted: Array | None = None,
     title: str = "",
     force: bool = False,
     inputs: Paths = (),
@@ -122,6 +125,8 @@ def write_path(
         Its ending is the format.
     cones : xarray.Dataset, optional
         Their positions, and their distances from the car.
+    wanted : ndarray, shape (n, 2), optional
+        Points of the path that the driver follows [m].
     title, force, inputs
         As in `kintrafo.plots.write`.
 
@@ -132,8 +137,9 @@ def write_path(
     with rc_context(STYLE):
         x, y = (np.atleast_2d(displayed(motion[name])) for name in ("x", "y"))
         spans = [float(np.nanmax(values) - np.nanmin(values)) + 1.0 for values in (x, y)]
-        equal = spans[1] * _WIDE > 0.3 * _HIGH * spans[0]
-        height = min(max(_WIDE * spans[1] / spans[0] + 1.2, 3.0), _HIGH) if equal else 3.4
+        # between cones the outline of the car is drawn, in its shape
+        equal = cones is not None or spans[1] * _WIDE > 0.3 * _HIGH * spans[0]
+        height = min(max(_WIDE * spans[1] / spans[0] + 1.2, 2.4), _HIGH) if equal else 3.4
         figure = Figure(figsize=(_WIDE, height), layout="constrained")
         axes = figure.subplots()
         scale = colormaps["viridis"]
@@ -142,6 +148,10 @@ def write_path(
             axes.plot(row_x, row_y, color=colour)[0]
             for row_x, row_y, colour in zip(x, y, colours, strict=True)
         ]
+        if wanted is not None and wanted.size:
+            axes.plot(*wanted.T, "--", color=ORANGE, linewidth=1.0, label="path to follow")
+            lines[0].set_label("car")
+            axes.legend(fontsize=8, loc="best")
         if len(lines) > 1:
             _name_runs(axes, lines, motion)
         low, high = axes.get_ylim()

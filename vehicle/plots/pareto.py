@@ -26,7 +26,7 @@ def write_front(
     found : Front
         Result of `kintrafo.variation.pareto`.
     path, **how
-        As in `panels.write_panels`.
+        File of the figure, and `FigureOptions`.
     chosen : int, optional
         A member to mark, in addition to the compromise.
 

@@ -30,7 +30,7 @@ def write_tyre(tyre: Tyre, path: str | Path, **how: Unpack[FigureOptions]) -> Pa
     ----------
     tyre : Tyre
     path, **how
-        As in `panels.write_panels`.
+        File of the figure, and `FigureOptions`.
 
     Returns
     -------

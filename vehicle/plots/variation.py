@@ -47,7 +47,7 @@ def write_bars(
     dataset : xarray.Dataset
         Result of `kintrafo.vehicle.studies.sensitivity`.
     path, **how
-        As in `panels.write_panels`.
+        File of the figure, and `FigureOptions`.
     names : sequence of str
         Characteristics.
     at : float, optional
@@ -86,7 +86,7 @@ def write_bands(
     dataset : xarray.Dataset
         Result of `kintrafo.vehicle.studies.tolerance`.
     path, names, **how
-        As in `write_bars`.
+        File of the figure, characteristics, and `FigureOptions`.
     limits : sequence of Limit, optional
         Drawn into their curves.
 
@@ -110,7 +110,7 @@ def write_optimum(found: Optimum, path: str | Path, **how: Unpack[FigureOptions]
     found : Optimum
         Result of `kintrafo.vehicle.studies.optimise`.
     path, **how
-        As in `write_bars`.
+        File of the figure, and `FigureOptions`.
 
     Returns
     -------

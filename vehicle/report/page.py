@@ -19,6 +19,7 @@ from ...systems.system import System
 from ..analysis.characteristics.groups import ORDER
 from ..analysis.loads.along import is_motion_of
 from ..analysis.paper import SPIN_RATE
+from ..assembly.quantity import displaced_by
 from ..input.section import Section
 from ..models.model import Model
 from ..plots.motion.page import player_script, player_style
@@ -162,6 +163,7 @@ def render(
         title=legible(title or f"{model.suspension.heading()}, {'front ' * steered}{side}"),
         steered=steered,
         on_rack=model.suspension.rack is not None,
+        steering=displaced_by(model.suspension.steered_by).long_name,
         side=side,
         version=version("kintrafo"),
         samples=samples,
@@ -204,7 +206,8 @@ def write_chapters(
     Parameters
     ----------
     path, force, inputs
-        As in `write`.
+        Name of the file, whether a file that kintrafo did not write is replaced; files that are
+        never replaced.
     title : str
         Heading of the page.
     chapters : sequence of Chapter

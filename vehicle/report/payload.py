@@ -7,6 +7,7 @@ from markupsafe import Markup
 
 from ...core.named_types import Array
 from ...pages.embedded import embedded
+from ..assembly.quantity import displaced_by
 from ..kinds import Suspension
 from .curves import CharacteristicCurve
 from .encode import packed
@@ -56,6 +57,7 @@ def page_data(
     stored = _stored_under(drawn)
     data = {
         "grid": {"travel": _axis(grid.travel), "rack": _axis(grid.rack)},
+        "steering": displaced_by(suspension.steered_by).long_name,
         "points": {name: _on_grid(values, grid) for name, values in sampled.points.items()},
         "spin_axis": _on_grid(sampled.spin_axis, grid),
         "samples": {c.key: _on_grid(c.smooth, grid) for c in drawn if stored[c.key] == c.key},

@@ -54,7 +54,9 @@ def cars(
         ``hardpoints.ball_joint.z``, in the display unit (mm, deg, N/m). Rows of numbers are over
         the dimension ``car``; of a dataset, all combinations along its dimensions are cars.
     over, positions, names, held, progress
-        As in `sensitivity`. Travel is measured from each car's own design position.
+        Motion, positions along it, characteristics, support of the wheels for compliance, and a
+        function of the finished part; see `sensitivity`. Travel is measured from each car's own
+        design position.
     reductions : sequence of str, optional
         'min', 'max', 'mean' or 'range' of the curves over the positions, instead of the curves.
     threads : int, optional

@@ -79,7 +79,7 @@ class TargetValue(Goal):
     Attributes
     ----------
     name, over, at
-        As in `Goal`.
+        Characteristic, motion or axis, and positions on it.
     value : ndarray, shape (n,)
         SI units.
     within : float
@@ -98,7 +98,7 @@ class Limit(Goal):
     Attributes
     ----------
     name, over, at
-        As in `Goal`.
+        Characteristic, motion or axis, and positions on it.
     least, most : float
         Bounds, SI units; infinite if there is none.
     """
@@ -204,7 +204,7 @@ def words_of(kind: str, name: str, over: str) -> str:
     kind : str
         'target' or 'limit'.
     name, over : str
-        As in `Goal`.
+        Characteristic, and motion or axis.
     """
     quantity = sweep_axis(over).known[name]
     words = f"{kind}: {bracketed(quantity.long_name, quantity.attributes())}"

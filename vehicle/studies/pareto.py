@@ -144,7 +144,7 @@ def pareto(
         the motion. The greatest value at these positions is minimised, or the least value
         maximised.
     limits : mapping, optional
-        As in `optimise`.
+        Bounds of characteristics that every suspension keeps.
     population : int, optional
         Number of suspensions in a generation, and largest number of members of the front; four or
         more.

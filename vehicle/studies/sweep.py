@@ -49,7 +49,7 @@ def sweep(
     signals, reductions
         Results, as in `kintrafo.ensemble`: signals at the output times, and numbers.
     rtol, atol, max_steps
-        As in `kintrafo.ensemble`.
+        Tolerances and greatest number of steps of each motion.
     progress : callable, optional
         Called with the fraction of suspensions that are prepared, up to 1; preparation takes most
         of the time.

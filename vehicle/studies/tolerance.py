@@ -71,7 +71,8 @@ def tolerance(
     seed : int, optional
         Seed of the generator of random numbers: the same cars for the same seed.
     over, positions, names, held, progress
-        As in `sensitivity`.
+        Motion, positions along it, characteristics, support of the wheels for compliance, and a
+        function of the finished part; see `sensitivity`.
 
     Returns
     -------
@@ -231,7 +232,7 @@ def _dataset(cars: _Cars, parts: Array) -> xr.Dataset:
         data[f"{name}_nominal"] = xr.Variable(along.name, cars.nominal[i], attributes)
         meaning = f"part of the variance of {quantity.long_name}"
         data[f"{name}_share"] = variable((PLACE, along.name), shares[:, i], meaning, "1")
-        meaning = f"standard deviation of {quantity.long_name} to first order, as a part"
+        meaning = f"standard deviation of {quantity.long_name} to first order over that of the cars"
         data[f"{name}_first_order"] = variable(along.name, first_order[i], meaning, "1")
     data["within_limits"] = variable(CAR, cars.within, "whether the car is within all limits", "1")
     data["reason"] = variable(CAR, cars.reasons.astype(str), "why a car has no curves", "1")

@@ -67,6 +67,7 @@ class TyreFit:
     message : str
         The reason for which the search ended.
     evaluations : int
+        Number of evaluated tyres.
     """
 
     tyre: MagicFormula

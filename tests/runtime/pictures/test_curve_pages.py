@@ -147,3 +147,17 @@ def test_units_in_labels_are_not_broken() -> None:
     assert wrapped("damping ratio of heave, deviation", 28) == "damping ratio of heave,\ndeviation"
     lines = wrapped("weighted acceleration, RMS [m/s^2 per N s/m]", 30).split("\n")
     assert lines == ["weighted acceleration, RMS", "[m/s\u00b2\xa0per\xa0N\xa0s/m]"]
+
+
+def test_wheels_and_axles_of_a_car_are_both_named():
+    """Wheels have no space beside four curves, axles have: a legend names the wheels in words."""
+    wheels = ["front_left", "front_right", "rear_left", "rear_right"]
+    along = {"roll_angle": variable("roll_angle", TRAVEL, "roll angle", "rad")}
+    of_wheels = variable(("wheel", "roll_angle"), np.outer(range(4), TRAVEL), "camber", "rad")
+    of_axles = variable(("axle", "roll_angle"), np.outer((1.0, -1.0), TRAVEL**2), "height", "m")
+    shown = xr.Dataset({"camber": of_wheels, "height": of_axles}, along)
+    shown = shown.assign_coords(wheel=wheels, axle=["front", "rear"])
+    drawn = figure(shown, ["camber", "height"], alone=False)
+    (legend,) = drawn.legends
+    assert [text.get_text() for text in legend.get_texts()] == [w.replace("_", " ") for w in wheels]
+    assert {text.get_text() for text in drawn.axes[1].texts} == {"front", "rear"}

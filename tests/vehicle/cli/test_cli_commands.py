@@ -9,11 +9,14 @@ import pytest
 import xarray as xr
 from folders import ROOT
 from kintrafo import Model, Suspension, characteristics
+from kintrafo.core.quantities import variable
 from kintrafo.core.tabulated import number, significant
+from kintrafo.terminal import console
 from kintrafo.vehicle import cli
 from kintrafo.vehicle.cli.compare import _differing
 from kintrafo.vehicle.data.starter import not_of_a_suspension
 from matplotlib.image import imread
+from rich.console import Console
 
 CAR = "reference_car"
 POSITIONS = ("characteristics", CAR, "--positions")
@@ -361,3 +364,18 @@ def test_a_folder_in_the_way_is_refused(kintrafo, tmp_path):
 def test_numbers_in_tables():
     assert [number(v) for v in (-1e-9, 1.23456, np.nan)] == ["0.000", "1.235", "-"]
     assert [significant(v) for v in (-1e-12, 0.0045141, np.inf)] == ["0", "0.0045141", "infinite"]
+
+
+def test_columns_that_do_not_fit_are_in_further_tables(monkeypatch, capsys):
+    """No number is cut: a table is as wide as the terminal at most and begins with the position."""
+    monkeypatch.setattr(console, "console", Console(width=80))
+    over = {"wheel_travel": variable("wheel_travel", np.linspace(-0.08, 0.08, 5), "", "m")}
+    forces = {
+        f"force_{n}": variable("wheel_travel", np.full(5, 24554.1), "", "N") for n in "abcdefgh"
+    }
+    console.print_curves(xr.Dataset(forces, over), list(forces), "forces")
+    shown = capsys.readouterr().out
+    assert "…" not in shown
+    assert shown.count("24554.1") == 5 * len(forces)
+    assert shown.count("-80.000") == 2
+    assert max(map(len, shown.splitlines())) <= 80

@@ -97,6 +97,13 @@ def test_wheels_and_runs_have_names(drawn):
     assert names_in(drawn[1]) == ["57.3 deg", "114.6 deg", "171.9 deg"]
 
 
+def test_the_path_to_follow_is_drawn_beside_that_of_the_car(drawn):
+    wanted = kintrafo.handling.load_manoeuvre("path_following").wanted_path()
+    np.testing.assert_allclose(wanted[[0, -1]], [[0.0, 0.0], [140.0, 0.0]], atol=1e-12)
+    write_path(motion(), "path.svg", wanted=wanted)
+    assert names_in(drawn[0]) == ["car", "path to follow"]
+
+
 def test_a_straight_path_is_drawn_straight(drawn):
     car = motion()
     car["x"], car["y"] = 100.0 * car["x"], 1e-14 * car["y"]

@@ -85,6 +85,14 @@ def test_characteristics_over_the_arm_are_those_of_the_rods(bench: Any) -> None:
     assert model.suspension.steering_gear.travel_per_turn() == pytest.approx(per_turn, rel=1e-14)
 
 
+def test_its_position_is_called_the_displacement_of_its_ball() -> None:
+    over = characteristics.over(AXLE, "rack", [0.0])
+    held = characteristics.over(RIGHT, "travel", [0.0])
+    for found in (over, held):
+        assert found["rack_position"].attrs["long_name"] == "displacement of the Pitman arm's ball"
+    assert over.attrs["title"] == "characteristics over the Pitman arm"
+
+
 def test_a_parallelogram_moves_its_rod_along_a_circle() -> None:
     """Omitted values of the idler arm are mirrored ones: both tie rods move alike."""
     alike = {"pivot_mm": [-390.0, 300.0, 265.0], "axis": [0.0, 0.0, 2.0]}

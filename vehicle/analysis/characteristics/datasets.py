@@ -167,7 +167,10 @@ def dataset(
             variables[measure.name] = of_wheels(measure.quantity, how.along.name, found)
         else:
             dims = ("axle", how.along.name) if assembly.axles else (how.along.name,)
-            variables[measure.name] = xr.Variable(dims, found[0], measure.quantity.attributes())
+            quantity = measure.quantity
+            if quantity is RACK:
+                quantity = assembly.steering_displacement
+            variables[measure.name] = xr.Variable(dims, found[0], quantity.attributes())
     coordinates = {
         how.along.name: xr.Variable(how.along.name, along, how.along.attributes()),
         "wheel": wheel_coordinate(assembly.wheels),

@@ -33,16 +33,18 @@ def combined(
     ----------
     subject : Suspension, Model, Axle or RigidAxle
     bushings : mapping or None
-        As in `nonlinear`.
+        Stiffnesses by hardpoint; None for those of the file.
     under : {'lateral', 'braking', 'recession', 'aligning'}
-        As in `nonlinear`.
+        The load: a lateral force, braking or an aligning torque at the contact, or a rearward force
+        at the wheel centre.
     amounts : array_like, shape (m,)
         Amounts of the load, of either sign: forces [N], or torques for 'aligning' [N m].
     travel : array_like, shape (n,), optional
         Heights of the wheel centres with rigid joints above design, of an axle in parallel [m]; by
         default the usual range.
     wheels, rack_position, held, hardpoints
-        As in `nonlinear`.
+        Loaded wheels, constant rack displacement [m], support of the wheels, and the state in which
+        the joints are at the hardpoints; see `nonlinear`.
 
     Returns
     -------
@@ -54,7 +56,7 @@ def combined(
     Raises
     ------
     InputError, PositionError
-        As in `nonlinear`.
+        If an argument cannot be used, or a position is out of reach.
 
     Notes
     -----

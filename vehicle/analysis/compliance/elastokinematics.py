@@ -198,7 +198,7 @@ def _over_motion(
         [*(one.wheels[which] for one in both[:-1]), on_bushes(both[-1], states[-1], which)]
         for which in range(len(assembly.wheels))
     ]
-    curves = {**CURVES, **(_STEERED if over in (RACK, STEERING_WHEEL) else {})}
+    curves = {**CURVES, **(_STEERED if over.name in (RACK.name, STEERING_WHEEL.name) else {})}
     for quantity, formula in curves.items():
         values = [np.stack([formula(state) for state in own]) for own in wheels]
         data[quantity.name] = of_wheels(quantity, dims, values)

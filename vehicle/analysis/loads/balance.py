@@ -15,9 +15,7 @@ _WORST_CONDITION = 1e10
 # Random right-hand sides, whose solutions estimate the condition.
 _PROBES = 2
 
-DEAD_POINT = (
-    "the linkage is at a dead point, or what holds it has no leverage: the joints carry anything."
-)
+DEAD_POINT = "the linkage is at a dead point, where the loads on the joints have no bound."
 """The reason for a position without loads."""
 
 

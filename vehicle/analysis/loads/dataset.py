@@ -242,7 +242,9 @@ def peaks(dataset: xr.Dataset) -> xr.Dataset:
         sizes = np.linalg.norm(components.values, axis=-1)
         when = sizes.argmax(axis=0)
         unit, rows = str(components.attrs["units"]), np.arange(sizes.shape[1])
-        found[f"{name}_peak"] = variable(LOAD, sizes[when, rows], f"greatest {name}, in size", unit)
+        found[f"{name}_peak"] = variable(
+            LOAD, sizes[when, rows], f"greatest magnitude of the {name}", unit
+        )
         times = dataset[TIME].values[when]
         found[f"{name}_peak_time"] = variable(LOAD, times, f"when the {name} is greatest", "s")
         meaning = f"{name} on the part then, chassis axes"

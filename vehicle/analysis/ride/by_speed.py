@@ -43,7 +43,7 @@ OF_WHEELS = (
         "root mean square of the force of the tyre less that at rest", _ALWAYS,
     ),
     Quantity(
-        "load_variation", "1", "variation of the wheel load, as a part",
+        "load_variation", "1", "relative variation of the wheel load",
         "root mean square of the force of the tyre less that at rest, over that at rest", _ALWAYS,
         _PERCENT,
     ),
@@ -86,7 +86,7 @@ def by_speed(
     speeds : array_like, shape (n,)
         Speeds of the car, above zero [m/s].
     roughness : str or float, optional
-        As in `response`.
+        Class of ISO 8608, or G(n0) [m^3].
     seat : str, optional
         Name of the seat at which accelerations are taken, a section ``[seats.NAME]`` of the file;
         by default the body's centre of mass.

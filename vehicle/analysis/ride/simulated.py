@@ -100,7 +100,7 @@ def run(
     Parameters
     ----------
     subject, road, speed, duration, settle, output_step, **options
-        As in `over`.
+        Car, road, speed [m/s], times [s] and options of the integration; see `over`.
 
     Returns
     -------
@@ -136,7 +136,7 @@ def check_times(duration: float, settle: float, output_step: float) -> None:
     Parameters
     ----------
     duration, settle, output_step : float
-        As for `over` [s].
+        Duration, time before the results, and interval of the outputs [s].
 
     Raises
     ------

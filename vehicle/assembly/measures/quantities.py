@@ -110,8 +110,9 @@ _ALL = (
         "centre",
         "positive when braking holds the rear down", display=_PERCENT),
     Quantity("steer_gradient", "rad/m", "steer gradient",
-        "derivative of the steer angle by rack travel, wheel centre held at its height",
-        "positive when the rack's positive sense steers to the left"),
+        "derivative of the steer angle with respect to the displacement of the rack, wheel centre "
+        "at its height",
+        "positive when a positive displacement steers to the left"),
     Quantity("steer_left", "rad", "steer angle, left wheel",
         "steer angle of the left wheel",
         "positive to the left"),

@@ -23,6 +23,14 @@ _NEEDED = {
     "float_type": "a number is needed, without quotes",
     "finite_number": "a finite number is needed",
     "bool_type": "true or false is needed, without quotes",
+    "null": "null is not a value",
+}
+# Ranges by the type of an error: the key of the limit, and its words.
+_RANGES = {
+    "greater_than": ("gt", "more than {:g} is needed"),
+    "greater_than_equal": ("ge", "{:g} or more is needed"),
+    "less_than": ("lt", "less than {:g} is needed"),
+    "less_than_equal": ("le", "{:g} or less is needed"),
 }
 _DEEP = 6  # keys within each other; templates have three
 
@@ -147,7 +155,10 @@ def problem_of(detail: Any, place: Place | None = None) -> str:
         return f'"{words}" = {given} has {len(detail["input"])} values; {wanted}.'
     if detail["type"] == "literal_error":
         return f'"{words}" is {given}; only {detail["ctx"]["expected"]} can be read.'
-    return f'"{words}" = {given}: {_NEEDED.get(detail["type"], detail["msg"].lower())}.'
+    if detail["type"] in _RANGES:
+        key, needed = _RANGES[detail["type"]]
+        return f'"{words}" = {given}: {needed.format(detail["ctx"][key])}.'
+    return f'"{words}" = {given}: {_NEEDED.get(detail["type"], "another value is needed")}.'
 
 
 def shown(value: Any) -> str:

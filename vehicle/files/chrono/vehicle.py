@@ -57,6 +57,7 @@ class ImportedCar(NamedTuple):
     Attributes
     ----------
     car : Car
+        The car that was read.
     assumptions : tuple of str
         Assumptions, and differences between both programs, one sentence each.
     left_out : tuple of str

@@ -92,7 +92,7 @@ class AntiRollBar(Section):
     )
     inner_diameter_mm: NonNegative = Field(default=0.0, description="inner diameter of a tube")
     length_mm: _Length | None = Field(
-        default=None, description="length of the bar between its arms, which is twisted"
+        default=None, description="length of the twisted part of the bar, between its arms"
     )
     shear_modulus_GPa: _Modulus = Field(  # noqa: N815 (Pa is the pascal)
         default=_STEEL, description="shear modulus; Young's modulus is 2.6 times this value"

@@ -32,9 +32,11 @@ class AxleModel(System):
     Attributes
     ----------
     axle : Axle
+        The data of the files.
     parameters, constants, design_state
-        As for `System`. Names of states, inputs and signals are those of the suspension, with the
-        prefix ``right_`` or ``left_``; the bar has ``bar_angle`` and ``bar_spring_moment``.
+        Numbers, constants and state at design of the equations. Names of states, inputs and signals
+        are those of the suspension, with the prefix ``right_`` or ``left_``; the bar has
+        ``bar_angle`` and ``bar_spring_moment``.
     """
 
     def __init__(

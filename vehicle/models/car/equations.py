@@ -40,12 +40,13 @@ class CarModel(System):
     Attributes
     ----------
     car : Car
+        The data of the files.
     parameters, constants, design_state
-        As for `System`. States are those of the body, ``heave``, ``pitch`` and ``roll``, followed
-        by those of the suspensions; their names, and those of inputs and signals, have the prefix
-        of the wheel, ``front_left_``, or of the axle, and no prefix in a quarter car. The body of a
-        driving car moves freely, with ``body_x`` to ``body_r``; the last states are the deflections
-        of its tyres.
+        Numbers, constants and state at design of the equations. States are those of the body,
+        ``heave``, ``pitch`` and ``roll``, followed by those of the suspensions; their names, and
+        those of inputs and signals, have the prefix of the wheel, ``front_left_``, or of the axle,
+        and no prefix in a quarter car. The body of a driving car moves freely, with ``body_x`` to
+        ``body_r``; the last states are the deflections of its tyres.
 
     Examples
     --------

@@ -47,7 +47,7 @@ class RollBarSection(Section):
     """An anti-roll bar, by its rate at the axle."""
 
     rate_Nm_per_deg: _Rate = Field(  # noqa: N815 (N is the newton)
-        description="moment on the axle for a roll of it against the body"
+        description="moment on the axle per roll relative to the body"
     )
 
 

@@ -35,15 +35,16 @@ class RigidAxleModel(WholeAxleModel):
         Whether an axle on five rods, which has no motion with rigid rods, has the equations of four
         of them, from which an equilibrium on bushes begins; otherwise it is refused.
     wheel_loads : bool, optional
-        As for `WholeAxleModel`.
+        Whether the equations have loads on the wheels as inputs.
 
     Attributes
     ----------
     axle : RigidAxle
+        The data of the file.
     parameters, constants, design_state
-        As for `System`. The states are ``heave`` [m] and ``roll`` [rad], positive with the left
-        wheel up, and the angles of the wheels; signals and inputs of a side have the prefix
-        ``right_`` or ``left_``.
+        Numbers, constants and state at design of the equations. The states are ``heave`` [m] and
+        ``roll`` [rad], positive with the left wheel up, and the angles of the wheels; signals and
+        inputs of a side have the prefix ``right_`` or ``left_``.
 
     Examples
     --------

@@ -93,9 +93,9 @@ class Hold:
         firm, free = self._at_rest()
         if firm * _LOOSEST >= 1.0:
             return []
-        times = "infinitely many" if firm < _NOTHING else f"{1.0 / firm:.0f}"
+        times = "more than a million" if firm < _NOTHING else f"{1.0 / firm:.0f}"
         problem = (
-            f"[rods] {', '.join(self.names)} hardly hold the axle, which moves {_said(free)}: "
+            f"[rods] {', '.join(self.names)} do not hold the axle, which moves {_said(free)}: "
             f"its displacement is {times} times the elongation of a rod, at constant height and "
             f"inclination; at most {_LOOSEST:g} times are allowed. Two or more rods must hold the "
             "axle along x and in pitch; a Panhard rod, or upper links that meet, must hold it "

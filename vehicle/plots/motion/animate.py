@@ -88,7 +88,7 @@ def played(result: HandlingResult | Run) -> Markup:
     Parameters
     ----------
     result : HandlingResult or Run
-        As in `animate`.
+        A manoeuvre or a ride.
     """
     run, cones = _shown(result)
     rows = frames(run.motion["time"].values, _per_second(run, _MOST_POSITIONS))[1]

@@ -23,7 +23,7 @@ class Acceleration(UntilSpeed):
     TITLE: ClassVar[str] = "acceleration"
     SLOWS: ClassVar[bool] = False
 
-    manoeuvre: Literal["acceleration"] = Field(description="which manoeuvre this is")
+    manoeuvre: Literal["acceleration"] = Field(description="name of the manoeuvre")
     torque_Nm: Positive = Field(  # noqa: N815 (N m is the unit)
         description="torque of all driven wheels together"
     )

@@ -20,7 +20,7 @@ class BrakingManoeuvre(SimulatedManoeuvre):
     )
     deceleration_m_per_s2: Positive | None = Field(
         default=None,
-        description="in place of it: deceleration for which the torque suffices, no wheel locked",
+        description="deceleration instead of a pedal position, at which no wheel locks",
     )
     rise_s: NonNegative = Field(default=0.2, description="time in which the torque rises")
     duration_s: Positive = Field(default=20.0, description="longest duration of the simulation")

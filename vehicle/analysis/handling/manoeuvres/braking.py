@@ -21,9 +21,9 @@ class StraightBraking(UntilSpeed, BrakingManoeuvre):
 
     TITLE: ClassVar[str] = "braking in a straight line"
 
-    manoeuvre: Literal["braking"] = Field(description="which manoeuvre this is")
+    manoeuvre: Literal["braking"] = Field(description="name of the manoeuvre")
     until_km_per_h: Positive = Field(default=5.0, description="speed at which it ends")
-    start_s: NonNegative = Field(default=0.5, description="when the brake is pushed")
+    start_s: NonNegative = Field(default=0.5, description="time at which the brakes are applied")
 
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
         """Return the braking distance and decelerations, and the motion."""

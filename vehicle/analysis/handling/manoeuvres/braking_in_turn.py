@@ -27,10 +27,10 @@ class BrakingInTurn(UntilSpeed, BrakingManoeuvre, TurningManoeuvre):
 
     TITLE: ClassVar[str] = "braking in a turn"
 
-    manoeuvre: Literal["braking_in_turn"] = Field(description="which manoeuvre this is")
+    manoeuvre: Literal["braking_in_turn"] = Field(description="name of the manoeuvre")
     radius_m: Positive = Field(default=100.0, description="radius of the steady turn")
     until_km_per_h: Positive = Field(default=5.0, description="speed at which it ends")
-    start_s: NonNegative = Field(default=0.5, description="when the brake is pushed")
+    start_s: NonNegative = Field(default=0.5, description="time at which the brakes are applied")
 
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
         """Return metrics of the motion relative to the steady turn, and the motion."""
@@ -96,7 +96,7 @@ class BrakingInTurn(UntilSpeed, BrakingManoeuvre, TurningManoeuvre):
             ),
             "greatest_sideslip_change": (
                 float(np.abs(slip[braked] - before).max()),
-                "greatest change of the sideslip angle within 1 s, in size", "rad",
+                "greatest absolute change of the sideslip angle within 1 s", "rad",
             ),
             "path_deviation": (
                 self._outside(motion, begun, x, y),

@@ -23,7 +23,7 @@ class Circle(Manoeuvre):
     TITLE: ClassVar[str] = "steady-state circle"
     TRAVELS: ClassVar[bool] = False
 
-    manoeuvre: Literal["circle"] = Field(description="which manoeuvre this is")
+    manoeuvre: Literal["circle"] = Field(description="name of the manoeuvre")
     speed_km_per_h: NonNegative | None = Field(
         default=None, description="constant speed; or else radius_m or steering_wheel_deg"
     )

@@ -21,7 +21,7 @@ class CoastDown(UntilSpeed):
 
     TITLE: ClassVar[str] = "coast down"
 
-    manoeuvre: Literal["coast_down"] = Field(description="which manoeuvre this is")
+    manoeuvre: Literal["coast_down"] = Field(description="name of the manoeuvre")
     until_km_per_h: Positive = Field(default=60.0, description="speed at which it ends")
     duration_s: Positive = Field(default=300.0, description="longest duration of the simulation")
 

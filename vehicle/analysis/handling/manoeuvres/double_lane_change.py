@@ -36,32 +36,34 @@ _SPACING = 3.0
 class LaneSection(Section):
     """A lane between cones. Its width is a part of that of the car, and more."""
 
-    start_m: NonNegative = Field(description="where it begins, from the first cones")
-    length_m: Positive = Field(description="how long it is")
-    width_of_car: Positive = Field(description="its width, in widths of the car")
-    width_more_m: NonNegative = Field(description="a length that is added to that")
-    least_width_m: NonNegative = Field(default=0.0, description="width that it has at least")
+    start_m: NonNegative = Field(description="distance of its beginning from the first cones")
+    length_m: Positive = Field(description="length")
+    width_of_car: Positive = Field(description="width, in widths of the car")
+    width_more_m: NonNegative = Field(description="addition to this width")
+    least_width_m: NonNegative = Field(default=0.0, description="least width")
     beside_m: Number | None = Field(
         default=None,
-        description="how far its near edge is beside the far edge of the first lane; left out, the "
-        "edge of both away from the other lanes is one line, moved by shifted_m",
+        description="distance of its near edge from the far edge of the first lane; by default "
+        "shifted_m applies",
     )
     shifted_m: Number = Field(
-        default=0.0, description="how far it is moved towards the side of the change"
+        default=0.0,
+        description="distance of its edge from the same edge of the first lane, towards the side "
+        "of the change",
     )
 
 
 class Driver(Section):
     """The driver that follows the path through the lanes."""
 
-    preview_s: Positive = Field(default=0.45, description="time by which the driver looks ahead")
+    preview_s: Positive = Field(default=0.45, description="preview time of the driver")
     anticipation_s: NonNegative | None = Field(
         default=None,
-        description="delay of arms and car that the driver makes up for; left out: that of the "
-        "filter, and of the lateral acceleration at 0.5 Hz by the linear equations",
+        description="compensated delay of arms and car; by default that of the arms, and that of "
+        "the lateral acceleration at 0.5 Hz by the linear equations",
     )
     bandwidth_Hz: Positive = Field(  # noqa: N815 (Hz is the hertz)
-        default=4.0, description="natural frequency with which the arms follow"
+        default=4.0, description="natural frequency of the arms"
     )
     largest_deg: Positive = Field(default=360.0, description="largest steering wheel angle")
     fastest_deg_per_s: Positive = Field(
@@ -94,19 +96,25 @@ class DoubleLaneChange(TurningManoeuvre):
     TITLE: ClassVar[str] = "double lane change"
     CURVES: ClassVar[tuple[str, ...]] = ("", "_cones")
 
-    manoeuvre: Literal["double_lane_change"] = Field(description="which manoeuvre this is")
+    manoeuvre: Literal["double_lane_change"] = Field(description="name of the manoeuvre")
     car_width_mm: Positive = Field(description="width of the car, without mirrors")
     car_length_mm: Positive = Field(description="length of the car")
     front_overhang_mm: NonNegative = Field(
-        description="how far the car reaches in front of the front wheel centres"
+        description="distance of the front end of the car from the front wheel centres"
     )
     lanes: dict[str, LaneSection] = Field(description="the lanes between cones, by name, in order")
     driver: Driver = Field(default_factory=Driver, description="the driver")
-    before_m: Positive = Field(default=30.0, description="straight way before the first cones")
-    after_m: Positive = Field(default=30.0, description="straight way behind the last ones")
+    before_m: Positive = Field(default=30.0, description="straight road before the first cones")
+    after_m: Positive = Field(default=30.0, description="straight road behind the last cones")
     holds_speed: Flag = Field(
         default=True, description="whether the speed is held; else the car coasts from the start"
     )
+
+    @property
+    def title(self) -> str:
+        """The manoeuvre in a few words, with its speed; a car that coasts avoids an obstacle."""
+        words = self.TITLE if self.holds_speed else "obstacle avoidance"
+        return f"{words}, {self.speed_km_per_h:g} km/h"
 
     def problems(self) -> list[str]:
         """Return the problems of the values together."""
@@ -244,10 +252,10 @@ class DoubleLaneChange(TurningManoeuvre):
             ),
             "greatest_steering_wheel_angle": (
                 float(np.abs(motion["steering_wheel_angle"]).max()),
-                "greatest steering wheel angle, in size", "rad",
+                "greatest absolute steering wheel angle", "rad",
             ),
             "greatest_steering_wheel_rate": (
-                float(np.abs(rate).max()), "greatest rate of the steering wheel, in size", "rad/s",
+                float(np.abs(rate).max()), "greatest absolute rate of the steering wheel", "rad/s",
             ),
         }  # fmt: skip
         return found | greatest(motion)

@@ -6,6 +6,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from .....core.named_types import Array
 from ....input.section import Section
 from ....input.units import unit_of
 from ....models.car.car import Car
@@ -61,6 +62,10 @@ class Manoeuvre(Section):
     def check(self, car: Car) -> None:
         """Raise an `InputError` for a car that cannot drive it, before equations are derived."""
         require_controls(car)
+
+    def wanted_path(self) -> Array:
+        """Return points of the path that the driver follows [m], shape (n, 2); none by default."""
+        return np.empty((0, 2))
 
     @abstractmethod
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:

@@ -55,9 +55,9 @@ _OF_WHEELS = {
     "mz": ("moment of the wheel on the road as it turns, positive to the left", "N m"),
 }
 _GREATEST = {
-    "steering_torque": "torque of the steering wheel, in size",
-    "lifting_torque": "torque that lifts the car, in size",
-    "friction_torque": "torque that turns the tyres on the road, in size",
+    "steering_torque": "absolute torque of the steering wheel",
+    "lifting_torque": "absolute lifting torque",
+    "friction_torque": "absolute friction torque of the tyres",
 }
 
 
@@ -67,9 +67,9 @@ class Parking(Manoeuvre):
     TITLE: ClassVar[str] = "parking"
     TRAVELS: ClassVar[bool] = False
 
-    manoeuvre: Literal["parking"] = Field(description="which manoeuvre this is")
+    manoeuvre: Literal["parking"] = Field(description="name of the manoeuvre")
     largest_deg: Positive = Field(
-        default=360.0, description="steering wheel angle to which it is turned, to both sides"
+        default=360.0, description="greatest steering wheel angle, to both sides"
     )
     step_deg: Positive = Field(default=5.0, description="step of the steering wheel angle")
     friction: _Friction = Field(
@@ -79,7 +79,8 @@ class Parking(Manoeuvre):
         default=230.0, description="inflation pressure of the steered tyres"
     )
     twist_deg: Positive = Field(
-        default=4.0, description="turn of a wheel after which its moment is 63 % of that in sliding"
+        default=4.0,
+        description="turn of a wheel with 63 % of the moment in sliding",
     )
 
     def problems(self) -> list[str]:

@@ -5,6 +5,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
+from .....core.named_types import Array
 from ....input.section import Number, Positive
 from ..car import DrivingCar
 from ..drivers import Observation
@@ -21,7 +22,7 @@ class PathFollowing(SimulatedManoeuvre):
 
     TITLE: ClassVar[str] = "path following"
 
-    manoeuvre: Literal["path_following"] = Field(description="which manoeuvre this is")
+    manoeuvre: Literal["path_following"] = Field(description="name of the manoeuvre")
     x_m: tuple[Number, ...] = Field(
         default=(), description="points of the path, along the road; the car begins at the origin"
     )
@@ -30,6 +31,11 @@ class PathFollowing(SimulatedManoeuvre):
     )
     driver: Driver = Field(default_factory=Driver, description="the driver")
     duration_s: Positive = Field(default=120.0, description="longest duration of the simulation")
+
+    def wanted_path(self) -> Array:
+        """Return points of the path [m], shape (n, 2)."""
+        path = Path(np.array([self.x_m, self.y_m]).T)
+        return np.array([path.at(along) for along in np.linspace(0.0, path.length, _DRAWN)])
 
     def problems(self) -> list[str]:
         """Return the problems of the values together."""
@@ -71,10 +77,10 @@ class PathFollowing(SimulatedManoeuvre):
                 float(np.abs(offsets).max()), "greatest distance from the path", "m"
             ),
             "rms_deviation": (
-                float(np.sqrt(np.mean(offsets**2))), "mean square root of that distance", "m"
+                float(np.sqrt(np.mean(offsets**2))), "root mean square of that distance", "m"
             ),
         }  # fmt: skip
         return HandlingResult(self.judged(numbers | greatest(motion)), {"": motion})
 
 
-_FEWEST = 4
+_FEWEST, _DRAWN = 4, 400

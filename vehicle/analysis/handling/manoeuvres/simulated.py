@@ -27,7 +27,7 @@ class SimulatedManoeuvre(Manoeuvre):
     """A manoeuvre that begins straight ahead or in a steady turn, and is simulated."""
 
     speed_km_per_h: Positive = Field(description="speed at the beginning")
-    step_ms: Positive = Field(default=1.0, description="time between two decisions of the driver")
+    step_ms: Positive = Field(default=1.0, description="sampling time of the driver")
     output_step_ms: Positive = Field(default=5.0, description="time between two outputs")
 
     def problems(self) -> list[str]:
@@ -131,7 +131,7 @@ class TurningManoeuvre(SimulatedManoeuvre):
     """A manoeuvre in which the car turns to a side."""
 
     turn: Literal["left", "right"] = Field(
-        default="left", description='"left" or "right": to which side the car turns first'
+        default="left", description="side to which the car turns first"
     )
 
     @property
@@ -148,12 +148,12 @@ def greatest(motion: xr.Dataset) -> dict[str, Number]:
 
     return {
         "greatest_lateral_acceleration": (
-            size("lateral_acceleration"), "greatest lateral acceleration, in size", "m/s^2",
+            size("lateral_acceleration"), "greatest absolute lateral acceleration", "m/s^2",
         ),
-        "greatest_yaw_rate": (size("yaw_rate"), "greatest yaw velocity, in size", "rad/s"),
-        "greatest_roll_angle": (size("roll_angle"), "greatest roll angle, in size", "rad"),
+        "greatest_yaw_rate": (size("yaw_rate"), "greatest absolute yaw velocity", "rad/s"),
+        "greatest_roll_angle": (size("roll_angle"), "greatest absolute roll angle", "rad"),
         "greatest_sideslip_angle": (
-            size("sideslip_angle"), "greatest sideslip angle, in size", "rad",
+            size("sideslip_angle"), "greatest absolute sideslip angle", "rad",
         ),
         "smallest_load": (float(motion["fz"].min()), "smallest load of a wheel", "N"),
     }  # fmt: skip

@@ -29,7 +29,7 @@ class SineSweep(SteeredManoeuvre):
     TITLE: ClassVar[str] = "sine sweep"
     CURVES: ClassVar[tuple[str, ...]] = ("", "_response")
 
-    manoeuvre: Literal["sine_sweep"] = Field(description="which manoeuvre this is")
+    manoeuvre: Literal["sine_sweep"] = Field(description="name of the manoeuvre")
     lowest_Hz: Positive = Field(  # noqa: N815 (Hz is the hertz)
         default=0.2, description="first frequency"
     )
@@ -38,7 +38,7 @@ class SineSweep(SteeredManoeuvre):
     )
     duration_s: Positive = Field(default=30.0, description="duration of the swinging")
     settle_s: Positive = Field(
-        default=4.0, description="time after it, in which the car comes to rest again"
+        default=4.0, description="time after the swinging, in which the car comes to rest"
     )
     ease_ms: Positive = Field(
         default=100.0, description="time in which the swinging begins, and in which it ends"

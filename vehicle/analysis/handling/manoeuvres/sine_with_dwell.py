@@ -38,7 +38,7 @@ class SineWithDwell(TurningManoeuvre):
 
     TITLE: ClassVar[str] = "sine with dwell"
 
-    manoeuvre: Literal["sine_with_dwell"] = Field(description="which manoeuvre this is")
+    manoeuvre: Literal["sine_with_dwell"] = Field(description="name of the manoeuvre")
     frequency_Hz: Positive = Field(  # noqa: N815 (Hz is the hertz)
         default=0.7, description="frequency of the sine"
     )
@@ -126,13 +126,13 @@ def _key(after: float) -> str:
 
 
 _DESCRIBED = {
-    "yaw_rate_peak": ("greatest yaw velocity after steering back, in size", "rad/s"),
+    "yaw_rate_peak": ("greatest absolute yaw velocity after steering back", "rad/s"),
     **{
         f"yaw_rate_ratio_{_key(t)}": (f"yaw velocity {t:.2f} s after steering, over the peak", "1")
         for t, _ in _YAW
     },
     "lateral_displacement": (f"lateral displacement {_DISPLACED} s after the beginning", "m"),
-    "greatest_sideslip_angle": ("greatest sideslip angle, in size", "rad"),
+    "greatest_sideslip_angle": ("greatest absolute sideslip angle", "rad"),
     "smallest_load": ("smallest load of a wheel", "N"),
 }
 

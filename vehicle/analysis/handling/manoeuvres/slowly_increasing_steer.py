@@ -26,7 +26,7 @@ class SlowlyIncreasingSteer(TurningManoeuvre):
 
     TITLE: ClassVar[str] = "slowly increasing steer"
 
-    manoeuvre: Literal["slowly_increasing_steer"] = Field(description="which manoeuvre this is")
+    manoeuvre: Literal["slowly_increasing_steer"] = Field(description="name of the manoeuvre")
     rate_deg_per_s: Positive = Field(default=13.5, description="rate of the steering wheel")
     ease_ms: Positive = Field(default=100.0, description="time in which the rate rises")
     until_lateral_acceleration_m_per_s2: Positive = Field(

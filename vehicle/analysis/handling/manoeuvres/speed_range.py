@@ -21,7 +21,7 @@ class SpeedRange(Manoeuvre):
     TITLE: ClassVar[str] = "straight running"
     TRAVELS: ClassVar[bool] = False
 
-    manoeuvre: Literal["speed_range"] = Field(description="which manoeuvre this is")
+    manoeuvre: Literal["speed_range"] = Field(description="name of the manoeuvre")
     from_km_per_h: Positive = Field(default=20.0, description="first speed")
     to_km_per_h: Positive = Field(default=250.0, description="last speed")
     step_km_per_h: Positive = Field(default=5.0, description="step of the speeds")

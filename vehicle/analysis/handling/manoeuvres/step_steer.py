@@ -22,17 +22,18 @@ class StepSteer(SteeredManoeuvre):
 
     TITLE: ClassVar[str] = "step steer"
 
-    manoeuvre: Literal["step_steer"] = Field(description="which manoeuvre this is")
+    manoeuvre: Literal["step_steer"] = Field(description="name of the manoeuvre")
     rate_deg_per_s: Positive = Field(
         default=400.0, description="rate of the steering wheel; the standard asks for 200 to 500"
     )
     ease_ms: Positive = Field(
         default=20.0, description="time in which the rate rises, and in which it falls again"
     )
-    start_s: Positive = Field(default=0.5, description="when the steering wheel is turned")
+    start_s: Positive = Field(default=0.5, description="time at which the steering wheel is turned")
     duration_s: Positive = Field(default=5.0, description="duration of the simulation")
     settled_s: Positive = Field(
-        default=0.5, description="last part of it, whose mean is taken as the steady value"
+        default=0.5,
+        description="length of the last part of the simulation, whose mean is the steady value",
     )
     holds_speed: Flag = Field(
         default=False, description="whether the speed is held, and not the torque of the drive"

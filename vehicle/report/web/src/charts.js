@@ -16,7 +16,7 @@ const NEXT_TO = 1e-9; // how far from a jump its two sides are drawn [m]
 const FONT = "11px system-ui, sans-serif";
 
 /** Abscissae of charts. */
-function abscissas({ grid, motion }) {
+function abscissas({ grid, motion }, steering) {
   const millimetres = (axis) => ({
     values: Array.from(axis.values, (v) => v * 1e3),
     decimals: 1,
@@ -25,7 +25,7 @@ function abscissas({ grid, motion }) {
   });
   return {
     travel: { ...millimetres(grid.travel), name: "wheel travel", key: "travel", factor: 1e3 },
-    rack: { ...millimetres(grid.rack), name: "rack displacement", key: "rack", factor: 1e3 },
+    rack: { ...millimetres(grid.rack), name: steering, key: "rack", factor: 1e3 },
     time: motion && {
       values: Array.from(motion.axis.values),
       decimals: 3,
@@ -39,7 +39,7 @@ function abscissas({ grid, motion }) {
 }
 
 export function connectCharts(data, position, move) {
-  const along = abscissas(position);
+  const along = abscissas(position, data.steering);
   const { grid } = position;
   const described = new Map(data.curves.map((curve) => [curve.key, curve]));
   for (const signal of data.motion?.signals ?? []) described.set(signal.key, signal);

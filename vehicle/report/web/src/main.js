@@ -28,7 +28,7 @@ const charts = connectCharts(data, position, (key, value) => {
   else position.setByHand({ [key]: value });
 });
 connectTable();
-connectPrinting({ view, charts, position });
+connectPrinting({ data, view, charts, position });
 position.setByHand({});
 document.documentElement.classList.add("alive");
 

@@ -6,13 +6,13 @@ import { marks, placed, shape } from "./marks.js";
 
 const PICTURE = { width: 1500, height: 1000 }; // sharp on paper, half a page high [px]
 
-export function connectPrinting({ view, charts, position }) {
+export function connectPrinting({ data, view, charts, position }) {
   const root = document.documentElement;
   const closed = [...document.querySelectorAll("details.more:not([open])")];
   window.addEventListener("beforeprint", () => {
     root.classList.add("printing"); // light colours, which all that is drawn asks for
     for (const details of closed) details.open = true;
-    showPicture(view, position);
+    showPicture(view, position, data.steering);
     for (const chart of charts) chart.print();
   });
   window.addEventListener("afterprint", () => {
@@ -23,12 +23,12 @@ export function connectPrinting({ view, charts, position }) {
   });
 }
 
-function showPicture(view, { travel, rack, time, byHand }) {
+function showPicture(view, { travel, rack, time, byHand }, steering) {
   const place = (value) => quantity(value * 1e3, 1, "mm", { signed: true });
   const steered = !document.getElementById("rack").closest("[hidden]");
   const when = byHand ? "" : `, ${quantity(time, 3, "s")} after the release`;
   document.getElementById("picture-position").textContent =
-    `Wheel travel ${place(travel)}${steered ? `, rack displacement ${place(rack)}` : ""}${when}.`;
+    `Wheel travel ${place(travel)}${steered ? `, ${steering} ${place(rack)}` : ""}${when}.`;
   const image = document.getElementById("picture");
   image.hidden = view === null;
   if (view) image.src = view.picture(PICTURE);
