@@ -13,7 +13,7 @@
 
 from .cars import cars
 from .fit import Fit, Fitted, fit
-from .goals import Verdict, goals, judge, limits, read
+from .goals import Limit, Verdict, goals, judge, limits, read
 from .optimise import Optimum, optimise
 from .pareto import Front, pareto
 from .sensitivity import Effect, effects, sensitivity
@@ -21,6 +21,6 @@ from .sweep import sweep
 from .tolerance import tolerance
 
 __all__ = [
-    "Effect", "Fit", "Fitted", "Front", "Optimum", "Verdict", "cars", "effects", "fit", "goals",
+    "Effect", "Fit", "Fitted", "Front", "Limit", "Optimum", "Verdict", "cars", "effects", "fit", "goals",
     "judge", "limits", "optimise", "pareto", "read", "sensitivity", "sweep", "tolerance",
 ]  # fmt: skip

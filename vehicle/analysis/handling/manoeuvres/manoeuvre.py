@@ -69,4 +69,12 @@ class Manoeuvre(Section):
 
     @abstractmethod
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
-        """Return metrics and curves of a car; `progress` is called with the done part, up to 1."""
+        """Return metrics and curves of a car.
+
+        Parameters
+        ----------
+        car : DrivingCar
+            A car and its equations.
+        progress : callable
+            It is called with the finished part, up to 1.
+        """
