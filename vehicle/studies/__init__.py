@@ -21,6 +21,6 @@ from .sweep import sweep
 from .tolerance import tolerance
 
 __all__ = [
-    "Effect", "Fit", "Fitted", "Front", "Limit", "Optimum", "Verdict", "cars", "effects", "fit", "goals",
-    "judge", "limits", "optimise", "pareto", "read", "sensitivity", "sweep", "tolerance",
+    "Effect", "Fit", "Fitted", "Front", "Limit", "Optimum", "Verdict", "cars", "effects", "fit",
+    "goals", "judge", "limits", "optimise", "pareto", "read", "sensitivity", "sweep", "tolerance",
 ]  # fmt: skip
