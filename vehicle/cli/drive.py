@@ -17,6 +17,7 @@ from .outputs import (
     name_files,
     title_of,
 )
+from .road import RoadOptions
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
 
     from ..analysis.handling import HandlingResult
     from ..analysis.handling.manoeuvres import Manoeuvre
+    from ..assembly.car import CarAssembly
+    from ..roads import Road
 
 EXAMPLES = (
     "kintrafo drive driving_car",
@@ -33,6 +36,7 @@ EXAMPLES = (
     "kintrafo drive driving_car --manoeuvre double_lane_change --speed 70 -o lane.csv",
     "kintrafo drive driving_car --manoeuvre double_lane_change --animate lane.gif",
     "kintrafo drive driving_car --manoeuvre braking --loads loads.csv",
+    "kintrafo drive driving_car --manoeuvre straight --bump -40 --plot pothole.png",
     "kintrafo new my_step.toml --template step_steer",
 )
 
@@ -52,6 +56,7 @@ def command(
     turn: Annotated[
         Literal["left", "right"] | None, option("Side in place of that of the manoeuvre.")
     ] = None,
+    road: RoadOptions,
     animate: Animation = None,
     loads: Loads = None,
     output: SingleFigureOptions,
@@ -62,7 +67,8 @@ def command(
     can be edited; kintrafo new FILE --template NAME writes one that comes with kintrafo. Metrics
     are those of the standards, in the axes of ISO 8855. Data files have the curves over time,
     lateral acceleration or frequency; figures show them, and the path in a file whose name ends in
-    _path; --animate shows the car in motion, with the forces on its tyres; --loads has the forces
+    _path. --road, --bump and --kerb are roads whose tracks follow the path of the car. --animate
+    shows the car in motion, with the forces on its tyres; --loads has the forces
     of all joints, springs and tyres, whose greatest ones are printed.
     """
     from ...core.errors import InputError
@@ -77,7 +83,8 @@ def command(
         manoeuvre, {name: value for name, value in changes.items() if value is not None}
     )
     pages = (*_drawn(chosen), *(("_path",) if chosen.TRAVELS else ()))
-    own = () if manoeuvre in manoeuvres() else (manoeuvre,)
+    own = [] if manoeuvre in manoeuvres() else [manoeuvre]
+    own += [road.name] if road.is_measured else []
     outputs = output.files(file, *own, suffixes=chosen.CURVES, drawn=pages)
     on_parts = DataOptions(loads, output.force).files(file, *own)
     further = [*(loads or ()), *([] if animate is None else [animate])]
@@ -87,13 +94,9 @@ def command(
         raise InputError([problem], "--loads" if loads else "--animate")
     if animate is not None:
         refuse([animate], endings=ENDINGS, **outputs.rule)
-    assembly = car_of(file)
-    with naming(file):  # before the equations are derived
-        assembly.require_driving()
-        chosen.check(assembly.car)
-    assembly = derived(assembly)
+    assembly, profile = _on_road(file, chosen, road)
     with progress_bar(chosen.TITLE) as progress:
-        found = handling.drive(assembly, chosen, progress=progress)
+        found = handling.drive(assembly, chosen, road=profile, progress=progress)
     title = f"{title_of(file)}: {found.metrics.attrs['title']}"
     written = _write(outputs, found, chosen, title)
     if animate is not None:
@@ -116,6 +119,23 @@ def command(
             console.print(each)
         name_files(written)
     end_if_not_valid(found.not_valid)
+
+
+def _on_road(
+    file: str, chosen: "Manoeuvre", road: RoadOptions
+) -> "tuple[CarAssembly, Road | None]":
+    """Return the car with its equations, and its road; refuse before equations are derived."""
+    from ...core.errors import InputError
+
+    road.refuse_without_road()
+    assembly = car_of(file)
+    with naming(file):
+        assembly.require_driving()
+        chosen.check(assembly.car)
+    if road.is_given and not chosen.TRAVELS:
+        raise InputError([f"{chosen.TITLE} {_NO_ROAD}"], "--road, --bump, --kerb")
+    profile = road.for_distance(assembly, chosen.greatest_distance) if road.is_given else None
+    return derived(assembly), profile
 
 
 def _drawn(chosen: "Manoeuvre") -> tuple[str, ...]:
@@ -180,6 +200,7 @@ _HEADS, _COLUMN = 30, 10
 
 # Smaller forces are rounding [N].
 _LEAST = 0.5
+_NO_ROAD = "is not simulated, and so not over a road. Leave it out."
 _NO_MOTION = "has no simulation, and so no motion to show. Leave it out."
 
 

@@ -8,7 +8,7 @@ from ...terminal.console import console, print_json, problems, table
 from .loading import car_of, derived, naming, note_unused
 from .options import argument, option
 from .outputs import Animation, SingleFigureOptions, end_if_not_valid, name_files, title_of
-from .ride_road import DURATION, RoadOptions
+from .road import DURATION, RoadOptions
 
 if TYPE_CHECKING:
     from rich.table import Table

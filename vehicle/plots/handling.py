@@ -39,6 +39,8 @@ _SHOWN: Mapping[str, tuple[str, ...]] = {
         "lateral_acceleration_phase", "sideslip_angle_phase",
     ),
 }  # fmt: skip
+# Curves over time that come first on a road with heights.
+_ON_A_ROAD = ("road", "vertical_acceleration")
 _SIDESLIP = "sideslip_angle"
 # Curves without larger values, in display units, are rounding: steering torque straight ahead.
 _ROUNDING = 1e-6
@@ -86,7 +88,8 @@ def write_curves(
 def first_names(dataset: xr.Dataset) -> list[str]:
     """Return the names of the main curves of a manoeuvre, in their order."""
     moving = {str(name) for name in varying(dataset)}
-    there = [name for name in _SHOWN[_along(dataset)] if name in moving]
+    further = _ON_A_ROAD if "road" in dataset else ()
+    there = [name for name in (*further, *_SHOWN[_along(dataset)]) if name in moving]
     return [name for name in there if np.nanmax(np.abs(displayed(dataset[name]))) > _ROUNDING]
 
 

@@ -12,6 +12,10 @@ MOST_POINTS = 4_000_000
 """Number of points that a road has at most: 32 MB a track."""
 
 
+LEAD = 5.0
+"""Distance over which a road rises from level to its first heights, for cars that drive [m]."""
+
+
 @dataclass(frozen=True, eq=False)
 class Road:
     """Heights of a road under the left and the right wheels.
@@ -64,6 +68,11 @@ class Road:
         """Distance between the first and the last point [m]."""
         return self.spacing * (self.left.size - 1)
 
+    @property
+    def lead(self) -> float:
+        """Distance before the road at which a car on the level begins: `LEAD`, or zero [m]."""
+        return 0.0 if self.left[0] == self.right[0] == 0.0 else LEAD
+
     def over_time(self, side: str, speed: float, behind: float, end: float) -> CubicSpline:
         """Return the height under a wheel over time.
 
@@ -96,6 +105,29 @@ class Road:
         times = (np.arange(padded.size) - before) * step + behind / speed
         inside = (times >= -2.0 * step) & (times <= end + 2.0 * step)
         return CubicSpline(times[inside], padded[inside], extrapolate=False)
+
+    def over_distance(self, side: str) -> CubicSpline:
+        """Return the height under the wheels of a side over the distance along the road.
+
+        Parameters
+        ----------
+        side : {'left', 'right'}
+
+        Returns
+        -------
+        scipy.interpolate.CubicSpline
+            Height [m] by distance [m], level at both ends: from `LEAD` before the road, where it
+            rises from zero to the first height, to one spacing beyond the last one.
+        """
+        with Validator("Road.over_distance") as given:
+            given.among("side", side, ("left", "right"))
+        heights = self.left if side == "left" else self.right
+        before = int(np.ceil(LEAD / self.spacing))
+        share = np.linspace(0.0, 1.0, before, endpoint=False)
+        rising = heights[0] * share * share * (3.0 - 2.0 * share)
+        every = np.concatenate([rising, heights, heights[-1:]])
+        places = self.spacing * (np.arange(every.size) - before)
+        return CubicSpline(places, every, bc_type="clamped")
 
     def __add__(self, other: "Road") -> "Road":
         """Return the sum of two roads with equal spacing and length."""

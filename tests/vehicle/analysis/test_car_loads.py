@@ -106,6 +106,16 @@ def test_at_rest_they_are_those_of_the_axle_under_its_load(car) -> None:
         assert here == pytest.approx(there, abs=3e-3 * load)
 
 
+def test_forces_over_a_bump_move_the_body(car) -> None:
+    bump = kintrafo.road_profiles.bump(0.03, 0.8, at=1.0, sides="left")
+    run = drive(car, "straight", {"duration_s": 0.4}, road=bump).runs[-1]
+    motion = CarInMotion(run.car.assembly, run.states, run.inputs)
+    found = of_car(run.car.assembly, run.states, run.inputs)
+    assert np.abs(found["holding_force"]).max() < 1e-5
+    the_body_is_balanced(motion, found)
+    assert np.ptp(motion.inputs[:, motion.model.input_names.index("rear_left_road_height")]) > 0.02
+
+
 def power_of_wheels(motion):
     """Return the power of the road on the wheels and of the drive torques, (n,), W."""
     bodies, total = motion.model.equations.BODIES, 0.0

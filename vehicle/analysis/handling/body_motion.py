@@ -25,6 +25,7 @@ QUANTITIES = {
     "yaw_rate": ("yaw velocity, positive to the left", "rad/s"),
     "longitudinal_acceleration": ("longitudinal acceleration, positive forward", "m/s^2"),
     "lateral_acceleration": ("lateral acceleration, positive to the left", "m/s^2"),
+    "vertical_acceleration": ("vertical acceleration, positive upward", "m/s^2"),
 }
 """Quantities of the motion: meaning and SI unit, by name."""
 
@@ -98,6 +99,7 @@ class ReferencePoint:
             "yaw_rate": heading_rate,
             "longitudinal_acceleration": cosine * acceleration[0] + sine * acceleration[1],
             "lateral_acceleration": cosine * acceleration[1] - sine * acceleration[0],
+            "vertical_acceleration": acceleration[2],
         }
 
 

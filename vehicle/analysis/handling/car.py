@@ -10,9 +10,11 @@ from ....core.named_types import Array
 from ....systems.system import System
 from ...assembly.car import CarAssembly
 from ...assembly.controls import Controls
+from ...roads.road import Road
 from ..loads.on_a_car import rack_force
 from ..run import Run
 from .body_motion import ReferencePoint
+from .road_under import RoadUnder
 
 
 @dataclass(frozen=True)
@@ -48,6 +50,8 @@ class DrivingCar:
         The car with its linkages, for the forces in them.
     watched : callable, optional
         Called with each `Run` of the car.
+    road : Road, optional
+        The road on which it drives; level by default.
     """
 
     model: System
@@ -64,6 +68,7 @@ class DrivingCar:
     steering_input: str = "rack_position"
     assembly: CarAssembly | None = None
     watched: Callable[[Run], None] | None = None
+    road: Road | None = None
 
     @property
     def body(self) -> str:
@@ -79,6 +84,13 @@ class DrivingCar:
     def brake_torque(self) -> float:
         """Torque of all brakes together at full pedal [N m]."""
         return float(np.abs(self._brakes).sum())
+
+    def road_under(self) -> RoadUnder | None:
+        """Return its road under the wheels from the start on; None for a level one."""
+        if self.road is None:
+            return None
+        behind = [0.0 if wheel in self.steered else self.wheelbase for wheel in self.wheels]
+        return RoadUnder(self.road, self.wheels, behind, self.model.input_names)
 
     def signal_rows(self, what: str, wheels: Sequence[str]) -> list[int]:
         """Return the indices of a signal of some wheels."""

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from ....core.named_types import Array
+from ....core.quantities import variable
 from ....core.validator import Validator
 from ....simulation.stepper import Stepper
 from ....simulation.validity import bounds_of, excursions
@@ -19,6 +20,8 @@ from .drivers import Observation, Pedals, Pushes, Steers
 from .result import quantity
 
 _METHOD: Literal["DormandPrince"] = "DormandPrince"
+# A car that moves less to a side runs along the road, which its pictures show [m].
+_STRAIGHT = 0.5
 # Below this cosine of the tilt of the body the car overturns.
 _FALLEN = 0.5
 MOST_SAMPLES = 2_000_000
@@ -34,6 +37,9 @@ OF_WHEELS = {
 """Quantities of each wheel: meaning and unit."""
 
 STEER = ("steer angle of the wheel to the body, positive to the left", "rad")
+"""Meaning and unit."""
+
+ROAD = ("height of the road under the wheel", "m")
 """Meaning and unit."""
 
 STEERING_TORQUE = ("torque of the steering wheel, positive to the left", "N m")
@@ -98,8 +104,9 @@ def driven(
     -------
     xarray.Dataset
         Over ``time``: the motion of the body, the actions of the driver, and forces and slips of
-        each wheel. The attribute ``not_valid`` describes where the motion leaves the validity of
-        the equations; the simulation of a car that overturns ends there.
+        each wheel; on a road with heights also these, as ``road``. The attribute ``not_valid``
+        describes where the motion leaves the validity of the equations; the simulation of a car
+        that overturns ends there.
 
     Raises
     ------
@@ -114,13 +121,16 @@ def driven(
                 f"step = {how.step:g} s makes {count:,} samples in {duration:g} s: too many."
             )
     stepper = Stepper(car.model, how.step, start, method=_METHOD)
-    look = _look(car)
+    look, under = _look(car), car.road_under()
     rows: list[tuple[float, Array, Array, float, Pedals]] = []
     for sample in range(count + 1):
         seen = look(stepper.time, stepper.state)
         wheel, pedals = steers.decide(seen, how.step), pushes.decide(seen, how.step)
         angle, rate, acceleration = (float(each) for each in wheel)
-        stepper.inputs = car.inputs(angle, rate, acceleration, pedals.drive, pedals.brake)
+        acting = car.inputs(angle, rate, acceleration, pedals.drive, pedals.brake)
+        if under is not None:
+            under.advance(acting, (seen.speed, seen.lateral_velocity), how.step)
+        stepper.inputs = acting
         fallen = seen.upright < _FALLEN
         ended = sample == count or fallen or (until is not None and until(seen))
         if sample % how.outputs == 0 or ended:
@@ -136,7 +146,8 @@ def driven(
     if car.watched is not None:
         states, inputs = (np.array(each) for each in zip(*(row[1:3] for row in rows), strict=True))
         places = np.stack([found["x"].values, found["y"].values], axis=-1)
-        car.watched(Run(car, found, states, inputs, places))
+        straight = np.ptp(places[:, 1]) <= _STRAIGHT
+        car.watched(Run(car, found, states, inputs, places, road=car.road if straight else None))
     return found
 
 
@@ -194,6 +205,9 @@ def _dataset(car: DrivingCar, rows: list[tuple[float, Array, Array, float, Pedal
         found[name] = quantity(
             (WHEEL, "time"), signals[:, car.signal_rows(name, car.wheels)].T, *described
         )
+    if car.road is not None:
+        heights = [car.model.input_names.index(f"{wheel}_road_height") for wheel in car.wheels]
+        found["road"] = variable((WHEEL, "time"), acting[:, heights].T, *ROAD)
     coordinates = {
         "time": ("time", np.array(times), {"units": "s", "long_name": "time"}),
         WHEEL: wheel_coordinate(car.wheels),

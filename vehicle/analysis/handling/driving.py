@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from ....core.validator import Validator
+from ...roads.road import Road
 from .car import DrivingCar
 from .circle import steady_turns
 from .manoeuvres import Manoeuvre, load_manoeuvre
@@ -24,6 +25,7 @@ def drive(
     manoeuvre: str | Path | Mapping[str, Any] | Manoeuvre,
     changes: Mapping[str, Any] | None = None,
     *,
+    road: Road | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> HandlingResult:
     """Return the motion of a car in a manoeuvre, and its metrics.
@@ -37,6 +39,11 @@ def drive(
         or the result of `load_manoeuvre`.
     changes : mapping of str to Any, optional
         Values that replace those of the file, in its units, by key: ``{"speed_km_per_h": 100.0}``.
+    road : Road, optional
+        The road, such as `kintrafo.road_profiles.iso8608`; level by default. Its tracks are under
+        the left and right wheels, and follow the path of the car; heights are those at the distance
+        that the car has travelled. A manoeuvre begins in the motion on a level road, and
+        beyond its end the road is level.
     progress : callable, optional
         Called with the completed fraction, up to 1.
 
@@ -61,12 +68,21 @@ def drive(
         found = manoeuvre
     else:
         found = load_manoeuvre(manoeuvre, changes)
+    with Validator("drive") as given:
+        if road is not None:
+            given.instance("road", road, Road, "a kintrafo.road_profiles.Road is needed")
+            if not found.TRAVELS:
+                given.fail(f"road: {found.TITLE} is not simulated over a road. Leave it out.")
     if not isinstance(subject, DrivingCar):
         subject = car_that_drives("drive", subject)
         found.check(subject.car)
     runs: list[Run] = []
-    car = replace(driving_car("drive", subject), watched=runs.append)
-    return found.run(car, progress or (lambda _: None))._replace(runs=tuple(runs))
+    car = replace(driving_car("drive", subject), watched=runs.append, road=road)
+    result = found.run(car, progress or (lambda _: None))._replace(runs=tuple(runs))
+    if road is not None:
+        for each in (result.metrics, *result.curves.values()):
+            each.attrs["title"] = f"{each.attrs.get('title', found.TITLE)}, {road.words}"
+    return result
 
 
 # Constant quantities of steady turns by argument: the condition, and the unit of the argument.

@@ -12,7 +12,6 @@ from ....core.vectors import cross, unit_vector
 from ....systems.skeleton import Skeleton
 from ...analysis.run import MovingCar, Run
 from ...corner.corner import UP
-from ...roads.road import Road
 
 WIDTH = 0.62
 """Width of a wheel relative to its radius."""
@@ -135,7 +134,7 @@ def scene_of(run: Run, rows: NDArray[np.intp], *, cones: xr.Dataset | None = Non
         forces=forces,
         places=run.places[rows],
         cones=_beside(run, cones),
-        tracks=[] if run.road is None else _tracks(run.road, car, centers, way),
+        tracks=_tracks(run, centers, rows),
         words=_words(motion),
     )
 
@@ -149,8 +148,14 @@ def _beside(run: Run, cones: xr.Dataset | None) -> Array:
     return found
 
 
-def _tracks(road: Road, car: MovingCar, centers: Array, way: Array) -> list[Array]:
-    """Return the road along the way of the wheels of each side."""
+def _tracks(run: Run, centers: Array, rows: NDArray[np.intp]) -> list[Array]:
+    """Return the road along the way of the wheels of each side; empty for a level road."""
+    car, road = run.car, run.road
+    if road is None:
+        return []
+    # the way along the road, from the distance before it at which the car begins
+    before = road.lead if run.way is None else 0.0
+    way = (run.places[:, 0] - run.places[0, 0] if run.way is None else run.way)[rows]
     at = centers[0] - way[0] * np.array([1.0, 0.0, 0.0])
     first, last = at[:, 0].min() - _BEYOND, at[:, 0].max() + way[-1] + _BEYOND
     along = np.arange(first, last, _ALONG)
@@ -159,7 +164,7 @@ def _tracks(road: Road, car: MovingCar, centers: Array, way: Array) -> list[Arra
     for side, heights in (("left", road.left), ("right", road.right)):
         across = [y for wheel, y in zip(car.wheels, at[:, 1], strict=True) if wheel.endswith(side)]
         if across:
-            z = np.interp(along - at[:, 0].max(), stations, heights)
+            z = np.interp(along - at[:, 0].max() - before, stations, heights)
             y = np.full(along.size, float(np.mean(across)))
             found.append(np.stack([along, y, z], axis=-1))
     return found

@@ -19,9 +19,10 @@ from .sine_with_dwell import SineWithDwell
 from .slowly_increasing_steer import SlowlyIncreasingSteer
 from .speed_range import SpeedRange
 from .step_steer import StepSteer
+from .straight import Straight
 
 __all__ = [
     "MANOEUVRES", "Acceleration", "BrakingInTurn", "Circle", "CoastDown", "DoubleLaneChange",
     "Manoeuvre", "Parking", "PathFollowing", "SineSweep", "SineWithDwell", "SlowlyIncreasingSteer",
-    "SpeedRange", "StepSteer", "StraightBraking", "load_manoeuvre",
+    "SpeedRange", "StepSteer", "Straight", "StraightBraking", "load_manoeuvre",
 ]  # fmt: skip

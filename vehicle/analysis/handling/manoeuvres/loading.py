@@ -29,12 +29,13 @@ from .sine_with_dwell import SineWithDwell
 from .slowly_increasing_steer import SlowlyIncreasingSteer
 from .speed_range import SpeedRange
 from .step_steer import StepSteer
+from .straight import Straight
 
 _KEY = "manoeuvre"
 _CLASSES: tuple[type[Manoeuvre], ...] = (
     StepSteer, SineSweep, SlowlyIncreasingSteer, SineWithDwell, DoubleLaneChange, PathFollowing,
     StraightBraking, BrakingInTurn, Acceleration, CoastDown, Circle, SpeedRange,
-    Parking,
+    Parking, Straight,
 )  # fmt: skip
 
 MANOEUVRES: Mapping[str, type[Manoeuvre]] = {

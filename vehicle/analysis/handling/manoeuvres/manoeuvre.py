@@ -59,6 +59,11 @@ class Manoeuvre(Section):
             if not least <= value <= most
         ]
 
+    @property
+    def greatest_distance(self) -> float:
+        """The distance that the car travels at most [m]; 0 if nothing is simulated."""
+        return 0.0
+
     def check(self, car: Car) -> None:
         """Raise an `InputError` for a car that cannot drive it, before equations are derived."""
         require_controls(car)

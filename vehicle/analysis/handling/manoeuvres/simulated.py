@@ -21,6 +21,8 @@ from .manoeuvre import Manoeuvre, Number, Progress
 
 # Approximate time in which a driver halves a deviation from the speed [s].
 _PATIENCE = 1.0
+# More than the duration of manoeuvres whose files have none [s].
+_USUAL_DURATION = 60.0
 
 
 class SimulatedManoeuvre(Manoeuvre):
@@ -51,6 +53,11 @@ class SimulatedManoeuvre(Manoeuvre):
     def speed(self) -> float:
         """Speed at the beginning [m/s]."""
         return self.speed_km_per_h / KM_PER_H
+
+    @property
+    def greatest_distance(self) -> float:
+        """The distance that the car travels at most, from its speed and duration [m]."""
+        return self.speed * float(getattr(self, "duration_s", _USUAL_DURATION))
 
     @property
     def sense(self) -> int:

@@ -35,6 +35,11 @@ class UntilSpeed(SimulatedManoeuvre):
         """Speed at which it ends [m/s]."""
         return self.until_km_per_h / KM_PER_H
 
+    @property
+    def greatest_distance(self) -> float:
+        """The distance that the car travels at most, from its greatest speed and duration [m]."""
+        return super().greatest_distance * max(1.0, self.end_speed / self.speed)
+
     def ended(self, seen: Observation) -> bool:
         """Return whether the car has reached the end speed."""
         return seen.speed <= self.end_speed if self.SLOWS else seen.speed >= self.end_speed

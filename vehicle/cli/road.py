@@ -1,4 +1,4 @@
-"""The road of ``kintrafo ride``: a rough or measured road, a bump or a kerb."""
+"""The road of ``kintrafo ride`` and ``drive``: a rough or measured road, a bump or a kerb."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -26,7 +26,8 @@ class RoadOptions:
         str | None,
         option(
             "Rough road, a class of ISO 8608 from A to H; or the file of a measured one: CSV with "
-            "distance_m, left_height_mm and right_height_mm, or OpenCRG (.crg). Default: B.",
+            "distance_m, left_height_mm and right_height_mm, or OpenCRG (.crg). Default: B for a "
+            "ride; a level road for manoeuvres.",
             "CLASS|FILE",
         ),
     ] = None
@@ -73,7 +74,7 @@ class RoadOptions:
             "--bump-length": (self.bump_length, "m"),
             "--contact-length": (self.contact_length, "mm"),
         }
-        with Validator("kintrafo ride") as given:
+        with Validator("road") as given:
             for name, (length, unit) in lengths.items():
                 if length is not None:
                     given.number(name, length, unit, above=0.0)
@@ -83,6 +84,17 @@ class RoadOptions:
             raise typer.BadParameter(
                 "--kerb needs --contact-length, as a wheel does not touch an edge at a point"
             )
+
+    @property
+    def is_given(self) -> bool:
+        """Whether an option chooses a road."""
+        return any(each is not None for each in (self.road, self.bump, self.kerb))
+
+    def refuse_without_road(self) -> None:
+        """Refuse options of a road if no option chooses one."""
+        if not self.is_given:
+            named = {"--seed": self.seed, "--contact-length": self.contact_length}
+            refuse_options("--road, --bump and --kerb", named)
 
     @property
     def name(self) -> str:
@@ -124,12 +136,12 @@ class RoadOptions:
         duration : float, optional
             [s]. Default: until the last wheel reaches the end of a measured road, else `DURATION`.
         """
-        found = self._road(assembly, speed * (duration or DURATION))
+        found = self.for_distance(assembly, speed * (duration or DURATION))
         if duration is None and self.is_measured:
             return found, (found.length + max(assembly.behind().values())) / speed
         return found, duration or DURATION
 
-    def _road(self, assembly: "CarAssembly", distance: float) -> "Road":
+    def for_distance(self, assembly: "CarAssembly", distance: float) -> "Road":
         """Return a road for a travelled distance [m]."""
         from .. import roads
 

@@ -1,0 +1,75 @@
+"""A car that drives over a road, against the same road as heights over time."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from driving_cars import light_car
+from kintrafo import CarModel, InputError, road_profiles, simulate
+from kintrafo.vehicle.analysis.handling import drive
+from kintrafo.vehicle.analysis.handling.driven import driven
+from kintrafo.vehicle.analysis.handling.drivers import Fixed, HeldTorque
+from kintrafo.vehicle.analysis.handling.subject import driving_car
+
+SPEED, WHEELBASE = 20.0, 2.6
+
+
+@pytest.fixture(scope="module")
+def model():
+    return CarModel(light_car())
+
+
+def test_heights_by_distance_are_those_over_time_at_constant_speed(model) -> None:
+    """`kintrafo.simulate` has the heights as splines of time, and its own steps."""
+    road = road_profiles.bump(0.03, 1.0, at=2.0, end=40.0, sides="left")
+    car = driving_car("test", model)
+    start = car.assembly.running(SPEED)
+    inputs = dict(zip(model.input_names, start.inputs.tolist(), strict=True))
+    torque = inputs["front_left_drive_torque"] + inputs["front_right_drive_torque"]
+    angle = inputs["rack_position"] / float(car.controls.rack(1.0, 0.0)["rack_position"])
+    found = driven(
+        replace(car, road=road), np.asarray(start), Fixed(angle), HeldTorque(torque, torque), 0.6
+    )
+    behind = {"front": 0.0, "rear": WHEELBASE}
+    heights = {
+        f"{wheel}_road_height": road.over_time(side, SPEED, behind[end], 0.6)
+        for wheel in car.wheels
+        for end, side in [wheel.split("_")]
+    }
+    other = simulate(
+        model, (0.0, 0.6), start, inputs=heights, t_eval=found["time"].values,
+        method="DormandPrince", rtol=1e-8, atol=1e-10,
+    )  # fmt: skip
+    for wheel in car.wheels:
+        load = other.signals[f"{wheel}_fz"]
+        # chords of 20 mm on a bump of 1 m, and 1 mm of distance as the bump slows the car
+        assert np.abs(found["fz"].sel(wheel=wheel) - load).max() < 5e-3 * np.ptp(load)
+    assert np.ptp(other.signals["rear_left_fz"]) > 2000.0
+
+
+def test_a_wheel_is_on_the_road_at_its_own_distance(model) -> None:
+    """In braking: the distance is the integral of the speed, and rear wheels are behind."""
+    road = road_profiles.Road(0.5, 0.02 * np.sin(np.arange(80.0)), 0.01 * np.cos(np.arange(80.0)))
+    changes = {
+        "speed_km_per_h": 50.0,
+        "deceleration_m_per_s2": 6.0,
+        "step_ms": 2.0,
+        "output_step_ms": 2.0,
+    }
+    found = drive(model, "braking", changes, road=road).curves[""]
+    way = found["x"].values - found["x"].values[0]
+    for wheel, back in {"front_left": 0.0, "front_right": 0.0, "rear_left": WHEELBASE}.items():
+        track = road.over_distance(wheel.rpartition("_")[2])
+        # the right track begins 10 mm above level: the car begins before the road
+        wanted = track(np.clip(way - road_profiles.road.LEAD - back, track.x[0], track.x[-1]))
+        assert np.abs(found["road"].sel(wheel=wheel) - wanted).max() < 1e-4
+    assert way[-1] > 15.0
+    assert found.attrs["title"].endswith("a road of given heights")
+
+
+def test_a_road_is_refused_where_nothing_is_simulated(model) -> None:
+    road = road_profiles.bump(0.03, 1.0)
+    with pytest.raises(InputError, match="road: steady-state circle is not simulated"):
+        drive(model, "circle", road=road)
+    with pytest.raises(InputError, match=r"road_profiles\.Road is needed"):
+        drive(model, "straight", road="C")

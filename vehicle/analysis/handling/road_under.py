@@ -1,0 +1,75 @@
+"""The road under the wheels of a car that drives, by the distance that the car has travelled."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from ....core.named_types import Array
+from ...models.sides import SIDES
+from ...roads.road import Road
+
+
+class RoadUnder:
+    """Heights of a road under the wheels of a car, at the samples of a simulation.
+
+    Both tracks of the road follow the path of the car: a wheel is on the track of its side, at the
+    distance that the reference point has travelled, less the distance of the wheel behind the front
+    wheels. Between two samples heights change linearly. The front wheels begin `Road.lead` before
+    the start of the road.
+
+    Parameters
+    ----------
+    road : Road
+    wheels : sequence of str
+        Names of the wheels, which end in their side.
+    behind : sequence of float
+        Distance of each wheel behind the front wheels [m].
+    input_names : sequence of str
+        Inputs of the equations.
+    """
+
+    def __init__(
+        self, road: Road, wheels: Sequence[str], behind: Sequence[float], input_names: Sequence[str]
+    ) -> None:
+        names = list(input_names)
+        self._sides = []
+        for side in SIDES:
+            own = [i for i, wheel in enumerate(wheels) if wheel.endswith(f"_{side}")]
+            heights = [names.index(f"{wheels[i]}_road_height") for i in own]
+            rates = [names.index(f"{wheels[i]}_road_velocity") for i in own]
+            back = np.array([behind[i] for i in own])
+            self._sides.append((road.over_distance(side), back, heights, rates))
+        self._travelled = -road.lead
+        self._speed: float | None = None
+        self._reached: list[Array] = [
+            self._at(spline, back, 0.0) for spline, back, *_ in self._sides
+        ]
+
+    def advance(self, inputs: Array, velocity: tuple[float, float], step: float) -> None:
+        """Set the heights, and their rates up to the next sample, in the inputs of a step.
+
+        Parameters
+        ----------
+        inputs : ndarray
+            Inputs of the equations; those of the road are replaced.
+        velocity : tuple of float
+            Horizontal velocity of the reference point at this sample, along and across the heading
+            [m/s].
+        step : float
+            Time between two samples [s].
+        """
+        speed = math.hypot(*velocity)
+        if self._speed is not None:
+            self._travelled += 0.5 * (self._speed + speed) * step
+        self._speed = speed
+        for i, (spline, back, heights, rates) in enumerate(self._sides):
+            now, then = self._reached[i], self._at(spline, back, speed * step)
+            inputs[heights], inputs[rates] = now, (then - now) / step
+            self._reached[i] = then
+
+    def _at(self, spline: CubicSpline, back: Array, ahead: float) -> Array:
+        """Return the heights under the wheels of a side after a further distance [m]."""
+        found: Array = spline(np.clip(self._travelled + ahead - back, *spline.x[[0, -1]]))
+        return found
