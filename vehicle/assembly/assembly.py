@@ -382,11 +382,6 @@ class Assembly(ABC):
 class HeldAssembly(Assembly):
     """An assembly whose body is held: a corner, an axle, or an axle without sides."""
 
-    @property
-    def held_parts(self) -> "Mapping[str, HeldAssembly]":
-        """Itself, without a name."""
-        return {"": self}
-
     # -- its parts ---------------------------------------------------------------------------------
 
     @property
