@@ -31,7 +31,7 @@ def assembly_of_file(file: str, held: str | None = None) -> "Assembly":
         return assembly_of(subject)
 
 
-def _refuse_car(car: "Car", file: str, command: str) -> NoReturn:
+def _refuse_car(car: "Subject", file: str, command: str) -> NoReturn:
     """Refuse a car, and name the files of its suspensions and axles."""
     from ...core.errors import InputError
 
@@ -72,10 +72,9 @@ def note_unused(car: "Car", file: str) -> None:
 def variable_subject(file: str, held: str | None = None) -> "Subject":
     """Return the suspension, axle or car in a file; `held` as in `assembly_of_file`."""
     from ..files.loading import load
-    from ..models.car import Car
 
     subject = load(file)
-    if held is not None and isinstance(subject, Car):
+    if held is not None and subject.whole_car:
         _refuse_car(subject, file, held)
     return subject
 

@@ -62,11 +62,10 @@ def command(
     motions of the body, as of kintrafo sensitivity (--over, --of, --at).
     """
     from ...datasets import export
-    from ..models.car import Car
 
     outputs = output.files(file, driven.measured)
     subject = variable_subject(file)
-    of_car = isinstance(subject, Car)
+    of_car = subject.whole_car
     _refuse_other_options(keep, asked, driven, of_car=of_car)
     grid = dict(map(_numbers, values))
     if len(grid) < len(values):

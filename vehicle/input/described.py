@@ -96,7 +96,20 @@ def parts_of(
 
 
 class Described:
-    """An object that a file describes."""
+    """An object that a file describes.
+
+    Attributes
+    ----------
+    whole_car : bool
+        Whether it is a car, of which axles or a corner are parts.
+    """
+
+    whole_car: ClassVar[bool] = False
+
+    @property
+    def parts_named(self) -> list[str]:
+        """The file names of the parts of a car, except those that are tables."""
+        return []
 
     @classmethod
     @abstractmethod

@@ -34,7 +34,7 @@ def check_subject(given: Validator, subject: Any) -> None:
 def check_held_subject(given: Validator, subject: Any) -> None:
     """Add an error for a subject without design variables, or a car."""
     check_subject(given, subject)
-    if isinstance(subject, Car):
+    if getattr(subject, "whole_car", False):
         given.fail(
             "suspension: this is a whole car. kintrafo.variation.cars has its numbers over a grid "
             'of values; motions are those of car.axles["front"], car.axles["rear"], car.corner.'

@@ -73,6 +73,7 @@ class Car(DescribedParts):
 
     NEEDED = 'a kintrafo.Car, such as kintrafo.load("reference_vehicle"), is needed'
 
+    whole_car = True
     KEY = CAR
     FILE = CarFile
     PACKAGE = CARS
