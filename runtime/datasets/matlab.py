@@ -10,8 +10,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.io import savemat
-from scipy.io.matlab import MatWriteError
 
 from ..core.errors import InputError
 
@@ -45,6 +43,9 @@ def write(frame: Any, described: Mapping[str, Mapping[str, Any]], about: Any, pa
     InputError
         If a column is larger than the format allows.
     """
+    from scipy.io import savemat  # noqa: PLC0415 (slow to import)
+    from scipy.io.matlab import MatWriteError  # noqa: PLC0415 (as this)
+
     names = valid_names(map(str, frame.columns))
     columns = dict(zip(frame.columns, names, strict=True))
     found = {

@@ -12,6 +12,9 @@ from typer.core import TyperArgument, TyperCommand, TyperGroup, TyperOption
 
 from ..core.suggestions import nearest, suggestion
 
+MistakenUsage: Any = typer.BadParameter.__mro__[2]
+"""Click's base of all mistakes in arguments, of which Typer may have a copy of its own."""
+
 _COMMON = {"--help", "-h"}  # options of every command, which messages do not list
 _FEW = 3  # most commands that a message about an option names
 

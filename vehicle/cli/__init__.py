@@ -7,8 +7,8 @@ from typing import Annotated, Any, ClassVar
 import typer
 from rich.markup import escape
 
-from ...terminal.exits import guarded, show_usage_error, standing_streams
-from ...terminal.usage import Command, CommandGroup
+from ...terminal.exits import Exit, guarded, show_usage_error, standing_streams
+from ...terminal.usage import Command, CommandGroup, MistakenUsage
 from . import (
     characteristics,
     check,
@@ -149,8 +149,11 @@ def main(
 
 def run() -> None:
     """Run the command line; a user's mistake ends with a message, not with a traceback."""
-    from typer import rich_utils
-
-    vars(rich_utils)["rich_format_error"] = show_usage_error
     with standing_streams(), guarded():
-        app(prog_name="kintrafo")
+        try:
+            # not standalone: Typer's own messages need rich's Markdown, which is slow to import
+            code = app(prog_name="kintrafo", standalone_mode=False)
+        except MistakenUsage as error:
+            show_usage_error(error)
+            code = error.exit_code
+        raise SystemExit(code or Exit.DONE)

@@ -194,13 +194,13 @@ def test_what_documents_name_is_there_after_one_import():
         (["--help"], {"xarray", "scipy", "pandas", "pydantic", "numpy"}),
         (
             ["check", "reference_car"],
-            {"xarray", "pandas", "scipy.interpolate", "kintrafo.simulation"},
+            {"xarray", "pandas", "scipy.interpolate", "kintrafo.simulation", "rich.markdown"},
         ),
         (["check", "reference_axle"], {"xarray", "pandas", "scipy.interpolate"}),
         (["check", "rigid_axle"], {"kintrafo.vehicle.plots", "kintrafo.simulation"}),
         (
             ["characteristics", "reference_car"],
-            {"scipy.interpolate", "kintrafo.simulation", "kintrafo.vehicle.studies"},
+            {"scipy.interpolate", "scipy.io", "kintrafo.simulation", "kintrafo.vehicle.studies"},
         ),
     ],
 )
