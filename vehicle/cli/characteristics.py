@@ -1,5 +1,6 @@
 """``kintrafo characteristics``: characteristics, or positions, over the motions of a rig."""
 
+from dataclasses import dataclass
 from math import radians
 from typing import TYPE_CHECKING, Annotated
 
@@ -50,14 +51,65 @@ _POSITIONS = ("wheel_center_x", "wheel_center_y", "wheel_center_z", "camber", "t
 _BOTH = "both"
 
 
+@dataclass(frozen=True)
+class RigOptions:
+    """The ends of the motions of a rig, and what is constant in them."""
+
+    rebound: Rebound = None
+    bump: Bump = None
+    rack_extent: Annotated[
+        float | None, option("Rack displacement to either side. Default: 60, if reached.", "MM")
+    ] = None
+    roll: Annotated[
+        float | None,
+        option("Of an axle: roll angle to either side. Default: 4, if reached.", "DEG"),
+    ] = None
+    step: Annotated[float, option("Distance between two positions.", "MM")] = 2.0
+    travel: Annotated[float, option("Wheel travel, where the rack varies.", "MM")] = 0.0
+    rack: Annotated[float, option("Rack displacement in motions of the wheels.", "MM")] = 0.0
+
+    @property
+    def extent(self) -> "SweepRange":
+        """The ends, in SI units."""
+        from ..assembly.rig import SweepRange
+
+        return SweepRange(
+            rebound=metres(self.rebound),
+            bump=metres(self.bump),
+            roll=None if self.roll is None else radians(self.roll),
+            rack=metres(self.rack_extent),
+            step=self.step / 1e3,
+        )
+
+    @property
+    def held(self) -> dict[str, float]:
+        """The travel of the wheels and the displacement of the rack [m]."""
+        return {"travel": self.travel / 1e3, "rack": self.rack / 1e3}
+
+    def refuse_without_effect(self, assembly: "Assembly") -> None:
+        """Refuse options without effect on a file."""
+        if self.roll is not None and "roll" not in assembly.motions:
+            raise typer.BadParameter("--roll is only for the file of an axle")
+        if not assembly.steered:
+            of_rack = {"--rack": self.rack or None, "--travel": self.travel or None}
+            refuse_options("steered wheels", {"--rack-extent": self.rack_extent} | of_rack)
+
+
+@dataclass(frozen=True)
+class ShownOptions:
+    """The shown characteristics."""
+
+    of: Of = None
+    every: Annotated[
+        bool,
+        option("Draw all curves in groups, not only the eight main ones.", None, "--all"),
+    ] = False
+    goals: wanted.Goals = None
+
+
 def command(
     file: File,
     *,
-    rebound: Rebound = None,
-    bump: Bump = None,
-    rack_extent: Annotated[
-        float | None, option("Rack displacement to either side. Default: 60, if reached.", "MM")
-    ] = None,
     over: Annotated[
         list[str] | None,
         option(
@@ -68,19 +120,8 @@ def command(
             "NAME,...",
         ),
     ] = None,
-    roll: Annotated[
-        float | None,
-        option("Of an axle: roll angle to either side. Default: 4, if reached.", "DEG"),
-    ] = None,
-    step: Annotated[float, option("Distance between two positions.", "MM")] = 2.0,
-    travel: Annotated[float, option("Wheel travel, where the rack varies.", "MM")] = 0.0,
-    rack: Annotated[float, option("Rack displacement in motions of the wheels.", "MM")] = 0.0,
-    of: Of = None,
-    every: Annotated[
-        bool,
-        option("Draw all curves in groups, not only the eight main ones.", None, "--all"),
-    ] = False,
-    goals: wanted.Goals = None,
+    rig: RigOptions,
+    shown: ShownOptions,
     positions: Annotated[
         bool,
         option(
@@ -97,59 +138,35 @@ def command(
     and _rack of a suspension, _bump, _roll, _left and _steer of an axle. With --positions both
     wheels of an axle travel in parallel.
     """
-    from ..assembly.rig import SweepRange
-
-    if goals and (travel or rack):
+    if shown.goals and (rig.travel or rig.rack):
         raise typer.BadParameter(wanted.ELSEWHERE)
     assembly = assembly_of_file(file)
     chosen = _motions(assembly, over, positions=positions)
-    outputs = output.files(file, goals, suffixes=[f"_{name}" for name in chosen])
-    _refuse_options(assembly, roll=roll, rack_extent=rack_extent, travel=travel, rack=rack)
-    extent = SweepRange(
-        rebound=metres(rebound),
-        bump=metres(bump),
-        roll=None if roll is None else radians(roll),
-        rack=metres(rack_extent),
-        step=step / 1e3,
-    )
-    held = {"travel": travel / 1e3, "rack": rack / 1e3}
+    outputs = output.files(file, shown.goals, suffixes=[f"_{name}" for name in chosen])
+    rig.refuse_without_effect(assembly)
     if positions:
-        if of or goals:
+        if shown.of or shown.goals:
             raise typer.BadParameter("--of and --goals are about characteristics, not --positions")
-        _positions(assembly, file, chosen, extent, held, outputs, json=output.json)
+        _positions(assembly, file, chosen, rig, outputs, json=output.json)
     else:
-        _characteristics(
-            assembly,
-            file,
-            chosen,
-            extent,
-            held,
-            outputs,
-            of=of,
-            every=every,
-            goals=goals,
-            json=output.json,
-        )
+        _characteristics(assembly, file, chosen, rig, shown, outputs, json=output.json)
 
 
 def _characteristics(
     assembly: "Assembly",
     file: str,
     motions: list[str],
-    extent: "SweepRange",
-    held: "Mapping[str, float]",
+    rig: RigOptions,
+    shown: ShownOptions,
     outputs: Outputs,
     *,
-    of: list[str] | None,
-    every: bool,
-    goals: "Path | None",
     json: bool,
 ) -> None:
     """Write and print characteristics over motions."""
     from ...datasets import export
     from ..analysis.characteristics import datasets
 
-    aims = _aims(goals, motions, assembly)
+    of, aims, held, extent = shown.of, _aims(shown.goals, motions, assembly), rig.held, rig.extent
     curves = {}
     for name in motions:
         steers = name in {"rack", "steer"}
@@ -158,7 +175,7 @@ def _characteristics(
     assembly.refuse_of_steering(of or ())
     # both wheels of an axle are drawn together
     drawn = named(of_both(of) if len(assembly.wheels) > 1 else of, curves)
-    if outputs.pages and not (of or every or aims):
+    if outputs.pages and not (of or shown.every or aims):
         from ..plots import first_curves
 
         drawn = {name: list(first_curves(dataset)) for name, dataset in curves.items()}
@@ -182,7 +199,7 @@ def _characteristics(
         return
     _print(assembly, file, curves, of)
     if aims:
-        console.print(wanted.table(judged, f"{file}: targets and limits of {goals}"))
+        console.print(wanted.table(judged, f"{file}: targets and limits of {shown.goals}"))
     name_files(written)
 
 
@@ -190,8 +207,7 @@ def _positions(
     assembly: "Assembly",
     file: str,
     motions: list[str],
-    extent: "SweepRange",
-    held: "Mapping[str, float]",
+    rig: RigOptions,
     outputs: Outputs,
     *,
     json: bool,
@@ -201,8 +217,9 @@ def _positions(
     from ..analysis import sweep
     from ..assembly.by_wheel import flat
 
-    if (held["travel"] and "rack" not in motions) or (
-        held["rack"] and assembly.usual_motion not in motions
+    held, extent = rig.held, rig.extent
+    if (rig.travel and "rack" not in motions) or (
+        rig.rack and assembly.usual_motion not in motions
     ):
         over = ", ".join(motions)
         raise typer.BadParameter(
@@ -258,23 +275,6 @@ def _motions(assembly: "Assembly", wanted: list[str] | None, *, positions: bool)
         if name not in assembly.motions:
             assembly.refuse_motion(name)
     return among(wanted, assembly.motions, "--over")
-
-
-def _refuse_options(
-    assembly: "Assembly",
-    *,
-    roll: float | None,
-    rack_extent: float | None,
-    travel: float,
-    rack: float,
-) -> None:
-    """Refuse options without effect on this file."""
-    if roll is not None and "roll" not in assembly.motions:
-        raise typer.BadParameter("--roll is only for the file of an axle")
-    if assembly.steered:
-        return
-    of_rack = {"--rack-extent": rack_extent, "--rack": rack or None, "--travel": travel or None}
-    refuse_options("steered wheels", of_rack)
 
 
 def _title(assembly: "Assembly", file: str, motion: str) -> str:

@@ -1,6 +1,7 @@
 """``kintrafo compliance``: deflections of the wheels on their bushes, linear or nonlinear."""
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
@@ -36,10 +37,10 @@ _USUAL, _USUAL_TORQUE = 5000.0, 250.0  # greatest loads [N], [N m]
 _STEPS = 41  # of the load
 
 
-def command(
-    file: File,
-    *,
-    bushes: Bushes = None,
+@dataclass(frozen=True)
+class NonlinearOptions:
+    """The options of equilibria with large deflections."""
+
     nonlinear: Annotated[
         bool,
         option(
@@ -47,29 +48,53 @@ def command(
             None,
             "--nonlinear",
         ),
-    ] = False,
+    ] = False
     under: Annotated[
         Literal["lateral", "braking", "recession", "aligning"] | None,
         option("With --nonlinear: the load."),
-    ] = None,
+    ] = None
     most: Annotated[
         float | None, option("Greatest load, N or N m. Default: 5000; aligning: 250.", "N")
-    ] = None,
+    ] = None
     wheels: Annotated[
         Literal["parallel", "opposed", "left", "right"] | None,
         option("Of an axle: the loaded wheels. Default: parallel."),
-    ] = None,
+    ] = None
     over: Annotated[
         Literal["bump", "roll", "left", "right", "steer"] | None,
         option("With --nonlinear, of an axle: the motion of the rig. Default: bump."),
-    ] = None,
+    ] = None
     hardpoints: Annotated[
         Literal["loaded", "relaxed"] | None,
         option(
             "With --nonlinear: state in which the joints are at the hardpoints, under the static "
             "load at design (loaded, the default), or with bushes without load (relaxed)."
         ),
-    ] = None,
+    ] = None
+
+    @property
+    def loads(self) -> dict[str, Any]:
+        """The options of a load."""
+        return {"--most": self.most, "--wheels": self.wheels}
+
+    @property
+    def motions(self) -> dict[str, Any]:
+        """The options of a motion."""
+        return {"--over": self.over}
+
+    def refuse_without_effect(self, rig: "_Rig", held: Held | None) -> None:
+        """Refuse options without effect on a file, beside others."""
+        if len(rig.assembly.wheels) == 1:
+            refuse_options("the file of an axle", {"--wheels": self.wheels} | self.motions)
+        if self.under is None:
+            refuse_options("--under", self.loads | {"--held": held})
+
+
+def command(
+    file: File,
+    *,
+    bushes: Bushes = None,
+    large: NonlinearOptions,
     held: Annotated[
         Held | None,
         option(f"{SUPPORT} Default: height."),
@@ -93,24 +118,19 @@ def command(
         raise typer.BadParameter(wanted.ELSEWHERE)
     outputs = output.files(file, bushes, goals)
     rig = _Rig.of(file, bushes, (at, rack), (rebound, bump))
-    loads = {"--most": most, "--wheels": wheels}
-    motions = {"--over": over}
-    if not nonlinear:
-        refuse_options(
-            "--nonlinear", {"--under": under, "--hardpoints": hardpoints} | loads | motions
-        )
+    if not large.nonlinear:
+        others = {"--under": large.under, "--hardpoints": large.hardpoints}
+        refuse_options("--nonlinear", others | large.loads | large.motions)
         _linear(rig, held or "height", outputs, of=of, goals=goals, json=output.json)
         return
     refuse_options("linear compliance", {"--of": of, "--goals": goals})
-    if len(rig.assembly.wheels) == 1:
-        refuse_options("the file of an axle", {"--wheels": wheels} | motions)
-    if under is None:
-        refuse_options("--under", loads | {"--held": held})
-        found = _over_motion(rig, over, hardpoints or "loaded")
+    large.refuse_without_effect(rig, held)
+    if large.under is None:
+        found = _over_motion(rig, large.over, large.hardpoints or "loaded")
     else:
-        refuse_options("curves over a motion", {"--rebound": rebound, "--bump": bump} | motions)
-        how = {"held": held or "height", "wheels": wheels, "hardpoints": hardpoints or "loaded"}
-        found = _under(rig, under, most, how)
+        ends = {"--rebound": rebound, "--bump": bump}
+        refuse_options("curves over a motion", ends | large.motions)
+        found = _under(rig, large, held or "height")
     _show_nonlinear(rig, found, outputs, json=output.json)
 
 
@@ -212,20 +232,22 @@ def _over_motion(rig: _Rig, motion: str | None, hardpoints: Any) -> "Dataset":
     )  # fmt: skip
 
 
-def _under(rig: _Rig, under: str, most: float | None, how: Mapping[str, Any]) -> "Dataset":
+def _under(rig: _Rig, large: NonlinearOptions, held: Held) -> "Dataset":
     """Return displacements of the wheels under loads."""
     import numpy as np
 
     from ...core.errors import InputError
     from ..analysis import compliance
 
-    usual = _USUAL_TORQUE if under == "aligning" else _USUAL
-    greatest = usual if most is None else most
+    usual = _USUAL_TORQUE if large.under == "aligning" else _USUAL
+    greatest = usual if large.most is None else large.most
     if not 0.0 < greatest < np.inf:
         raise InputError([f"--most {greatest}: a load of more than 0 is needed."], "compliance")
     amounts = np.linspace(-greatest, greatest, _STEPS)
-    where: Any = {"travel": rig.at, "rack_position": rig.rack}
-    return compliance.nonlinear(rig.assembly, rig.bushings, under, amounts, **where, **how)
+    return compliance.nonlinear(
+        rig.assembly, rig.bushings, str(large.under), amounts, wheels=large.wheels, travel=rig.at,
+        rack_position=rig.rack, held=held, hardpoints=large.hardpoints or "loaded",
+    )  # fmt: skip
 
 
 def _show_nonlinear(rig: _Rig, found: "Dataset", outputs: Outputs, *, json: bool) -> None:
