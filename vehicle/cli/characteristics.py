@@ -53,7 +53,7 @@ _BOTH = "both"
 
 @dataclass(frozen=True)
 class RigOptions:
-    """The ends of the motions of a rig, and what is constant in them."""
+    """The ends of the motions of a rig, and the constant travel and rack displacement."""
 
     rebound: Rebound = None
     bump: Bump = None
