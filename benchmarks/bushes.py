@@ -115,7 +115,9 @@ def main() -> None:
                     rows.append(_row(model, under, ours, theirs))
     amounts = ", ".join(f"{amount / 1e3:g}" for amount in AMOUNTS)
     rows += ["", f"Under {amounts} kN, the wheel held by its height or by its vertical force, the"]
-    rows[-1] += f" largest difference over the largest value is {_words(worst)}; under {SMALL:g} N,"
+    rows[-1] += (
+        f" largest difference relative to the largest value is {_words(worst)}; under {SMALL:g} N,"
+    )
     rows[-1] += f" relative to 1/{AMOUNTS[-1] / SMALL:g} of that value, {_words(at_small)}."
     rows[-1] += f" Exudyn {version('exudyn')}."
     print("\n".join(rows))

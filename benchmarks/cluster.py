@@ -98,7 +98,7 @@ def table(found: list[Pair], cars: int) -> str:
         f"{WORKERS} workers with a thread each": [pair.workers for pair in found],
     }
     return markdown_table(
-        (f"{count(cars)} cars, 1 s over a road", "s by the clock", "s of a core"),
+        (f"{count(cars)} cars, 1 s over a road", "wall-clock time [s]", "processor time [s]"),
         [
             (
                 way,

@@ -86,14 +86,14 @@ def _column(name: str) -> dict[str, str]:
         return {
             "parameters": str(values.size),
             "operations of `rhs`": str(rhs),
-            "along a direction, times that": f"{tangent / rhs:.1f}",
-            "backwards, times that": f"{adjoint / rhs:.1f}",
+            "derivative along a direction, relative": f"{tangent / rhs:.1f}",
+            "gradient, relative": f"{adjoint / rhs:.1f}",
             "`rhs` at a state, µs": f"{1e6 * plain_call:.2f}",
             "`derivative` at a state, µs": f"{1e6 * along:.2f}",
-            "`gradient` by all at a state, µs": f"{1e6 * gradient:.1f}",
-            "one-sided differences by all, with `prepare`, µs": f"{1e6 * both * values.size:.0f}",
+            "`gradient` with respect to all at a state, µs": f"{1e6 * gradient:.1f}",
+            "one-sided differences for all, with `prepare`, µs": f"{1e6 * both * values.size:.0f}",
             "C, kB, without and with": f"{sizes[0] / 1e3:.0f}, {sizes[1] / 1e3:.0f}",
-            "derived and compiled after, s": f"{seconds_without:.1f}, {seconds:.1f}",
+            "derive and compile, without and with, s": f"{seconds_without:.1f}, {seconds:.1f}",
         }
 
 
@@ -201,8 +201,8 @@ def motion() -> list[str]:
         "| a second of the reference car, ms | |",
         "|---|---:|",
         f"| simulated, with a signal at 201 times | {milliseconds(forward)} |",
-        f"| with the gradient of its RMS by {len(differentiated().by)} | {times_longer} |",
-        f"| with derivatives over time by 1, by 20 | {', '.join(map(milliseconds, in_lanes))} |",
+        f"| with the gradient of its RMS by {len(differentiated().by)} numbers | {times_longer} |",
+        f"| with derivatives in 1, in 20 directions | {', '.join(map(milliseconds, in_lanes))} |",
         f"| the same in NumPy | {', '.join(map(milliseconds, in_numpy))} |",
     ]
 

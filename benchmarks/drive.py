@@ -105,7 +105,7 @@ def _driven() -> list[str]:
     swing = _swung(model)
     states = np.repeat(np.asarray(swing.start)[None], CALLS, axis=0)
     held = np.repeat(swing.start.inputs[None], CALLS, axis=0)
-    error = "error of the lateral acceleration over its largest value"
+    error = "relative error of the lateral acceleration"
     rows = [f"| motion | method | times real time | {error} |", "|---|---|---:|---:|"]
     for name, motion, methods in (
         ("sine", swing, METHODS),

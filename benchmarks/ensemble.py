@@ -344,7 +344,7 @@ def _processor_times(call: Callable[[], None]) -> float:
 
 def table_of_calls(found: list[Call]) -> str:
     """Return the costs of a right-hand side as Markdown."""
-    header = ("right-hand side", "ns a car", "times as fast")
+    header = ("right-hand side", "ns a car", "speed-up")
     rows = [
         (
             "one by one" if call.lanes == 1 else f"{call.lanes} lanes",
@@ -359,8 +359,8 @@ def table_of_calls(found: list[Call]) -> str:
 def table_of_rates(found: list[Rate]) -> str:
     """Return the rates as Markdown: of each way that of the most cars."""
     header = (
-        "", "threads", "cars", "tolerance", "error [rad]", "µs of a core for one",
-        "simulated s in 1 s",
+        "", "threads", "cars", "tolerance", "error [rad]", "processor time per car [µs]",
+        "simulated seconds per second",
     )  # fmt: skip
     largest = {(rate.what, rate.threads): rate for rate in found}.values()
     rows = [
@@ -381,7 +381,8 @@ def table_of_rates(found: list[Rate]) -> str:
 def table_of_others(found: list[Rate]) -> str:
     """Return the costs of other tools as Markdown, against the first way."""
     header = (
-        "", "threads", "cars", "tolerance", "error [rad]", "µs of a core for one", "times as much",
+        "", "threads", "cars", "tolerance", "error [rad]", "processor time per car [µs]",
+        "relative time",
     )  # fmt: skip
     rows = [
         (

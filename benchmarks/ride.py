@@ -49,7 +49,7 @@ def main() -> None:
     chosen = parser.parse_args()
     counts = ["| equations | operations of a call | of its Jacobian | a call, us |"]
     counts.append("|---|---:|---:|---:|")
-    speeds = ["| car | method | times real time | largest error of the acceleration over its RMS |"]
+    speeds = ["| car | method | times real time | error of the acceleration, relative to its RMS |"]
     speeds.append("|---|---|---:|---:|")
     for name in chosen.cars:
         car = _car(CARS[name])
