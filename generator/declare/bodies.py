@@ -138,7 +138,7 @@ class Rotor(Body):
     Parameters
     ----------
     name, mass, com
-        As for `Body`; the centre of mass is on the axis.
+        Name, mass [kg], and centre of mass at the design position, which is on the axis [m].
     axis
         Direction of its axis of revolution.
     spin, diametral

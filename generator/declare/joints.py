@@ -153,8 +153,10 @@ class Revolute(TurningJoint):
 
     Parameters
     ----------
-    name, first, second
-        As for `Joint`.
+    name
+        Name of the joint.
+    first, second
+        The two bodies; the coordinates are those of the second relative to the first.
     axis
         The hinge line; positive rotation of the second body is right-handed about it.
     angle_from, angle_to
@@ -190,8 +192,10 @@ class Prismatic(SlidingJoint):
 
     Parameters
     ----------
-    name, first, second
-        As for `Joint`.
+    name
+        Name of the joint.
+    first, second
+        The two bodies; the coordinates are those of the second relative to the first.
     direction
         The slide is positive when the second body moves along it.
     follows
@@ -215,8 +219,10 @@ class Cylindrical(TurningJoint, SlidingJoint):
 
     Parameters
     ----------
-    name, first, second
-        As for `Joint`.
+    name
+        Name of the joint.
+    first, second
+        The two bodies; the coordinates are those of the second relative to the first.
     axis
         The line, from a point of the second body to a point of the first. The slide is positive
         when the second body moves along it, that is, when the telescope shortens.
@@ -242,8 +248,10 @@ class Universal(Joint):
 
     Parameters
     ----------
-    name, first, second
-        As for `Joint`.
+    name
+        Name of the joint.
+    first, second
+        The two bodies; the coordinates are those of the second relative to the first.
     at
         The centre.
     shaft
@@ -303,8 +311,10 @@ class Weld(Joint):
 
     Parameters
     ----------
-    name, first, second
-        As for `Joint`.
+    name
+        Name of the joint.
+    first, second
+        The two bodies; the coordinates are those of the second relative to the first.
     """
 
     kind: ClassVar[str] = "weld"
@@ -353,8 +363,10 @@ class Spherical(Joint):
 
     Parameters
     ----------
-    name, first, second
-        As for `Joint`.
+    name
+        Name of the joint.
+    first, second
+        The two bodies; the coordinates are those of the second relative to the first.
     at
         The common point, the centre of the ball, at the design position.
     """

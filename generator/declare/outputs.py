@@ -70,8 +70,12 @@ class VelocityOf(OfPoint):
 
     Parameters
     ----------
-    name, body, point, meaning
-        As for `PositionOf`.
+    name
+        Prefix of the names of the three signals.
+    body, point
+        The body, and the point at the design position.
+    meaning
+        Description of the point.
     """
 
 
@@ -84,8 +88,12 @@ class AccelerationOf(OfPoint):
 
     Parameters
     ----------
-    name, body, point, meaning
-        As for `PositionOf`.
+    name
+        Prefix of the names of the three signals.
+    body, point
+        The body, and the point at the design position.
+    meaning
+        Description of the point.
     """
 
 

@@ -47,8 +47,8 @@ _ANGLES: dict[Literal["yaw", "pitch", "roll"], str] = {
 }
 _MEANINGS = {
     "heave": "height of the centre of mass of the body above that at design",
-    "pitch": "turn of the body about its axis to the left, positive nose down",
-    "roll": "turn of the body about its axis forward, positive with its left side up",
+    "pitch": "pitch of the body, positive nose down",
+    "roll": "roll of the body, positive with its left side up",
 }
 _AIR = d.AirForces(
     name="air",

@@ -58,8 +58,8 @@ def command(
     """Simulate the suspension with all combinations of some values, many at once.
 
     Each motion starts at rest, or at --height. The exit code is 1 if one does not reach the end.
-    A sweep of a car simulates nothing: its table has numbers of steady turns, of the ride or of
-    motions of the body, as of kintrafo sensitivity (--over, --of, --at).
+    A sweep of a car has no simulation: its table has characteristics of steady turns, of the ride
+    or of motions of the body (--over, --of, --at).
     """
     from ...datasets import export
 
@@ -95,8 +95,8 @@ def _refuse_other_options(
     """Refuse options of motions for a car, and options of cars for a suspension."""
     if of_car and (keep or driven != ScenarioOptions()):
         raise typer.BadParameter(
-            "a sweep of a car simulates nothing: leave out --keep and the options of road, rack, "
-            "start and time; --over, --of and --at choose its numbers"
+            "a sweep of a car has no simulation: leave out --keep and the options of road, rack, "
+            "start and time; --over, --of and --at choose its characteristics"
         )
     if not of_car and asked != StudyOptions():
         raise typer.BadParameter("--over, --of, --at and --held are only for cars: --keep chooses")

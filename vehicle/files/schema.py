@@ -59,7 +59,7 @@ beside your files; the first line
 ```
 
 names it for editors with a TOML language server, such as Even Better TOML for Visual Studio Code.
-The schema does not contain whether the points make a mechanism that can be assembled; `kintrafo
+The schema cannot express whether the points make a mechanism that can be assembled; `kintrafo
 check FILE` tests that. The schema and this page are written by `make format-page`.
 """
 
