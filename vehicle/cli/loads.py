@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -12,7 +12,7 @@ from ...terminal.console import console, print_json, print_table, say, table
 from ...terminal.exits import Exit
 from .loading import assembly_of_file
 from .options import OUTPUT, File, among, option
-from .outputs import SingleFigureOptions, name_files, title_of
+from .outputs import Outputs, SingleFigureOptions, name_files, title_of
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -129,35 +129,13 @@ def command(
     if outputs.pages and parts and not bodies:
         problem = f"{ALL} is not a part that can be drawn. Name one, or leave --plot out."
         raise InputError([problem], "--part")
-    written = [
-        each
-        for path in cards
-        for each in study.write_cards(
-            found,
-            path,
-            bodies or None,
-            axes=output.axes or "part",
-            length=output.units or "mm",
-            source=title_of(file),
-            **outputs.rule,
-        )
-    ]
     axes = output.axes or "vehicle"
+    written = _write_cards(found, cards, bodies, output, outputs, file)
     rows, sheets = study.table(found, axes), study.workbook(found, axes)
     written += outputs.write_data(found, rows=rows, sheets=sheets)
     if outputs.pages:
-        from ..plots import loads as plots
-
-        for name in shown or [str(name) for name in found["case"].values]:
-            if not str(found["reason"].sel(case=name).values):
-                written += plots.write_free_bodies(
-                    found,
-                    outputs.pages,
-                    name,
-                    bodies,
-                    title=title_of(file),
-                    **outputs.rule,
-                )
+        drawn = shown or [str(name) for name in found["case"].values]
+        written += _draw(found, drawn, bodies, outputs, file)
     if output.json:
         print_json(export.as_dict(flat(found)))
     else:
@@ -172,6 +150,35 @@ def command(
         name_files(written)
     if not _did_what_was_asked(found, [*described.get("cases", shown or ())]):
         raise typer.Exit(Exit.REFUSED)
+
+
+def _write_cards(
+    found: "Dataset",
+    paths: list[Path],
+    parts: list[str],
+    options: LoadOptions,
+    outputs: Outputs,
+    file: str,
+) -> list[Path]:
+    """Write the load cards, a file for each part, and return the files."""
+    from ..analysis import loads as study
+
+    how: Any = {"axes": options.axes or "part", "length": options.units or "mm", **outputs.rule}
+    source = title_of(file)
+    each = (study.write_cards(found, path, parts or None, source=source, **how) for path in paths)
+    return [path for files in each for path in files]
+
+
+def _draw(
+    found: "Dataset", cases: list[str], parts: list[str], outputs: Outputs, file: str
+) -> list[Path]:
+    """Draw the free bodies in cases with an equilibrium, and return the files."""
+    from ..plots.loads import write_free_bodies
+
+    still = [name for name in cases if not str(found["reason"].sel(case=name).values)]
+    how: Any = {"title": title_of(file), **outputs.rule}
+    each = (write_free_bodies(found, [*outputs.pages], name, parts, **how) for name in still)
+    return [path for files in each for path in files]
 
 
 def _did_what_was_asked(found: "Dataset", asked: list[str]) -> bool:
