@@ -183,8 +183,10 @@ class Follower:
         for i, j, at in self._points:
             one, two = turned[i] @ (at - self._centers[i]), turned[j] @ (at - self._centers[j])
             values += list((x[j] + two - x[i] - one) / size)
-            for e in np.eye(3):
-                row(i, j, -e, -_cross(one, e) / size, e, _cross(two, e) / size)
+            lines = np.zeros((3, len(x), 6))
+            lines[:, i, :3], lines[:, i, 3:] = -np.eye(3), _across(one) / size
+            lines[:, j, :3], lines[:, j, 3:] = np.eye(3), -_across(two) / size
+            rows += list(lines[:, 1:].reshape(3, -1))
         for i, j, a, b in squares:
             one, two = turned[i] @ a, turned[j] @ b
             values.append(one @ two)
@@ -212,6 +214,12 @@ def _cross(a: Array, b: Array) -> Array:
     return np.array(
         [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     )
+
+
+def _across(a: Array) -> Array:
+    """Return the matrix that multiplies a vector by `a` from the left."""
+    x, y, z = a
+    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
 
 
 # -- mechanisms of random dimensions --------------------------------------------------------------

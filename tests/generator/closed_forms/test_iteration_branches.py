@@ -6,6 +6,7 @@ are followed in maximal coordinates (`following`).
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING
 
 import following
@@ -141,6 +142,7 @@ TWO_BRANCHES = {
 RACK = 0.015403
 
 
+@cache
 def two_branches() -> Model:
     return Model(swinging.CAR.with_changes(TWO_BRANCHES))
 
