@@ -165,7 +165,7 @@ def run(
         if not quick:
             os.environ[VARIABLE] = str(folder / "cache")  # nothing is compiled yet
         files = written(folder)
-        both = with_windows(folder)
+        both = "" if quick else with_windows(folder)
         rounds = 1 if quick else 500
         bare, *taken, memory = steps(folder, rounds)
         called = by_fmpy(folder, rounds // 10 + 1)

@@ -41,14 +41,16 @@ os.environ.setdefault("SYMPY_CACHE_SIZE", "None")
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 # The time of an example depends on the machine and its load.
-settings.register_profile("calm", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.register_profile(
+    "calm", deadline=None, max_examples=50, suppress_health_check=[HealthCheck.too_slow]
+)
 settings.load_profile("calm")
 
 # Models that tests compile like a user are compiled once for all processes and later runs, in a
 # separate cache. Without optimisation this takes a tenth of the time, and without contraction the
 # bits are the same.
 os.environ["KINTRAFO_CACHE"] = str(kept.KEPT / "cache")
-os.environ.setdefault("CFLAGS", "-O0")
+os.environ.setdefault("CFLAGS", " ".join(kept.UNOPTIMISED))
 
 # Each of them takes more than a hundredth of the whole time, the first of them a tenth.
 _LONGEST = (
@@ -184,8 +186,11 @@ def kintrafo(
 ) -> Callable[..., tuple[int, str, str]]:
     """Run a command line in an empty folder; return exit code, stdout and stderr."""
     from kintrafo.vehicle import cli
+    from typer import main as typer_main
 
     monkeypatch.chdir(tmp_path)
+    if not hasattr(typer_main.get_command, "cache_info"):  # the same commands in every run
+        typer_main.get_command = cache(typer_main.get_command)
 
     def run(*arguments: object) -> tuple[int, str, str]:
         monkeypatch.setattr("sys.argv", ["kintrafo", *map(str, arguments)])
@@ -311,6 +316,7 @@ def _draw_roughly(monkeypatch: pytest.MonkeyPatch) -> None:
         whole(figure, file, **(given | {"dpi": 40}))
 
     monkeypatch.setattr(Figure, "savefig", coarse)
+    monkeypatch.setattr(Figure, "draw_without_rendering", lambda _: None)
     monkeypatch.setattr(ConstrainedLayoutEngine, "execute", lambda *_: {})
 
 

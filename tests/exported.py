@@ -8,13 +8,14 @@ from pathlib import Path
 
 import kintrafo
 import pytest
+from kept import UNOPTIMISED
 from kintrafo.generator import Formulation, JointForce, Motion
 from kintrafo.generator.mechanisms import four_bar
 from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.targets.fmi import binaries
-from own_models import STRICT, UNOPTIMISED, own
+from own_models import STRICT, own
 
-CC = ("cc", "-std=c99", UNOPTIMISED, "-ffp-contract=off", *STRICT)
+CC = ("cc", "-std=c99", *UNOPTIMISED, "-ffp-contract=off", *STRICT)
 
 needs_library = pytest.mark.skipif(
     find_compiler() is None or not binaries.HERE, reason="no compiler for Linux on x86-64"

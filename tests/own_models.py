@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from kept import KEPT
+from kept import KEPT, UNOPTIMISED
 from kintrafo.generator.equations.outputs import Derivation, generate
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.systems.compile.build import build
@@ -41,10 +41,7 @@ if TYPE_CHECKING:
 
 # Emitted code gives no warning.
 STRICT = ("-Wall", "-Wextra", "-Wpedantic", "-Werror")
-# Compiling takes a tenth of the time, and without contraction the bits are the same. A call of a
-# block that iterates takes a third of a millisecond either way.
-UNOPTIMISED = "-O0"
-COMPILER = Compiler(("gcc", *FLAGS, UNOPTIMISED, *STRICT), "of the tests")
+COMPILER = Compiler(("gcc", *FLAGS, *UNOPTIMISED, *STRICT), "of the tests")
 
 has_gcc = shutil.which("gcc") is not None
 needs_gcc = pytest.mark.skipif(not has_gcc, reason="no gcc")

@@ -23,7 +23,10 @@ _PROCESSES = multiprocessing.get_context("forkserver")
 # what doors have in common is imported once, for all processes
 _PROCESSES.set_forkserver_preload(
     [
+        "kintrafo.generator.backends.files",
+        "kintrafo.generator.equations.outputs",
         "kintrafo.generator.mechanisms",
+        "kintrafo.vehicle.cli",
         "kintrafo.vehicle.plots",
         "kintrafo.vehicle.studies",
         "scipy.optimize",

@@ -10,6 +10,7 @@ import pytest
 from c_text import sources
 from cases import MODELS, car_parameters
 from folders import ROOT
+from kept import UNOPTIMISED
 from kintrafo import Model, state_at_height
 from kintrafo.simulation.dead_points import meanings
 from kintrafo.simulation.solvers import native_available, native_version
@@ -18,7 +19,7 @@ from own_models import own
 
 # without optimisation, which takes most of the time and hides code that it removes; of the
 # debug information lines are enough
-FLAGS = ["-std=gnu11", "-O0", "-g1", "-fno-math-errno", "-fsanitize=address,undefined"]
+FLAGS = ["-std=gnu11", *UNOPTIMISED, "-g1", "-fno-math-errno", "-fsanitize=address,undefined"]
 FLAGS += ["-fno-sanitize-recover=all", "-Wall", "-Wextra", "-Werror"]
 SUNDIALS = ["cvode", "arkode", "nvecserial", "sunmatrixdense", "sunlinsoldense"]
 

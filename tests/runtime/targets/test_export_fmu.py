@@ -15,6 +15,7 @@ import pytest
 from c_text import EMITTED
 from exported import needs_library, system_named
 from folders import ROOT
+from kept import UNOPTIMISED
 from kintrafo.core.folders import cache_folder
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.targets.emitted import Emitted
@@ -23,7 +24,7 @@ from kintrafo.targets.fmi.sources import library_files
 from kintrafo.targets.fmi.tables import any_tables
 from kintrafo.targets.fmi.units import powers
 from mockup import DISCARD, ERROR, OK, Fmu
-from own_models import STRICT, UNOPTIMISED
+from own_models import STRICT
 from own_yokes import WHEEL_ON_A_YOKE
 
 pytestmark = needs_library
@@ -167,7 +168,7 @@ def test_fmpy_builds_the_sources(tmp_path, version):
 @pytest.mark.parametrize("version", VERSIONS)
 def test_the_sources_compile_silently(fmu, version, tmp_path):
     sources = sorted(map(str, fmu("four_bar", version).folder.glob("sources/**/*.c")))
-    flags = ["-std=c11", UNOPTIMISED, *STRICT, "-fsyntax-only"]
+    flags = ["-std=c11", *UNOPTIMISED, *STRICT, "-fsyntax-only"]
     subprocess.run(["cc", *flags, *sources], check=True, cwd=tmp_path)
 
 
@@ -781,7 +782,7 @@ def test_every_shipped_model_can_be_exported(tmp_path, name):
     with zipfile.ZipFile(path) as archive:
         archive.extractall(folder)
     tables = [str(folder / "sources" / file) for file in ("model.c", "numbers.c")]
-    flags = ["-std=c11", UNOPTIMISED, *STRICT, "-fsyntax-only"]
+    flags = ["-std=c11", *UNOPTIMISED, *STRICT, "-fsyntax-only"]
     subprocess.run(["cc", *flags, *tables], check=True, cwd=tmp_path)
 
 

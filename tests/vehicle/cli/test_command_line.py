@@ -35,6 +35,7 @@ def test_paper_writes_figures_and_a_summary(tmp_path):
     assert imread(tmp_path / "overview.png").std() > 0.01
 
 
+@pytest.mark.usefixtures("rough_drawings")
 def test_paper_of_a_car_that_nothing_steers(tmp_path):
     """It has no rack that is held."""
     command = ["paper", str(tmp_path / "out"), "--data", "trailing_arm_car"]
@@ -43,12 +44,9 @@ def test_paper_of_a_car_that_nothing_steers(tmp_path):
     assert "rack" not in result.output
 
 
-def test_users_mistake_has_no_traceback(monkeypatch, capsys, tmp_path):
-    monkeypatch.setattr("sys.argv", ["kintrafo", "paper", str(tmp_path), "--data", "no_such_car"])
-    with pytest.raises(SystemExit) as caught:
-        cli.run()
-    assert caught.value.code == 2
-    error = capsys.readouterr().err
+def test_users_mistake_has_no_traceback(kintrafo):
+    code, _, error = kintrafo("paper", "out", "--data", "no_such_car")
+    assert code == 2
     assert "no_such_car" in error
     assert "Traceback" not in error
 
@@ -86,22 +84,18 @@ def test_an_interrupt_of_a_command_ends_quietly(monkeypatch, capfd):
     assert tuple(capfd.readouterr()) == ("", "")
 
 
-def test_error_keeps_the_brackets_of_section_names(monkeypatch, capsys, tmp_path):
-    path = tmp_path / "my_car.toml"
-    text = (ROOT / "vehicle/data/reference_car.toml").read_text(encoding="utf-8")
-    path.write_text(text.replace("spring_rate_N", "sprng_rate_N"), encoding="utf-8")
-    monkeypatch.setattr("sys.argv", ["kintrafo", "paper", str(tmp_path), "--data", str(path)])
-    with pytest.raises(SystemExit):
-        cli.run()
-    assert "[strut] sprng_rate_N_per_m is not a known key" in capsys.readouterr().err
+def test_error_keeps_the_brackets_of_section_names(kintrafo, tmp_path):
+    text = REFERENCE.read_text(encoding="utf-8").replace("spring_rate_N", "sprng_rate_N")
+    (tmp_path / "my_car.toml").write_text(text, encoding="utf-8")
+    _, _, error = kintrafo("paper", "out", "--data", "my_car.toml")
+    assert "[strut] sprng_rate_N_per_m is not a known key" in error
 
 
-def test_file_in_the_way_of_the_folder(monkeypatch, capsys, tmp_path):
+def test_file_in_the_way_of_the_folder(kintrafo, tmp_path):
     (tmp_path / "out").write_text("in the way", encoding="utf-8")
-    monkeypatch.setattr("sys.argv", ["kintrafo", "paper", str(tmp_path / "out")])
-    with pytest.raises(SystemExit):
-        cli.run()
-    assert "File exists" in capsys.readouterr().err
+    code, _, error = kintrafo("paper", "out")
+    assert code != 0
+    assert "File exists" in error
 
 
 def test_version_names_the_solver():

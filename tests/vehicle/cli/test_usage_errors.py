@@ -18,8 +18,11 @@ ADVICE = re.compile(
 )
 
 
+APP = typer.main.get_command(cli.app)
+
+
 def found_command(name):
-    command = typer.main.get_command(cli.app)
+    command = APP
     for word in name.split():
         command = command.commands[word]
     return command
@@ -64,12 +67,9 @@ def mistakes():
     ("line", "word"),
     [pytest.param(*m, id=" ".join(m[0]).replace(__file__, "FILE")) for m in mistakes()],
 )
-def test_a_mistake_is_explained_in_one_style(line, word, monkeypatch, capsys):
-    monkeypatch.setattr("sys.argv", ["kintrafo", *line])
-    with pytest.raises(SystemExit) as end:
-        cli.run()
-    out, error = capsys.readouterr()
-    assert (end.value.code, out) == (2, "")
+def test_a_mistake_is_explained_in_one_style(line, word, kintrafo):
+    code, out, error = kintrafo(*line)
+    assert (code, out) == (2, "")
     assert re.match(r"error: kintrafo[ \w]*: 1 problem\n  - \S", error), error
     assert re.search(r"\nThe (options|commands) are listed by: kintrafo.* --help\n$", error), error
     assert word in error
@@ -78,10 +78,8 @@ def test_a_mistake_is_explained_in_one_style(line, word, monkeypatch, capsys):
 
 
 @pytest.mark.parametrize("line", [[], ["mechanism"]])
-def test_no_command_shows_the_help_and_no_error(line, monkeypatch, capsys):
-    monkeypatch.setattr("sys.argv", ["kintrafo", *line])
-    with pytest.raises(SystemExit):
-        cli.run()
-    shown = "".join(capsys.readouterr())
+def test_no_command_shows_the_help_and_no_error(line, kintrafo):
+    _, *shown = kintrafo(*line)
+    shown = "".join(shown)
     assert "Usage: " in shown
     assert "problem\n" not in shown
