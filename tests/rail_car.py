@@ -6,7 +6,10 @@ they travel, except that a rack turns both front wheels by one angle.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from kintrafo import generator as g
+from kintrafo.generator.mechanisms.steering_column import on_a_column
 
 MASS, CARRIER, WHEEL = 1200.0, 20.0, 20.0
 FRONT, REAR, HALF_TRACK = 1.2, -1.5, 0.75
@@ -81,8 +84,8 @@ def _corner(wheel: str):
     return joints, driven, forces, coordinates, (slide, wheel_body)
 
 
-def declared() -> g.Formulation:
-    """Return its declaration."""
+def declared(*, column: bool = False) -> g.Formulation:
+    """Return its declaration, also with a steering column."""
     free = g.Free("body_free", BODY)
     corners = [_corner(wheel) for wheel in WHEELS]
     joints = (free, RACK_GUIDE, *(j for corner in corners for j in corner[0]))
@@ -94,9 +97,10 @@ def declared() -> g.Formulation:
         coordinates=(
             *(free.coordinate(k, f"body_{k}", k) for k in ("yaw", "pitch", "roll")),
             *(c for corner in corners for c in corner[3]),
+            *([RACK_GUIDE.slide("rack_displacement", "displacement")] if column else []),
         ),
     )
-    return g.Formulation(
+    found = g.Formulation(
         name="rail_car",
         title="Rail car",
         mechanism=mechanism,
@@ -104,6 +108,7 @@ def declared() -> g.Formulation:
         massive=(BODY, *(b for corner in corners for b in corner[4])),
         prescribed={RACK_GUIDE: RACK_MOTION},
     )
+    return replace(on_a_column(found), name="rail_car_column") if column else found
 
 
 class Controls:
@@ -123,14 +128,14 @@ class Controls:
         return {f"{wheel}_drive_torque": 0.5 * torque for wheel in WHEELS[2:]}
 
 
-def car(**parameters):
+def car(*, column=False, **parameters):
     """Return it as handling sees it."""
     import kintrafo
     import numpy as np
     from kintrafo.vehicle.analysis.handling.body_motion import ReferencePoint
     from kintrafo.vehicle.analysis.handling.car import DrivingCar
 
-    model = kintrafo.System(kintrafo.compile(declared()), parameters)
+    model = kintrafo.System(kintrafo.compile(declared(column=column)), parameters)
     rest = kintrafo.rest(model)
     center = np.array([0.0, 0.0, 0.5])
     total = MASS + 4 * (CARRIER + WHEEL)
@@ -144,5 +149,5 @@ def car(**parameters):
         model, rest, np.array(rest.inputs), Controls(),
         ReferencePoint(model.state_names, center, reference),
         WHEELS, tuple(f"{wheel}_spin" for wheel in WHEELS), (0.29,) * 4, FRONT - REAR,
-        FRONT - reference[0], total,
+        FRONT - reference[0], total, rack_state="rack_displacement" if column else None,
     )  # fmt: skip

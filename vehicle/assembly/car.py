@@ -16,6 +16,7 @@ from ...systems.rest import rest
 from ...systems.state import State
 from ..corner.wheeled import WheeledSection
 from ..input.units import in_metres
+from ..models.axle import Axle
 from ..models.car.car import Car, center_of_gravity, masses, suspension_masses
 from ..models.car.equations import CarModel
 from ..models.model import Model
@@ -102,6 +103,8 @@ class CarAssembly(Assembly):
             "tyres": ", ".join(f"{end} {tyre.name}" for end, tyre in car.tyres.items()),
             "drive": ", ".join(f"{end} {share}" for end, share in shares.items()) or "none",
         }
+        if (column := car.column) is not None:
+            found["steering column"] = f"{column.stiffness_Nm_per_deg:g} N m/deg"
         if brakes is not None and car.front_brake_share is not None:
             found["brakes"] = (
                 f"{brakes.torque_Nm:g} N m, {100 * car.front_brake_share:g} % at the front"
@@ -159,6 +162,8 @@ class CarAssembly(Assembly):
             end or "corner": part.without_friction().subject for end, part in self.held.items()
         }
         data = {k: v for k, v in self.car.to_dict().items() if k not in parts}
+        if self.car.column is not None:
+            data["steering_column"] |= {"friction_Nm": 0.0, "rack_friction_N": 0.0}
         return CarAssembly(Car.from_dict(data | parts))
 
     # -- its positions on a rig -------------------------------------------------------------------
@@ -246,7 +251,16 @@ class CarAssembly(Assembly):
             for end, p in self.held.items()
             for name in p.coordinates
         ]
-        return (*(_FREE if self.car.drives else self.car.coordinates), *own)
+        rack = () if self.rack_state is None else (self.rack_state,)
+        return (*(_FREE if self.car.drives else self.car.coordinates), *own, *rack)
+
+    @property
+    def rack_state(self) -> str | None:
+        """The state that is the displacement of the rack [m]; None if the rack is prescribed."""
+        front = self.car.axles.get("front")
+        if self.car.column is None or not isinstance(front, Axle):
+            return None
+        return f"front_{front.right.NAMES.rack}"
 
     def names_of(self, wheel: str) -> WheelNames:
         """Return the names of a wheel in the equations."""

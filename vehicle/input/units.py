@@ -13,7 +13,8 @@ LengthUnit = Literal["mm", "m"]
 _UNIT_OF_ENDING = {
     "N_per_mm3": "N/mm^3", "N_s_per_m": "N s/m", "N_per_mm": "N/mm", "N_per_m": "N/m",
     "m_per_s2": "m/s^2", "m_per_s": "m/s", "km_per_h": "km/h", "deg_per_s": "deg/s",
-    "kg_m2": "kg m^2", "Nm_per_deg": "N m/deg", "N_per_rad": "N/rad", "kg_per_m3": "kg/m^3",
+    "kg_m2": "kg m^2", "Nm_s_per_deg": "N m s/deg", "Nm_per_deg": "N m/deg",
+    "N_per_rad": "N/rad", "kg_per_m3": "kg/m^3",
     "rad_per_s": "rad/s", "GPa": "GPa", "kPa": "kPa", "kg": "kg", "Nm": "N m", "m2": "m^2",
     "N": "N", "mm": "mm", "deg": "deg", "Hz": "Hz", "ms": "ms", "m": "m", "s": "s",
 }  # fmt: skip

@@ -90,7 +90,8 @@ class Loaded:
                 )
                 * squared
             )
-            self.matrix |= s.matrix
+            for pair, element in s.matrix.items():
+                self._add_element(pair, element)
         self._now = now.named(program, f"{body}_flow_of_all")
 
     def _add_own(self) -> None:
@@ -107,9 +108,15 @@ class Loaded:
 
     def _couple(self, k: str, flow: Flow) -> None:
         """Add the elements of the mass matrix between a coordinate and those of the base."""
-        self.momenta[k] = flow.momentum
+        known = self.momenta.get(k)
+        self.momenta[k] = flow.momentum if known is None else known + flow.momentum
         for own, share in self.base.shares(flow.wrench).items():
-            self.matrix[own, k] = share
+            self._add_element((own, k), share)
+
+    def _add_element(self, pair: tuple[str, str], element: sp.Expr) -> None:
+        """Add to an element of the mass matrix; by gears a coordinate may move several parts."""
+        known = pair[::-1] if pair[::-1] in self.matrix else pair
+        self.matrix[known] = self.matrix.get(known, NONE) + element
 
     def add_couple(self, along: Mapping[str, Vector], couple: Vector) -> None:
         """Add a further inertia couple of a body's motion, as of a rotor, in axes of the base.
@@ -163,7 +170,7 @@ class Loaded:
                 for other in s.flows:
                     pair = (k, other) if (k, other) in s.matrix else (other, k)
                     along += s.matrix.get(pair, NONE) * accelerations.get(other, NONE)
-                found[k] = along
+                found[k] = found.get(k, NONE) + along
         for columns, more in self._couples:
             couple += more
             for k, omega in columns.items():

@@ -10,6 +10,7 @@ import pytest
 from kintrafo import generator as g
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import car, model_named
+from kintrafo.generator.mechanisms.steering_column import on_a_column as on_column
 from oracle_check import check_with_the_oracle
 from own_models import Built, own
 
@@ -42,6 +43,14 @@ def on_struts_and_a_beam() -> Formulation:
     return car.full("struts", "A car on struts and a beam", axles)
 
 
+def on_a_column() -> Formulation:
+    """Return a car whose rack is moved by a compliant column, with an inertia that counts."""
+    struts = on_column(car.of_corners(model_named("macpherson")))
+    arms = car.of_corners(model_named("trailing_arm"))
+    axles = (car.driving(one, linear, relaxing=False, drive_on=None) for one in (struts, arms))
+    return car.full("column", "A car with a column", tuple(axles))
+
+
 def on_arms_and_rods() -> Formulation:
     """Return a car with a driven rigid axle, whose loops close by Newton's method."""
     arms = car.of_corners(model_named("trailing_arm"))
@@ -61,6 +70,10 @@ def built_on(model: Formulation) -> Built:
     more = {k: 0.02 * random.uniform() for k in tyres if k.endswith("rolling_resistance")}
     more |= {k: 2e3 * random.uniform() for k in tyres if k.endswith("camber_stiffness")}
     more |= {k: 300.0 for k in tyres if k.endswith("damper_rate")}
+    if model.name == "column":
+        more |= {"front_pinion_inertia_spin": 0.03, "front_pinion_inertia_diametral": 0.02}
+        more |= {"front_column_damper_rate": 20.0, "front_rack_friction": 300.0}
+        more |= {"front_pinion_turn": 40.0}  # angles of the oracle are within half a turn
     if model.name == "rods":
         more |= {k: 0.37 for k in tyres if k.startswith("rear_") and k.endswith("unloaded_radius")}
     return Built.of(model, module, PLACES | tyres | more)
@@ -91,7 +104,7 @@ def given(built: Built, random: np.random.Generator) -> np.ndarray:
     return np.array(limits) * random.uniform(-1.0, 1.0, len(limits))
 
 
-@pytest.mark.parametrize("model", [on_arms, on_struts_and_a_beam, on_arms_and_rods])
+@pytest.mark.parametrize("model", [on_arms, on_struts_and_a_beam, on_a_column, on_arms_and_rods])
 def test_accelerations_are_those_of_the_oracle(model: Callable[[], Formulation]) -> None:
     built, random = built_on(model()), np.random.default_rng(5)
     layout, names = built.module.LAYOUT, list(built.module.STATE)

@@ -14,6 +14,7 @@ from ...roads.road import Road
 from ..loads.on_a_car import rack_force
 from ..run import Run
 from .body_motion import ReferencePoint
+from .column import column_torque, column_twist
 from .road_under import RoadUnder
 
 
@@ -46,6 +47,9 @@ class DrivingCar:
         Mass of the whole car [kg].
     steering_input : str
         The input that the steering wheel moves, whose rates are inputs, too.
+    rack_state : str, optional
+        The state that is the displacement of the rack on a compliant column; None if the rack
+        follows the steering wheel.
     assembly : CarAssembly, optional
         The car with its linkages, for the forces in them.
     watched : callable, optional
@@ -66,6 +70,7 @@ class DrivingCar:
     front: float
     mass: float
     steering_input: str = "rack_position"
+    rack_state: str | None = None
     assembly: CarAssembly | None = None
     watched: Callable[[Run], None] | None = None
     road: Road | None = None
@@ -124,8 +129,8 @@ class DrivingCar:
     def steering_torque(self, angles: Array, states: Array, inputs: Array) -> Array | None:
         """Return the torque of the steering wheel, positive to the left, (n,) [N m].
 
-        Its work is that of the prescribed motion of the rack, without friction. The result is None
-        for a car without linkages.
+        Its work is that of the prescribed motion of the rack, without friction; a steering column
+        has its own friction and transmits its twist. The result is None for a car without linkages.
 
         Parameters
         ----------
@@ -135,8 +140,26 @@ class DrivingCar:
         """
         if self.assembly is None:
             return None
-        travel: Array = self.controls.rack(angles, np.ones_like(angles))["rack_velocity"]
+        travel = self._travel(angles)
+        column = self.assembly.car.column
+        if column is not None:
+            return column_torque(column, self.model, states, inputs, np.sign(travel))
         return rack_force(self.assembly, states, inputs) * travel
+
+    def column_twist(self, angles: Array, states: Array, inputs: Array) -> Array | None:
+        """Return the twist of the steering column, positive to the left, (n,) [rad].
+
+        Arguments are as of `steering_torque`. The result is None for a rigid column, and for a car
+        without linkages.
+        """
+        if self.rack_state is None or self.assembly is None:
+            return None
+        return column_twist(self.model, states, inputs, np.sign(self._travel(angles)))
+
+    def _travel(self, angles: Array) -> Array:
+        """Return the travel of the rack per angle of the steering wheel at its angles [m/rad]."""
+        found: Array = self.controls.rack(angles, np.ones_like(angles))["rack_velocity"]
+        return found
 
     @cached_property
     def _drive(self) -> Array:

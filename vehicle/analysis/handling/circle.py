@@ -21,6 +21,7 @@ from ...assembly.quantity import Quantity
 from ...models.reach import PositionError
 from .body_motion import QUANTITIES
 from .car import DrivingCar
+from .column import COLUMN_TWIST
 from .driven import OF_DRIVER, OF_WHEELS, STEER, STEERING_TORQUE
 from .result import HandlingResult, quantity
 from .steady import NoSteadyMotionError, Steady, SteadyCondition, SteadyMotion
@@ -355,6 +356,9 @@ def described(
     curves |= {
         name: quantity(along, gradients[name], words, _PER) for name, words in _GRADIENTS.items()
     }
+    twist = _twist(turns.car, steady)
+    if twist is not None:
+        curves["column_twist"] = quantity(along, twist, *COLUMN_TWIST)
     torques = _torques(turns.car, steady)
     curves |= {name: quantity(along, torques[name], *_OF_TORQUE[name]) for name in torques}
     model, wheels = turns.car.model, turns.car.wheels
@@ -447,6 +451,13 @@ def _torques(car: DrivingCar, steady: Sequence[Steady]) -> dict[str, Array]:
     return dict(zip(_OF_TORQUE, (here, (more - less) / (2.0 * _STEP)), strict=True))
 
 
+def _twist(car: DrivingCar, steady: Sequence[Steady]) -> Array | None:
+    """Return the twist of the steering column; None without one."""
+    angles = np.array([one.unknowns["steering_wheel"] for one in steady])
+    states, inputs = (np.array([getattr(one, n) for one in steady]) for n in ("state", "inputs"))
+    return car.column_twist(angles, states, inputs)
+
+
 def steering_ratio(car: DrivingCar, steady: Steady) -> float:
     """Return the overall steering ratio in a steady motion: steering wheel angle by steer angle.
 
@@ -457,7 +468,14 @@ def steering_ratio(car: DrivingCar, steady: Steady) -> float:
         The motion, with body and suspensions held in it.
     """
     rows = car.signal_rows("steer", car.steered)
-    by_input = car.model.evaluate("signals_input_jacobian", steady.state, steady.inputs)[rows]
     angle = steady.unknowns["steering_wheel"]
     more, less = (car.inputs(angle + d, 0.0, 0.0, 0.0, 0.0) for d in (_SMALL, -_SMALL))
-    return float(2.0 * _SMALL / (by_input @ (more - less)).mean())
+    moved = more - less
+    if car.rack_state is None:
+        by_input = car.model.evaluate("signals_input_jacobian", steady.state, steady.inputs)[rows]
+        return float(2.0 * _SMALL / (by_input @ moved).mean())
+    # the rack moves as far as on a rigid column
+    by_state = car.model.evaluate("signals_jacobian", steady.state, steady.inputs)[rows]
+    by_rack = by_state[:, car.model.state_names.index(car.rack_state)]
+    travel = moved[car.model.input_names.index(car.steering_input)]
+    return float(2.0 * _SMALL / (by_rack * travel).mean())

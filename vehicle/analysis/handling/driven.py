@@ -16,6 +16,7 @@ from ...assembly.by_wheel import WHEEL, wheel_coordinate
 from ..run import Run
 from .body_motion import QUANTITIES
 from .car import DrivingCar
+from .column import COLUMN_TWIST
 from .drivers import Observation, Pedals, Pushes, Steers
 from .result import quantity
 
@@ -200,6 +201,9 @@ def _dataset(car: DrivingCar, rows: list[tuple[float, Array, Array, float, Pedal
     torque = car.steering_torque(np.array(angles), every, acting)
     if torque is not None:
         found["steering_torque"] = quantity("time", torque, *STEERING_TORQUE)
+    twist = car.column_twist(np.array(angles), every, acting)
+    if twist is not None:
+        found["column_twist"] = quantity("time", twist, *COLUMN_TWIST)
     signals = car.model.evaluate("signals", every, acting)
     for name, described in OF_WHEELS.items():
         found[name] = quantity(

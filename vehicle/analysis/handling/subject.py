@@ -58,6 +58,7 @@ def driving_car(source: str, subject: Any) -> DrivingCar:
         wheelbase=float(front - rear),
         front=float(front - center[0]),
         mass=sum(mass for mass, _ in masses(car)),
+        rack_state=found.rack_state,
         assembly=found,
     )
 

@@ -48,6 +48,11 @@ class CarInMotion:
         self.model = assembly.model
         columns = dict(zip(self.model.state_names, states.T, strict=True))
         self._values = columns | dict(zip(self.model.input_names, inputs.T, strict=True))
+        if (rack := assembly.rack_state) is not None:  # its inputs are those of a rigid column
+            self._values |= {
+                "rack_position": self._values[rack],
+                "rack_velocity": self._values[f"{rack}_rate"],
+            }
 
     @cached_property
     def body(self) -> Array:

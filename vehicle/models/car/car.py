@@ -22,7 +22,7 @@ from ...tyres import Tyre
 from ..axle.axle import Axle
 from ..sides import SIDES
 from ..whole_axle import WholeAxle, whole_axle_class
-from .driving import named, tyre_of
+from .driving import SteeringColumn, named, tyre_of
 from .file import COORDINATES, ENDS, OF_DRIVING, CarFile
 
 AnyAxle = Axle | WholeAxle
@@ -217,6 +217,11 @@ class Car(DescribedParts):
     def relaxing(self) -> bool:
         """Whether the slips of its tyres lag by their relaxation lengths."""
         return self.described.tyres is not None and self.described.tyres.relaxation
+
+    @property
+    def column(self) -> SteeringColumn | None:
+        """The steering column that twists, of a car that drives; None if the rack is prescribed."""
+        return self.described.steering_column if self.drives else None
 
     @property
     def drive_shares(self) -> dict[str, float]:
@@ -449,6 +454,8 @@ def _problems_of_driving(car: Car) -> list[str]:
             f"[drive] share is {words} in the files of the axles: together {total:g}, and 1 is "
             "needed. Correct them; an axle without [drive] is not driven."
         )
+    if car.column is not None:
+        problems += _problems_of_column(car.axles["front"])
     if car.described.brakes is not None:
         problems += _problems_of_brakes(car)
     for end, tyre in car.tyres.items():
@@ -460,6 +467,29 @@ def _problems_of_driving(car: Car) -> list[str]:
                 "Use a tyre that reaches the ground."
             )
     return problems
+
+
+def _problems_of_column(front: AnyAxle) -> list[str]:
+    """Return the problem of a steering column that moves no rack, or by an unknown ratio."""
+    if isinstance(front, WholeAxle) or not front.steered():
+        problem = (
+            "the front wheels are not steered, and there is no rack that it moves. Remove this "
+            "section."
+        )
+    elif front.steering is not None:
+        problem = (
+            "front: [steering]: the rack follows the angle by a curve, and a column that twists "
+            "needs a constant ratio. Replace [steering] by travel_per_turn_mm, or remove this "
+            "section."
+        )
+    elif front.right.steering_gear.travel_per_turn() is None:
+        problem = (
+            f"front: {front.right.steering_gear.TURN_KEY} is missing: how far the rack moves for a "
+            "turn of the steering wheel, by which the column moves it. Add it."
+        )
+    else:
+        return []
+    return [f"[steering_column]: {problem}"]
 
 
 def _problems_of_brakes(car: Car) -> list[str]:

@@ -1,13 +1,15 @@
-"""The sections of a driving car: rolling tyres, brakes, air."""
+"""The sections of a driving car: rolling tyres, steering column, brakes, air."""
 
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
+import numpy as np
 from pydantic import Field, ValidationError, WithJsonSchema
 
 from ....core.errors import InputError
 from ....core.validator import shown
+from ....core.vectors import Vector, components
 from ...input.messages import messages_of
 from ...input.section import Flag, NonNegative, Number, Positive, Section, Triple
 from ...input.units import in_metres
@@ -35,6 +37,65 @@ class CarTyres(Section):
         description="true: slips lag by the relaxation lengths of the tyres, with two states of "
         "each tyre; false: forces follow the slips without lag",
     )
+
+
+class SteeringColumn(Section):
+    """A steering column that twists between the steering wheel and the rack, and friction.
+
+    Without this section the rack follows the steering wheel.
+    """
+
+    stiffness_Nm_per_deg: Positive = Field(  # noqa: N815 (N m is the unit)
+        description="torque of the steering wheel over the twist of the column, the rack held; of "
+        "column, joints and torsion bar together"
+    )
+    damping_Nm_s_per_deg: NonNegative = Field(  # noqa: N815 (N m is the unit)
+        default=0.0, description="damping of the twist"
+    )
+    pinion_inertia_kg_m2: NonNegative = Field(
+        default=0.0,
+        description="moment of inertia of all that turns with the pinion, at its speed; behind the "
+        "column on the side of the rack",
+    )
+    friction_Nm: NonNegative = Field(  # noqa: N815 (N m is the unit)
+        default=0.0,
+        description="friction of the column on the side of the steering wheel, in full sliding",
+    )
+    rack_friction_N: NonNegative = Field(  # noqa: N815 (N is the newton)
+        default=0.0, description="friction of the rack in its housing, in full sliding"
+    )
+    friction_velocity_m_per_s: Positive = Field(
+        default=0.005, description="velocity of the rack at which 71 % of the friction is reached"
+    )
+
+    def rate(self) -> float:
+        """Return the stiffness [N m/rad]."""
+        return float(self.stiffness_Nm_per_deg / np.deg2rad(1.0))
+
+    def parameters(self, travel_per_turn: float, center: Vector) -> dict[str, float]:
+        """Return the values by their names in the equations, in SI units.
+
+        Parameters
+        ----------
+        travel_per_turn : float
+            Travel of the rack for a turn of the steering wheel [m].
+        center : ndarray, shape (3,)
+            Middle of the rack, where the pinion is drawn [m].
+        """
+        zero = dict.fromkeys(("pinion_mass", "column_free_twist"), 0.0)
+        return (
+            zero
+            | components("pinion_center", center)
+            | {
+                "pinion_turn": float(2.0 * np.pi / travel_per_turn),
+                "pinion_inertia_spin": self.pinion_inertia_kg_m2,
+                "pinion_inertia_diametral": 0.5 * self.pinion_inertia_kg_m2,  # of a disc
+                "column_rate": self.rate(),
+                "column_damper_rate": float(self.damping_Nm_s_per_deg / np.deg2rad(1.0)),
+                "rack_friction": self.rack_friction_N,
+                "rack_friction_speed": self.friction_velocity_m_per_s,
+            }
+        )
 
 
 class CarBrakes(Section):

@@ -13,11 +13,12 @@ from ....core.vectors import components
 from ....systems.allowed import LengthLimit
 from ....systems.compile.build import compile_mechanism, require_generator
 from ....systems.system import System
+from ..axle.axle import Axle
 from ..model import Model
 from ..packaged import packaged_equations
 from ..sides import SIDES
 from .car import Car
-from .driving import Air
+from .driving import Air, SteeringColumn
 
 if TYPE_CHECKING:
     from ....generator import Formulation
@@ -89,7 +90,8 @@ def name_of(car: Car) -> str:
         return f"quarter_{Model(car.corner).equations.NAME}"
     tyres = dict.fromkeys(tyre.law for tyre in car.tyres.values())
     axles = [part for a in car.axles.values() for part in (a.equations_name, a.link_part) if part]
-    return "_".join([car.described.car, "car", *axles, *tyres])
+    column = ["column"] if car.column is not None else []
+    return "_".join([car.described.car, "car", *axles, *column, *tyres])
 
 
 def _equations(car: Car, progress: Report | None) -> ModuleType:
@@ -139,6 +141,8 @@ class _End:
     pulls : str
         The part to which the drop links of its anti-roll bar are joined.
     steered : bool
+    column : bool
+        Whether a compliant steering column moves the rack.
     law, relaxing, brakes_on, drive_on
         Of a driving car, see `generator.mechanisms.car.driving`.
     """
@@ -147,6 +151,7 @@ class _End:
     whole: bool
     pulls: str = ""
     steered: bool = False
+    column: bool = False
     law: Any = None
     relaxing: bool = False
     brakes_on: Any = None
@@ -168,12 +173,14 @@ class _End:
         name = axle.equations_name
         if not steered:  # what would move the tie rods is a part of the body
             name = name.removesuffix("_pitman_arm")
-        return cls(name, axle.whole, axle.link_part, steered, **rolling)
+        column = steered and car.column is not None
+        return cls(name, axle.whole, axle.link_part, steered, column, **rolling)
 
     def declared(self) -> "Formulation":
         """Return the declaration of the axle."""
         from ....generator.mechanisms import car as page  # noqa: PLC0415 (an extra)
         from ....generator.mechanisms import model_named  # noqa: PLC0415
+        from ....generator.mechanisms.steering_column import on_a_column  # noqa: PLC0415
 
         found = (
             page.of_whole_axle(model_named(self.suspension))
@@ -182,6 +189,8 @@ class _End:
                 model_named(self.suspension), pulls=self.pulls, steered=self.steered
             )
         )
+        if self.column:
+            found = on_a_column(found)
         if self.law is None:
             return found
         return page.driving(
@@ -236,6 +245,16 @@ def _parameters(car: Car, described: Mapping[str, Mapping[str, Any]]) -> dict[st
     return known | {name: value for name, value in driving.items() if name in described}
 
 
+def _of_column(car: Car, column: SteeringColumn) -> dict[str, float]:
+    """Return the parameters of a steering column, in SI units."""
+    front = car.axles["front"]
+    assert isinstance(front, Axle)
+    travel = front.right.steering_gear.travel_per_turn()
+    assert travel is not None
+    ends = [side.hardpoints.metres("tie_rod_inner") for side in front.sides.values()]
+    return column.parameters(travel, np.mean(ends, axis=0))
+
+
 def _of_driving(car: Car) -> dict[str, float]:
     """Return the parameters of rolling tyres, brakes and air, in SI units."""
     values: dict[str, float] = {}
@@ -244,6 +263,8 @@ def _of_driving(car: Car) -> dict[str, float]:
         tyre = car.tyre(wheel)
         values |= tyre.parameters(name, relaxing=car.relaxing)
         values[f"{name}_damper_rate"] = tyre.vertical_damping
+    if (column := car.column) is not None:
+        values |= {f"front_{name}": value for name, value in _of_column(car, column).items()}
     if (brakes := car.described.brakes) is not None:
         values |= {f"{end}_brake_standstill": brakes.standstill_rad_per_s for end in car.axles}
     air = car.described.air or Air()

@@ -12,7 +12,7 @@ from ...input.bodies import RigidBody
 from ...input.hardpoints import Hardpoints
 from ...input.section import Number, Positive, Section, Triple
 from ...input.units import point_in_metres
-from .driving import Air, CarBrakes, CarTyres
+from .driving import Air, CarBrakes, CarTyres, SteeringColumn
 
 Freedoms = Literal["heave", "ride", "roll", "full"]
 
@@ -26,7 +26,7 @@ COORDINATES: Mapping[str, tuple[str, ...]] = {
 
 ENDS = ("front", "rear")
 
-OF_DRIVING = ("tyres", "brakes", "air")
+OF_DRIVING = ("tyres", "steering_column", "brakes", "air")
 """Sections that only a driving car uses."""
 
 # The type in a file; from Python it may also be an object, or the sections of its file.
@@ -95,6 +95,11 @@ class CarFile(Section):
     )
     body: CarBody = Field(description="the body")
     tyres: CarTyres | None = Field(default=None, description="the tyres of a car that drives")
+    steering_column: SteeringColumn | None = Field(
+        default=None,
+        description="compliance and friction of the steering of a car that drives; by default the "
+        "rack follows the steering wheel",
+    )
     brakes: CarBrakes | None = Field(default=None, description="the brakes of a car that drives")
     air: Air | None = Field(default=None, description="drag and lift of a car that drives")
     seats: dict[str, Seat] = Field(

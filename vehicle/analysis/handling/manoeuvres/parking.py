@@ -10,7 +10,7 @@ inflation pressure p (R. S. Sharp and R. Granger, Proc. IMechE D 217, 2003) slid
 which the moment approaches exponentially as the wheel turns on the road (P. R. Dahl, 1968).
 """
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -48,7 +48,10 @@ _DESCRIBED = {
     "steering_torque": STEERING_TORQUE,
     "lifting_torque": ("torque of the steering wheel that lifts the car and leans it", "N m"),
     "friction_torque": ("torque of the steering wheel that turns the tyres on the road", "N m"),
-}
+    "steering_friction_torque": (
+        "torque of the steering wheel by the friction of rack and steering column", "N m",
+    ),
+}  # fmt: skip
 _OF_WHEELS = {
     "steer": STEER,
     "fz": OF_WHEELS["fz"],
@@ -58,7 +61,39 @@ _GREATEST = {
     "steering_torque": "absolute torque of the steering wheel",
     "lifting_torque": "absolute lifting torque",
     "friction_torque": "absolute friction torque of the tyres",
+    "steering_friction_torque": "absolute friction torque of rack and steering column",
 }
+
+
+class _Column(NamedTuple):
+    """The steering column in slow motion; a rigid one without friction has zeros.
+
+    Attributes
+    ----------
+    compliance : float
+        Twist by torque [rad/(N m)].
+    at_rack, at_wheel : float
+        Torques by friction of the rack, which twist the column, and of the column itself [N m].
+    """
+
+    compliance: float = 0.0
+    at_rack: float = 0.0
+    at_wheel: float = 0.0
+
+    @classmethod
+    def of(cls, car: DrivingCar) -> "_Column":
+        """Return the column of a car."""
+        assert car.assembly is not None  # a car from a file has linkages
+        column = car.assembly.car.column
+        if column is None:
+            return cls()
+        travel = abs(car.controls.rack(0.0, 1.0)["rack_velocity"])
+        return cls(1.0 / column.rate(), column.rack_friction_N * travel, column.friction_Nm)
+
+    @property
+    def rubs(self) -> bool:
+        """Whether there is friction."""
+        return self.at_rack + self.at_wheel > 0.0
 
 
 class Parking(Manoeuvre):
@@ -69,7 +104,9 @@ class Parking(Manoeuvre):
 
     manoeuvre: Literal["parking"] = Field(description="name of the manoeuvre")
     largest_deg: Positive = Field(
-        default=360.0, description="greatest steering wheel angle, to both sides"
+        default=360.0,
+        description="greatest steering wheel angle, to both sides; a steering column twists "
+        "further by the friction",
     )
     step_deg: Positive = Field(default=5.0, description="step of the steering wheel angle")
     friction: _Friction = Field(
@@ -97,23 +134,30 @@ class Parking(Manoeuvre):
         count = int(np.ceil(self.largest_deg / self.step_deg))
         angles = np.deg2rad(self.largest_deg) * np.arange(-count, count + 1) / count
         steer, loads, lifting = self._at_rest(car, angles, progress)
-        slopes = CubicSpline(angles, steer, axis=-1)(angles, 1)
-        # from the middle to the left, to the right and to the left again
-        rows = np.arange(angles.size)
-        path = np.concatenate([rows[count:], rows[::-1][1:], rows[1:]])
+        column = _Column.of(car)
+        pinion = angles - lifting * column.compliance
+        slopes = CubicSpline(pinion, steer, axis=-1)(pinion, 1)
+        # from the middle to the left, to the right and to the left again; where it turns back, a
+        # rack with friction rests at one position
+        rows, first = np.arange(angles.size), 0 if column.rubs else 1
+        path = np.concatenate([rows[count:], rows[::-1][first:], rows[first:]])
+        towards = np.repeat([1.0, -1.0, 1.0], [count + 1, *2 * [angles.size - first]])
         moments = self.moments(steer[:, path], loads[:, path])
         rubbing = (moments * slopes[:, path]).sum(axis=0)
+        at_rack = lifting[path] + rubbing + column.at_rack * towards
         values = {
-            "steering_torque": lifting[path] + rubbing,
+            "steering_torque": at_rack + column.at_wheel * towards,
             "lifting_torque": lifting[path],
             "friction_torque": rubbing,
         }
-        curves = {name: quantity(ALONG, values[name], *words) for name, words in _DESCRIBED.items()}
+        if column.rubs:
+            values["steering_friction_torque"] = (column.at_rack + column.at_wheel) * towards
+        curves = {name: quantity(ALONG, each, *_DESCRIBED[name]) for name, each in values.items()}
         of_wheels = {"steer": steer[:, path], "fz": loads[:, path], "mz": moments}
         for name, words in _OF_WHEELS.items():
             curves[name] = quantity((WHEEL, ALONG), of_wheels[name], *words)
         coordinates = {
-            ALONG: quantity(ALONG, angles[path], *OF_DRIVER[ALONG]),
+            ALONG: quantity(ALONG, pinion[path] + at_rack * column.compliance, *OF_DRIVER[ALONG]),
             WHEEL: wheel_coordinate(car.steered),
         }
         title = f"{self.TITLE}, stationary"
@@ -121,6 +165,7 @@ class Parking(Manoeuvre):
         metrics = {
             f"greatest_{name}": quantity((), np.abs(values[name]).max(), f"greatest {words}", "N m")
             for name, words in _GREATEST.items()
+            if name in values
         }
         return HandlingResult(xr.Dataset(metrics, attrs={"title": title}), {"": found})
 

@@ -1,0 +1,284 @@
+"""Cars with a steering column that twists: against formulas, balances of loads, a rigid column."""
+
+import kintrafo
+import numpy as np
+import pytest
+import rail_car
+from driving_cars import FILE, light_car
+from kintrafo.vehicle.analysis.handling import circle, drive
+from kintrafo.vehicle.analysis.handling.circle import Turns
+from kintrafo.vehicle.analysis.handling.linear import steering_response
+from kintrafo.vehicle.analysis.handling.steady import SteadyCondition
+from kintrafo.vehicle.analysis.loads.on_a_car import rack_force
+from kintrafo.vehicle.assembly.of import assembly_of
+from kintrafo.vehicle.models.car import Car
+from kintrafo.vehicle.models.car.equations import declared, name_of
+
+STIFFNESS = 1.5  # N m/deg
+TRAVEL = 0.05 / (2.0 * np.pi)  # of the rack [m/rad]
+INERTIA = 1e-3
+COLUMN = {
+    "stiffness_Nm_per_deg": STIFFNESS,
+    "damping_Nm_s_per_deg": 0.01,
+    "pinion_inertia_kg_m2": INERTIA,
+    "friction_Nm": 0.5,
+    "rack_friction_N": 100.0,
+}
+
+
+def with_column(**changes):
+    return light_car(steering_column=COLUMN | changes)
+
+
+# -- a car without kinematics ---------------------------------------------------------------------
+
+CORNERING, TRAIL, RATE = {"front": 160e3, "rear": 240e3}, 0.03, 150.0
+PINION, PINION_TURN = 0.02, rail_car.Controls.RATIO
+
+
+@pytest.fixture(scope="module")
+def railed():
+    values = {"column_rate": RATE, "pinion_turn": PINION_TURN, "pinion_inertia_spin": PINION}
+    for end, stiffness in CORNERING.items():
+        own = {"camber_stiffness": 0.0, "cornering_stiffness": 0.5 * stiffness, "vxlow": 1e-3}
+        values |= {f"{end}_tyre_{name}": value for name, value in own.items()}
+    return rail_car.car(column=True, **values)
+
+
+def in_the_air(car):
+    """Return a state in which the tyres do not touch the road."""
+    state = car.model.design_state.copy()
+    state[car.model.state_names.index("body_z")] = 1.0
+    return state
+
+
+@pytest.mark.parametrize("speed", [10.0, 40.0])
+def test_gradients_are_those_of_a_bicycle_with_steering_compliance(railed, speed) -> None:
+    """The column softens the front tyres: their slip angle is F/C, and F trail/k is added."""
+    metrics = circle(railed, speed=speed, lateral_acceleration=[1e-4]).metrics
+    base, mass = railed.wheelbase, railed.mass
+    by_front = mass * (base - railed.front + TRAIL) / base
+    by_rear = mass * (railed.front - TRAIL) / base
+    ratio = PINION_TURN / rail_car.TURN
+    softened = 1.0 / CORNERING["front"] + TRAIL / (RATE * ratio**2)
+    expected = by_front * softened - by_rear / CORNERING["rear"]
+    assert float(metrics["understeer_gradient"]) == pytest.approx(expected, rel=1e-6)
+    assert float(metrics["steering_ratio"]) == pytest.approx(ratio, rel=1e-9)
+    of_wheels = by_front / CORNERING["front"] - by_rear / CORNERING["rear"]
+    assert float(metrics["understeer_gradient_of_wheels"]) == pytest.approx(of_wheels, rel=1e-6)
+
+
+def test_slow_harmonic_steering_is_a_steady_turn(railed) -> None:
+    straight = Turns(railed, SteadyCondition("speed", 20.0), 1).begin(0.0)
+    found = steering_response(railed, straight, np.array([1e-4]))
+    slope = straight.slopes["yaw_rate"] / straight.slopes["steering_wheel"]
+    # both are of first order in the frequency
+    assert found["yaw_rate"][0].real == pytest.approx(slope, rel=1e-4)
+
+
+def test_the_frequency_of_the_free_rack_is_that_of_one_mass(railed) -> None:
+    """In the air; the yaw of the body takes a part of the moment of momentum."""
+    model, state = railed.model, in_the_air(railed)
+    centers = [[x, y] for x in (rail_car.FRONT, rail_car.REAR) for y in (0.75, -0.75)]
+    masses = np.array([rail_car.MASS, *4 * [rail_car.CARRIER + rail_car.WHEEL]])
+    places = np.array([[0.0, 0.0], *centers])
+    apart = places - masses @ places / masses.sum()
+    yawing = 1700.0 + 4 * (0.4 + 0.6) + PINION + masses @ (apart**2).sum(axis=1)
+    turned = 2 * 0.6 * rail_car.TURN + PINION * PINION_TURN
+    mass = 2 * 0.6 * rail_car.TURN**2 + PINION * PINION_TURN**2 - turned**2 / yawing
+    found = np.abs(model.eigenvalues(state, np.zeros(len(model.input_names))).imag)
+    expected = PINION_TURN * np.sqrt(RATE / mass)
+    assert np.abs(found - expected).min() == pytest.approx(0.0, abs=1e-6 * expected)
+
+
+def test_slow_steering_loses_what_friction_takes(railed) -> None:
+    """Friction times the way of the rack, which rests while the column winds up the other way."""
+    friction, amplitude, period = 200.0, 0.02, 4.0
+    changes = {"rack_friction": friction, "rack_friction_speed": 1e-4, "gravity": 0.0}
+    model = kintrafo.System(railed.model.equations, railed.model.parameters | changes)
+    times, omega = np.linspace(0.0, 2.0 * period, 1601), 2.0 * np.pi / period
+    positions = amplitude * (1.0 - np.cos(omega * times))
+    found = kintrafo.simulate(
+        model, (0.0, 2.0 * period), in_the_air(railed), method="BDF", t_eval=times,
+        inputs={"rack_position": (times, positions)}, rtol=1e-6, atol=1e-8,
+    )  # fmt: skip
+    force = model.signal("column_spring_moment", found.y.T, found.inputs) * PINION_TURN
+    velocity = found.inputs[:, model.input_names.index("rack_velocity")]
+    cycle = times >= period
+    work = np.trapezoid((force * velocity)[cycle], times[cycle])
+    rests = 2.0 * friction / (RATE * PINION_TURN**2)
+    # the rack is braked over some 0.1 mm of 40 mm, and the body turns a little
+    assert work == pytest.approx(2.0 * friction * (2.0 * amplitude - rests), rel=3e-3)
+
+
+# -- a car with linkages --------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def column():
+    return with_column()
+
+
+def test_a_steady_turn_twists_the_column_by_its_torque(column) -> None:
+    """By the balance of all parts; the angle of the steering wheel is that of a rigid column."""
+    accelerations = [1.0, 4.0]
+    soft, rigid = (
+        circle(car, speed=20.0, lateral_acceleration=accelerations) for car in (column, light_car())
+    )
+    here, there = soft.curves[""], rigid.curves[""]
+    rate = STIFFNESS / np.deg2rad(1.0)
+    # the torque of the rigid column is that of the loads on the rack
+    for name, rel in (("steering_torque", 1e-8), ("steer_angle", 1e-8), ("fy", 1e-8)):
+        np.testing.assert_allclose(here[name], there[name], rtol=rel)
+    np.testing.assert_allclose(here["column_twist"], there["steering_torque"] / rate, rtol=1e-8)
+    added = here["steering_wheel_angle"] - there["steering_wheel_angle"]
+    np.testing.assert_allclose(added, here["column_twist"], rtol=1e-6)
+    ratio = float(rigid.metrics["steering_ratio"])
+    assert float(soft.metrics["steering_ratio"]) == pytest.approx(ratio, rel=1e-9)
+    more = float(soft.metrics["understeer_gradient"] - rigid.metrics["understeer_gradient"])
+    gradient = float(rigid.metrics["steering_torque_gradient"])
+    assert more == pytest.approx(gradient / rate / ratio, rel=1e-5)
+
+
+def test_a_stiff_column_is_a_rigid_one() -> None:
+    """Accelerations in a step steer differ in inverse proportion to the stiffness."""
+    changes = {"duration_s": 1.5, "step_ms": 2.0, "output_step_ms": 4.0}
+    light = {"friction_Nm": 0.0, "rack_friction_N": 0.0, "pinion_inertia_kg_m2": 0.0}
+    rigid = drive(light_car(), "step_steer", changes).metrics
+    errors = [
+        float(
+            drive(with_column(stiffness_Nm_per_deg=k, **light), "step_steer", changes).metrics[
+                "yaw_rate_gain"
+            ]
+            - rigid["yaw_rate_gain"]
+        )
+        for k in (30.0, 300.0)
+    ]
+    assert errors[0] == pytest.approx(10.0 * errors[1], rel=0.05)
+    assert abs(errors[1]) < 1e-3 * float(rigid["yaw_rate_gain"])
+
+
+def test_forces_on_the_rack_are_those_of_the_loads(column) -> None:
+    """In a step steer; the balance of all parts has the rack without its drive."""
+    result = drive(column, "step_steer", {"duration_s": 1.5})
+    run = result.runs[-1]
+    model = run.car.model
+    names, signals = model.state_names, model.signals(run.states, run.inputs)
+    rates = model.evaluate("rhs", run.states, run.inputs)
+    turning = rates[:, names.index("front_beta9_rate")] / TRAVEL + rates[:, names.index("body_r")]
+    moment = signals["front_column_spring_moment"] + signals["front_column_damper_moment"]
+    expected = (moment - INERTIA * turning) / TRAVEL + signals["front_rack_friction_force"]
+    found = rack_force(run.car.assembly, run.states, run.inputs)
+    assert np.abs(found).max() > 200.0
+    np.testing.assert_allclose(found, expected, atol=1e-6)
+    assert np.abs(kintrafo.handling.dynamic_loads(result)["holding_force"]).max() < 1e-6
+    # the friction of the column is at the steering wheel, which moves to the left
+    velocity = run.inputs[:, model.input_names.index("rack_velocity")]
+    smoothed = velocity / np.hypot(velocity, 0.005)
+    torque = run.motion["steering_torque"].values
+    np.testing.assert_allclose(torque, -(moment + 0.5 * smoothed), atol=1e-12)
+
+
+def test_a_parked_rack_rests_where_the_steering_turns_back(column) -> None:
+    changes = {"largest_deg": 180.0, "step_deg": 30.0}
+    found = drive(column, "parking", changes).curves[""]
+    rigid = drive(light_car(), "parking", changes).curves[""]
+    angle, torque = (found[name].values for name in ("steering_wheel_angle", "steering_torque"))
+    rack, wheel = 100.0 * TRAVEL, 0.5
+    turns = np.flatnonzero(np.diff(found["steer"].values[0]) == 0.0)
+    assert turns.tolist() == [6, 19]
+    assert torque[turns] - torque[turns + 1] == pytest.approx(
+        2.0 * (rack + wheel) * np.array([1.0, -1.0])
+    )
+    # the rack is where the pinion is, and there torques are those of a rigid column
+    towards = np.sign(found["steering_friction_torque"].values)
+    pinion = angle - (torque - wheel * towards) * np.deg2rad(1.0) / STIFFNESS
+    kept = np.delete(np.arange(angle.size), turns + 1)
+    assert np.degrees(pinion[kept]) == pytest.approx(
+        np.degrees(rigid["steering_wheel_angle"].values), abs=3.0
+    )
+    held = np.interp(pinion[:7], rigid["steering_wheel_angle"][:7], rigid["lifting_torque"][:7])
+    assert found["lifting_torque"].values[:7] == pytest.approx(held, abs=0.02)
+
+
+def test_a_car_at_rest_has_its_rack_in_the_middle(column) -> None:
+    model = kintrafo.CarModel(column)
+    rest = kintrafo.equilibrium(model)
+    assembly = assembly_of(model)
+    row = model.state_names.index("front_beta9")
+    assert abs(np.asarray(rest)[row]) < 1e-9
+    assert "front_beta9" in assembly.coordinates
+    moved = kintrafo.equilibrium(model, rack_position=0.02)
+    # springs and weight turn it back by the compliance of the column
+    assert 0.0 < 0.02 - np.asarray(moved)[row] < 5e-4
+    # a small force of an assistance moves the rack against the column, and a little lifts the car
+    helped = kintrafo.equilibrium(model, inputs={"front_rack_force": 10.0})
+    alone = 10.0 * TRAVEL**2 / (STIFFNESS / np.deg2rad(1.0))
+    assert np.asarray(helped)[row] == pytest.approx(alone, rel=0.05)
+    assert assembly.without_friction().car.column.rack_friction_N == 0.0
+
+
+# -- files ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"stiffness_Nm_per_deg": 0.0}, "stiffness_Nm_per_deg = 0.0 N m/deg is out of range"),
+        ({"stiffness_Nm_per_deg": None}, "stiffness_Nm_per_deg is missing"),
+        ({"damping_Nm_s_per_deg": -1.0}, "damping_Nm_s_per_deg = -1.0 N m s/deg"),
+        ({"rack_friction_N": -1.0}, "rack_friction_N = -1.0 N"),
+        ({"friction_Nm": -1.0}, "friction_Nm = -1.0 N m"),
+        ({"pinion_inertia_kg_m2": -1.0}, "pinion_inertia_kg_m2 = -1.0 kg m^2"),
+        ({"friction_velocity_m_per_s": 0.0}, "friction_velocity_m_per_s = 0.0 m/s"),
+        ({"colour": "black"}, "colour"),
+    ],
+)
+def test_values_of_a_column_are_checked(changes, words) -> None:
+    own = {name: value for name, value in (COLUMN | changes).items() if value is not None}
+    with pytest.raises(kintrafo.InputError) as error:
+        Car.from_dict(FILE | {"steering_column": own})
+    assert words in str(error.value)
+
+
+def on_arms():
+    arm = kintrafo.load("trailing_arm_car").with_changes({"vehicle.end": "front"})
+    return {"axle": "front", "side": arm, "drive": {"share": 1.0}}
+
+
+def without_ratio():
+    return kintrafo.load("reference_car").with_changes({"rack.travel_per_turn_mm": None})
+
+
+@pytest.mark.parametrize(
+    ("front", "words"),
+    [
+        (on_arms(), "the front wheels are not steered"),
+        (
+            FILE["front"] | {"steering": {"angle_deg": [-90, 0, 90], "rack_mm": [12, 0, -12]}},
+            "a constant ratio",
+        ),
+        (
+            FILE["front"] | {"side": without_ratio()},
+            "travel_per_turn_mm is missing",
+        ),
+    ],
+)
+def test_a_column_needs_a_rack_and_its_ratio(front, words) -> None:
+    with pytest.raises(kintrafo.InputError, match=r"\[steering_column\]") as error:
+        Car.from_dict(FILE | {"front": front, "steering_column": COLUMN})
+    assert words in str(error.value)
+
+
+def test_other_cars_have_no_column() -> None:
+    """A car that does not travel holds its rack; without the section equations are as before."""
+    assert [name_of(car).count("column") for car in (light_car(), with_column())] == [0, 1]
+    assert "[steering_column]" in with_column().with_changes({"car": "roll"}).unused
+    assert Car.from_dict(with_column().to_dict()).to_dict() == with_column().to_dict()
+
+
+def test_a_pitman_arm_has_a_column() -> None:
+    car = kintrafo.load("fed_alpha").with_changes({"car": "full", "steering_column": COLUMN})
+    found = declared(car)
+    assert "front_rack_guide" in {joint.name for joint in found.independent}
+    assert [joint.name for joint in found.prescribed] == ["front_wheel_guide"]
