@@ -14,7 +14,7 @@ def test_nothing_wrong_raw_or_hung(name):
     )
 
 
-def test_what_goes_wrong_is_told():
+def test_what_goes_wrong_is_reported():
     """Hanging and dying cost their own seed only, and both are seen."""
     found = campaign("_broken", short("_broken"))
     assert [found.counts[outcome] for outcome in OUTCOMES] == [2, 1, 1, 1, 2, 1]

@@ -102,7 +102,7 @@ def test_no_trace_of_machine_or_day() -> None:
         text.decode("utf-8")
 
 
-def test_difference_is_told() -> None:
+def test_difference_is_reported() -> None:
     same, other = {"a": b"1\n2\n", "b": b"x\n"}, {"a": b"1\n3\n", "b": b"x\n"}
     assert differing(same, other) == {"a": "line 2: b'2' and b'3'"}
     assert list(differing(same, {"a": b"1\n2\n"})) == ["b"]

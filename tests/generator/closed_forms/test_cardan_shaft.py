@@ -199,7 +199,7 @@ def test_shafts_in_a_row_go_round_as_the_oracle_says(tmp_path: Path) -> None:
 # -- what is refused -------------------------------------------------------------------------------
 
 
-def test_a_guide_beside_the_line_of_the_crosses_is_told_by_how_much() -> None:
+def test_a_guide_beside_the_line_of_the_crosses_is_reported_by_how_much() -> None:
     model = column("askew", 0.3, 0.3, 0.0, along=(1.0, 0.0, 0.02))
     said = f"guide spline of upper and lower must be along .*{degrees(np.arctan(0.02)):.3g} degrees"
     with pytest.raises(DeclarationError, match=said):
@@ -212,7 +212,7 @@ def test_a_guide_of_its_own_direction_counts_along_it(sense: float, tmp_path: Pa
     check_with_the_oracle(model, tmp_path, 0.5)
 
 
-def test_a_hinge_beside_its_cross_is_told_by_how_much() -> None:
+def test_a_hinge_beside_its_cross_is_reported_by_how_much() -> None:
     model = column("beside", 0.3, 0.3, 0.0, beside=0.004)
     said = r"hinge rolling must go through the centre lower_center .* 4 mm"
     with pytest.raises(DeclarationError, match=said):
@@ -230,7 +230,7 @@ BETWEEN = r"Only the crosses '\w+' and '\w+' hold '{}'\. {}"
         "turned",
     ],
 )
-def test_what_is_no_such_shaft_is_told_what_to_do(
+def test_what_is_no_such_shaft_is_refused_with_a_remedy(
     links: str, refused: Any, *, allowed: bool
 ) -> None:
     """A shaft that cannot telescope, and a cross whose second body is not the shaft."""

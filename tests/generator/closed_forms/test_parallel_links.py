@@ -57,7 +57,7 @@ def test_what_can_drive_it_is_found() -> None:
     assert {("swing", f"axle_{i}") for i in range(3)} <= set(found)
 
 
-def test_a_crank_that_is_not_parallel_is_told_by_how_much() -> None:
+def test_a_crank_that_is_not_parallel_is_reported_by_how_much() -> None:
     bent = with_default(locomotive("bent"), pin_2_x=1.9)
     with pytest.raises(g.DeclarationError, match=r"wheel2 and wheel0 hold rod .*off by .* mm"):
         derive(bent, derivatives=False)

@@ -270,7 +270,7 @@ DRIVE = Motion("drive", "rad", "angle of the crank")
 
 
 @pytest.mark.parametrize("mistake", MISTAKES)
-def test_a_mistake_is_told(mistake, refused):
+def test_a_mistake_is_reported(mistake, refused):
     error = refused(DeclarationError, MISTAKES[mistake])
     assert isinstance(error, kintrafo.KintrafoError)
 

@@ -280,7 +280,7 @@ def test_an_own_law_is_looked_at_alike():
         compiled(element)
 
 
-def test_a_force_that_cannot_be_told_apart_is_refused(refused):
+def test_a_force_that_cannot_be_distinguished_is_refused(refused):
     @dataclass
     class Changing(Force):
         joint: Any

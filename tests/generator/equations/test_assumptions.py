@@ -349,7 +349,7 @@ def test_the_axis_of_a_rotor_may_point_against_its_hinge(sense: float, tip: Plac
     by_the_oracle(model, own(model, derivatives=False), numbers(model))
 
 
-def test_all_that_is_wrong_with_the_defaults_is_told_at_once() -> None:
+def test_all_that_is_wrong_with_the_defaults_is_reported_at_once() -> None:
     wrong = fan(axis=(0.3, 0.9, 0.0), center=(0.1, 0.2, 0.31))
     with pytest.raises(DeclarationError) as caught:
         generate(wrong)

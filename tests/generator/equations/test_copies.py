@@ -78,7 +78,7 @@ def test_a_step_does_not_take_the_name_of_a_parameter_of_a_copy() -> None:
     assert program.steps[doubled].expression == 2 * step
 
 
-def test_a_copy_and_its_mirror_image_tell_themselves_apart_where_their_defaults_do_not():
+def test_a_copy_and_its_mirror_image_are_distinguished_where_their_defaults_do_not():
     ground, arm = Ground("ground"), Body("arm", 1.0, (0.0, 0.0, 1.0), (1.0, 1.0, 1.0))
     hinge = Revolute("hinge", ground, arm, Line(Point("pivot", (0.0, 0.0, 0.0)), FORWARD))
     flat = Mechanism("flat", "Flat", (hinge,), coordinates=(hinge.angle("turn", "angle"),))

@@ -76,7 +76,7 @@ def test_residuals_do_not_need_the_loops_to_close(model) -> None:
 
 
 @each_model
-def test_margins_tell_how_far_a_loop_is_from_closing(model) -> None:
+def test_margins_show_how_far_a_loop_is_from_closing(model) -> None:
     closure = [name for name, _ in model.GUARDS].index("knuckle_closure")
     found = [
         model.margins(*Instant(BETA1_DESIGN, rack=rack).arrays(model))[closure]

@@ -127,7 +127,7 @@ def slider_crank(direction: g.Direction) -> Mechanism:
     return g.Mechanism("slider", "t", joints, (), named)
 
 
-def test_a_planar_body_that_may_leave_its_plane_is_told_by_what():
+def test_a_planar_body_that_may_leave_its_plane_is_reported_by_what():
     wrong = g.Direction("along", (1.0, 0.0, 0.0))
     with pytest.raises(kintrafo.MechanismError) as error:
         kintrafo.compile(slider_crank(wrong), backend="numpy")

@@ -200,7 +200,7 @@ FOOT, HEAD = Point("foot", (0.3, 0.05, 0.0)), Point("head", (0.4, 0.1, 1.0))
 
 
 @pytest.mark.parametrize("numbers", [(0.1, 0.05, 1.0), (-0.1, -0.05, -0.99)])
-def test_a_strut_whose_direction_is_given_as_numbers_is_told_to_be_between(
+def test_a_strut_whose_direction_is_given_as_numbers_must_be_between(
     numbers: tuple[float, float, float],
 ) -> None:
     """The remedy in the message leads to a closed form."""

@@ -90,7 +90,7 @@ def function(name: str, steps: dict[str, sp.Expr], *results: sp.Expr) -> Functio
     return Function(name, "", made, results, labels, (len(results),), ())
 
 
-def test_a_name_of_two_values_is_told_apart() -> None:
+def test_a_name_of_two_values_is_distinguished() -> None:
     """A sum or product in another order has other bits, and so is another value."""
     x, y, z, a, b = sp.symbols("x y z a b")
     one = function("one", {"b": x + y, "a": b * z}, a)

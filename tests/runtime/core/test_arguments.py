@@ -60,7 +60,7 @@ SPAN = (0.0, 0.01)
         lambda: kintrafo.Model("reference_car", free_rack="yes"),
     ],
 )
-def test_a_mistake_is_told(call, refused):
+def test_a_mistake_is_reported(call, refused):
     refused(kintrafo.InputError, call)
 
 
@@ -70,14 +70,14 @@ def test_an_error_of_an_event_says_where_it_was():
     assert caught.value.__notes__ == ["This was raised by the event <lambda>, at t = 0 s."]
 
 
-def test_all_that_is_wrong_is_told_at_once():
+def test_all_that_is_wrong_is_reported_at_once():
     with pytest.raises(kintrafo.InputError) as caught:
         kintrafo.equilibrium(SYSTEM, rack_position="0", spin_rate=np.inf, wheel_load=-3.0)
     assert len(caught.value.problems) == 4
     assert caught.value.source == "equilibrium"
 
 
-def test_what_is_wrong_of_many_is_told_once():
+def test_what_is_wrong_of_many_is_reported_once():
     with pytest.raises(kintrafo.InputError) as caught:
         kintrafo.variation.tolerance(CAR.suspension, {"hardpoints": -1.0})
     assert [p.split(":")[0] for p in caught.value.problems] == ["tolerance of hardpoints = -1 mm"]

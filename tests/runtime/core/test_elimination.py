@@ -36,7 +36,7 @@ def test_solutions_are_those_of_lapack(seed):
     assert (error <= 1e-13 * np.linalg.cond(matrix) * np.abs(expected).max((1, 2)))[accurate].all()
 
 
-def test_pivots_that_vanish_elsewhere_are_told():
+def test_pivots_that_vanish_elsewhere_are_reported():
     entries = random_entries(0)
     right = np.ones((SIZE, 1, COUNT))
     (_, before) = eliminated(entries, right)

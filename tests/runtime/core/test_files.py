@@ -296,7 +296,7 @@ def fill(path):
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_a_full_disk_is_told_and_nothing_is_left(full, name):
+def test_a_full_disk_is_reported_and_nothing_is_left(full, name):
     with pytest.raises(InputError, match=r"No space left on device\. Make room"):
         fill(full / name)
     assert list(full.iterdir()) == []

@@ -164,7 +164,7 @@ def test_nothing_is_written_after_an_interrupt(tmp_path, monkeypatch):
     assert not [*tmp_path.iterdir()]
 
 
-def test_threads_are_told_that_nobody_waits():
+def test_threads_learn_that_no_call_waits():
     """The results of some parts come; one that takes long ends as soon as another is wrong."""
     taken = []
 

@@ -167,7 +167,7 @@ def test_the_estimate_is_what_is_taken(monkeypatch, count, given):
     assert 0.5 * most < needed[-1] < 2.0 * most
 
 
-def test_what_is_free_is_what_the_system_tells():
+def test_what_is_free_is_what_the_system_reports():
     there = memory.free()
     assert 0.0 < there < 1e15
     soft, hard = resource.getrlimit(resource.RLIMIT_AS)

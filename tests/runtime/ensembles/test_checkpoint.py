@@ -85,7 +85,7 @@ def test_every_byte_counts(path):
             checkpoint._arrays_in(changed)
 
 
-def test_damage_is_told_and_left_out(folder, path):
+def test_damage_is_reported_and_left_out(folder, path):
     """Of other systems, as it would be without a digest, changed, empty."""
     content = path.read_bytes()
     others = [other.read_bytes() for other in sorted(folder.folder.glob("*.npz"))[::2]]

@@ -451,7 +451,7 @@ def test_stiff_ones_end_with_a_reason_where_that_is_wanted(monkeypatch: Any) -> 
     assert found["solver"].values.tolist() == ["DormandPrince"] * 2
 
 
-def test_what_both_methods_cannot_do_tells_both_reasons() -> None:
+def test_what_both_methods_cannot_do_reports_both_reasons() -> None:
     model, cars, start = sticking([0.0, 600.0])
     options = {"t_eval": TIMES, "max_steps": 80}
     found = ensemble(model, cars, SPAN, start, **options, rtol=1e-5, atol=1e-6)
@@ -533,7 +533,7 @@ def test_a_model_without_signals() -> None:
     assert found[model.state_names[0]].values[0, -1] != found[model.state_names[0]].values[1, -1]
 
 
-def test_progress_is_told(car: Model, start: Any, monkeypatch: Any) -> None:
+def test_progress_is_reported(car: Model, start: Any, monkeypatch: Any) -> None:
     told: list[int] = []
     monkeypatch.setattr(run, "_FEWEST", 10)
     real = run._wait_for
@@ -728,7 +728,7 @@ def test_rows_of_states_do_not_forget_their_inputs(car: Model) -> None:
     )
 
 
-def test_what_is_kept_is_told_in_words(car: Model) -> None:
+def test_what_is_kept_is_named(car: Model) -> None:
     """Names of signals are broken nowhere but between words, as on the axes of a figure."""
     kinds = ["max", "min", "mean", "rms", ("above", 1.0), ("percentile", 5.0), ("psd", 8)]
     found = ensemble(car, None, (0.0, 0.1), reductions={"wheel_acceleration": kinds})
@@ -737,7 +737,7 @@ def test_what_is_kept_is_told_in_words(car: Model) -> None:
     assert all("wheel acceleration" in data.attrs["long_name"] for data in kept)
 
 
-def test_levels_are_told_with_their_unit(car: Model) -> None:
+def test_levels_are_reported_with_their_unit(car: Model) -> None:
     """In that for people, as the time beside them is, and with all digits that were given."""
     levels = {
         "tyre_force": (5000.0, "5000 N"),

@@ -141,7 +141,7 @@ def test_equations_that_were_compiled_here(client: Any, tmp_path: Path, monkeypa
 
 
 @pytest.mark.usefixtures("small")
-def test_what_stiff_cars_tell(client: Any, car: Model, start: Any, monkeypatch: Any) -> None:
+def test_what_stiff_cars_report(client: Any, car: Model, start: Any, monkeypatch: Any) -> None:
     """What both methods cannot do has both reasons, with the right car."""
     monkeypatch.setattr(ensembles, "_STIFF_AFTER", 50)
     cars = {"damper_rate": np.where(np.arange(20) == 15, 1e9, 1.5e3)}
@@ -229,7 +229,7 @@ def test_few_pieces_are_held_at_a_time(
     assert most <= 6  # three for each of two threads
 
 
-def test_progress_is_told(client: Any, car: Model, start: Any, monkeypatch: Any) -> None:
+def test_progress_is_reported(client: Any, car: Model, start: Any, monkeypatch: Any) -> None:
     shown: list[int] = []
     real = ensembles.run_in_chunks
 
@@ -412,7 +412,7 @@ def test_a_scheduler_without_workers(car: Model, monkeypatch: Any) -> None:
         ensemble(car, None, SPAN, cluster=client)
 
 
-def test_a_dead_address_is_told_at_once(car: Model) -> None:
+def test_a_dead_address_is_reported_at_once(car: Model) -> None:
     begun = time.monotonic()
     with pytest.raises(InputError, match="start a scheduler there: dask scheduler"):
         ensemble(car, None, SPAN, cluster="tcp://127.0.0.1:1")

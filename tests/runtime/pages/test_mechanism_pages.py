@@ -191,7 +191,7 @@ class TestInABrowser:
         watched.context.close()
 
 
-def test_where_it_does_not_stay_is_told(tmp_path):
+def test_where_it_does_not_stay_is_reported(tmp_path):
     """The excavator rests where modes grow; a four-bar swings about its lowest position."""
     grows = "It does not stay there"
     for module, told in ((excavator, True), (four_bar, False)):

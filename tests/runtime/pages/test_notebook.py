@@ -114,7 +114,7 @@ def test_motions_of_other_mechanisms_and_those_that_failed(formatter):
     assert any("dead point" in text for text in texts)
 
 
-def test_what_runs_in_a_notebook_is_told(monkeypatch):
+def test_what_runs_in_a_notebook_is_reported(monkeypatch):
     made = HTMLFormatter()
     shell = SimpleNamespace(display_formatter=SimpleNamespace(formatters={"text/html": made}))
     monkeypatch.setitem(sys.modules, "IPython", SimpleNamespace(get_ipython=lambda: shell))

@@ -109,7 +109,7 @@ def test_compiled_as_over_arrays(monkeypatch: pytest.MonkeyPatch) -> None:
     assert compiled.by == pytest.approx(over_arrays.by, rel=1e-10, abs=most)
 
 
-def test_what_is_refused_on_the_way_is_told() -> None:
+def test_what_is_refused_on_the_way_is_reported() -> None:
     """With its place, as by the functions themselves."""
     four_bar = kintrafo.System(kintrafo.compile(FOUR_BAR, parameter_derivatives=True))
     start = four_bar.state(crank_angle=ANGLE)

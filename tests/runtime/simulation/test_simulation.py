@@ -478,7 +478,7 @@ def test_backward_in_time(backend):
     assert back.y[:, -1] == pytest.approx(START, abs=1e-6)
 
 
-def test_without_sundials_the_user_is_told_once(monkeypatch):
+def test_without_sundials_the_user_is_warned_once(monkeypatch):
     from kintrafo.simulation import simulate as simulation
     from kintrafo.simulation import solvers
 

@@ -158,7 +158,7 @@ def test_the_command_line_names_its_own_options():
     assert run("--height", "305", "--max-step", "5", "--duration", "0.1").exit_code == 0
 
 
-def test_a_motion_that_no_car_can_go_is_told():
+def test_a_motion_that_no_car_can_go_is_reported():
     """A tyre that pulls and a strut that comes apart: exit code 1, with times and amounts."""
     ended = run("--road-sine", "200", "--road-frequency", "6", "--duration", "0.3")
     assert ended.exit_code == 1
@@ -227,7 +227,7 @@ def test_defaults_of_the_methods():
 
 
 @pytest.mark.parametrize("method", [*native_methods(), "RK45", "LSODA"])
-def test_an_error_tells_the_last_step_and_not_the_last_output(method):
+def test_an_error_reports_the_last_step_and_not_the_last_output(method):
     """However few outputs are asked for."""
     with pytest.raises(SimulationError) as error:
         simulate(CRANK, (0.0, 1.0), TURNING, method=method, t_eval=[0.0, 1.0], max_steps=30)

@@ -124,7 +124,7 @@ class TestHealing:
         module = kintrafo.compile(FOUR_BAR, folder=cache)
         np.testing.assert_array_equal(module.rhs(STATES), made[2])
 
-    def test_what_cannot_be_healed_is_told(self, cache):
+    def test_what_cannot_be_healed_is_reported(self, cache):
         """A folder stands where a file should: nothing in it is removed."""
         (target,) = cache.iterdir()
         (target / "four_bar.py").unlink()
@@ -204,7 +204,7 @@ class TestHealing:
 
 
 class TestFullDisk:
-    def test_it_is_told_and_nothing_is_left(self, tmp_path, cache, monkeypatch):
+    def test_it_is_reported_and_nothing_is_left(self, tmp_path, cache, monkeypatch):
         if not Path("/dev/full").exists():
             pytest.skip("no /dev/full on this system")
         del cache

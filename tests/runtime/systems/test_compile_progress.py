@@ -20,7 +20,7 @@ needs_compiler = pytest.mark.skipif(find_compiler() is None, reason="no C compil
 
 
 @needs_compiler
-def test_what_is_done_is_told_with_how_much_there_is(tmp_path, capfd):
+def test_what_is_done_is_reported_with_how_much_there_is(tmp_path, capfd):
     told = []
     kintrafo.compile(FOUR_BAR, folder=tmp_path, progress=told.append)
     places = [

@@ -194,7 +194,7 @@ def test_values_are_the_same_bits(fmu, name, version):
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_the_description_tells_units_starts_and_meanings(fmu, version):
+def test_the_description_reports_units_starts_and_meanings(fmu, version):
     known = fmu("reference_car", version)
     system = system_named("reference_car")
     for name, entry in system.equations.PARAMETERS.items():
@@ -416,7 +416,7 @@ def test_slopes_of_inputs(fmu):
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_a_motion_that_ends_is_told(fmu, version):
+def test_a_motion_that_ends_is_reported(fmu, version):
     """A crank is driven to its dead point: the message of the step has the time and the reason."""
     system = kintrafo.System(system_named("four_bar").equations, SHORT)
     torque = {"crank_torque": 10.0}

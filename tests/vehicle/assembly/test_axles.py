@@ -489,7 +489,7 @@ def test_what_is_wrong_is_named(data: dict[str, Any], refused: Any) -> None:
     refused(InputError, lambda: Axle.from_dict({"axle": "front", **data}))
 
 
-def test_files_of_the_other_sort_are_told() -> None:
+def test_files_of_the_other_sort_are_reported() -> None:
     for name in ("reference_axle", {"axle": "front", "side": "reference_car"}):
         read = Suspension.load if isinstance(name, str) else Suspension.from_dict
         with pytest.raises(InputError, match="file of an axle"):

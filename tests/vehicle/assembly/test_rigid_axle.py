@@ -584,7 +584,7 @@ def test_commands_that_have_nothing_for_it_say_so(kintrafo: Any, line: str) -> N
         {"bodies.wheel.inertia_spin_kg_m2": 2e6, "bodies.wheel.inertia_diametral_kg_m2": 1e6},
     ],
 )
-def test_mistakes_that_can_move_are_told(changes: dict[str, Any], as_stored: Any) -> None:
+def test_mistakes_that_can_move_are_reported(changes: dict[str, Any], as_stored: Any) -> None:
     assert checkup(AXLE).problems == ()
     problems = checkup(AXLE.with_changes(changes)).problems
     assert problems

@@ -263,7 +263,7 @@ def test_steering_with_mass_leaves_the_rack_free(kintrafo, tmp_path):
     assert kintrafo("characteristics", "heavy.toml", "--positions", "--over", "rack")[0] == 0
 
 
-def test_wheel_that_leaves_the_ground_is_told(kintrafo):
+def test_wheel_that_leaves_the_ground_is_reported(kintrafo):
     code, out, err = kintrafo("simulate", CAR, "--road-step", -60)
     assert code == 1  # its tyre holds on to the road
     assert "The wheel leaves the ground" in out

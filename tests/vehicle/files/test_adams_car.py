@@ -247,7 +247,7 @@ def test_angles_in_radians(tmp_path: Path) -> None:
     }
 
 
-def test_what_is_not_read_is_told(tmp_path: Path) -> None:
+def test_what_is_not_read_is_reported(tmp_path: Path) -> None:
     rows = [*rows_of(WISHBONES), ("drive_shaft_inr", "left/right", 0.0, -200.0, 225.0)]
     found = taken(tmp_path, subsystem(WISHBONES, rows=rows, more=MORE))
     beside = "its file 'own.spr' is not beside the subsystem."
@@ -270,7 +270,7 @@ def test_comments_are_neither_rows_nor_columns(block: str, tmp_path: Path) -> No
     assert found.left_out == ("parameter kinematic_flag single integer 0", "[OTHER]")
 
 
-def test_a_ground_that_is_elsewhere_is_told(tmp_path: Path) -> None:
+def test_a_ground_that_is_elsewhere_is_reported(tmp_path: Path) -> None:
     low = [(n, s, x, y, z - 300.0) for n, s, x, y, z in rows_of(WISHBONES)]
     found = taken(tmp_path, subsystem(WISHBONES, rows=low))
     assert any(

@@ -119,7 +119,7 @@ class TestReading:
         assert found.tyre.radius_mm is None
         assert "wheel: 20 kg, 1 kg m^2 about its axis" in assumed[2]
 
-    def test_assumptions_are_told(self, tmp_path):
+    def test_assumptions_are_reported(self, tmp_path):
         _, assumed, left_out = chrono.read(STRUT)
         heads = [text.partition(":")[0] for text in assumed]
         assert heads == ["rack", "tyre", "wheel", "strut", "ground"]
@@ -520,7 +520,7 @@ class TestNoBody:
 
     ARM: ClassVar = {"Moments of Inertia": [0.4, 0.4, 0.8938]}
 
-    def test_is_told_by_the_keys_of_the_file(self, tmp_path):
+    def test_is_reported_by_the_keys_of_the_file(self, tmp_path):
         data = content(WISHBONES)
         data["Lower Control Arm"] |= self.ARM
         path = written(tmp_path, data)
@@ -696,7 +696,7 @@ class TestTires:
 
 
 class TestMultiLink:
-    def test_its_wheel_moves_on_the_five_links_that_the_refusal_tells(self):
+    def test_its_wheel_moves_on_the_five_links_that_the_refusal_reports(self):
         """Against the joints of Chrono: a hinge of the arm, and rods of constant length."""
         with pytest.raises(InputError, match="two links to one outer point for the upper arm"):
             chrono.read(LINKS)

@@ -41,7 +41,7 @@ def test_the_file_says_what_it_describes():
     assert Suspension.from_dict(data) == CAR_OF_THE_PAPER
 
 
-def test_without_the_key_the_hardpoints_tell_what_was_forgotten():
+def test_without_the_key_the_hardpoints_show_what_was_forgotten():
     data = CAR.to_dict()
     del data["suspension"]
     (problem,) = problems_of(data)
@@ -179,7 +179,7 @@ def test_upper_arm_at_its_dead_centre():
     assert "Move lower_ball_joint out of the plane" in problem
 
 
-def test_all_problems_are_told_at_once():
+def test_all_problems_are_reported_at_once():
     found = problems(
         {"spring.rate_N_per_m": "60000", "wheel.camber_deg": 60.0, "hardpoints.tie_rod_outer": 1.0}
     )

@@ -396,7 +396,7 @@ def test_refused_springs(kind, spring, refused):
     refused(InputError, lambda: make(**spring))
 
 
-def test_a_spring_in_a_wrong_unit_or_beyond_its_table_is_told():
+def test_a_spring_in_a_wrong_unit_or_beyond_its_table_is_reported():
     name = "double_wishbone_car"
     weak = with_spring(name, compression_mm=[0.0, 150.0], force_N=[0.0, 6.0], force_at_design_N=5.0)
     assert "[spring] force_N: the rate at design = 40 N/m" in plausibility(weak).problems[0]

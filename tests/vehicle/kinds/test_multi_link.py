@@ -152,7 +152,7 @@ def test_the_left_one_is_its_image() -> None:
         np.testing.assert_allclose(left[name], sign * right[name], rtol=1e-9, atol=1e-12)
 
 
-def test_the_knuckle_turns_about_the_axis_that_is_told() -> None:
+def test_the_knuckle_turns_about_the_axis_that_is_reported() -> None:
     """When the rack moves and the spring keeps its length, no point moves along the axis alone."""
     travel, by = 0.04, 1e-4
     here = characteristics.over(MODEL, "travel", [travel])

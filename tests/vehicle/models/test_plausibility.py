@@ -92,7 +92,7 @@ def test_a_mistake_is_a_problem(name, changes, what, why):
     assert any(what in text and why in text for text in told), told
 
 
-def test_a_strut_on_the_other_side_is_told_by_its_sign():
+def test_a_strut_on_the_other_side_is_reported_by_its_sign():
     with pytest.raises(InputError, match=r"strut_top = .*different sides.*correct the sign of y"):
         changed(REFERENCE, with_sign(REFERENCE, "y", "strut_top"))
 
@@ -112,7 +112,7 @@ def test_a_wheel_that_leans_as_on_no_car_is_unusual():
     assert any("camber_deg = 40 deg" in text for text in plausibility(leaning).notes)
 
 
-def test_a_checkup_tells_it():
+def test_a_checkup_reports_it():
     found = checkup(Model(changed(REFERENCE, with_sign(REFERENCE, "y", "tie_rod_inner"))))
     assert any("sign of y" in text for text in found.problems)
 

@@ -65,7 +65,7 @@ def test_verdicts_are_those_of_the_curves(goals: Path) -> None:
     assert limit.beyond == pytest.approx(scrub.max() - 0.025)
 
 
-def test_characteristics_and_compare_tell_and_draw(goals: Path, tmp_path: Path) -> None:
+def test_characteristics_and_compare_report_and_draw(goals: Path, tmp_path: Path) -> None:
     page = tmp_path / "page.png"
     asked = ["characteristics", "reference_car", "--goals", str(goals), "--step", "20"]
     shown = called(*asked, "--of", "toe", "--plot", str(page))
@@ -135,7 +135,7 @@ def test_a_chapter_of_an_axle_has_the_curves_of_each_motion(file: str) -> None:
 
 @pytest.mark.usefixtures("one_picture")
 @pytest.mark.parametrize("file", ["reference_axle", "rigid_axle"])
-def test_reports_of_axles_tell_how_many_goals_are_missed(
+def test_reports_of_axles_show_how_many_goals_are_missed(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, file: str
 ) -> None:
     (tmp_path / "goals.toml").write_text(

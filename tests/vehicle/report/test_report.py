@@ -312,7 +312,7 @@ def test_same_input_gives_the_same_bytes():
 
 
 @pytest.mark.usefixtures("coarse")
-def test_write_makes_folders_and_tells_what_it_does(tmp_path):
+def test_write_makes_folders_and_reports_what_it_does(tmp_path):
     steps = []
     path = tmp_path / "new/report.html"
     assert kintrafo.report.write(MODEL, path, progress=steps.append) == path

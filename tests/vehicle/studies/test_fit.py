@@ -66,7 +66,7 @@ def test_small_errors_are_those_of_linear_regression() -> None:
     np.testing.assert_allclose([found.determined[p] for p in order], told, atol=5e-3)
 
 
-def test_noise_leaves_what_is_told() -> None:
+def test_noise_leaves_what_is_reported() -> None:
     """Errors, in parts of the deviation that is told, are normal: the mean of 16 squares near 1."""
     random, squares = np.random.default_rng(3), []
     for _ in range(8):
@@ -82,7 +82,7 @@ def test_noise_leaves_what_is_told() -> None:
     assert 3.9 < sum(squares) < 39.0
 
 
-def test_what_curves_do_not_tell_stays() -> None:
+def test_what_curves_do_not_determine_stays() -> None:
     mass = "bodies.wheel.mass_kg"
     found = variation.fit(CAR, rig(AS_BUILT), {ROD: 3.0, BALL: 3.0, mass: 1.0}, accuracy=ACCURACY)
     assert found.moved[mass] == 0.0
@@ -147,7 +147,7 @@ def test_what_cannot_be_is_refused() -> None:
             variation.fit(**{"suspension": CAR, "measured": measured, **arguments})  # type: ignore[arg-type]
 
 
-def test_the_command_tells_it(kintrafo: Any, tmp_path: Any) -> None:
+def test_the_command_reports_it(kintrafo: Any, tmp_path: Any) -> None:
     from kintrafo import export
 
     export.write(rig(AS_BUILT, names=["toe", "camber"]), tmp_path / "rig.csv")

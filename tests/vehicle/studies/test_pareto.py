@@ -238,7 +238,7 @@ def test_objectives_that_agree_have_one_best_car() -> None:
         found.suspension(2)
 
 
-def test_several_objectives_of_one_kind_are_told_apart_and_drawn(tmp_path: Path) -> None:
+def test_several_objectives_of_one_kind_are_distinguished_and_drawn(tmp_path: Path) -> None:
     aims = {"toe": [TOE["toe"], TOE["toe"] | {"at_mm": 20.0}]}
     found = variation.pareto(CAR, FREE, aims, maximise=HEIGHT, limits=SCRUB, **SHORT)
     assert [o.name for o in found.objectives][:2] == ["toe_deviation", "toe_deviation (2)"]

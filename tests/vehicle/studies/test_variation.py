@@ -115,7 +115,7 @@ def test_the_unit_of_the_file_does_not_matter() -> None:
     np.testing.assert_allclose(one, other, rtol=1e-9)
 
 
-def test_units_of_values_are_told() -> None:
+def test_units_of_values_are_reported() -> None:
     found = variation.sensitivity(CAR, [ROD, "wheel.toe_deg"], positions=[0.0], names=["toe"])
     assert found["place_unit"].values.tolist() == ["m", "rad"]
     # the toe of the file is that of the car
@@ -326,7 +326,7 @@ def test_what_cannot_be_kept_is_no_success() -> None:
     assert "not within its limits: bump_steer" in found.message
 
 
-def test_what_was_not_reached_is_told() -> None:
+def test_what_was_not_reached_is_reported() -> None:
     """A millimetre cannot bring toe to half a degree."""
     far = {"toe": {"at_mm": 50.0, "value": 0.5, "within": 0.01}}
     found = variation.optimise(CAR, {ROD: 1.0, "hardpoints.strut_top.x": 1.0, "wheel": 0.1}, far)
@@ -546,7 +546,7 @@ def test_every_value_of_a_starter_file_may_be_meant(name: str) -> None:
     assert found.to_array().notnull().all()
 
 
-def test_values_that_cannot_move_are_told() -> None:
+def test_values_that_cannot_move_are_reported() -> None:
     inertia = "bodies.tie_rod.inertia_xx_kg_m2"
     with pytest.raises(InputError, match="a body without mass has no inertia"):
         variation.sensitivity(CAR, [inertia, "wheel"], positions=[0.0])

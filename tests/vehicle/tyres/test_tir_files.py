@@ -127,7 +127,7 @@ def test_the_friction_ellipse_may_be_asked_for(load):
     assert load(OLDER).form.weighted
 
 
-def test_what_is_left_open_is_told(load):
+def test_what_is_left_open_is_reported(load):
     text = with_values(without(NEWER, "LONGVL", "VXLOW", "QSX.*", "QSY.*", "Q_V1", "Q_V2"))
     assert load(text).assumed == (
         "the overturning moment is zero, since its coefficients are missing or zero",
