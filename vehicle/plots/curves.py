@@ -307,6 +307,8 @@ def figure(
     def mark(axes: Axes, data: xr.DataArray, along: str, colours: Mapping[str, str]) -> Array:
         return mark_sides(axes, about(goals, data, along), colours)
 
+    with Validator("figures") as given:
+        given.dataset(dataset)
     words = {dim: names_in_words(dataset[dim]) for dim in (WHEEL, AXLE) if dim in dataset.dims}
     return draw(
         dataset.assign_coords(words), names, title=title, alone=alone, columns=columns,
