@@ -40,6 +40,9 @@ BODY = d.Body("body", 1200.0, (-1.15, 0.0, 0.55), (450.0, 1600.0, 1800.0))
 
 _TYRE = "tyre"
 _LEFTWARD = d.Direction("leftward", fixed=Vector.of(0, 1, 0))
+_UPWARD = d.Direction(
+    "upward", (0.0, 0.0, 1.0), "direction opposite to gravity, in the axes of the road"
+)
 _ANGLES: dict[Literal["yaw", "pitch", "roll"], str] = {
     "yaw": "turn of the body about the upward axis, positive to the left",
     "pitch": "pitch of the body behind that, positive nose down",
@@ -121,13 +124,18 @@ def full(name: str, title: str, axles: Sequence[d.Formulation]) -> d.Formulation
     found = car(name, title, axles, FREE)
     mechanism = replace(
         found.mechanism,
-        forces=(*map(_with_heading, found.mechanism.forces), _AIR),
+        forces=(*map(_on_a_slope, map(_with_heading, found.mechanism.forces)), _AIR),
         outputs=(
             d.AccelerationOf("body_acceleration", BODY, BODY.center, "centre of mass of the body"),
         ),
     )
     # its rack moves: a variant with a rack at rest would take as long again to compile
     return replace(found, mechanism=mechanism, held={})
+
+
+def _on_a_slope(force: d.Force) -> d.Force:
+    """Return the weight with a direction of parameters, since the road may be a slope."""
+    return replace(force, upward=_UPWARD) if isinstance(force, d.Weight) else force
 
 
 def driving(

@@ -37,6 +37,7 @@ EXAMPLES = (
     "kintrafo drive driving_car --manoeuvre double_lane_change --animate lane.gif",
     "kintrafo drive driving_car --manoeuvre braking --loads loads.csv",
     "kintrafo drive driving_car --manoeuvre straight --bump -40 --plot pothole.png",
+    "kintrafo drive driving_car --manoeuvre straight --crossfall 3",
     "kintrafo new my_step.toml --template step_steer",
 )
 
@@ -57,6 +58,13 @@ def command(
         Literal["left", "right"] | None, option("Side in place of that of the manoeuvre.")
     ] = None,
     road: RoadOptions,
+    grade: Annotated[
+        float, option("Slope of the road along the car, positive uphill; straight ahead.", "%")
+    ] = 0.0,
+    crossfall: Annotated[
+        float,
+        option("Slope across the car, positive if the road falls to the right.", "%"),
+    ] = 0.0,
     animate: Animation = None,
     loads: Loads = None,
     output: SingleFigureOptions,
@@ -96,7 +104,10 @@ def command(
         refuse([animate], endings=ENDINGS, **outputs.rule)
     assembly, profile = _on_road(file, chosen, road)
     with progress_bar(chosen.TITLE) as progress:
-        found = handling.drive(assembly, chosen, road=profile, progress=progress)
+        found = handling.drive(
+            assembly, chosen, road=profile, grade=grade / 100.0,
+            crossfall=crossfall / 100.0, progress=progress,
+        )  # fmt: skip
     title = f"{title_of(file)}: {found.metrics.attrs['title']}"
     written = _write(outputs, found, chosen, title)
     if animate is not None:

@@ -70,13 +70,14 @@ def test_forces_on_the_body_move_it(motion, loads) -> None:
     the_body_is_balanced(motion, loads)
 
 
-def the_body_is_balanced(motion, loads) -> None:
+def the_body_is_balanced(motion, loads, vertical=UP) -> None:
     """Newton and Euler for the body, which is not among the parts that the analysis balances."""
     parameters, com = motion.model.parameters, motion.assembly.car.com
     own = loads.sel(load=loads["part"] == "chassis")
     forces, moments, at = (own[name].values for name in ("force", "moment", "at"))
     of_air, about = air(motion)
-    force = forces.sum(axis=1) + of_air - parameters["body_mass"] * G * motion.up
+    weight = parameters["body_mass"] * G * np.einsum("nji,j->ni", motion.body, vertical)
+    force = forces.sum(axis=1) + of_air - weight
     about = about + (moments + np.cross(at - com, forces)).sum(axis=1)
     # the reaction of the drive torque is on the body
     for suffix, group in motion.axle("front").poses.items():
@@ -106,13 +107,16 @@ def test_at_rest_they_are_those_of_the_axle_under_its_load(car) -> None:
         assert here == pytest.approx(there, abs=3e-3 * load)
 
 
-def test_forces_over_a_bump_move_the_body(car) -> None:
+def test_forces_over_a_bump_on_a_slope_move_the_body(car) -> None:
     bump = kintrafo.road_profiles.bump(0.03, 0.8, at=1.0, sides="left")
-    run = drive(car, "straight", {"duration_s": 0.4}, road=bump).runs[-1]
+    run = drive(car, "straight", {"duration_s": 0.4}, road=bump, grade=0.05, crossfall=0.1).runs[-1]
     motion = CarInMotion(run.car.assembly, run.states, run.inputs)
     found = of_car(run.car.assembly, run.states, run.inputs)
     assert np.abs(found["holding_force"]).max() < 1e-5
-    the_body_is_balanced(motion, found)
+    # the vertical along the road, to the left of it, and along its normal, (-0.05, -0.1, 1)
+    along, normal = 0.05 / np.hypot(1.0, 0.05), (1.0 + 0.05**2 + 0.1**2) ** -0.5
+    vertical = np.array([along, np.sqrt(1.0 - along**2 - normal**2), normal])
+    the_body_is_balanced(motion, found, vertical)
     assert np.ptp(motion.inputs[:, motion.model.input_names.index("rear_left_road_height")]) > 0.02
 
 

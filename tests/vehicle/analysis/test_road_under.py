@@ -1,4 +1,4 @@
-"""A car that drives over a road, against the same road as heights over time."""
+"""A car on a road with heights or a slope, against heights over time and balances of forces."""
 
 from dataclasses import replace
 
@@ -73,3 +73,33 @@ def test_a_road_is_refused_where_nothing_is_simulated(model) -> None:
         drive(model, "circle", road=road)
     with pytest.raises(InputError, match=r"road_profiles\.Road is needed"):
         drive(model, "straight", road="C")
+
+
+@pytest.mark.parametrize(("grade", "crossfall"), [(0.08, 0.0), (-0.03, 0.05)])
+def test_tyres_carry_the_weight_on_a_slope(model, grade, crossfall) -> None:
+    changes = {"speed_km_per_h": 60.0, "duration_s": 0.5}
+    found = drive(model, "straight", changes, grade=grade, crossfall=crossfall)
+    ((run,), motion) = found.runs, found.curves[""]
+    weight = driving_car("test", model).mass * 9.81
+    # the world's vertical in axes along the slope: its normal is along (-grade, -crossfall, 1)
+    sine, normal = grade / np.hypot(1.0, grade), (1.0 + grade**2 + crossfall**2) ** -0.5
+    left = np.sign(crossfall) * np.sqrt(max(1.0 - sine**2 - normal**2, 0.0))
+    signals = run.car.model.signals(run.states[0], run.inputs[0])
+    forces = motion.isel(time=0)
+    total = {axis: float(forces[f"f{axis}"].sum()) for axis in "xyz"}
+    # wheels are steered by a degree at most: their own axes differ by 2e-2
+    assert total["x"] - float(signals["air_drag"]) == pytest.approx(
+        weight * sine, abs=3e-3 * weight
+    )
+    assert total["y"] == pytest.approx(weight * left, abs=3e-3 * weight)
+    lift = float(signals["air_lift"])
+    assert total["z"] + lift == pytest.approx(weight * normal, abs=1e-5 * weight)
+    assert np.ptp(motion["speed"].values) < 1e-3
+    assert np.ptp(motion["yaw_angle"].values) < 1e-6
+
+
+def test_a_slope_is_refused_where_turns_are_steady(model) -> None:
+    with pytest.raises(InputError, match=r"step steer is for a level road.*straight"):
+        drive(model, "step_steer", grade=0.05)
+    with pytest.raises(InputError, match="grade = 8"):
+        drive(model, "straight", grade=8.0)

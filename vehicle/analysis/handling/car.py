@@ -1,7 +1,7 @@
 """The car of a manoeuvre: its equations, the controls of the driver, the motion of its body."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -10,6 +10,8 @@ from ....core.named_types import Array
 from ....systems.system import System
 from ...assembly.car import CarAssembly
 from ...assembly.controls import Controls
+from ...models.car.equations import CarModel
+from ...models.car.slope import Slope
 from ...roads.road import Road
 from ..loads.on_a_car import rack_force
 from ..run import Run
@@ -96,6 +98,13 @@ class DrivingCar:
             return None
         behind = [0.0 if wheel in self.steered else self.wheelbase for wheel in self.wheels]
         return RoadUnder(self.road, self.wheels, behind, self.model.input_names)
+
+    def on_slope(self, slope: Slope) -> "DrivingCar":
+        """Return the car on a road with a slope, from the same rest on a level one."""
+        assert self.assembly is not None
+        car = self.assembly.car
+        model = CarModel(car, slope=slope)
+        return replace(self, model=model, assembly=CarAssembly(car, model))
 
     def signal_rows(self, what: str, wheels: Sequence[str]) -> list[int]:
         """Return the indices of a signal of some wheels."""

@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from ....core.validator import Validator
+from ...models.car.slope import Slope
 from ...roads.road import Road
 from .car import DrivingCar
 from .circle import steady_turns
-from .manoeuvres import Manoeuvre, load_manoeuvre
+from .manoeuvres import MANOEUVRES, Manoeuvre, load_manoeuvre
 from .result import HandlingResult
 from .steady import SteadyCondition
 from .subject import car_that_drives, driving_car
@@ -20,12 +21,18 @@ if TYPE_CHECKING:
     from ..run import Run
 
 
+# The steepest slope of a road [1]; more is a mistake, such as a percentage.
+_STEEPEST = 0.5
+
+
 def drive(
     subject: Any,
     manoeuvre: str | Path | Mapping[str, Any] | Manoeuvre,
     changes: Mapping[str, Any] | None = None,
     *,
     road: Road | None = None,
+    grade: float = 0.0,
+    crossfall: float = 0.0,
     progress: Callable[[float], None] | None = None,
 ) -> HandlingResult:
     """Return the motion of a car in a manoeuvre, and its metrics.
@@ -44,6 +51,9 @@ def drive(
         the left and right wheels, and follow the path of the car; heights are those at the distance
         that the car has travelled. A manoeuvre begins in the motion on a level road, and
         beyond its end the road is level.
+    grade, crossfall : float, optional
+        Slope of the road along the car at the beginning, positive uphill, and across it, positive
+        if it falls to the right [1]; for manoeuvres straight ahead.
     progress : callable, optional
         Called with the completed fraction, up to 1.
 
@@ -73,15 +83,28 @@ def drive(
             given.instance("road", road, Road, "a kintrafo.road_profiles.Road is needed")
             if not found.TRAVELS:
                 given.fail(f"road: {found.TITLE} is not simulated over a road. Leave it out.")
+        slope = Slope(
+            *(
+                given.number(name, value, "1", least=-_STEEPEST, below=_STEEPEST)
+                for name, value in (("grade", grade), ("crossfall", crossfall))
+            )
+        )
+        if not given.failed and any(slope) and not found.SLOPES:
+            straight = [name for name, one in MANOEUVRES.items() if one.SLOPES]
+            given.fail(
+                f"grade, crossfall: {found.TITLE} is for a level road. Leave them out, or choose "
+                f"one of {', '.join(straight)}."
+            )
     if not isinstance(subject, DrivingCar):
         subject = car_that_drives("drive", subject)
         found.check(subject.car)
     runs: list[Run] = []
     car = replace(driving_car("drive", subject), watched=runs.append, road=road)
+    car = car.on_slope(slope) if any(slope) else car
     result = found.run(car, progress or (lambda _: None))._replace(runs=tuple(runs))
-    if road is not None:
-        for each in (result.metrics, *result.curves.values()):
-            each.attrs["title"] = f"{each.attrs.get('title', found.TITLE)}, {road.words}"
+    words = ", ".join(filter(None, [slope.words, "" if road is None else road.words]))
+    for each in (result.metrics, *result.curves.values()) if words else ():
+        each.attrs["title"] = f"{each.attrs.get('title', found.TITLE)}, {words}"
     return result
 
 

@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 
 from ....core.named_types import Array
-from ....core.vectors import cross
+from ....core.vectors import cross, unit_vector
 from ...assembly.car import CarAssembly
 from ...assembly.coupling import STEERING
 from ...assembly.load import Load
@@ -63,8 +63,15 @@ class CarInMotion:
 
     @cached_property
     def up(self) -> Array:
-        """The upward axis of the world in the axes of the body, (n, 3)."""
+        """The normal of the road in the axes of the body, (n, 3)."""
         return self.body[:, 2]
+
+    @cached_property
+    def upward(self) -> Array:
+        """The direction opposite to gravity in the axes of the body, (n, 3)."""
+        along = unit_vector([self.model.parameters[f"upward_{axis}"] for axis in "xyz"])
+        found: Array = np.einsum("nji,j->ni", self.body, along)
+        return found
 
     @cached_property
     def signals(self) -> dict[str, Array]:
@@ -106,9 +113,10 @@ class CarInMotion:
         poses = axle.parts_with(values, len(self.states))
         known = {}
         for suffix, loads in axle.acting(poses).items():
-            # weights are vertical in the world
             acting = [
-                replace(load, force=load.force[..., 2:] * self.up) if load.by == "gravity" else load
+                replace(load, force=load.force[..., 2:] * self.upward)
+                if load.by == "gravity"
+                else load
                 for load in loads
             ]
             further = self._on_wheels, self._inertia

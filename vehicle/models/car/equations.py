@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +19,7 @@ from ..packaged import packaged_equations
 from ..sides import SIDES
 from .car import Car
 from .driving import Air, SteeringColumn
+from .slope import Slope
 
 if TYPE_CHECKING:
     from ....generator import Formulation
@@ -35,6 +36,8 @@ class CarModel(System):
     Parameters
     ----------
     car : Car
+    slope : Slope, optional
+        The slope of the road of a car that drives; level by default.
     progress : callable, optional
         Called with a short description of the present step.
 
@@ -58,13 +61,22 @@ class CarModel(System):
 
     NEEDED = 'a kintrafo.CarModel, such as CarModel(load("quarter_car")), is needed'
 
-    def __init__(self, car: Car, *, progress: Report | None = None) -> None:
+    def __init__(
+        self, car: Car, *, slope: Slope | None = None, progress: Report | None = None
+    ) -> None:
         with Validator("CarModel") as given:
             given.instance("car", car, Car, Car.NEEDED)
             given.function("progress", progress)
+            if slope is not None:
+                given.instance("slope", slope, Slope, "a Slope(grade, crossfall) is needed")
+                if not given.failed and not car.drives:
+                    given.fail('slope: only a car that drives, car = "full", can be on a slope.')
         equations = _equations(car, progress)
-        super().__init__(equations, _parameters(car, equations.PARAMETERS))
-        self.car = car
+        parameters = _parameters(car, equations.PARAMETERS)
+        if slope is not None:
+            parameters |= components("upward", slope.upward)
+        super().__init__(equations, parameters)
+        self.car, self.slope = car, slope
         self.wheel_loads = False
 
     def allowed_lengths(self) -> tuple[LengthLimit, ...]:
@@ -78,7 +90,7 @@ class CarModel(System):
         )
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return CarModel, (self.car,)
+        return partial(CarModel, slope=self.slope), (self.car,)
 
     def __repr__(self) -> str:
         return f"<CarModel {self.equations.NAME}>"

@@ -21,6 +21,7 @@ class Acceleration(UntilSpeed):
     """A car accelerates straight ahead with a constant torque of the drive, up to a speed."""
 
     TITLE: ClassVar[str] = "acceleration"
+    SLOPES: ClassVar[bool] = True
     SLOWS: ClassVar[bool] = False
 
     manoeuvre: Literal["acceleration"] = Field(description="name of the manoeuvre")

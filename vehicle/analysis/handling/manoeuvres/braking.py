@@ -20,6 +20,7 @@ class StraightBraking(UntilSpeed, BrakingManoeuvre):
     """A car brakes straight ahead, with the steering wheel held."""
 
     TITLE: ClassVar[str] = "braking in a straight line"
+    SLOPES: ClassVar[bool] = True
 
     manoeuvre: Literal["braking"] = Field(description="name of the manoeuvre")
     until_km_per_h: Positive = Field(default=5.0, description="speed at which it ends")

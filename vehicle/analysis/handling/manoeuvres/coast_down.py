@@ -20,6 +20,7 @@ class CoastDown(UntilSpeed):
     """A car runs straight ahead without drive, down to a speed."""
 
     TITLE: ClassVar[str] = "coast down"
+    SLOPES: ClassVar[bool] = True
 
     manoeuvre: Literal["coast_down"] = Field(description="name of the manoeuvre")
     until_km_per_h: Positive = Field(default=60.0, description="speed at which it ends")

@@ -59,6 +59,9 @@ class Manoeuvre(Section):
             if not least <= value <= most
         ]
 
+    SLOPES: ClassVar[bool] = False
+    """Whether it may be driven on a slope: straight ahead, without steady turns."""
+
     @property
     def greatest_distance(self) -> float:
         """The distance that the car travels at most [m]; 0 if nothing is simulated."""

@@ -1,0 +1,43 @@
+"""The slope of the road under a car that drives."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ....core.named_types import Array
+
+
+class Slope(NamedTuple):
+    """The slope of a plane road.
+
+    The axes of the equations are those of the road: x along it, y to the left, z along its normal.
+
+    Attributes
+    ----------
+    grade : float
+        Rise over horizontal distance in the direction of x, positive uphill [1].
+    crossfall : float
+        Rise over horizontal distance to the left of it, positive if the road falls to the right
+        [1].
+    """
+
+    grade: float = 0.0
+    crossfall: float = 0.0
+
+    @property
+    def upward(self) -> Array:
+        """The unit vector opposite to gravity in the axes of the road, shape (3,)."""
+        forward = np.array([1.0, 0.0, self.grade])
+        normal = np.array([-self.grade, -self.crossfall, 1.0])
+        axes = [
+            each / np.linalg.norm(each) for each in (forward, np.cross(normal, forward), normal)
+        ]
+        found: Array = np.array(axes)[:, 2]
+        return found
+
+    @property
+    def words(self) -> str:
+        """Its description in titles; empty for a level road."""
+        rise = f"{abs(100.0 * self.grade):g} % {'uphill' if self.grade > 0.0 else 'downhill'}"
+        fall = f"crossfall {100.0 * self.crossfall:g} %"
+        return ", ".join([rise] * bool(self.grade) + [fall] * bool(self.crossfall))
