@@ -181,7 +181,7 @@ class TestCommand:
 
     @pytest.mark.parametrize(
         "given",
-        [["--kerb", "50"], ["--kerb", "50", "--bump", "20"], ["--road", "K"],
+        [["--kerb", "50"], ["--kerb", "50", "--bump-height", "20"], ["--road", "K"],
          ["--road", "nothing.csv"]],
     )  # fmt: skip
     def test_roads_that_are_none_are_refused(self, given: list[str]) -> None:

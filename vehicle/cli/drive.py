@@ -36,7 +36,7 @@ EXAMPLES = (
     "kintrafo drive driving_car --manoeuvre double_lane_change --speed 70 -o lane.csv",
     "kintrafo drive driving_car --manoeuvre double_lane_change --animate lane.gif",
     "kintrafo drive driving_car --manoeuvre braking --loads loads.csv",
-    "kintrafo drive driving_car --manoeuvre straight --bump -40 --plot pothole.png",
+    "kintrafo drive driving_car --manoeuvre straight --bump-height -40 --plot pothole.png",
     "kintrafo drive driving_car --manoeuvre straight --crossfall 3",
     "kintrafo new my_step.toml --template step_steer",
 )
@@ -75,9 +75,9 @@ def command(
     can be edited; kintrafo new FILE --template NAME writes one that comes with kintrafo. Metrics
     are those of the standards, in the axes of ISO 8855. Data files have the curves over time,
     lateral acceleration or frequency; figures show them, and the path in a file whose name ends in
-    _path. --road, --bump and --kerb are roads whose tracks follow the path of the car. --animate
-    shows the car in motion, with the forces on its tyres; --loads has the forces
-    of all joints, springs and tyres, whose greatest ones are printed.
+    _path. --road, --bump-height and --kerb are roads whose tracks follow the path of the car.
+    --animate shows the car in motion, with the forces on its tyres; --loads has the forces of all
+    joints, springs and tyres, whose greatest ones are printed.
     """
     from ...core.errors import InputError
     from ...core.files import refuse
@@ -144,7 +144,7 @@ def _on_road(
         assembly.require_driving()
         chosen.check(assembly.car)
     if road.is_given and not chosen.TRAVELS:
-        raise InputError([f"{chosen.TITLE} {_NO_ROAD}"], "--road, --bump, --kerb")
+        raise InputError([f"{chosen.TITLE} {_NO_ROAD}"], "--road, --bump-height, --kerb")
     profile = road.for_distance(assembly, chosen.greatest_distance) if road.is_given else None
     return derived(assembly), profile
 

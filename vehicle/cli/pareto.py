@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 EXAMPLES = (
     "kintrafo pareto my_car.toml objectives.toml -o front.csv --plot front.png",
-    "kintrafo pareto my_car.toml objectives.toml --member 7 --car chosen_car.toml",
+    "kintrafo pareto my_car.toml objectives.toml --member 7 --member-file chosen_car.toml",
 )
 
 _ROWS = 20  # of the table; data files have all members
@@ -53,7 +53,12 @@ def command(
     ] = None,
     car: Annotated[
         Path | None,
-        option("Write the hardpoint file of the chosen member: .toml.", "PATH", panel=OUTPUT),
+        option(
+            "Write the hardpoint file of the chosen member: .toml.",
+            "PATH",
+            "--member-file",
+            panel=OUTPUT,
+        ),
     ] = None,
     output: SingleFigureOptions,
 ) -> None:

@@ -28,10 +28,10 @@ _HELD: "WheelSupport" = "height"
 EXAMPLES = (
     "kintrafo report reference_car",
     'kintrafo report my_car.toml front_axle.html --title "Front axle, stage 2"',
-    "kintrafo report my_car.toml --loads --bushes bushes.toml",
+    "kintrafo report my_car.toml --standard-cases --bushes bushes.toml",
     "kintrafo report my_car.toml --goals goals.toml",
     "kintrafo report reference_axle",
-    "kintrafo report rigid_axle --loads",
+    "kintrafo report rigid_axle --standard-cases",
     "kintrafo report quarter_car",
     "kintrafo report my_mechanism.py",
 )
@@ -47,7 +47,7 @@ def command(
     title: Annotated[str | None, option("Heading of the report.")] = None,
     model_name: Which = None,
     loads: Annotated[
-        bool, option("Add the standard load cases and their free bodies.", None, "--loads")
+        bool, option("Add the standard load cases and their free bodies.", None, "--standard-cases")
     ] = False,
     cases: Annotated[Path | None, option("Add the load cases of this file (TOML).", "PATH")] = None,
     bushes: Bushes = None,
@@ -77,7 +77,12 @@ def command(
     if file.endswith(".py"):
         refuse_options(
             "the file of a suspension",
-            {"--loads": loads or None, "--cases": cases, "--bushes": bushes, "--goals": goals},
+            {
+                "--standard-cases": loads or None,
+                "--cases": cases,
+                "--bushes": bushes,
+                "--goals": goals,
+            },
         )
         moved: System | None = system_of(file, model_name)
         page: dict[str, Any] = {"title": title}

@@ -17,9 +17,9 @@ if TYPE_CHECKING:
 EXAMPLES = (
     "kintrafo ride quarter_car",
     "kintrafo ride quarter_car --road C --speed 60 --seed 7 -o ride.csv",
-    "kintrafo ride quarter_car --bump 20 --bump-length 1 --speed 30 -o bump.csv",
+    "kintrafo ride quarter_car --bump-height 20 --bump-length 1 --speed 30 -o bump.csv",
     "kintrafo ride quarter_car --road tracks.csv --contact-length 120",
-    "kintrafo ride quarter_car --bump 20 --speed 20 --duration 3 --animate bump.gif",
+    "kintrafo ride quarter_car --bump-height 20 --speed 20 --duration 3 --animate bump.gif",
     "kintrafo ride quarter_car --kerb 60 --contact-length 120 --speed 15",
 )
 

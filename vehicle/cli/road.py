@@ -33,18 +33,22 @@ class RoadOptions:
     ] = None
     seed: Annotated[
         int | None,
-        option("Seed of the rough road: equal seeds give equal roads. Default: 1.", "NUMBER"),
+        option("Seed of the rough road: equal seeds give equal roads. Default: 1.", "N"),
     ] = None
     bump: Annotated[
         float | None,
-        option("Height of one bump instead of the rough road; negative: a pothole.", "MM"),
+        option(
+            "Height of one bump instead of the rough road; negative: a pothole.",
+            "MM",
+            "--bump-height",
+        ),
     ] = None
     bump_length: Annotated[float | None, option("Length of the bump. Default: 0.5 m.", "M")] = None
     kerb: Annotated[
         float | None,
         option("Height of an edge instead of the rough road; negative: a drop.", "MM"),
     ] = None
-    under: Annotated[
+    wheels: Annotated[
         Literal["both", "left", "right"] | None,
         option("Wheels that meet the bump or the kerb. Default: both."),
     ] = None
@@ -60,14 +64,14 @@ class RoadOptions:
     def __post_init__(self) -> None:
         from ...core.validator import Validator
 
-        roads = {"--road": self.road, "--bump": self.bump, "--kerb": self.kerb}
+        roads = {"--road": self.road, "--bump-height": self.bump, "--kerb": self.kerb}
         chosen = [name for name, value in roads.items() if value is not None]
         if len(chosen) > 1:
             raise typer.BadParameter(f"{' and '.join(chosen)} are given: choose one of them")
         if self.bump is None:
-            refuse_options("--bump", {"--bump-length": self.bump_length})
+            refuse_options("--bump-height", {"--bump-length": self.bump_length})
         if not self.is_obstacle:
-            refuse_options("--bump and --kerb", {"--under": self.under})
+            refuse_options("--bump-height and --kerb", {"--wheels": self.wheels})
         if not self.is_rough:
             refuse_options("a rough road", {"--seed": self.seed})
         lengths = {
@@ -94,7 +98,7 @@ class RoadOptions:
         """Refuse options of a road if no option chooses one."""
         if not self.is_given:
             named = {"--seed": self.seed, "--contact-length": self.contact_length}
-            refuse_options("--road, --bump and --kerb", named)
+            refuse_options("--road, --bump-height and --kerb", named)
 
     @property
     def name(self) -> str:
@@ -104,7 +108,7 @@ class RoadOptions:
     @property
     def sides(self) -> Literal["both", "left", "right"]:
         """Wheels that meet an obstacle."""
-        return self.under or "both"
+        return self.wheels or "both"
 
     @property
     def is_obstacle(self) -> bool:
@@ -148,7 +152,7 @@ class RoadOptions:
         sides = {wheel.rpartition("_")[2] for wheel in assembly.wheels}
         if self.is_obstacle and self.sides in {"left", "right"} - sides:
             raise typer.BadParameter(
-                f"--under {self.sides}: this car has its wheel on the other side"
+                f"--wheels {self.sides}: this car has its wheel on the other side"
             )
         if self.kerb is not None:
             at = min(5.0, 0.2 * distance)

@@ -130,7 +130,9 @@ class SolverOptions:
             panel="Solver",
         ),
     ] = "BDF"
-    step: Annotated[_Number, option("Fixed step of RK4 or RODASP.", "MS", panel="Solver")] = None
+    step: Annotated[
+        _Number, option("Fixed step of RK4 or RODASP.", "MS", "--fixed-step", panel="Solver")
+    ] = None
     rtol: Annotated[
         _Number,
         option("Relative tolerance. Default: 1e-8 for BDF, else 1e-6.", panel="Solver"),

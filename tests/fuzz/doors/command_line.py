@@ -90,13 +90,13 @@ OPTIONS = {
     "sensitivity": ("-o", "--plot", "--place", "--of", "--over", "--at"),
     "tolerance": ("-o", "--plot", "--of", "--over", "--at", "--seed"),
     "optimise": ("-o", "--plot"),
-    "pareto": ("-o", "--plot", "--car", "--member", "--seed"),
+    "pareto": ("-o", "--plot", "--member-file", "--member", "--seed"),
     "fit": ("-o", "--plot", "--of"),
     "sweep": ("-o", "--plot", "--keep", "--height", "--road-step", "--measured"),
     "report": ("--title", "--goals"),
     "paper": ("--data",),
     "mechanism derivation": ("-o", "-o", "--model"),
-    "mechanism generate": ("--to", "--model", "--numpy"),
+    "mechanism generate": ("-o", "--model", "--numpy"),
 }  # fmt: skip
 WORDS = {
     "--suspension": ("macpherson", "double_wishbone", "x"),
@@ -130,7 +130,7 @@ WORDS = {
     "--model": ("four_bar", "x"),
 }
 PATHS = (
-    "-o", "--plot", "--car", "--cases", "--to", "--data", "--tire", "--measured", "--title",
+    "-o", "--plot", "--member-file", "--cases", "--data", "--tire", "--measured", "--title",
     "--goals", "--bushes",
 )  # fmt: skip
 CLEAR = (RefusedError,)

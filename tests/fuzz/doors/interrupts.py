@@ -58,7 +58,7 @@ LONG = (
     ("mechanism", "animate", CAR, "a.gif", "--force"),
     ("paper", "out", "--force"),
     ("mechanism", "derivation", "mechanism.py", "-o", "a.md", "--force"),
-    ("mechanism", "generate", "mechanism.py", "--to", "out", "--force"),
+    ("mechanism", "generate", "mechanism.py", "-o", "out", "--force"),
     ("mechanism", "topology", "mechanism.py"),
 )
 NAMES = ("a.csv", "a.png", "a.toml", "a.html", "a.gif", "a.md")

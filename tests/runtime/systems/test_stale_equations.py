@@ -91,7 +91,7 @@ def test_the_c_that_is_written_is_that_of_now(tmp_path, monkeypatch):
     texts = []
     for source in (3.0, 4.0):
         file = written(tmp_path, NUMBERS | {"source": source})
-        to = ("--to", str(tmp_path / "out"), "--force")
+        to = ("-o", str(tmp_path / "out"), "--force")
         done = CliRunner().invoke(app, ["mechanism", "generate", str(file), "--numpy", *to])
         assert done.exit_code == 0, done.output
         texts.append((tmp_path / "out" / "edited.c").read_text())

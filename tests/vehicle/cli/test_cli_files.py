@@ -84,7 +84,7 @@ WRITING = {
         "a.svg",
     ),
     "optimise": (["optimise", CAR, str(STUDIES / "goals.toml"), "-o", "a.toml"], "a.toml"),
-    "pareto": (["pareto", CAR, str(STUDIES / "front.toml"), "--car", "a.toml"], "a.toml"),
+    "pareto": (["pareto", CAR, str(STUDIES / "front.toml"), "--member-file", "a.toml"], "a.toml"),
     "pareto --out": (["pareto", CAR, str(STUDIES / "front.toml"), "-o", "a.csv"], "a.csv"),
     "fit": (
         ["fit", CAR, str(STUDIES / "rig.csv"), str(STUDIES / "tolerances.toml"), "-o", "a.toml"],
@@ -93,7 +93,7 @@ WRITING = {
     "sweep": (["sweep", CAR, "wheel.toe_deg=0,1", "--duration", 0.01, "--plot", "a.png"], "a.png"),
     "report": (["report", CAR], f"{CAR}.html"),
     "report of an axle": (["report", "reference_axle"], "reference_axle.html"),
-    "report of a rigid axle": (["report", "rigid_axle", "--loads"], "rigid_axle.html"),
+    "report of a rigid axle": (["report", "rigid_axle", "--standard-cases"], "rigid_axle.html"),
     "mechanism derivation": (["mechanism", "derivation", "slider_crank", "-o", "a.tex"], "a.tex"),
     "mechanism derivation with figures": (
         ["mechanism", "derivation", "slider_crank", "-o", "a.tex"],
@@ -161,7 +161,7 @@ def test_force_and_again(kintrafo, tmp_path, command):
         ["import", "chrono.json", "chrono.json"],
         ["import", "adams.sub", "adams.sub"],
         ["import", "adams.sub", "car.toml", "--from", "car.toml"],
-        ["pareto", "car.toml", "other.toml", "--car", "other.toml"],
+        ["pareto", "car.toml", "other.toml", "--member-file", "other.toml"],
         ["simulate", CAR, "--measured", "road.csv", "-o", "road.csv"],
         ["sheet", "car.csv", "-o", "car.csv"],
         ["compare", CAR, "car.csv", "-o", "./car.csv"],
@@ -190,14 +190,14 @@ def test_generate_keeps_the_source(kintrafo, tmp_path):
     text = "from kintrafo.generator.mechanisms.four_bar import FOUR_BAR\n"
     source.write_text(text)
     for options in ([], ["--force"]):
-        code, out, err = kintrafo("mechanism", "generate", source, "--numpy", "--to", ".", *options)
+        code, out, err = kintrafo("mechanism", "generate", source, "--numpy", "-o", ".", *options)
         assert (code, out) == (2, "")
         assert source.name in err
     assert source.read_text() == text
     assert [path.name for path in tmp_path.iterdir()] == [source.name]
-    assert kintrafo("mechanism", "generate", source, "--numpy", "--to", "equations")[0] == 0
+    assert kintrafo("mechanism", "generate", source, "--numpy", "-o", "equations")[0] == 0
     (tmp_path / "equations/four_bar.md").write_text("my notes")
-    code, _, err = kintrafo("mechanism", "generate", source, "--numpy", "--to", "equations")
+    code, _, err = kintrafo("mechanism", "generate", source, "--numpy", "-o", "equations")
     assert code == 2
     assert "four_bar.md" in err
 

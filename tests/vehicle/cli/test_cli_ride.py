@@ -40,17 +40,18 @@ def test_at_rest_no_value_of_the_body_is_below_a_wheel():
 
 
 def test_a_bump_that_no_wheel_meets_is_refused(kintrafo):
-    code, _, message = kintrafo("ride", "quarter_car", "--bump", "20", "--under", "left")
+    code, _, message = kintrafo("ride", "quarter_car", "--bump-height", "20", "--wheels", "left")
     assert code == 2
     assert "wheel on the other side" in message
 
 
 @pytest.mark.parametrize(("words", "message"), [
     (["driving_car"], 'car = "full" travels'),
-    (["quarter_car", "--road", "C", "--bump", "20"], "--road and --bump are given: choose one"),
+    (["quarter_car", "--road", "C", "--bump-height", "20"],
+     "--road and --bump-height are given: choose one"),
     (["quarter_car", "--bump-length", "1"], "--bump-length is only for --bump"),
-    (["quarter_car", "--under", "left"], "--under is only for --bump and --kerb"),
-    (["quarter_car", "--bump", "20", "--seed", "2"], "--seed is only for a rough road"),
+    (["quarter_car", "--wheels", "left"], "--wheels is only for --bump-height and --kerb"),
+    (["quarter_car", "--bump-height", "20", "--seed", "2"], "--seed is only for a rough road"),
     (["quarter_car", "--seed", "-1"], "--seed = -1: a whole number, 0 or more"),
     (["quarter_car", "--contact-length", "-5"], "--contact-length = -5 mm"),
     (["reference_vehicle", "--road", "short.csv"], "the road is 2 m long, and the wheelbase 2.6 m"),
@@ -71,7 +72,17 @@ def test_mistakes_are_named_before_equations_are_derived(kintrafo, monkeypatch, 
 
 
 def test_a_motion_that_is_not_valid_has_an_exit_code(kintrafo):
-    words = ["--bump", "80", "--bump-length", "1", "--speed", "60", "--duration", "1", "--json"]
+    words = [
+        "--bump-height",
+        "80",
+        "--bump-length",
+        "1",
+        "--speed",
+        "60",
+        "--duration",
+        "1",
+        "--json",
+    ]
     code, printed, err = kintrafo("ride", "quarter_car", *words)
     assert code == 1
     (reason,) = json.loads(printed)["not_valid"]

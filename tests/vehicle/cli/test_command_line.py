@@ -7,9 +7,11 @@ import sys
 import tomllib
 import typing
 import xml.etree.ElementTree as ET
+from collections import defaultdict
 
 import numpy as np
 import pytest
+import typer
 from folders import ROOT
 from kintrafo import Model
 from kintrafo.__main__ import run
@@ -169,6 +171,24 @@ def test_help_says_all_that_the_function_does(name, monkeypatch):
     for hint in typing.get_type_hints(command, include_extras=True).values():
         for info in getattr(hint, "__metadata__", ()):
             assert " ".join((info.help or "").split()) in " ".join(shown.split())
+
+
+# Lists of names differ: directions or frames, motions, wheels on a road or under a load.
+_OF_SEVERAL_LISTS = {"--axes", "--over", "--wheels"}
+
+
+def test_options_of_one_name_have_values_of_one_kind():
+    """A length nowhere, and a time elsewhere: one grammar of all commands."""
+    kinds = defaultdict(set)
+    groups = [typer.main.get_command(cli.app)]
+    for group in groups:
+        for command in group.commands.values():
+            groups += [command] if hasattr(command, "commands") else []
+            for option in command.params:
+                if option.param_type_name == "option":
+                    kinds[max(option.opts, key=len)].add(option.metavar)
+    assert len(kinds) > 80
+    assert {name for name, found in kinds.items() if len(found) > 1} == _OF_SEVERAL_LISTS
 
 
 def test_what_documents_name_is_there_after_one_import():

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     Run = Callable[..., tuple[int, str, str]]
 
 SILLY = ("0", "-1", "nan", "inf", "1e9", "1e-9", "1e300")
-BUMP, KERB = ("--bump", "20"), ("--kerb", "50", "--contact-length", "120")
+BUMP, KERB = ("--bump-height", "20"), ("--kerb", "50", "--contact-length", "120")
 # Options of ride, others beside them, and values that are a road, though a flat or a smooth one.
 OPTIONS: dict[tuple[str, tuple[str, ...]], tuple[str, ...]] = {
     **{
@@ -26,7 +26,7 @@ OPTIONS: dict[tuple[str, tuple[str, ...]], tuple[str, ...]] = {
         for beside in ((), BUMP, KERB)
     },
     ("--seed", ()): ("0",),
-    ("--bump", ()): ("0", "-1", "1e-9"),
+    ("--bump-height", ()): ("0", "-1", "1e-9"),
     ("--bump-length", BUMP): (),
     ("--kerb", KERB[2:]): ("0", "-1", "1e-9"),
     ("--contact-length", ()): ("1e-9",),

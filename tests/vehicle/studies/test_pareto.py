@@ -254,7 +254,7 @@ def test_several_objectives_of_one_kind_are_distinguished_and_drawn(tmp_path: Pa
 def test_the_chosen_member_is_written(kintrafo: Any, tmp_path: Path) -> None:
     (tmp_path / "s.toml").write_text(STUDY, encoding="utf-8")
     code, out, err = kintrafo(
-        "pareto", "reference_car", "s.toml", *QUICK, "--member", 2, "--car", "car.toml"
+        "pareto", "reference_car", "s.toml", *QUICK, "--member", 2, "--member-file", "car.toml"
     )
     assert code == 0, err
     for words in ("file", "compromise", "chosen", "values of member 2", "on the front"):
@@ -274,7 +274,7 @@ def test_a_member_that_is_not_there(kintrafo: Any, tmp_path: Path, member: int) 
     (tmp_path / "s.toml").write_text(study, encoding="utf-8")
     code, out, err = kintrafo(
         "pareto", "reference_car", "s.toml", *QUICK, "--member", member,
-        "-o", "a.csv", "--plot", "a.svg", "--car", "a.toml",
+        "-o", "a.csv", "--plot", "a.svg", "--member-file", "a.toml",
     )  # fmt: skip
     assert (code, out) == (2, "")
     assert f"member = {member}: a whole number, 1 to " in " ".join(err.split())
@@ -305,7 +305,15 @@ def test_an_interruption_ends_it_at_once(
 
     monkeypatch.setattr(Candidates, "values", interrupted)
     code, out, _ = kintrafo(
-        "pareto", "reference_car", "s.toml", "--population", 12, "-o", "a.csv", "--car", "a.toml"
+        "pareto",
+        "reference_car",
+        "s.toml",
+        "--population",
+        12,
+        "-o",
+        "a.csv",
+        "--member-file",
+        "a.toml",
     )
     assert (code != 0, out, len(looked_at)) == (True, "", 30)
     assert [path.name for path in tmp_path.iterdir()] == ["s.toml"]

@@ -10,7 +10,7 @@ from ..options import FILE, Force, Json, Which, argument, option
 
 EXAMPLES = (
     "kintrafo mechanism generate my_mechanism.py",
-    "kintrafo mechanism generate my_mechanism.py --model crane --to equations",
+    "kintrafo mechanism generate my_mechanism.py --model crane -o equations",
     "kintrafo mechanism generate my_mechanism.py --numpy --json",
 )
 
@@ -19,8 +19,9 @@ def command(
     file: Annotated[Path, argument("Python file that declares a mechanism.", "FILE", **FILE)],
     *,
     model: Which = None,
-    to: Annotated[
-        Path | None, option("Write the C, the Python and the report here, too.", "FOLDER")
+    out: Annotated[
+        Path | None,
+        option("Write C, Python and report into this folder, too.", "PATH", "--out", "-o"),
     ] = None,
     numpy: Annotated[
         bool, option("Functions over NumPy arrays instead of compiled C.", None, "--numpy")
@@ -55,8 +56,8 @@ def command(
         problems.print("Stopped: no compiler runs on, and nothing of it is left behind.")
         raise
     seconds = time.perf_counter() - started
-    if to is not None:
-        _copy(module, to, force=force, declaration=file)
+    if out is not None:
+        _copy(module, out, force=force, declaration=file)
     if json:
         print_json(_facts(module))
     else:
