@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 import rail_car
 from driving_cars import FILE, light_car
+from kintrafo import variation
 from kintrafo.vehicle.analysis.handling import circle, drive
 from kintrafo.vehicle.analysis.handling.circle import Turns
 from kintrafo.vehicle.analysis.handling.linear import steering_response
@@ -138,6 +139,20 @@ def test_a_steady_turn_twists_the_column_by_its_torque(column) -> None:
     more = float(soft.metrics["understeer_gradient"] - rigid.metrics["understeer_gradient"])
     gradient = float(rigid.metrics["steering_torque_gradient"])
     assert more == pytest.approx(gradient / rate / ratio, rel=1e-5)
+
+
+def test_studies_vary_the_stiffness(column) -> None:
+    """The twist is torque by stiffness, at a torque that does not depend on it."""
+    key, names = "steering_column.stiffness_Nm_per_deg", ["column_twist", "steering_torque"]
+    over = {"over": "lateral_acceleration", "positions": [3.0]}
+    slope = variation.sensitivity(column, [key], **over, names=names).squeeze()
+    turn = circle(column, speed=100.0 / 3.6, lateral_acceleration=[3.0]).curves[""]
+    rate = STIFFNESS / np.deg2rad(1.0)
+    # differences of fourth order of turns that are solved to rounding
+    assert float(slope["column_twist"]) == pytest.approx(
+        -float(turn["steering_torque"][0]) / rate**2, rel=1e-6
+    )
+    assert float(slope["steering_torque"]) == pytest.approx(0.0, abs=1e-9)
 
 
 def test_a_stiff_column_is_a_rigid_one() -> None:

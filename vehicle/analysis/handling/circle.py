@@ -79,7 +79,8 @@ _OF_TORQUE = {
 def columns_of_turns(wheels: Sequence[str]) -> dict[str, Quantity]:
     """Return the quantities of steady turns by the names of their columns."""
     every = {**_OF_DRIVER, **{name: QUANTITIES[name] for name in _OF_BODY}}
-    every |= {name: (words, _PER) for name, words in _GRADIENTS.items()} | _OF_TORQUE
+    every |= {name: (words, _PER) for name, words in _GRADIENTS.items()}
+    every |= {**_OF_TORQUE, "column_twist": COLUMN_TWIST}
     found = {name: _column(name, *described) for name, described in every.items()}
     by_wheel = [
         _column(name, *words).of_wheel(wheel)
