@@ -140,9 +140,8 @@ def write_path(
     with rc_context(STYLE):
         x, y = (np.atleast_2d(displayed(motion[name])) for name in ("x", "y"))
         spans = [float(np.nanmax(values) - np.nanmin(values)) + 1.0 for values in (x, y)]
-        # between cones the outline of the car is drawn, in its shape
-        equal = cones is not None or spans[1] * _WIDE > 0.3 * _HIGH * spans[0]
-        height = min(max(_WIDE * spans[1] / spans[0] + 1.2, 2.4), _HIGH) if equal else 3.4
+        equal = spans[1] * _WIDE > 0.3 * _HIGH * spans[0]
+        height = min(max(_WIDE * spans[1] / spans[0] + 1.2, 3.0), _HIGH) if equal else 3.4
         figure = Figure(figsize=(_WIDE, height), layout="constrained")
         axes = figure.subplots()
         scale = colormaps["viridis"]
@@ -167,7 +166,8 @@ def write_path(
         if equal:
             axes.set_aspect("equal", adjustable="datalim")
         axes.set_xlabel(heading_of(motion["x"]))
-        axes.set_ylabel(f"{heading_of(motion['y'])}\n{motion['y'].attrs['sign']}")
+        stretched = "" if equal else ", stretched"
+        axes.set_ylabel(f"{heading_of(motion['y'])}\n{motion['y'].attrs['sign']}{stretched}")
         figure.suptitle(title, fontsize=11)
         return save(written_plainly(figure), path, force=force, inputs=inputs)
 
