@@ -1,8 +1,8 @@
-"""Check that the installed package is complete: methods in C, models in lanes, libraries for FMUs.
+"""Check that the installed package is complete: methods in C, models in lanes, libraries, cars.
 
 No other check detects a missing part: without SUNDIALS, SciPy integrates; only ensembles need
-lanes; a compiler replaces the library for an FMU. On Windows, where wheels have neither SUNDIALS
-nor lanes, every model is simulated by SciPy.
+lanes; a compiler replaces the library for an FMU and a compiled car. On Windows,
+where wheels have neither SUNDIALS nor lanes nor cars, every model is simulated by SciPy.
 
 Usage: complete.py [--part], see fill.py.
 """
@@ -13,13 +13,15 @@ from importlib import import_module
 from pathlib import Path
 
 import kintrafo
-from fill import PART
+from fill import PART, cars
 from kintrafo import generated
 from kintrafo.simulation import solvers
 from kintrafo.simulation.lanes import library
+from kintrafo.systems.compile.packed import packed
 from kintrafo.targets.emitted import Emitted
 from kintrafo.targets.fmi import binaries
 from kintrafo.targets.fmi.sources import library_files
+from kintrafo.vehicle.models.car.equations import Structure
 
 
 def main() -> None:
@@ -32,6 +34,9 @@ def main() -> None:
         sys.exit(f"incomplete: no method in C, since {solvers.why_not_native()}.")
     if not library.widths():
         sys.exit("incomplete: no lanes, for which it must be built with GCC or Clang.")
+    for structure in map(Structure.of, cars("--part" in sys.argv[1:])):
+        if packed(structure.name, structure.text()) is None:
+            sys.exit(f"incomplete: {structure.name} is not compiled.")
     systems = every_system()
     crank = systems["slider_crank"]
     for method in solvers.native_methods():

@@ -1,22 +1,29 @@
 """Add to a wheel compiled files that setup.py does not build, so that users need no compiler.
 
-These are the libraries of FMUs for Windows, which a cross compiler makes on every system. They are
-the same for every version of Python, and taken from the cache of compiled files where that has
-them.
+These are the libraries of FMUs for Windows, which a cross compiler makes on every system, and the
+packaged cars, except on Windows. Both are the same for every version of Python, and taken from the
+cache of compiled files where that has them.
 
 Usage: fill.py FOLDER [WHEEL] [--part]. The folder has one wheel, for this version of Python, which
 is replaced; or the named wheel is copied to it. --part adds one file of each kind only, for a quick
 check.
 """
 
+import re
 import shutil
 import subprocess
 import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
 
-PART = ("four_bar",)
-"""The models of a part."""
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    import kintrafo
+
+PART = ("four_bar", "driving_car")
+"""The models and cars of a part."""
 
 
 def main(folder: Path, part: bool) -> None:
@@ -27,6 +34,8 @@ def main(folder: Path, part: bool) -> None:
         (unpacked,) = Path(temporary).iterdir()
         sys.path.insert(0, str(unpacked))
         add_libraries(unpacked / "kintrafo/generated", part)
+        if sys.platform != "win32":
+            add_cars(unpacked / "kintrafo/generated", part, wheel.name)
         wheel.unlink()
         run("pack", str(unpacked), "--dest-dir", str(folder))
 
@@ -43,6 +52,41 @@ def add_libraries(folder: Path, part: bool) -> None:
         path = folder / f"_{name}_fmu{binaries.ENDINGS['windows']}"
         path.write_bytes(binaries.filled(library, binaries.digest(files)))
         print(f"{path.name}: {len(library) / 1e3:.0f} kB", flush=True)
+
+
+def add_cars(folder: Path, part: bool, wheel: str) -> None:
+    """Write the archives of the compiled cars."""
+    from kintrafo import CarModel  # noqa: PLC0415 (that of the wheel)
+    from kintrafo.systems.compile.packed import pack  # noqa: PLC0415
+    from kintrafo.vehicle.models.car.equations import Structure  # noqa: PLC0415
+
+    for car in cars(part):
+        equations = CarModel(car).equations
+        for library in Path(equations.__file__).parent.glob("*.so"):
+            check_version(library, wheel)
+        path = pack(equations, Structure.of(car).text(), folder)
+        print(f"{path.name}: {path.stat().st_size / 1e3:.0f} kB", flush=True)
+
+
+def cars(part: bool) -> "Iterator[kintrafo.Car]":
+    """Yield the packaged cars on two axles, and those that can drive as driving ones, too."""
+    import kintrafo  # noqa: PLC0415 (that of the wheel)
+    from kintrafo.vehicle.data.starter import packaged_cars  # noqa: PLC0415
+
+    for name in PART[1:] if part else packaged_cars():
+        car = kintrafo.load(name)
+        if car.axles:
+            yield car
+        if car.described.tyres is not None and not car.drives:
+            yield car.with_changes({"car": "full"})
+
+
+def check_version(library: Path, wheel: str) -> None:
+    """Refuse a library that needs a later C library than the name of its wheel says."""
+    allowed = re.findall(r"manylinux_2_(\d+)", wheel)
+    needed = re.findall(rb"GLIBC_2\.(\d+)", library.read_bytes())
+    if allowed and max(map(int, needed), default=0) > max(map(int, allowed)):
+        sys.exit(f"{library} needs glibc 2.{max(map(int, needed))}, and {wheel} says less.")
 
 
 def run(*words: str) -> None:

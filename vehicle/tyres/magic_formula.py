@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
@@ -14,10 +14,7 @@ from ...formulas.coefficients import IN_EQUATIONS, NEUTRAL
 from ...formulas.magic_formula import Contact, Forces, Form
 from . import coefficients as known
 from .tir_file import read
-from .tyre import LOWEST_SPEED, USUAL_SPEED, States, Tyre
-
-if TYPE_CHECKING:
-    from ...generator.declare.contact_laws import ContactLaw
+from .tyre import LOWEST_SPEED, USUAL_SPEED, ContactTerms, States, Tyre
 
 # Scales that stay in the equations although they are 1, since studies vary them.
 _ALWAYS = ("LMUX", "LMUY")
@@ -148,22 +145,21 @@ class MagicFormula(Tyre):
             self, coefficients=known.mirrored(self.coefficients), side=_OTHER_SIDE[self.side]
         )
 
-    def contact_law(self, name: str = "tyre") -> "ContactLaw":
-        """Return the `kintrafo.generator.MagicFormulaContact` with this prefix of its parameters.
+    @property
+    def contact(self) -> ContactTerms:
+        """The law `kintrafo.generator.MagicFormulaContact`.
 
         Terms that have no effect in this tyre are left out, except the scales of the friction.
         """
-        from ...generator import MagicFormulaContact  # noqa: PLC0415 (an extra)
-
-        own = self.parameters(name)
-        idle = (k for k in IN_EQUATIONS if own[f"{name}_{k.lower()}"] == NEUTRAL[k])
-        return MagicFormulaContact(
-            name=name,
-            newer=self.form.newer,
-            weighted=self.form.weighted,
-            angle=self.form.angle,
-            without=tuple(k for k in idle if k not in _ALWAYS),
-        )
+        own = self.parameters()
+        idle = (k for k in IN_EQUATIONS if own[f"tyre_{k.lower()}"] == NEUTRAL[k])
+        options = {
+            "newer": self.form.newer,
+            "weighted": self.form.weighted,
+            "angle": self.form.angle,
+            "without": tuple(k for k in idle if k not in _ALWAYS),
+        }
+        return ContactTerms("MagicFormulaContact", tuple(options.items()))
 
     def parameters(
         self, name: str = "tyre", *, relaxing: bool = False, without: Iterable[str] = ()

@@ -97,6 +97,29 @@ class States:
         )
 
 
+@dataclass(frozen=True)
+class ContactTerms:
+    """The contact law of a tyre, without SymPy.
+
+    Attributes
+    ----------
+    name : str
+        Class of `kintrafo.generator`.
+    options : tuple
+        Names and values of its options.
+    """
+
+    name: str
+    options: tuple[tuple[str, Any], ...] = ()
+
+    def law(self, name: str) -> "ContactLaw":
+        """Return the law with this prefix of its parameters."""
+        from ... import generator  # noqa: PLC0415 (an extra)
+
+        law: ContactLaw = getattr(generator, self.name)(name=name, **dict(self.options))
+        return law
+
+
 class Tyre(ABC):
     """The base of all tyres: forces and moments as functions of load and slip.
 
@@ -144,7 +167,6 @@ class Tyre(ABC):
     def mirrored(self) -> Self:
         """Return the mirror image: the same tyre on the other side of the vehicle."""
 
-    @abstractmethod
     def contact_law(self, name: str = "tyre") -> "ContactLaw":
         """Return the contact law of the equations of motion, with symbolic parameters.
 
@@ -153,6 +175,12 @@ class Tyre(ABC):
         name : str, optional
             Prefix of the parameters' names; their values are those of `parameters`.
         """
+        return self.contact.law(name)
+
+    @property
+    @abstractmethod
+    def contact(self) -> ContactTerms:
+        """The class of the contact law, with the terms that this tyre has."""
 
     @abstractmethod
     def parameters(self, name: str = "tyre", *, relaxing: bool = False) -> dict[str, float]:
@@ -309,12 +337,10 @@ class SymmetricTyre(Tyre):
         """Return the mirror image, which has the same values."""
         return copy(self)
 
-    def contact_law(self, name: str = "tyre") -> "ContactLaw":
-        """Return the contact law of `kintrafo.generator` with this prefix of its parameters."""
-        from ... import generator  # noqa: PLC0415 (an extra)
-
-        law: ContactLaw = getattr(generator, self.CONTACT_LAW)(name=name)
-        return law
+    @property
+    def contact(self) -> ContactTerms:
+        """The class of its contact law, without options."""
+        return ContactTerms(self.CONTACT_LAW)
 
     def parameters(self, name: str = "tyre", *, relaxing: bool = False) -> dict[str, float]:
         """Return the values of the parameters of `contact_law`.

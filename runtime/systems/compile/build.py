@@ -19,6 +19,7 @@ from .declaration import model_of, translated_errors
 from .identity import identity, identity_of_derived
 from .loader import load, refuse_damaged
 from .on_terminal import on_terminal
+from .packed import packed
 
 if TYPE_CHECKING:
     from ...generator import Formulation, Mechanism
@@ -30,8 +31,9 @@ Report = Callable[[str], None]
 _REMEDY = "Install a C compiler (on Debian: apt-get install gcc libc6-dev), or name one in CC"
 _COMPILED_PER_S = 8_000  # operations of a file by GCC on a processor of 2024
 _warned = False
-# by the name of the module: the declaration, and whether it has derivatives by parameters
-_declared: dict[str, "tuple[Formulation, bool]"] = {}
+# by the name of the module: what returns the declaration, and whether it has derivatives by
+# parameters
+_declared: dict[str, "tuple[Callable[[], Formulation], bool]"] = {}
 
 
 def compile_mechanism(
@@ -146,7 +148,37 @@ def compile_mechanism(
                     build(derived, temporary, compiler, name=target.name, report=notify)
         refuse_damaged(target)
     module = load(target)
-    _declared[module.__name__] = model, parameter_derivatives
+    _declared[module.__name__] = (lambda: model), parameter_derivatives
+    return module
+
+
+def packed_mechanism(
+    name: str, structure: str, declared: "Callable[[], Formulation]"
+) -> ModuleType | None:
+    """Return the equations of a mechanism that come compiled with a wheel.
+
+    Parameters
+    ----------
+    name : str
+        Of the equations.
+    structure : str
+        Everything that determines their declaration.
+    declared : callable
+        Returns the declaration, for `derived_again`.
+
+    Returns
+    -------
+    module or None
+        None if there are none of this structure and these sources.
+
+    Raises
+    ------
+    InputError
+        If the cache cannot be written, or others can write there.
+    """
+    module = packed(name, structure)
+    if module is not None:
+        _declared[module.__name__] = declared, False
     return module
 
 
@@ -168,7 +200,8 @@ def derived_again(equations: ModuleType) -> "Derivation":
     if equations.__name__.startswith("kintrafo."):
         model, by_parameters = model_named(equations.NAME), False
     elif equations.__name__ in _declared:
-        model, by_parameters = _declared[equations.__name__]
+        declared, by_parameters = _declared[equations.__name__]
+        model = declared()
     else:
         problem = "the declaration is not known here. Call kintrafo.compile first, in this process."
         raise InputError([problem], str(equations.NAME))

@@ -16,8 +16,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from functools import cache
-from importlib.resources import files
-from importlib.resources.abc import Traversable
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -43,6 +42,7 @@ __all__ = [
     "foreign",
     "refuse_foreign",
     "seal",
+    "sources_hash",
 ]
 
 MANIFEST = "manifest.json"
@@ -62,19 +62,31 @@ def fingerprint(declared: str, *, built_by: str) -> str:
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
 
 
-@cache
 def _generator_hash() -> str:
-    """Return a hash of the sources that derive and emit equations, and that read the result."""
+    """Return the version of SymPy, and a hash of the sources."""
     import sympy
 
-    digest = hashlib.sha256(sympy.__version__.encode())
-    for package in ("kintrafo.generator", "kintrafo.equations"):
-        for name, content in sorted(_contents(files(package), "")):
-            digest.update(name.encode() + b"\0" + content)
+    version: str = sympy.__version__
+    return version + sources_hash()
+
+
+@cache
+def sources_hash() -> str:
+    """Return a hash of the sources that derive and emit equations, and that read the result.
+
+    Formulas of tyres are part of their contact laws.
+    """
+    digest = hashlib.sha256()
+    for package in ("kintrafo.generator", "kintrafo.formulas", "kintrafo.equations"):
+        spec = find_spec(package)  # does not import SymPy
+        assert spec is not None
+        for folder in spec.submodule_search_locations or ():
+            for name, content in sorted(_contents(Path(folder), "")):
+                digest.update(name.encode() + b"\0" + content)
     return digest.hexdigest()
 
 
-def _contents(folder: Traversable, path: str) -> Iterator[tuple[str, bytes]]:
+def _contents(folder: Path, path: str) -> Iterator[tuple[str, bytes]]:
     for entry in folder.iterdir():
         if entry.is_dir():
             yield from _contents(entry, f"{path}{entry.name}/")

@@ -2,6 +2,7 @@
 
 import json
 import sys
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
@@ -40,16 +41,34 @@ class SerializedModel:
         if self.name.startswith(_OF_PROJECT):
             return import_module(self.name)
         home = Path(self.file).parent
-        kept = cache_folder() / home.name
-        for folder in (home, kept):
-            if self.name in sys.modules or not (damage(folder) or foreign(folder)):
-                return load(folder)
+        if self.name in sys.modules or not (damage(home) or foreign(home)):
+            return load(home)
+        return from_cache(home.name, lambda: self.files)
+
+
+def from_cache(folder: str, content: Callable[[], Iterable[tuple[str, bytes]]]) -> ModuleType:
+    """Return a compiled module from its folder in the cache, which is filled at first use.
+
+    Parameters
+    ----------
+    folder : str
+        Name of the folder.
+    content : callable
+        Returns names and contents of the files; called only if they are not in the cache.
+
+    Raises
+    ------
+    InputError
+        If the folder cannot be written or loaded, or others can write there.
+    """
+    kept = cache_folder() / folder
+    if damage(kept) or foreign(kept):
         with appearing(kept) as temporary:
-            for name, content in self.files:
-                (temporary / name).write_bytes(content)
+            for name, text in content():
+                (temporary / name).write_bytes(text)
             seal(temporary, kept.name)
         refuse_damaged(kept)
-        return load(kept)
+    return load(kept)
 
 
 def shipped(equations: ModuleType) -> SerializedModel:

@@ -1,8 +1,10 @@
 """The equations of motion of a car: packaged for some, otherwise derived at first use."""
 
+import json
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass
 from functools import lru_cache, partial
+from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
@@ -11,8 +13,13 @@ import numpy as np
 from ....core.validator import Validator
 from ....core.vectors import components
 from ....systems.allowed import LengthLimit
-from ....systems.compile.build import compile_mechanism, require_generator
+from ....systems.compile.build import (
+    compile_mechanism,
+    packed_mechanism,
+    require_generator,
+)
 from ....systems.system import System
+from ...tyres.tyre import ContactTerms
 from ..axle.axle import Axle
 from ..model import Model
 from ..packaged import packaged_equations
@@ -30,8 +37,8 @@ Report = Callable[[str], None]
 class CarModel(System):
     """The compiled equations of a car: body, axles, tyres.
 
-    Those of packaged cars are part of kintrafo; others are derived and compiled at first use, as by
-    `kintrafo.compile`, and cached.
+    Those of quarter cars are part of kintrafo, and wheels contain those of all packaged cars;
+    others are derived and compiled at first use, as by `kintrafo.compile`, and cached.
 
     Parameters
     ----------
@@ -115,29 +122,20 @@ def _equations(car: Car, progress: Report | None) -> ModuleType:
         packaged = packaged_equations(name_of(car))
         if packaged is not None:
             return packaged
-    declaration = declared(car)
-    known = _LAST.get(declaration.name)
-    if known is not None and known[0] is declaration:
+    structure = Structure.of(car)
+    known = _LAST.get(structure.name)
+    if known is not None and known[0] == structure:
         return known[1]
-    found = compile_mechanism(declaration, progress=progress)
-    _LAST[declaration.name] = declaration, found
+    found = packed_mechanism(structure.name, structure.text(), structure.declared)
+    if found is None:
+        found = compile_mechanism(structure.declared(), progress=progress)
+    _LAST[structure.name] = structure, found
     return found
-
-
-# The last compiled declaration by name, and its equations: a study varies values of one car, and
-# identifying a declaration takes longer than a steady turn.
-_LAST: "dict[str, tuple[Formulation, ModuleType]]" = {}
 
 
 def declared(car: Car) -> "Formulation":
     """Return the declaration of a car, without values; cars that differ only in values share it."""
-    require_generator()
-    if car.corner is not None:
-        return _declared_quarter(str(Model(car.corner).equations.NAME))
-    heading = car.heading()
-    title = heading[:1].upper() + heading[1:]
-    ends = tuple(_End.of(car, end) for end in car.axles)
-    return _declared(name_of(car), title, ends, None if car.drives else tuple(car.coordinates))
+    return Structure.of(car).declared()
 
 
 @dataclass(frozen=True)
@@ -155,7 +153,7 @@ class _End:
     steered : bool
     column : bool
         Whether a compliant steering column moves the rack.
-    law, relaxing, brakes_on, drive_on
+    contact, relaxing, brakes_on, drive_on
         Of a driving car, see `generator.mechanisms.car.driving`.
     """
 
@@ -164,7 +162,7 @@ class _End:
     pulls: str = ""
     steered: bool = False
     column: bool = False
-    law: Any = None
+    contact: ContactTerms | None = None
     relaxing: bool = False
     brakes_on: Any = None
     drive_on: Any = None
@@ -176,7 +174,7 @@ class _End:
         rolling: dict[str, Any] = {}
         if car.drives:
             rolling = {
-                "law": car.tyres[end].contact_law(),
+                "contact": car.tyres[end].contact,
                 "relaxing": car.relaxing,
                 "brakes_on": axle.brakes.torque_on,
                 "drive_on": drive.torque_on if (drive := axle.drive) else None,
@@ -203,36 +201,77 @@ class _End:
         )
         if self.column:
             found = on_a_column(found)
-        if self.law is None:
+        if self.contact is None:
             return found
         return page.driving(
             found,
-            lambda name: replace(self.law, name=name),
+            self.contact.law,
             relaxing=self.relaxing,
             brakes_on=self.brakes_on,
             drive_on=self.drive_on,
         )
 
 
+@dataclass(frozen=True)
+class Structure:
+    """Everything that determines the declaration of a car; its values do not.
+
+    Attributes
+    ----------
+    name, title : str
+        Of the equations.
+    ends : tuple
+        The structures of the axles; empty for a quarter car.
+    coordinates : tuple of str or None
+        Those of the body; None for a driving car.
+    corner : str
+        The equations of the suspension of a quarter car.
+    """
+
+    name: str
+    title: str = ""
+    ends: tuple[_End, ...] = ()
+    coordinates: tuple[str, ...] | None = None
+    corner: str = ""
+
+    @classmethod
+    def of(cls, car: Car) -> "Structure":
+        """Return the structure of a car."""
+        name = name_of(car)
+        if car.corner is not None:
+            return cls(name, corner=str(Model(car.corner).equations.NAME))
+        heading = car.heading()
+        title = heading[:1].upper() + heading[1:]
+        ends = tuple(_End.of(car, end) for end in car.axles)
+        return cls(name, title, ends, None if car.drives else tuple(car.coordinates))
+
+    def text(self) -> str:
+        """Return it as a text, with the source of this file, which declares a car from it."""
+        source = Path(__file__).read_text(encoding="utf-8")
+        return json.dumps([asdict(self), source])
+
+    def declared(self) -> "Formulation":
+        """Return the declaration of the car."""
+        require_generator()
+        return _declared(self)
+
+
 @lru_cache(maxsize=8)
-def _declared_quarter(corner: str) -> "Formulation":
+def _declared(structure: Structure) -> "Formulation":
     from ....generator.mechanisms import car as page  # noqa: PLC0415 (an extra)
     from ....generator.mechanisms import model_named  # noqa: PLC0415
 
-    return page.quarter(model_named(corner))
+    if structure.corner:
+        return page.quarter(model_named(structure.corner))
+    axles = [end.declared() for end in structure.ends]
+    if structure.coordinates is None:
+        return page.full(structure.name, structure.title, axles)
+    return page.car(structure.name, structure.title, axles, structure.coordinates)
 
 
-@lru_cache(maxsize=8)
-def _declared(
-    name: str, title: str, ends: tuple[_End, ...], coordinates: tuple[str, ...] | None
-) -> "Formulation":
-    """Return the declaration of a car with coordinates of its body; of a driving car for None."""
-    from ....generator.mechanisms import car as page  # noqa: PLC0415 (an extra)
-
-    axles = [end.declared() for end in ends]
-    if coordinates is None:
-        return page.full(name, title, axles)
-    return page.car(name, title, axles, coordinates)
+# The last structure by name, and its equations: a study varies values of one car, and identifying
+# a declaration takes longer than a steady turn.
+_LAST: dict[str, tuple[Structure, ModuleType]] = {}
 
 
 def _parameters(car: Car, described: Mapping[str, Mapping[str, Any]]) -> dict[str, float]:

@@ -1,0 +1,84 @@
+"""Compiled mechanisms that come with the package, in archives.
+
+`.ci/fill.py` adds them to a wheel; a checkout has none. The name of an archive has a hash of
+everything on which its files depend: the structure from which the mechanism was declared, the
+sources that derive and emit equations, and the machine. A changed structure or source has no
+archive, and is derived. SymPy is not needed: its release was the one that `pyproject.toml` pins.
+"""
+
+import hashlib
+import json
+import platform
+import sys
+import zipfile
+from importlib.resources import as_file, files
+from importlib.util import find_spec
+from pathlib import Path
+from types import ModuleType
+
+from .cache import MANIFEST, sources_hash
+from .shipped import from_cache
+
+# Archives of the same files have the same bytes.
+_NO_DATE = (1980, 1, 1, 0, 0, 0)
+
+
+def packed(name: str, structure: str) -> ModuleType | None:
+    """Return compiled equations from their archive, which is unpacked into the cache once.
+
+    Parameters
+    ----------
+    name : str
+        Of the equations.
+    structure : str
+        Everything that determines their declaration.
+
+    Returns
+    -------
+    module or None
+        None if there is no archive of this structure and these sources.
+
+    Raises
+    ------
+    InputError
+        If the cache cannot be written, or others can write there.
+    """
+    folder = _folder_name(name, structure)
+    archive = files("kintrafo.generated") / f"{folder}.zip"
+    # some builds of Python have no LZMA
+    if not archive.is_file() or find_spec("_lzma") is None:
+        return None
+
+    def content() -> list[tuple[str, bytes]]:
+        with as_file(archive) as path, zipfile.ZipFile(path) as opened:
+            return [(entry, opened.read(entry)) for entry in opened.namelist()]
+
+    return from_cache(folder, content)
+
+
+def pack(equations: ModuleType, structure: str, into: Path) -> Path:
+    """Write the archive of compiled equations, and return it.
+
+    Parameters
+    ----------
+    equations : module
+        A result of `kintrafo.compile`, compiled by a C compiler.
+    structure : str
+        Everything that determines their declaration.
+    into : Path
+        A folder.
+    """
+    compiled = Path(str(equations.__file__)).parent
+    path = into / f"{_folder_name(equations.NAME, structure)}.zip"
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_LZMA) as archive:
+        for name in sorted(json.loads((compiled / MANIFEST).read_bytes())["files"]):
+            entry = zipfile.ZipInfo(name, _NO_DATE)
+            entry.compress_type = zipfile.ZIP_LZMA
+            archive.writestr(entry, (compiled / name).read_bytes())
+    return path
+
+
+def _folder_name(name: str, structure: str) -> str:
+    parts = ("packed", name, structure, sources_hash(), platform.machine(), sys.platform)
+    key = hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
+    return f"{name}-{key}"
