@@ -85,7 +85,7 @@ def check_version(library: Path, wheel: str) -> None:
     """Refuse a library that needs a later C library than the name of its wheel says."""
     allowed = re.findall(r"manylinux_2_(\d+)", wheel)
     needed = re.findall(rb"GLIBC_2\.(\d+)", library.read_bytes())
-    if allowed and max(map(int, needed), default=0) > max(map(int, allowed)):
+    if allowed and max(map(int, needed), default=0) > min(map(int, allowed)):
         sys.exit(f"{library} needs glibc 2.{max(map(int, needed))}, and {wheel} says less.")
 
 

@@ -1,0 +1,47 @@
+"""The structure of a car has all on which its declaration depends, and no more."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from driving_cars import FILE, TYRE
+from kintrafo.systems.compile.identity import identity
+from kintrafo.vehicle.models.car import Car
+from kintrafo.vehicle.models.car.equations import Structure
+
+DRIVEN = FILE["front"]["drive"]
+CHANGES: list[tuple[dict[str, Any], bool]] = [
+    ({}, True),
+    ({"body.mass_kg": 1400.0, "front.side.hardpoints.wheel_center.z": 300.0}, True),
+    ({"tyres.front": TYRE | {"friction": 0.8}}, True),
+    ({"tyres.front": "passenger_205_55"}, False),
+    ({"tyres.rear": "bmw_e90_rear"}, False),
+    ({"tyres.relaxation": False}, False),
+    ({"front.brakes.torque_on": "body"}, False),
+    ({"front.drive": {**DRIVEN, "torque_on": "carrier"}}, False),
+    ({"car": "roll"}, False),
+    ({"car": "ride"}, False),
+]
+
+
+@pytest.mark.parametrize(("changes", "same"), CHANGES, ids=lambda value: str(value)[:40])
+def test_structures_are_the_same_where_declarations_are(
+    changes: dict[str, Any], same: bool
+) -> None:
+    """The oracle is the hash of the whole declaration."""
+    known, car = Car.from_dict(FILE), Car.from_dict(FILE).with_changes(changes)
+    first, second = Structure.of(known), Structure.of(car)
+    assert (first.text() == second.text()) is same
+    assert (identity(first.declared()) == identity(second.declared())) is same
+
+
+def test_terms_of_the_magic_formula_count() -> None:
+    """Coefficients that vanish leave terms out of the equations."""
+    texts = set()
+    for tyre in ("passenger_205_55", "bmw_e90_front"):
+        car = Car.from_dict(FILE).with_changes({"tyres.front": tyre, "tyres.rear": tyre})
+        structure = Structure.of(car)
+        assert car.tyres["front"].contact.name in structure.text()
+        texts.add(structure.text())
+    assert len(texts) == 2
