@@ -82,11 +82,11 @@ def cars(part: bool) -> "Iterator[kintrafo.Car]":
 
 
 def check_version(library: Path, wheel: str) -> None:
-    """Refuse a library that needs a later C library than the name of its wheel says."""
+    """Refuse a library that needs a later C library than the name of its wheel permits."""
     allowed = re.findall(r"manylinux_2_(\d+)", wheel)
     needed = re.findall(rb"GLIBC_2\.(\d+)", library.read_bytes())
     if allowed and max(map(int, needed), default=0) > min(map(int, allowed)):
-        sys.exit(f"{library} needs glibc 2.{max(map(int, needed))}, and {wheel} says less.")
+        sys.exit(f"{library} needs glibc 2.{max(map(int, needed))}, and {wheel} permits less.")
 
 
 def run(*words: str) -> None:
