@@ -21,7 +21,7 @@ from kintrafo.systems.compile.packed import packed
 from kintrafo.targets.emitted import Emitted
 from kintrafo.targets.fmi import binaries
 from kintrafo.targets.fmi.sources import library_files
-from kintrafo.vehicle.models.car.equations import Structure
+from kintrafo.vehicle.models.car.equations import CarStructure
 
 
 def main() -> None:
@@ -34,7 +34,7 @@ def main() -> None:
         sys.exit(f"incomplete: no method in C, since {solvers.why_not_native()}.")
     if not library.widths():
         sys.exit("incomplete: no lanes, for which it must be built with GCC or Clang.")
-    for structure in map(Structure.of, cars("--part" in sys.argv[1:])):
+    for structure in map(CarStructure.of, cars("--part" in sys.argv[1:])):
         if packed(structure.name, structure.text()) is None:
             sys.exit(f"incomplete: {structure.name} is not compiled.")
     systems = every_system()

@@ -58,13 +58,13 @@ def add_cars(folder: Path, part: bool, wheel: str) -> None:
     """Write the archives of the compiled cars."""
     from kintrafo import CarModel  # noqa: PLC0415 (that of the wheel)
     from kintrafo.systems.compile.packed import pack  # noqa: PLC0415
-    from kintrafo.vehicle.models.car.equations import Structure  # noqa: PLC0415
+    from kintrafo.vehicle.models.car.equations import CarStructure  # noqa: PLC0415
 
     for car in cars(part):
         equations = CarModel(car).equations
         for library in Path(equations.__file__).parent.glob("*.so"):
             check_version(library, wheel)
-        path = pack(equations, Structure.of(car).text(), folder)
+        path = pack(equations, CarStructure.of(car).text(), folder)
         print(f"{path.name}: {path.stat().st_size / 1e3:.0f} kB", flush=True)
 
 

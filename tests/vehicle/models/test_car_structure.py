@@ -8,7 +8,7 @@ import pytest
 from driving_cars import FILE, TYRE
 from kintrafo.systems.compile.identity import identity
 from kintrafo.vehicle.models.car import Car
-from kintrafo.vehicle.models.car.equations import Structure
+from kintrafo.vehicle.models.car.equations import CarStructure
 
 DRIVEN = FILE["front"]["drive"]
 CHANGES: list[tuple[dict[str, Any], bool]] = [
@@ -31,7 +31,7 @@ def test_structures_are_the_same_where_declarations_are(
 ) -> None:
     """The oracle is the hash of the whole declaration."""
     known, car = Car.from_dict(FILE), Car.from_dict(FILE).with_changes(changes)
-    first, second = Structure.of(known), Structure.of(car)
+    first, second = CarStructure.of(known), CarStructure.of(car)
     assert (first.text() == second.text()) is same
     assert (identity(first.declared()) == identity(second.declared())) is same
 
@@ -41,7 +41,7 @@ def test_terms_of_the_magic_formula_count() -> None:
     texts = set()
     for tyre in ("passenger_205_55", "bmw_e90_front"):
         car = Car.from_dict(FILE).with_changes({"tyres.front": tyre, "tyres.rear": tyre})
-        structure = Structure.of(car)
+        structure = CarStructure.of(car)
         assert car.tyres["front"].contact.name in structure.text()
         texts.add(structure.text())
     assert len(texts) == 2

@@ -122,7 +122,7 @@ def _equations(car: Car, progress: Report | None) -> ModuleType:
         packaged = packaged_equations(name_of(car))
         if packaged is not None:
             return packaged
-    structure = Structure.of(car)
+    structure = CarStructure.of(car)
     known = _LAST.get(structure.name)
     if known is not None and known[0] == structure:
         return known[1]
@@ -135,7 +135,7 @@ def _equations(car: Car, progress: Report | None) -> ModuleType:
 
 def declared(car: Car) -> "Formulation":
     """Return the declaration of a car, without values; cars that differ only in values share it."""
-    return Structure.of(car).declared()
+    return CarStructure.of(car).declared()
 
 
 @dataclass(frozen=True)
@@ -213,7 +213,7 @@ class _End:
 
 
 @dataclass(frozen=True)
-class Structure:
+class CarStructure:
     """Everything that determines the declaration of a car; its values do not.
 
     Attributes
@@ -235,7 +235,7 @@ class Structure:
     corner: str = ""
 
     @classmethod
-    def of(cls, car: Car) -> "Structure":
+    def of(cls, car: Car) -> "CarStructure":
         """Return the structure of a car."""
         name = name_of(car)
         if car.corner is not None:
@@ -257,7 +257,7 @@ class Structure:
 
 
 @lru_cache(maxsize=8)
-def _declared(structure: Structure) -> "Formulation":
+def _declared(structure: CarStructure) -> "Formulation":
     from ....generator.mechanisms import car as page  # noqa: PLC0415 (an extra)
     from ....generator.mechanisms import model_named  # noqa: PLC0415
 
@@ -271,7 +271,7 @@ def _declared(structure: Structure) -> "Formulation":
 
 # The last structure by name, and its equations: a study varies values of one car, and identifying
 # a declaration takes longer than a steady turn.
-_LAST: dict[str, tuple[Structure, ModuleType]] = {}
+_LAST: dict[str, tuple[CarStructure, ModuleType]] = {}
 
 
 def _parameters(car: Car, described: Mapping[str, Mapping[str, Any]]) -> dict[str, float]:
