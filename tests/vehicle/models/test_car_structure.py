@@ -20,6 +20,7 @@ CHANGES: list[tuple[dict[str, Any], bool]] = [
     ({"tyres.relaxation": False}, False),
     ({"front.brakes.torque_on": "body"}, False),
     ({"front.drive": {**DRIVEN, "torque_on": "carrier"}}, False),
+    ({"steering_column": {"stiffness_Nm_per_deg": 2.0}}, False),
     ({"car": "roll"}, False),
     ({"car": "ride"}, False),
 ]
