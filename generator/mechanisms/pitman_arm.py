@@ -23,9 +23,17 @@ _IDLER_PIVOT = d.Point("idler_pivot", (-0.39, -0.30, 0.265), "bearing of the idl
 _IDLER_BALL = d.Point("idler_ball", (-0.14, -0.30, 0.265), "relay rod at the idler arm")
 _AXIS = d.Direction("pitman_axis", (0.0, 0.0, 1.0), "axis of the Pitman arm")
 _IDLER_AXIS = d.Direction("idler_axis", (0.0, 0.0, 1.0), "axis of the idler arm")
-_TURN = d.TurnPerTravel(
+TURN = d.TurnPerTravel(
     "pitman_turn", 4.0, "angle of the Pitman arm for the way of its ball: one over its length"
 )
+MOTION = d.Motion(
+    "rack",
+    "m",
+    "way of the ball of the Pitman arm along its circle",
+    "velocity of the ball of the Pitman arm along its circle",
+    "acceleration of the ball of the Pitman arm along its circle",
+)
+TURNED = "angle of the Pitman arm from design, about its axis"
 
 _ARM = d.Body("pitman_arm", 0.0, (-0.265, 0.30, 0.265))
 _RELAY = d.Body("relay_rod", 0.0, (-0.14, 0.0, 0.265))
@@ -46,13 +54,6 @@ def steered_by_pitman_arm(corner: d.Formulation) -> d.Formulation:
     (guide,) = corner.prescribed
     source, rack = corner.mechanism, guide.second
     chassis = guide.first
-    moved = d.Motion(
-        "rack",
-        "m",
-        "way of the ball of the Pitman arm along its circle",
-        "velocity of the ball of the Pitman arm along its circle",
-        "acceleration of the ball of the Pitman arm along its circle",
-    )
     joints = tuple(
         joint if joint == guide else replaced(joint, {rack: _RELAY}) for joint in source.joints
     )
@@ -61,7 +62,7 @@ def steered_by_pitman_arm(corner: d.Formulation) -> d.Formulation:
         chassis,
         _ARM,
         axis=d.Line(_PIVOT, _AXIS),
-        follows=d.Gear(guide, _TURN),
+        follows=d.Gear(guide, TURN),
     )
     linkage = (
         hinge,
@@ -71,7 +72,7 @@ def steered_by_pitman_arm(corner: d.Formulation) -> d.Formulation:
         ),
         d.Spherical("relay_ball", _IDLER, _RELAY, at=_IDLER_BALL),
     )
-    angle = hinge.angle("pitman_angle", "angle of the Pitman arm from design, about its axis")
+    angle = hinge.angle("pitman_angle", TURNED)
     return replace(
         corner,
         name=f"{corner.name}_pitman_arm",
@@ -82,7 +83,7 @@ def steered_by_pitman_arm(corner: d.Formulation) -> d.Formulation:
             joints=(*joints, *linkage),
             coordinates=(*source.coordinates, angle),
         ),
-        prescribed={guide: moved},
+        prescribed={guide: MOTION},
         cites={},
     )
 

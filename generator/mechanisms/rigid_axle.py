@@ -45,6 +45,7 @@ SHIFT = d.Prismatic("shift_guide", SWAYING, SHIFTING, direction=d.FORWARD)
 YAW = d.Revolute("yaw_hinge", SHIFTING, YAWING, axis=d.Line(AXLE_CENTER, d.UP))
 ROLL = d.Revolute("roll_hinge", YAWING, ROLLING, axis=d.Line(AXLE_CENTER, d.FORWARD))
 PITCH = d.Revolute("pitch_hinge", ROLLING, BEAM, axis=d.Line(AXLE_CENTER, LEFTWARD))
+GUIDES = (HEAVE, SWAY, SHIFT, YAW, ROLL, PITCH)
 
 
 def _rod(number: int, chassis: Place, axle: Place) -> tuple[d.Joint, d.Joint]:
@@ -104,33 +105,36 @@ BAR = d.ForceElement(
     ),
 )
 WEIGHT = d.Weight()
+OF_THE_BEAM = (
+    HEAVE.slide("heave", "height of the middle of the axle above that at design"),
+    ROLL.angle("roll", "inclination of the axle, positive with the left wheel up"),
+    SWAY.slide("sway", "displacement of the axle to the left"),
+    SHIFT.slide("shift", "displacement of the axle forward"),
+    YAW.angle("yaw", "steer angle of the axle, positive to the left"),
+    PITCH.angle("pitch", "turn of the axle about the line through its wheels, nose down"),
+)
 
 _SIDE = d.Mechanism(
     name="side",
     title="Half of a rigid axle",
-    joints=(HEAVE, SWAY, SHIFT, YAW, ROLL, PITCH, *RODS, BEARING),
+    joints=(*GUIDES, *RODS, BEARING),
     forces=(WEIGHT, *OF_A_SIDE),
     coordinates=(
-        HEAVE.slide("heave", "height of the middle of the axle above that at design"),
-        ROLL.angle("roll", "inclination of the axle, positive with the left wheel up"),
-        SWAY.slide("sway", "displacement of the axle to the left"),
-        SHIFT.slide("shift", "displacement of the axle forward"),
-        YAW.angle("yaw", "steer angle of the axle, positive to the left"),
-        PITCH.angle("pitch", "turn of the axle about the line through its wheels, nose down"),
+        *OF_THE_BEAM,
         BEARING.angle(
             "spin_angle", "wheel spin angle relative to the axle, positive rolling forward"
         ),
     ),
 )
-_SHARED = tuple(body for body in _SIDE.bodies if body not in (CHASSIS, WHEEL))
+SHARED = tuple(body for body in _SIDE.bodies if body not in (CHASSIS, WHEEL))
 _OWN = own_values((BEARING, OF_A_SIDE), BEAM)
 
 RIGID_AXLE = d.combined(
     "rigid_axle",
     "Rigid axle on four rods",
     (
-        d.Copy(_SIDE, "right_", shared=_SHARED),
-        d.Copy(_SIDE, "left_", mirrored=True, shared=_SHARED, own=_OWN),
+        d.Copy(_SIDE, "right_", shared=SHARED),
+        d.Copy(_SIDE, "left_", mirrored=True, shared=SHARED, own=_OWN),
     ),
     forces=(BAR,),
 )

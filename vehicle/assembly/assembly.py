@@ -492,8 +492,9 @@ class HeldAssembly(Assembly):
         del racks
         return np.ones(len(coordinates), dtype=bool)
 
-    def locked(self, coordinates: Array) -> NDArray[np.bool_]:
+    def locked(self, coordinates: Array, racks: Array) -> NDArray[np.bool_]:
         """Return whether a linkage is at the end of its range, where it carries any load, (n,)."""
+        del racks
         return np.zeros(len(coordinates), dtype=bool)
 
     # -- loads -------------------------------------------------------------------------------------

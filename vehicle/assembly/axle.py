@@ -30,12 +30,12 @@ from .load import Load
 from .measures.axle import OVER_RACK, OVER_STEERING, OVER_TRAVEL
 from .measures.measure import Measure
 from .part_poses import CornerParts, PartPoses, states_with
-from .quantity import ROLL, STEERING_WHEEL, TRAVEL, Quantity
+from .quantity import STEERING_WHEEL
 from .rest import settled
-from .rig import RigMotion, RigPosition, SweepRange, WheelReach
+from .rig import RigPosition, SweepRange, WheelReach
 from .soft_lines import SoftLines
+from .steered import STEERING, SteerableAssembly, motions_of_two
 from .steering_linkage import on_the_steering, steering_of
-from .steering_wheel import per_turn_at, rack_of
 from .wheel_names import WheelNames
 
 if TYPE_CHECKING:
@@ -45,28 +45,18 @@ _NO_REST = (
     "the axle has no stable equilibrium near that of its sides. Check the anti-roll bar's "
     "free_twist_deg and rate, or the heights of the road."
 )
-# Motions of the rack, with both wheels at one height.
-_STEERING = ("steer", "rack")
 
 
-class AxleAssembly(HeldAssembly):
+class AxleAssembly(SteerableAssembly):
     """An axle of two corners; `model` has its equations, if they exist already."""
 
-    wheels = SIDES
     ENDS = "the linkage or a drop link reaches no farther"
     BAR_SIGN = "positive with the left half turned the farther"
 
     def __init__(self, axle: Axle, model: AxleModel | None = None) -> None:
         self.subject = self.axle = axle
         self._model = model
-        self.motions = motions_of_two(motions.MOTIONS)
-        if self.steered:
-            by_gear = self.motion_of_steering("both wheels")
-            over = STEERING_WHEEL if motions.turns_the_rack(axle) else by_gear.along
-            self.motions |= {
-                "steer": RigMotion(over, motions.MOTIONS["steer"], "steering"),
-                "rack": by_gear,
-            }
+        self.motions = motions_of_two() | self.of_steering()
 
     @property
     def design_sections(self) -> dict[str, dict[str, Any]]:
@@ -107,49 +97,24 @@ class AxleAssembly(HeldAssembly):
         found["steering"] = self.axle.steering
         return {name: section for name, section in found.items() if section is not None}
 
-    def usual(
-        self, motion: str, ends: SweepRange | None = None, *, travel: float = 0.0, rack: float = 0.0
-    ) -> Array:
-        """Return the default positions of a motion, zero included [m] or [rad]."""
-        del travel, rack
-        far = ends or SweepRange()
+    def usual_travel(self, motion: str, far: SweepRange) -> Array:
+        """Return the default positions of a motion of the wheels, zero included [m] or [rad]."""
         if motion == "roll":
             return motions.rolls(self.axle, far)
-        if motion == "steer":
-            angles = motions.steering_angles(self.axle, far)
-            return motions.racks(self.axle, far) if angles is None else angles
-        if motion == "rack":
-            return motions.racks(self.axle, far)
         return motions.travels(self.axle, far, (motion,) if motion in SIDES else SIDES)
 
-    def position(
-        self, motion: str, along: Array, *, travel: float = 0.0, rack: float = 0.0
-    ) -> RigPosition:
-        """Return the positions of wheels and rack along a motion."""
-        if motion in _STEERING:
-            turns = self.motions[motion].along is STEERING_WHEEL
-            racks, per_turn = (
-                rack_of(self.axle, along) if turns else (along, per_turn_at(self.axle, along))
-            )
-            return RigPosition(dict.fromkeys(SIDES, np.full_like(along, travel)), racks, per_turn)
+    def usual_racks(self, far: SweepRange) -> Array:
+        """Return default displacements of the rack within its range, zero included [m]."""
+        return motions.racks(self.axle, far)
+
+    def travels_in(self, motion: str, along: Array, rack: float) -> tuple[Array, Array]:
+        """Return the travels of the left and the right wheel in a motion of the wheels [m]."""
         if motion == "roll":
-            left, right = motions.opposite(self.axle, along, rack)
-        else:
-            left, right = (
-                along if motion in ("bump", side) else np.zeros_like(along) for side in SIDES
-            )
-        return RigPosition({LEFT: left, RIGHT: right}, np.asarray(rack, float))
-
-    def held_in(self, motion: str, travel: float, rack: float) -> dict[Quantity, float]:
-        """Return the constant quantities of a motion."""
-        return {TRAVEL: travel} if motion in _STEERING else super().held_in(motion, travel, rack)
-
-    def refuse_holding(self, given: Validator, motion: str, travel: float, rack: float) -> None:
-        """Refuse a rack that the motion moves, and a travel that is for steering."""
-        if motion in _STEERING and rack:
-            given.fail(f"rack_position: the motion {motion!r} moves the rack. Leave it out.")
-        if motion not in _STEERING and travel:
-            given.fail("travel: it is for the motion 'steer'; others move the wheels by along.")
+            return motions.opposite(self.axle, along, rack)
+        left, right = (
+            along if motion in ("bump", side) else np.zeros_like(along) for side in SIDES
+        )
+        return left, right
 
     @cached_property
     def model(self) -> AxleModel:
@@ -185,27 +150,6 @@ class AxleAssembly(HeldAssembly):
         """Refuse an option that needs a rack if there is none."""
         self.axle.right.refuse_without_rack(what)
 
-    def refuse_positions(self, given: Validator, motion: str, along: Array) -> None:
-        """Refuse steering-wheel angles without a known ratio to the rack, or beyond its curve."""
-        if motion != "steer":
-            return
-        if self.motions[motion].along is not STEERING_WHEEL:
-            given.fail(
-                "along: the ratio of steering wheel and rack is missing. Give "
-                f"{self.axle.right.steering_gear.TURN_KEY} in the hardpoint file, or [steering] in "
-                "the axle's; or take the motion 'rack', over displacements of it."
-            )
-        elif self.axle.steering is not None:
-            problem = self.axle.steering.beyond(along)
-            if problem:
-                given.fail(problem)
-
-    @property
-    def steered_by(self) -> str | None:
-        """The motion of the steering wheel, or of the rack if no file has the steering's ratio."""
-        turns = self.steered and self.motions["steer"].along is STEERING_WHEEL
-        return "steer" if turns else "rack" if self.steered else None
-
     def coordinates_of(self, suffix: str) -> dict[str, str]:
         """Return the name of the arm's angle of a side."""
         return {self.axle.models[suffix.removeprefix("_")].names.arm: "arm_angle"}
@@ -216,7 +160,7 @@ class AxleAssembly(HeldAssembly):
 
     def measures(self, motion: str) -> tuple[Measure, ...]:
         """Return its characteristics over a motion."""
-        if motion not in _STEERING:
+        if motion not in STEERING:
             return OVER_TRAVEL
         return OVER_STEERING if self.motions[motion].along is STEERING_WHEEL else OVER_RACK
 
@@ -424,13 +368,3 @@ class AxleAssembly(HeldAssembly):
             f"_{side}": SENSE[side] * turn_of_half(self.axle, side, poses[f"_{side}"])[1]
             for side in self.axle.halves
         }
-
-
-def motions_of_two(words: Mapping[str, str]) -> dict[str, RigMotion]:
-    """Return the motions of a rig with two wheels, except steering."""
-    return {
-        "bump": RigMotion(TRAVEL, words["bump"], "parallel wheel travel"),
-        "roll": RigMotion(ROLL, words["roll"], "roll"),
-        LEFT: RigMotion(TRAVEL, words[LEFT], "travel of the left wheel"),
-        RIGHT: RigMotion(TRAVEL, words[RIGHT], "travel of the right wheel"),
-    }

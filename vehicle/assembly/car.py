@@ -22,9 +22,8 @@ from ..models.car.equations import CarModel
 from ..models.model import Model
 from ..models.reach import PositionError
 from ..models.sides import LEFT, RIGHT, SIDES
-from ..models.whole_axle import WholeAxle
 from .assembly import Assembly, HeldAssembly
-from .axle import AxleAssembly
+from .axle_of import axle_assembly
 from .car_kinematics import CarKinematics, measures_of_axles
 from .controls import Controls
 from .corner import CornerAssembly
@@ -35,7 +34,6 @@ from .rig import RigMotion, RigPosition, SweepRange
 from .running import straight
 from .usual import grid
 from .wheel_names import WheelNames
-from .whole_axle import whole_axle_assembly
 
 _MOTIONS = {
     "heave": RigMotion(HEAVE, "the body rises and falls on all wheels", "heave of the body"),
@@ -591,9 +589,4 @@ def _held_parts(car: Car) -> dict[str, HeldAssembly]:
     """Return the axles on a held body, by end; of a quarter car its corner."""
     if car.corner is not None:
         return {"": CornerAssembly(Model(car.corner))}
-    return {
-        end: whole_axle_assembly(axle.KEY)(axle)
-        if isinstance(axle, WholeAxle)
-        else AxleAssembly(axle)
-        for end, axle in car.axles.items()
-    }
+    return {end: axle_assembly(axle) for end, axle in car.axles.items()}

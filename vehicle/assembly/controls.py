@@ -10,8 +10,8 @@ from ...core.named_types import Array, ArrayLike
 from ...core.validator import Validator
 from ..models.car.car import Car
 from ..models.sides import SIDES
-from . import motions
-from .steering_wheel import rack_motion, sense_of_rack
+from .axle_of import axle_assembly
+from .steering_wheel import SteeringWheel
 
 
 class Controls:
@@ -36,14 +36,9 @@ class Controls:
         self.car = car
 
     @cached_property
-    def _sense(self) -> float:
-        """The sense of the rack, cached because it needs the kinematics of the axle."""
-        return sense_of_rack(self._front)
-
-    @property
-    def _front(self) -> Any:
-        """The front axle, which has the rack of a steered car."""
-        return self.car.axles["front"]
+    def _steering_wheel(self) -> SteeringWheel:
+        """The steering wheel of the front axle, cached as its sense needs the axle's kinematics."""
+        return axle_assembly(self.car.axles["front"]).steering_wheel
 
     def rack(
         self, angle: ArrayLike, rate: ArrayLike = 0.0, acceleration: ArrayLike = 0.0
@@ -62,19 +57,18 @@ class Controls:
                     ("acceleration", acceleration, "rad/s^2"),
                 )
             ]
-        front = self._front
         if not self.car.steered():
             problem = "the front axle has no rack: nothing steers the car. Leave the angle out."
             raise InputError([problem], self.car.heading())
-        if front.steering is None and motions.travel_per_turn(front) is None:
+        if not self._steering_wheel.known:
             problem = (
-                f"{front.right.steering_gear.TURN_KEY} is missing in the file of the front axle's "
+                f"{self._steering_wheel.gear.TURN_KEY} is missing in the file of the front axle's "
                 "side: how far the rack moves for a turn of the steering wheel. Add it, or a curve "
                 "as [steering] of the axle."
             )
             raise InputError([problem], self.car.heading())
         turned, rates, accelerations = np.broadcast_arrays(*values)
-        found = rack_motion(front, turned, rates, accelerations, self._sense)
+        found = self._steering_wheel.motion(turned, rates, accelerations)
         names = ("rack_position", "rack_velocity", "rack_acceleration")
         return {name: _plain(value) for name, value in zip(names, found, strict=True)}
 

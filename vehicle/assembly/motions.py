@@ -23,8 +23,6 @@ MOTIONS = {
 
 USUAL_ROLL = np.deg2rad(4.0)
 USUAL_ROLL_STEP = np.deg2rad(0.25)
-USUAL_ANGLE_STEP = np.deg2rad(10.0)  # of the steering wheel
-_MOST_TURNS = 40.0 * np.pi  # twenty turns of it
 MOST_ROLL = np.pi / 4.0
 # Rounding of heights of the order of 1 m is 1e-16 m: Newton's steps of this size change nothing.
 _CLOSE = 1e-15
@@ -65,46 +63,6 @@ def racks(axle: Axle, extent: SweepRange) -> Array:
     ]
     most = min(f[-1] for f in found)
     return grid(-most, most, extent.step)
-
-
-def steering_angles(axle: Axle, extent: SweepRange) -> Array | None:
-    """Return steering-wheel angles for the default rack displacements [rad].
-
-    None if no file has the ratio of steering wheel and rack.
-    """
-    most = float(racks(axle, extent)[-1])
-    if axle.steering is not None:
-        low, high = axle.steering.limits()
-        dense = np.linspace(low, high, 2001)
-        inside = dense[np.abs(axle.steering.rack(dense)) <= most * (1.0 + 1e-9)]
-        ends = (float(inside[0]), float(inside[-1])) if inside.size else (1.0, 1.0)
-    else:
-        per_turn = travel_per_turn(axle)
-        if per_turn is None:
-            return None
-        ends = -2.0 * np.pi * most / per_turn, 2.0 * np.pi * most / per_turn
-    if not -_MOST_TURNS < ends[0] <= 0.0 <= ends[1] < _MOST_TURNS:
-        problem = (
-            f"the steering wheel turns from {np.degrees(ends[0]):.4g} deg to "
-            f"{np.degrees(ends[1]):.4g} deg for the {1e3 * most:.4g} mm to either side that the "
-            "rack goes; that must have 0 deg within, and 20 turns at most. Correct [steering] "
-            f"angle_deg and rack_mm (0 mm in the middle), or {axle.right.steering_gear.TURN_KEY}."
-            if axle.steering is None or inside.size
-            else f"[steering] rack_mm has nothing within the {1e3 * most:.4g} mm to either side "
-            "that the rack goes. Count it from the middle position."
-        )
-        raise InputError([problem], "axle")
-    return grid(*ends, USUAL_ANGLE_STEP)
-
-
-def turns_the_rack(axle: Axle) -> bool:
-    """Return whether its files have the ratio of steering wheel and rack."""
-    return axle.steered() and (axle.steering is not None or travel_per_turn(axle) is not None)
-
-
-def travel_per_turn(axle: Axle) -> float | None:
-    """Return the rack travel for one turn of the steering wheel, if a file has it [m]."""
-    return axle.right.steering_gear.travel_per_turn()
 
 
 def opposite(axle: Axle, angles: Array, rack: float = 0.0) -> tuple[Array, Array]:

@@ -69,6 +69,11 @@ class PartPoses(ABC):
         """The axis along which a rack slides, if there is one."""
         return None
 
+    @property
+    @abstractmethod
+    def steering_gear(self) -> Any:
+        """The section of the file that steers the wheels; None without steering."""
+
     @abstractmethod
     def weights(self) -> Mapping[str, Array]:
         """Return the weight of each part with a mass, (3,) [N]."""
@@ -189,6 +194,12 @@ class CornerParts(PartPoses):
         facts, design = vehicle_of(suspension), design_axis(suspension)
         wheel = RoadWheel(facts, self.points[CENTER], at_design, self.axis, design)
         return {"wheel": wheel}
+
+    @property
+    def steering_gear(self) -> Any:
+        """The section of the file that steers the wheel; None without steering."""
+        suspension = self.model.suspension
+        return suspension.steering_gear if suspension.steered() else None
 
     @property
     def rack_axis(self) -> Array | None:

@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from ...core.quantities import variable
-from ..models.rigid_axle.axle import RigidAxle
+from ..models.rigid_axle.axle import BeamAxle, RigidAxle
 from ..models.rigid_axle.model import HEAVE, ROLL, RigidAxleModel
 from ..models.rigid_axle.structure import BEAM
 from .anti_roll_bar import RollBar
+from .measures.measure import Measure
 from .measures.rigid_axle import MEASURES
 from .rigid_axle_kinematics import RigidAxleKinematics
 from .rigid_axle_parts import RigidAxleParts
@@ -23,18 +24,21 @@ if TYPE_CHECKING:
 class RigidAxleAssembly(WholeAxleAssembly):
     """A rigid axle; `model` has its equations, if they exist already."""
 
-    AXLE, MODEL, PARTS = RigidAxle, RigidAxleModel, RigidAxleParts
-    KINEMATICS, MEASURES = RigidAxleKinematics, MEASURES
+    AXLE: ClassVar[type[BeamAxle]] = RigidAxle
+    MODEL: ClassVar[type[RigidAxleModel]] = RigidAxleModel
+    PARTS: ClassVar[type[RigidAxleParts]] = RigidAxleParts
+    KINEMATICS: ClassVar[type[RigidAxleKinematics]] = RigidAxleKinematics
+    MEASURES: ClassVar[tuple[Measure, ...]] = MEASURES
     ENDS = (
         "a rod or a damper reaches no farther, or a spring or a damper has turned by a right angle"
     )
     MODES: ClassVar[Mapping[str, str]] = {HEAVE: "axle hop", ROLL: "axle tramp"}
 
-    axle: RigidAxle
+    axle: BeamAxle
 
     def _model(self) -> RigidAxleModel:
         """Return its equations; of an axle on five rods those of four."""
-        return RigidAxleModel(self.axle, guided=self.axle.overheld)
+        return self.MODEL(self.axle, guided=self.axle.overheld)
 
     @property
     def moves_rigidly(self) -> bool:
@@ -69,7 +73,7 @@ class RigidAxleAssembly(WholeAxleAssembly):
     def require_rigid_motion(self) -> None:
         """Refuse an axle on five rods."""
         if self.axle.overheld:
-            RigidAxleModel(self.axle)
+            self.MODEL(self.axle)
 
     def further(
         self, over: str, poses: Mapping[str, Any], found: "xr.Dataset"

@@ -22,13 +22,13 @@ class RigidAxleKinematics(WholeAxleKinematics):
 
     @cached_property
     def _relative(self) -> dict[str, Array]:
-        values = self.model.evaluate("relative_coordinates", self.parts.states)
+        values = self.model.evaluate("relative_coordinates", self.parts.states, self.parts.inputs)
         return {n: values[:, i] for i, n in enumerate(self.model.equations.RELATIVE_COORDINATES)}
 
     @cached_property
     def _slopes(self) -> dict[str, Array]:
         """Derivatives of the relative coordinates with respect to heave and roll, (n, 2) each."""
-        by = self.model.evaluate("relative_jacobian", self.parts.states)[..., :2]
+        by = self.model.evaluate("relative_jacobian", self.parts.states, self.parts.inputs)[..., :2]
         return {n: by[:, i] for i, n in enumerate(self.model.equations.RELATIVE_COORDINATES)}
 
     def coordinate(self, name: str) -> Array:

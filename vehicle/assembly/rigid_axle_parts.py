@@ -9,7 +9,7 @@ import numpy as np
 from ...core.named_types import Array
 from ...core.vectors import cross
 from ..corner.corner import UP
-from ..models.rigid_axle.axle import RigidAxle
+from ..models.rigid_axle.axle import BeamAxle
 from ..models.rigid_axle.model import ROLL, RigidAxleModel
 from ..models.rigid_axle.structure import BEAM, MIDDLE
 from ..models.sides import SENSE, SIDES
@@ -60,13 +60,13 @@ class RigidAxleParts(WholeAxleParts):
         return found
 
     @classmethod
-    def bodies(cls, axle: RigidAxle) -> Mapping[str, str]:
+    def bodies(cls, axle: BeamAxle) -> Mapping[str, str]:
         """Return the names in the equations of their parts, by part."""
         return {**{name: f"rod_{i}" for i, name in enumerate(axle.guides, 1)}, **cls.MASSIVE}
 
     @classmethod
     def placed(
-        cls, axle: RigidAxle, centers: Mapping[str, Array], turned: Mapping[str, Array]
+        cls, axle: BeamAxle, centers: Mapping[str, Array], turned: Mapping[str, Array]
     ) -> dict[str, Array]:
         """Return all points for positions and rotations of the beam, (n, 3) [m]."""
         still, moved = {}, {MIDDLE: axle.center}
@@ -83,12 +83,12 @@ class RigidAxleParts(WholeAxleParts):
         return points | cls.contacts(axle, of_wheels, dict.fromkeys(SIDES, turn))
 
     @property
-    def axle(self) -> RigidAxle:
+    def axle(self) -> BeamAxle:
         """The axle."""
         return self.model.axle
 
     @classmethod
-    def design_centers(cls, axle: RigidAxle) -> dict[str, Array]:
+    def design_centers(cls, axle: BeamAxle) -> dict[str, Array]:
         """Return the centre of mass of the beam at design, (3,) [m]."""
         return {BEAM: axle.bodies.beam.centre_of_mass(axle.hardpoints)}
 

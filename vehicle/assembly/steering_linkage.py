@@ -1,4 +1,4 @@
-"""Loads on the steering of an axle: a rack, or a Pitman arm with relay rod and idler arm."""
+"""Loads on the steering of an axle: a rack, or a Pitman arm, alone or with relay rod and idler."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
@@ -9,7 +9,7 @@ from ...core.named_types import Array
 from ...core.quantities import variable
 from ...core.vectors import cross
 from ..corner.corner import UP
-from ..input.pitman_arm import RELAY_ROD, PitmanLinkage
+from ..input.pitman_arm import RELAY_ROD, PitmanArmSection, PitmanLinkage
 from ..input.vehicle import Steering
 from .coupling import STEERING, STILL, BodyPose, on_both, on_the_rack, sum_of
 from .load import RACK, Load
@@ -26,23 +26,25 @@ def on_the_steering(
 ) -> tuple[list[Load], dict[str, BodyPose]]:
     """Return the loads on a rack, or on a Pitman arm and its linkage; none where nothing steers.
 
-    `poses` are those of one side, `loads` all others, among them those of tie rods; `point` is the
-    name of the middle of a rack between the tie rods.
+    `poses` are those of one side or of a whole axle, `loads` all others, among them those of tie
+    rods; `point` is the name of the middle of a rack between the tie rods.
     """
     if poses.rack_axis is not None:
         return on_the_rack(poses.rack_axis, loads, point)
-    return on_the_linkage(poses, loads) if ARM in poses.turned else ([], {})
+    if IDLER in poses.turned:
+        return on_the_linkage(poses, loads)
+    return on_the_arm(poses, loads) if ARM in poses.turned else ([], {})
 
 
 def steering_force(poses: PartPoses, loads: Sequence[Load]) -> Array:
     """Return the force of the steering along the position of the rack, (n,) [N].
 
     It is the force on a rack along its axis, or the moment of the Pitman arm over its length.
-    `poses` are those of one side; `loads` have those of both tie rods.
+    `poses` are those of one side or of a whole axle; `loads` have those of both tie rods.
     """
     if poses.rack_axis is None:
-        gear = _gear(poses)
-        held, _ = on_the_linkage(poses, loads)
+        gear = poses.steering_gear
+        held, _ = on_the_steering(poses, loads, "")
         (moment,) = (one.moment for one in held if one.part == ARM and one.by == STEERING)
         return np.asarray(moment @ gear.direction_of(ARM) / gear.length())
     axis = poses.rack_axis
@@ -51,14 +53,14 @@ def steering_force(poses: PartPoses, loads: Sequence[Load]) -> Array:
 
 
 def steering_of(
-    gear: Steering | PitmanLinkage, over: str, found: "xr.Dataset"
+    gear: Steering | PitmanArmSection, over: str, found: "xr.Dataset"
 ) -> "dict[str, xr.Variable]":
     """Return the force of the steering by name, and the moment of a Pitman arm.
 
     `over` is the dimension of the positions, and `found` has the loads.
     """
     (row,) = np.flatnonzero(found["part"].isin((RACK, ARM)) & (found["by"] == STEERING))
-    if not isinstance(gear, PitmanLinkage):
+    if not isinstance(gear, PitmanArmSection):
         force = found["force"].values[:, row] @ gear.direction()
         words = "force of the steering on the rack along its axis"
         return {"rack_force": variable(over, force, words, "N")}
@@ -69,6 +71,18 @@ def steering_of(
         "rack_force": variable(over, moment / gear.length(), per_length, "N"),
         "pitman_moment": variable(over, moment, words, "N m"),
     }
+
+
+def on_the_arm(poses: PartPoses, loads: Sequence[Load]) -> tuple[list[Load], dict[str, BodyPose]]:
+    """Return the loads on a Pitman arm that moves a drag link, and on the chassis.
+
+    `poses` are those of an axle behind it; `loads` are all others, that of the drag link among
+    them.
+    """
+    gear = poses.steering_gear
+    pivot = np.broadcast_to(gear.metres("pivot"), poses.points["pitman_ball"].shape)
+    held = _on_its_pivot(ARM, loads, pivot, gear.direction_of(ARM))
+    return held, {ARM: BodyPose(pivot, poses.turned[ARM])}
 
 
 def on_the_linkage(
@@ -95,7 +109,7 @@ def on_the_linkage(
     axis. The bearing of each arm takes force and moment at its pivot, and the steering the moment
     of the Pitman arm about its axis.
     """
-    gear = _gear(poses)
+    gear = poses.steering_gear
     ball, idler_ball = (poses.points[name] for name in ("pitman_ball", "idler_ball"))
     pivots = {
         part: np.broadcast_to(gear.metres(name), ball.shape)
@@ -114,11 +128,6 @@ def on_the_linkage(
         for part, center in ((RELAY_ROD, ball), *pivots.items())
     }
     return held, places
-
-
-def _gear(poses: PartPoses) -> PitmanLinkage:
-    gear: PitmanLinkage = poses.model.suspension.pitman_arm
-    return gear
 
 
 def _across_the_joint(gear: PitmanLinkage, poses: PartPoses) -> Array:

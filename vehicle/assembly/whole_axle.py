@@ -16,17 +16,17 @@ from ..models.reach import PositionError
 from ..models.sides import SIDES
 from ..models.whole_axle import WholeAxle, class_in
 from ..models.whole_axle_model import WholeAxleModel
-from .assembly import Bushings, HeldAssembly
-from .axle import motions_of_two
+from .assembly import Bushings
 from .held import RestConditions
 from .load import Load
 from .measures.measure import Measure
-from .motions import MOST_ROLL, MOTIONS, USUAL_ROLL, USUAL_ROLL_STEP
+from .motions import MOST_ROLL, USUAL_ROLL, USUAL_ROLL_STEP
 from .part_poses import PartPoses, states_with
 from .rest import settled
 from .rig import RigPosition, SweepRange
 from .soft_lines import SoftLines, lines_of_beam
-from .usual import CLEARANCE, USUAL_TRAVEL, grid
+from .steered import SteerableAssembly, motions_of_two
+from .usual import CLEARANCE, USUAL_RACK, USUAL_TRAVEL, grid
 from .wheel_names import WheelNames
 from .whole_axle_kinematics import RISES, WholeAxleKinematics
 from .whole_axle_parts import WholeAxleParts
@@ -41,7 +41,7 @@ _NO_REST = (
 _CLEAR = 1.02
 
 
-class WholeAxleAssembly(HeldAssembly):
+class WholeAxleAssembly(SteerableAssembly):
     """An axle whose two coordinates determine the heights of both wheels.
 
     Parameters
@@ -65,8 +65,6 @@ class WholeAxleAssembly(HeldAssembly):
     PARTS: ClassVar[type[WholeAxleParts]]
     KINEMATICS: ClassVar[type[WholeAxleKinematics]] = WholeAxleKinematics
     MEASURES: ClassVar[tuple[Measure, ...]]
-    wheels = SIDES
-    motions = motions_of_two(MOTIONS)
     BAR_SIGN = "positive with the left wheel up"
 
     axle: Any
@@ -74,6 +72,7 @@ class WholeAxleAssembly(HeldAssembly):
     def __init__(self, axle: Any, model: Any = None) -> None:
         self.subject = self.axle = axle
         self.model = self._model() if model is None else model
+        self.motions = motions_of_two() | self.of_steering()
 
     def _model(self) -> WholeAxleModel:
         """Return its equations."""
@@ -84,12 +83,8 @@ class WholeAxleAssembly(HeldAssembly):
         """The axle, for each wheel."""
         return [self.axle] * len(SIDES)
 
-    def usual(
-        self, motion: str, ends: SweepRange | None = None, *, travel: float = 0.0, rack: float = 0.0
-    ) -> Array:
-        """Return the default positions of a motion, zero included [m] or [rad]."""
-        del travel, rack
-        far = ends or SweepRange()
+    def usual_travel(self, motion: str, far: SweepRange) -> Array:
+        """Return the default positions of a motion of the wheels, zero included [m] or [rad]."""
         if motion == "roll":
             with Validator("roll") as given:
                 amount = 0.0 if far.roll is None else far.roll
@@ -105,6 +100,17 @@ class WholeAxleAssembly(HeldAssembly):
         low = low if far.rebound is None else -far.rebound
         high = high if far.bump is None else far.bump
         return grid(low, high, far.step)
+
+    def usual_racks(self, far: SweepRange) -> Array:
+        """Return default displacements of the steering within its range, zero included [m]."""
+        with Validator("sweep") as given:
+            given.number("extent", 0.0 if far.rack is None else far.rack, "m", least=0.0)
+        most = far.rack
+        if most is None:
+            parts = [self.model.farthest(0.0, 0.0, sign * USUAL_RACK) for sign in (-1.0, 1.0)]
+            part = min(parts)
+            most = USUAL_RACK if part == 1.0 else (1.0 - CLEARANCE) * part * USUAL_RACK
+        return grid(-most, most, far.step)
 
     def _ends(self, motion: str, most: float) -> list[float]:
         """Return the ends of a motion either way, at most `most`, before the ends of its range."""
@@ -123,20 +129,20 @@ class WholeAxleAssembly(HeldAssembly):
         left, right = RISES[motion]
         return left * along, right * along
 
-    def position(
-        self, motion: str, along: Array, *, travel: float = 0.0, rack: float = 0.0
-    ) -> RigPosition:
-        """Return the positions of the wheels along a motion."""
-        del travel, rack
+    def travels_in(self, motion: str, along: Array, rack: float) -> tuple[Array, Array]:
+        """Return the travels of the left and the right wheel in a motion of the wheels [m]."""
+        del rack
         if motion == "roll" and np.abs(along).max(initial=0.0) >= MOST_ROLL:
             worst = np.degrees(np.abs(along).max())
             message = f"roll of {worst:.4g} deg: less than 45 deg is needed; Python's unit is rad."
             raise PositionError(message)
-        travels = self._travels(motion, along)
-        return RigPosition(dict(zip(SIDES, travels, strict=True)), np.zeros(()))
+        return self._travels(motion, along)
 
     def refuse_holding(self, given: Validator, motion: str, travel: float, rack: float) -> None:
-        """Refuse a constant travel, and a rack."""
+        """Refuse a constant travel in motions of the wheels, and a rack that it does not have."""
+        if self.steered:
+            super().refuse_holding(given, motion, travel, rack)
+            return
         if rack:
             given.fail(f"rack_position: {words_of(self.axle.KEY)} has no rack. Leave it out.")
         if travel:
@@ -151,10 +157,11 @@ class WholeAxleAssembly(HeldAssembly):
     def coordinates_at_rest(self, held: RestConditions) -> Array:
         """Return the coordinates of the state of rest near the design position, (2,)."""
         found = settled(self, held, np.zeros(2), _NO_REST)
-        signals = self.model.signals(self.at_rest(found, 0.0)[0])
+        signals = self.model.signals(*self.at_rest(found, held.rack))
         design = self.axle.center[2]
         names = (f"{self.names_of(wheel).signals}wheel_center_z" for wheel in self.wheels)
-        if self.model.farthest(*(float(signals[name] - design) for name in names)) < 1.0:
+        left, right = (float(signals[name] - design) for name in names)
+        if self.model.farthest(left, right, held.rack) < 1.0:
             raise PositionError(_NO_REST)
         return found
 
@@ -195,8 +202,10 @@ class WholeAxleAssembly(HeldAssembly):
         return {"": self._at(position)}
 
     def _at(self, position: RigPosition) -> WholeAxleParts:
-        left, right = (position.travels[side] for side in SIDES)
-        return self.PARTS.of(self.model, self.model.states_at(left, right))
+        left, right = (np.asarray(position.travels[side]) for side in SIDES)
+        left, right, racks = np.broadcast_arrays(left, right, position.rack)
+        states = self.model.states_at(left, right, racks)
+        return self.PARTS.of(self.model, states, self.model.inputs_at(racks))
 
     def soft_lines(self, poses: Mapping[str, Any]) -> dict[str, SoftLines]:
         """Return the flexibilities of springs and stops."""
@@ -209,9 +218,8 @@ class WholeAxleAssembly(HeldAssembly):
 
     def wheel_coordinates(self, travels: Sequence[float | None], rack: float) -> Array:
         """Return the travels, if the axle can be there [m]."""
-        del rack
         found = np.array([travel or 0.0 for travel in travels])
-        self.model.states_at(*found)
+        self.model.states_at(*found, rack)
         return found
 
     def wheel_reach(self, rack: float) -> None:
@@ -220,24 +228,25 @@ class WholeAxleAssembly(HeldAssembly):
 
     def at_wheel_coordinates(self, coordinates: Array, racks: Array) -> dict[str, PartPoses]:
         """Return the parts at rest; the coordinates are the travels of both wheels [m]."""
-        del racks
-        return {"": self._parts(coordinates)}
+        return {"": self._parts(coordinates, racks)}
 
-    def _parts(self, travels: Array) -> WholeAxleParts:
-        return self.PARTS.of(self.model, self.model.placed(*travels.T))
+    def _parts(self, travels: Array, racks: Array) -> WholeAxleParts:
+        states = self.model.placed(*travels.T, racks)
+        return self.PARTS.of(self.model, states, self.model.inputs_at(racks))
 
     def reached(self, coordinates: Array, racks: Array) -> NDArray[np.bool_]:
         """Return whether axle and dampers are within range, springs and dampers upright, (n,)."""
-        del racks
-        margins = self.model.margins(self.model.placed(*coordinates.T))
+        states = self.model.placed(*coordinates.T, racks)
+        margins = self.model.margins(states, self.model.inputs_at(racks))
         found = np.asarray((margins > 0.0).all(axis=-1))
-        found[found] = self._parts(coordinates[found]).upright()
+        found[found] = self._parts(coordinates[found], racks[found]).upright()
         return found
 
-    def locked(self, coordinates: Array) -> NDArray[np.bool_]:
+    def locked(self, coordinates: Array, racks: Array) -> NDArray[np.bool_]:
         """Return whether the axle is at the end of its range, or not reached from design, (n,)."""
-        beyond = self.model.parts_of_ways(*coordinates.T) < 1.0
-        margins = self.model.margins(self.model.placed(*(_CLEAR * coordinates).T))
+        beyond = self.model.parts_of_ways(*coordinates.T, racks) < 1.0
+        states = self.model.placed(*(_CLEAR * coordinates).T, racks)
+        margins = self.model.margins(states, self.model.inputs_at(racks))
         # margins of the loops only: a damper may be near the end of its stroke
         closing = margins[:, : len(self.model.equations.GUARDS)]
         return np.asarray(beyond | ~(closing > 0.0).all(axis=-1))

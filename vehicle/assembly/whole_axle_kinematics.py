@@ -104,19 +104,25 @@ class WholeAxleKinematics:
         """Angular velocities and velocities at a unit rate of each coordinate, by part."""
         return self.parts.twists()
 
-    def turning(self, side: str, by: str) -> Array:
-        """Return the angular velocity of a wheel's carrier per unit of a coordinate, (n, 3)."""
-        twist = self._twists[self.parts.carrier(side)]
-        return twist[:, self.model.COORDINATES.index(by), :3]
+    def turning_of(self, part: str, by: str) -> Array:
+        """Return the angular velocity of a part per unit of a coordinate, (n, 3)."""
+        return self._twists[part][:, self.model.COORDINATES.index(by), :3]
 
-    def velocity(self, side: str, place: Array, by: str) -> Array:
-        """Return the velocity of a point of a wheel's carrier per unit of a coordinate, (n, 3).
+    def velocity_of(self, part: str, place: Array, by: str) -> Array:
+        """Return the velocity of a point of a part per unit of a coordinate, (n, 3).
 
         `place` is its position, (n, 3) [m], `by` the coordinate.
         """
-        part = self.parts.carrier(side)
         twist = self._twists[part][:, self.model.COORDINATES.index(by)]
         return twist[:, 3:] + cross(twist[:, :3], place - self.parts.centers[part])
+
+    def turning(self, side: str, by: str) -> Array:
+        """Return the angular velocity of a wheel's carrier per unit of a coordinate, (n, 3)."""
+        return self.turning_of(self.parts.carrier(side), by)
+
+    def velocity(self, side: str, place: Array, by: str) -> Array:
+        """Return the velocity of a point of a wheel's carrier per unit of a coordinate, (n, 3)."""
+        return self.velocity_of(self.parts.carrier(side), place, by)
 
     def contact_rate(self, side: str, by: str) -> Array:
         """Return the velocity of the lowest point of a wheel per unit of a coordinate, (n, 3)."""
@@ -143,7 +149,7 @@ class WholeAxleKinematics:
             for how, rise in RISES.items()
         }
 
-    def _in_motion(self, how: str, by_coordinate: list[Array]) -> Array:
+    def in_motion(self, how: str, by_coordinate: list[Array]) -> Array:
         """Return a rate per metre of a motion, (n, 3), from those per unit of the coordinates."""
         first, second = (
             rate[:, None] * part
@@ -156,14 +162,14 @@ class WholeAxleKinematics:
         """Return the motion of the carrier of a wheel per metre of a motion of both wheels."""
         names, center = self.model.COORDINATES, self.wheel_center(side)
         return CarrierMotion(
-            self._in_motion(how, [self.velocity(side, center, by) for by in names]),
-            self._in_motion(how, [self.turning(side, by) for by in names]),
+            self.in_motion(how, [self.velocity(side, center, by) for by in names]),
+            self.in_motion(how, [self.turning(side, by) for by in names]),
         )
 
     def contact_in(self, side: str, how: str) -> Array:
         """Return the velocity of the lowest point of a wheel per metre of a motion, (n, 3) [1]."""
         rates = [self.contact_rate(side, by) for by in self.model.COORDINATES]
-        return self._in_motion(how, rates)
+        return self.in_motion(how, rates)
 
     def carried_in(self, side: str, place: Array, how: str) -> Array:
         """Return the velocity of a point of a wheel's carrier per metre of a motion, (n, 3) [1].
@@ -216,9 +222,9 @@ class WholeAxleKinematics:
         for by in self.model.COORDINATES:
             states = self.parts.states.copy()
             states[:, self.model.state_names.index(f"{by}_rate")] = 1.0
-            slopes = self.model.evaluate("signals_jacobian", states)[..., :2]
+            slopes = self.model.evaluate("signals_jacobian", states, self.parts.inputs)[..., :2]
             by_name = dict(zip(self.model.signal_names, np.moveaxis(slopes, -2, 0), strict=True))
-            found[by] = self.model.signals(states), by_name
+            found[by] = self.model.signals(states, self.parts.inputs), by_name
         return found
 
     def signal(self, name: str) -> Array:

@@ -103,6 +103,11 @@ class WholeAxleParts(PartPoses):
         return self.model.axle
 
     @property
+    def steering_gear(self) -> Any:
+        """The section of the file that steers the wheels; None without steering."""
+        return self.axle.steering_gear
+
+    @property
     def structure(self) -> Structure:
         """The joints and force elements between the parts."""
         found: Structure = self.axle.structure()

@@ -16,7 +16,7 @@ from ...core.vectors import cross
 
 Points = Mapping[str, Array]
 
-GROUND = ("chassis", "rack", "relay_rod")
+GROUND = ("chassis", "rack", "relay_rod", "pitman_arm")
 """Parts that do not move under loads."""
 
 FORCES_OF_A_DAMPER = ("damper_force", "friction_force", "bump_stop_force", "rebound_stop_force")
@@ -137,7 +137,7 @@ class UniversalJoint(PartJoint):
     shaft : str
         The other end of the second part.
     first_axis : tuple of float
-        The axis in the first part, which does not rotate.
+        The axis in the first part, at design.
     """
 
     shaft: str
@@ -165,7 +165,8 @@ class UniversalJoint(PartJoint):
 
     def _axes(self, turned: Mapping[str, Array], design: Points) -> tuple[Array, Array]:
         first, (center,) = np.array(self.first_axis), self.at
-        return first, turned[self.second] @ cross(design[self.shaft] - design[center], first)
+        second = cross(design[self.shaft] - design[center], first)
+        return turned.get(self.first, np.eye(3)) @ first, turned[self.second] @ second
 
 
 class HingeJoint(PartJoint):

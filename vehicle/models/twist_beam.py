@@ -7,7 +7,7 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 from pydantic import Field
 
-from ...core.named_types import Array
+from ...core.named_types import Array, ArrayLike
 from ...core.validator import Validator
 from ...core.vectors import components
 from ...generated import twist_beam as equations
@@ -30,7 +30,7 @@ from .axle.file import Brakes, End
 from .sides import LEFT, RIGHT, SIDES
 from .whole_axle import CHASSIS, WholeAxle, lines_of_sides, on_both_sides
 from .whole_axle_file import AxleDrive, WholeAxleHardpoints, WholeAxleVehicle
-from .whole_axle_model import WholeAxleModel
+from .whole_axle_model import WholeAxleModel, solved_for_two
 
 LIFT, TWIST = "lift", "twist"
 """The coordinates: angle of both arms about the pivots, and of each about its line to the beam."""
@@ -350,13 +350,14 @@ class TwistBeamModel(WholeAxleModel):
 
     axle: TwistBeamAxle
 
-    def placed(self, left: Array, right: Array) -> Array:
+    def placed(self, left: Array, right: Array, rack: ArrayLike = 0.0) -> Array:
         """Return the states at rest at wheel travels; NaN if no angles are found.
 
         The height of a wheel is ``z cos(lift) - x sin(lift)`` with its position x, z relative to
         the pivots after the rotation about the line to the shear centre. Newton's method solves
         for both angles from design.
         """
+        del rack
         states = np.broadcast_to(self.design_state, (*left.shape, self.design_state.size)).copy()
         wanted = np.stack(np.broadcast_arrays(left, right), axis=-1)
         with np.errstate(all="ignore"):
@@ -365,15 +366,15 @@ class TwistBeamModel(WholeAxleModel):
             states[..., self.state_names.index(name)] = angle
         return states
 
-    def moved(self, states: Array, left: Array, right: Array) -> Array:
+    def moved(self, states: Array, left: Array, right: Array, inputs: Array | None = None) -> Array:
         """Return states with the rates for velocities of the wheels [m/s]."""
+        del inputs
         found = states.copy()
         lift, twist = (states[..., self.state_names.index(name)] for name in self.COORDINATES)
         with np.errstate(all="ignore"):
             _, slopes = _heights(self.axle, lift, twist)
-            rates = _solved(slopes, np.stack(np.broadcast_arrays(left, right), axis=-1))
-        for name, rate in zip(self.COORDINATES, rates, strict=True):
-            found[..., self.state_names.index(f"{name}_rate")] = rate
+            rates = solved_for_two(slopes, np.stack(np.broadcast_arrays(left, right), axis=-1))
+        found[..., [self.state_names.index(f"{name}_rate") for name in self.COORDINATES]] = rates
         return found
 
     def turned(self, states: Array) -> Array:
@@ -388,9 +389,9 @@ def _angles(axle: TwistBeamAxle, wanted: Array) -> tuple[Array, Array]:
     change = np.full(wanted.shape[:-1], np.inf)
     for _ in range(_MOST_STEPS):
         heights, slopes = _heights(axle, lift, twist)
-        steps = _solved(slopes, wanted - heights)
-        lift, twist = lift + steps[0], twist + steps[1]
-        change = np.maximum(*map(np.abs, steps))
+        steps = solved_for_two(slopes, wanted - heights)
+        lift, twist = lift + steps[..., 0], twist + steps[..., 1]
+        change = np.abs(steps).max(axis=-1)
         if not (change > _CLOSE).any():
             break
     lost = ~(change < np.sqrt(_CLOSE))
@@ -416,11 +417,3 @@ def _heights(axle: TwistBeamAxle, lift: Array, twist: Array) -> tuple[Array, Arr
         by_lift.append(-down * turned[..., 2] - up * turned[..., 0])
         by_twist.append(up * slope[..., 2] - down * slope[..., 0])
     return np.stack(values, -1), np.stack([np.stack(by_lift, -1), np.stack(by_twist, -1)], -1)
-
-
-def _solved(slopes: Array, right: Array) -> tuple[Array, Array]:
-    """Return the solution of two linear equations; not finite if they are singular."""
-    (a, b), (c, d) = np.moveaxis(slopes, (-2, -1), (0, 1))
-    first, second = np.moveaxis(right, -1, 0)
-    whole = a * d - b * c
-    return (d * first - b * second) / whole, (a * second - c * first) / whole

@@ -171,7 +171,7 @@ class WholeAxle(WheeledSection):
     whole: ClassVar[bool] = True
     """Whether it has no sides."""
     steering: ClassVar[None] = None
-    """It has no rack."""
+    """It has no curve of the steering."""
     link_part: ClassVar[str] = ""
     """No part has drop links."""
 
@@ -196,7 +196,7 @@ class WholeAxle(WheeledSection):
         require_generator()
         from ...generator.mechanisms import model_named  # noqa: PLC0415 (an extra)
 
-        values, mechanism = self.parameters(), model_named(self.KEY).mechanism
+        values, mechanism = self.parameters(), model_named(self.equations_name).mechanism
         known: dict[str, float] = {p.name: p.default for p in mechanism.parameters} | values
         # in a car the mirror images of values of one side have names and values of their own
         images = {

@@ -73,8 +73,8 @@ class WholeAxleModel(System):
         parameters = self.axle.parameters()
         if wheel_loads:
             parameters |= self.axle.wheel_load_parameters()
-        equations = with_wheel_loads(self.EQUATIONS) if wheel_loads else self.EQUATIONS
-        super().__init__(equations, parameters)
+        equations = self._equations()
+        super().__init__(with_wheel_loads(equations) if wheel_loads else equations, parameters)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return partial(type(self), wheel_loads=self.wheel_loads), (self.axle,)
@@ -96,6 +96,10 @@ class WholeAxleModel(System):
     def _check(self) -> None:
         """Refuse an axle that these equations do not describe."""
 
+    def _equations(self) -> ModuleType:
+        """Return the equations without loads on the wheels as inputs."""
+        return self.EQUATIONS
+
     def allowed_lengths(self) -> tuple[LengthLimit, ...]:
         """Return the lengths of the dampers that the file allows."""
         found: tuple[LengthLimit, ...] = self.axle.allowed_lengths()
@@ -103,13 +107,32 @@ class WholeAxleModel(System):
 
     # -- positions ------------------------------------------------------------------------------
 
-    def states_at(self, left: ArrayLike, right: ArrayLike) -> Array:
+    def inputs_at(self, rack: ArrayLike, velocity: ArrayLike = 0.0) -> Array:
+        """Return inputs with a displacement of the steering and its velocity, (..., inputs).
+
+        They are zero for wheels that are not steered.
+
+        Parameters
+        ----------
+        rack, velocity : array_like
+            Displacement [m] and velocity [m/s].
+        """
+        racks, velocities = np.broadcast_arrays(rack, velocity)
+        inputs = np.zeros((*racks.shape, len(self.input_names)))
+        if self.axle.steered():
+            inputs[..., self.input_names.index("rack_position")] = racks
+            inputs[..., self.input_names.index("rack_velocity")] = velocities
+        return inputs
+
+    def states_at(self, left: ArrayLike, right: ArrayLike, rack: ArrayLike = 0.0) -> Array:
         """Return the states at rest with the wheel centres at some travels, (..., states).
 
         Parameters
         ----------
         left, right : array_like
             Heights of the wheel centres above design [m].
+        rack : array_like, optional
+            Displacement of the steering [m].
 
         Raises
         ------
@@ -119,29 +142,34 @@ class WholeAxleModel(System):
         with Validator("states_at") as given:
             lefts = given.array("left", left, "m", dimensions=[0, 1])
             rights = given.array("right", right, "m", dimensions=[0, 1])
+            racks = given.array("rack", rack, "m", dimensions=[0, 1])
             if lefts.ndim and rights.ndim and lefts.shape != rights.shape:
                 given.fail(
                     f"left has {lefts.size} travels, right {rights.size}: equal counts are needed."
                 )
-        lefts, rights = np.broadcast_arrays(lefts, rights)
-        parts = self.parts_of_ways(lefts.ravel(), rights.ravel())
+            if not given.failed:
+                given.broadcast("travels and rack", [lefts.shape, rights.shape, racks.shape])
+        lefts, rights, racks = np.broadcast_arrays(lefts, rights, racks)
+        ways = np.stack([lefts.ravel(), rights.ravel(), racks.ravel()])
+        parts = self.parts_of_ways(*ways)
         missed = parts < 1.0
         if missed.any():
             # the farthest position, which a caller recognises as the end of its range
-            far = np.where(missed, np.maximum(np.abs(lefts), np.abs(rights)).ravel(), -1.0)
+            far = np.where(missed, np.abs(ways).max(axis=0), -1.0)
             worst = int(far.argmax())
-            where = float(lefts.ravel()[worst]), float(rights.ravel()[worst])
-            self._refuse(*where, float(parts[worst]))
-        return self.placed(lefts, rights)
+            self._refuse(ways[:, worst], float(parts[worst]))
+        return self.placed(lefts, rights, racks)
 
     @abstractmethod
-    def placed(self, left: Array, right: Array) -> Array:
+    def placed(self, left: Array, right: Array, rack: ArrayLike = 0.0) -> Array:
         """Return the states at rest at wheel travels, reachable or not, (..., states).
 
         Parameters
         ----------
         left, right : ndarray, shape (...)
             Heights of the wheel centres above design [m].
+        rack : array_like, optional
+            Displacement of the steering [m].
 
         Returns
         -------
@@ -150,14 +178,17 @@ class WholeAxleModel(System):
         """
 
     @abstractmethod
-    def moved(self, states: Array, left: Array, right: Array) -> Array:
-        """Return states, (..., states), with the rates for velocities of the wheels [m/s]."""
+    def moved(self, states: Array, left: Array, right: Array, inputs: Array | None = None) -> Array:
+        """Return states, (..., states), with the rates for velocities of the wheels [m/s].
+
+        `inputs` have the position and the velocity of the steering.
+        """
 
     @abstractmethod
     def turned(self, states: Array) -> Array:
         """Return the largest rotation of a part from design [rad], which is limited to 45 deg."""
 
-    def margins(self, states: Array) -> Array:
+    def margins(self, states: Array, inputs: Array | None = None) -> Array:
         """Return the margins of states, (..., margins), positive within the range.
 
         They are those of the loops, of the dampers' lengths and of the rotation; NaN after one
@@ -165,23 +196,26 @@ class WholeAxleModel(System):
         """
         turns = self.turned(states)
         level = turns < _MOST_TURN
+        acting = self.inputs_at(np.zeros(level.shape)) if inputs is None else inputs
         closing = np.full((*level.shape, len(self.equations.GUARDS)), np.nan)
-        closing[level] = self.evaluate("margins", states[level])
+        closing[level] = self.evaluate("margins", states[level], acting[level])
         closes = (closing > 0.0).all(axis=-1)
         allowed = self.allowed_lengths()
         left = np.full((*level.shape, len(allowed)), np.nan)
         if allowed:
-            signals = self.signals(states[closes])
+            signals = self.signals(states[closes], acting[closes])
             left[closes] = np.stack([one.left(signals) + _ROUNDING for one in allowed], axis=-1)
         return np.concatenate([closing, left, (_MOST_TURN - turns)[..., None]], axis=-1)
 
-    def farthest(self, left: float, right: float) -> float:
-        """Return the reachable part of a path from design, straight in the wheels' travels [1].
+    def farthest(self, left: float, right: float, rack: float = 0.0) -> float:
+        """Return the reachable part of a path from design, straight in travels and steering [1].
 
         Parameters
         ----------
         left, right : float
             Travels of the wheels at the end of the path [m].
+        rack : float, optional
+            Displacement of the steering at its end [m].
 
         Returns
         -------
@@ -190,26 +224,32 @@ class WholeAxleModel(System):
         """
         with Validator("farthest") as given:
             left, right = given.number("left", left, "m"), given.number("right", right, "m")
-        return float(self.parts_of_ways(np.array([left]), np.array([right]))[0])
+            rack = given.number("rack", rack, "m")
+        return float(self.parts_of_ways(*np.array([[left], [right], [rack]]))[0])
 
-    def parts_of_ways(self, lefts: Array, rights: Array) -> Array:
+    def parts_of_ways(self, lefts: Array, rights: Array, racks: ArrayLike = 0.0) -> Array:
         """Return the reachable part of each path from design, (n,), see `farthest`.
 
         Parameters
         ----------
         lefts, rights : ndarray, shape (n,)
             Travels of the wheels at the ends of the paths [m].
+        racks : array_like, optional
+            Displacements of the steering there [m].
         """
-        longest = np.maximum(np.abs(lefts), np.abs(rights))
+        ways = np.stack(np.broadcast_arrays(lefts, rights, racks))
+        longest = np.abs(ways).max(axis=0)
         # a path of zero length has no direction
-        senses = np.stack([lefts, rights]) / np.where(longest > 0.0, longest, 1.0)
+        senses = ways / np.where(longest > 0.0, longest, 1.0)
 
         def look(along: Array, which: NDArray[np.int64]) -> PlacesAlong:
-            states = self.placed(*(senses[:, which, None] * along))
-            states = self.moved(states, *senses[:, which, None])
-            margins = self.margins(states)
+            left, right, rack = senses[:, which, None]
+            inputs = self.inputs_at(rack * along, rack)
+            states = self.placed(left * along, right * along, rack * along)
+            states = self.moved(states, left, right, inputs)
+            margins = self.margins(states, inputs)
             fine = np.asarray((margins > 0.0).all(axis=-1))
-            stand = attitudes(self, states, None, fine)
+            stand = attitudes(self, states, inputs, fine)
             no_limits, even = np.zeros(fine.shape, dtype=int), np.ones(fine.shape)
             return PlacesAlong(fine, no_limits, along, even, margins, stand)
 
@@ -218,12 +258,24 @@ class WholeAxleModel(System):
             short = np.minimum(found / longest, np.nextafter(1.0, 0.0))
         return np.where(limits == GOAL, 1.0, short)
 
-    def _refuse(self, left: float, right: float, part: float) -> None:
-        """Refuse travels of which only a part is reachable."""
-        ends = np.floor(1e5 * part * np.abs([left, right])) / 1e2 * np.sign([left, right])
+    def _refuse(self, way: Array, part: float) -> None:
+        """Refuse travels, and a displacement of the steering, of which a part is reachable."""
+        ends = np.floor(1e5 * part * np.abs(way)) / 1e2 * np.sign(way)
+        (left, right, rack), steers = 1e3 * way, bool(way[2])
+        steered = f", and its steering at {rack:+g} mm" if steers else ""
+        to = f", the steering to {ends[2]:+.2f} mm" if steers else ""
         message = (
-            f"the axle cannot be with its left wheel at {1e3 * left:+g} mm and its right one at "
-            f"{1e3 * right:+g} mm from design: on this way it comes to {ends[0]:+.2f} mm and "
-            f"{ends[1]:+.2f} mm, where {self.ENDS}. Choose less."
+            f"the axle cannot be with its left wheel at {left:+g} mm and its right one at "
+            f"{right:+g} mm from design{steered}: on this way it comes to {ends[0]:+.2f} mm and "
+            f"{ends[1]:+.2f} mm{to}, where {self.ENDS}. Choose less."
         )
         raise PositionError(message)
+
+
+def solved_for_two(slopes: Array, right: Array) -> Array:
+    """Return the solution of two linear equations, (..., 2); not finite if they are singular."""
+    (a, b), (c, d) = np.moveaxis(slopes, (-2, -1), (0, 1))
+    first, second = np.moveaxis(right, -1, 0)
+    whole = (a * d - b * c)[..., None]
+    found: Array = np.stack([d * first - b * second, a * second - c * first], axis=-1) / whole
+    return found

@@ -30,7 +30,7 @@ _SI = {"mm": "m", "deg": "rad", "N/mm^3": "N/m^3", "N/mm": "N/m", "N m/deg": "N 
 # of a car.
 _SIDE, _APART = "side.", re.compile(r"(front\.|rear\.|)(right|left)\.")
 # Sections of points in the unit of the hardpoints: of a file, and of each rod of a rigid axle.
-_POINTS, _RODS = ("hardpoints.", "left_hardpoints."), "rods."
+_POINTS, _RODS = ("hardpoints.", "left_hardpoints.", "drag_link."), "rods."
 _OF_A_BAR = ("bush", "link_top", "link_foot")
 # Ends of other keys of three numbers, and keys of directions.
 _PLACES, _AXES = ("com_mm", "pivot_mm", "ball_mm"), ("axis", "idler_axis")

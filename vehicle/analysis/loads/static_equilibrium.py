@@ -139,7 +139,7 @@ class _Search:
         self._walk(self._near_cells(self.open()))
         rows = self.open()
         rows = rows[self.loads.free[rows].any(axis=-1)]
-        for row in rows[self.assembly.locked(self.coordinates[rows])]:
+        for row in rows[self.assembly.locked(self.coordinates[rows], self.loads.racks[rows])]:
             self.reasons[row] = _LOCKED
 
     # -- start ------------------------------------------------------------------------------------

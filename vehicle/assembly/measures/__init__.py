@@ -2,7 +2,8 @@
 
     `measure`      the class of a measure, and its evaluation
     `quantities`   name, unit, definition and sign of each quantity
-    `corner`, `axle`, `rigid_axle`, `twist_beam`  the measures of each assembly
+    `corner`, `axle`      the measures of a wheel, and of two of them
+    `rigid_axle`, `steered_rigid_axle`, `twist_beam`  those of axles without sides
     `whole_axle`   springs and dampers of any axle without sides
     `rolling`      track, roll moment and roll stiffness of two wheels: the formulas
     `axle_rolling` roll centre, jacking and the anti-roll bar of two corners

@@ -7,6 +7,7 @@ import numpy as np
 
 from ....core.named_types import Array
 from ...models.rigid_axle.model import HEAVE, ROLL
+from ...models.rigid_axle.structure import BEAM
 from ...models.sides import LEFT, RIGHT, SIDES
 from ..rigid_axle_kinematics import RigidAxleKinematics
 from .whole_axle import dot
@@ -23,10 +24,10 @@ def roll_center_height(beam: RigidAxleKinematics) -> Array:
     middle, line = 0.5 * (left + right), (left - right)[:, 1:]
     line = line / np.linalg.norm(line, axis=-1, keepdims=True)
     across = np.stack([-line[:, 1], line[:, 0]], -1)
-    roll, heave = (beam.velocity(LEFT, middle, by)[:, 1:] for by in (ROLL, HEAVE))
+    roll, heave = (beam.velocity_of(BEAM, middle, by)[:, 1:] for by in (ROLL, HEAVE))
     times = -dot(across, roll) / dot(across, heave)
     velocity = roll + times[:, None] * heave
-    turning = beam.turning(LEFT, ROLL)[:, 0] + times * beam.turning(LEFT, HEAVE)[:, 0]
+    turning = beam.turning_of(BEAM, ROLL)[:, 0] + times * beam.turning_of(BEAM, HEAVE)[:, 0]
     height: Array = dot(line, velocity) / turning
     return height
 
@@ -38,6 +39,6 @@ def jacking(beam: RigidAxleKinematics) -> Array:
     as it rises.
     """
     middle = 0.5 * (beam.contact(LEFT) + beam.contact(RIGHT))
-    velocity = beam.velocity(LEFT, middle, HEAVE)
+    velocity = beam.velocity_of(BEAM, middle, HEAVE)
     lift: Array = -velocity[:, 1] / velocity[:, 2]
     return lift

@@ -68,8 +68,17 @@ def in_roll(of: WholeAxleKinematics, side: str, rate: Callable[..., Array]) -> A
 
 
 def _steer_rate(corner: RoadWheel, motion: CarrierMotion) -> Array:
+    """Return the rate of the steer angle in a motion [rad per unit], positive to the left."""
     return -corner.vehicle.side * wheel.toe_rate(corner, motion)
 
+
+ROLL_STEER = of_wheel(
+    "roll_steer", lambda of, side: in_roll(of, side, _steer_rate),
+    definition="derivative of the steer angle with respect to the roll angle, the wheel "
+    "centres moving "
+    "oppositely",
+)  # fmt: skip
+"""Of a wheel by the roll of the body."""
 
 MEASURES = (
     of_corner("camber", wheel.camber),
@@ -90,12 +99,7 @@ MEASURES = (
         "the wheel centres move oppositely",
     ),
     Measure(_JACKING, jacking, "wheel", GROUND),
-    of_wheel(
-        "roll_steer", lambda of, side: in_roll(of, side, _steer_rate),
-        definition="derivative of the steer angle with respect to the roll angle, the wheel "
-        "centres moving "
-        "oppositely",
-    ),
+    ROLL_STEER,
     of_wheel(
         "roll_camber", lambda of, side: in_roll(of, side, wheel.camber_rate),
         definition="derivative of camber, to the body, with respect to the roll angle, the wheel "

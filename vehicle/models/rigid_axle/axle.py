@@ -1,4 +1,4 @@
-"""`RigidAxle`: the data of a rigid axle's file."""
+"""`BeamAxle`: the data of every axle with a beam; `RigidAxle`: those of a rigid axle's file."""
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -42,41 +42,9 @@ _LEFTWARD = np.array([0.0, 1.0, 0.0])
 _RODS, _BEAM = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#999933"), "#4a525a"
 
 
-class RigidAxle(WholeAxle):
-    """A beam with two wheels on four rods, at its design position. Immutable.
+class BeamAxle(WholeAxle):
+    """An axle with a beam on four rods, which leave it heave and roll; the sections of its file."""
 
-    Make one with `load`, `from_dict` or `with_changes`. The attributes are the sections of the
-    file, with the file's keys and units.
-
-    Parameters
-    ----------
-    **data : Any
-        The sections, as in a file.
-
-    Raises
-    ------
-    InputError
-        With all problems, if the data are not valid.
-
-    Examples
-    --------
-    >>> from kintrafo import RigidAxle
-    >>> axle = RigidAxle.load("rigid_axle")
-    >>> list(axle.rods), axle.rigid_axle
-    (['left_link', 'right_link', 'upper_link', 'panhard_rod'], 'rear')
-    """
-
-    KEY: ClassVar[str] = "rigid_axle"
-    NEEDED: ClassVar[str] = 'a kintrafo.RigidAxle, such as RigidAxle.load("rigid_axle"), is needed'
-    PAGE: ClassVar[str] = """\
-A file of its own, of a beam on four rods; `kintrafo new FILE --rigid-axle` writes one. See
-[Rigid axles](../suspension/types.md#rigid-axle). The other sections are those of every suspension:
-`[tyre]`, `[gravity]`, the stops, and `[wheel]`, which may be left out; and `[bushings.POINT]`.
-Points of bushings are the names of the rods with the ending `_chassis` or `_axle`, and
-`wheel_center` of both wheels.
-"""
-
-    rigid_axle: End = Field(description='where the axle is: "front" or "rear"')
     vehicle: WholeAxleVehicle = Field(
         default=WholeAxleVehicle(), description="data of the whole vehicle"
     )
@@ -109,11 +77,10 @@ Points of bushings are the names of the rods with the ending `_chassis` or `_axl
         default=None, description="what deflects at hardpoints, for compliance: see Loads"
     )
 
-    # -- its properties -------------------------------------------------------------------------
+    PARTS: ClassVar[tuple[str, ...]] = _PARTS
+    """Names of its parts besides rods, and of sources of loads."""
 
-    def heading(self) -> str:
-        """Return the name of the axle."""
-        return f"rigid {self.rigid_axle} axle"
+    # -- its properties -------------------------------------------------------------------------
 
     def ends(self) -> dict[str, Ends]:
         """Return the ends of the rods at design, on the chassis and on the axle [m]."""
@@ -167,9 +134,7 @@ Points of bushings are the names of the rods with the ending `_chassis` or `_axl
             By the name of a rod with the ending ``_chassis`` or ``_axle``, and ``wheel_center`` for
             the bearings of both wheels.
         """
-        points = {CENTER: self.hardpoints.metres(CENTER)}
-        for name, (inner, outer) in self.ends().items():
-            points |= {f"{name}_{CHASSIS}": inner, f"{name}_axle": outer}
+        points = {CENTER: self.hardpoints.metres(CENTER)} | self.points_of_rods()
         spin = -self.wheel.spin_axis(-1.0)
         found = bushes_of(given, described, of_a_file(self.rods), points, spin)
         return [
@@ -177,6 +142,13 @@ Points of bushings are the names of the rods with the ending `_chassis` or `_axl
             for bush in sorted(found, key=lambda bush: bush.point == CENTER)
             for own in (on_both_sides(bush) if bush.point == CENTER else [bush])
         ]
+
+    def points_of_rods(self) -> dict[str, Array]:
+        """Return the ends of the rods at design by the names of their points [m]."""
+        points = dict[str, Array]()
+        for name, (inner, outer) in self.ends().items():
+            points |= {f"{name}_{CHASSIS}": inner, f"{name}_axle": outer}
+        return points
 
     def parameters(self) -> dict[str, float]:
         """Return the parameters of the equations of motion by name, in SI units."""
@@ -206,10 +178,10 @@ Points of bushings are the names of the rods with the ending `_chassis` or `_axl
         ]
         problems += [
             f"[rods] {name!r} is the name of another part, which loads could not distinguish from "
-            f"it; {', '.join(_PARTS)} are taken, with _left and _right behind them, too. "
+            f"it; {', '.join(self.PARTS)} are taken, with _left and _right behind them, too. "
             "Rename the rod."
             for name in ends
-            if name.removesuffix("_left").removesuffix("_right") in _PARTS
+            if name.removesuffix("_left").removesuffix("_right") in self.PARTS
         ]
         for name, (chassis, axle) in ends.items():
             length = float(np.linalg.norm(axle - chassis))
@@ -272,3 +244,48 @@ Points of bushings are the names of the rods with the ending `_chassis` or `_axl
                     f"through the wheels, that on the chassis {1e3 * inner:.0f} mm. Are the two "
                     "swapped?"
                 )
+
+
+class _Key(WholeAxle):
+    """The key of a rigid axle's file, which is before its sections."""
+
+    rigid_axle: End = Field(description='where the axle is: "front" or "rear"')
+
+
+class RigidAxle(BeamAxle, _Key):
+    """A beam with two wheels on four rods, at its design position. Immutable.
+
+    Make one with `load`, `from_dict` or `with_changes`. The attributes are the sections of the
+    file, with the file's keys and units.
+
+    Parameters
+    ----------
+    **data : Any
+        The sections, as in a file.
+
+    Raises
+    ------
+    InputError
+        With all problems, if the data are not valid.
+
+    Examples
+    --------
+    >>> from kintrafo import RigidAxle
+    >>> axle = RigidAxle.load("rigid_axle")
+    >>> list(axle.rods), axle.rigid_axle
+    (['left_link', 'right_link', 'upper_link', 'panhard_rod'], 'rear')
+    """
+
+    KEY: ClassVar[str] = "rigid_axle"
+    NEEDED: ClassVar[str] = 'a kintrafo.RigidAxle, such as RigidAxle.load("rigid_axle"), is needed'
+    PAGE: ClassVar[str] = """\
+A file of its own, of a beam on four rods; `kintrafo new FILE --rigid-axle` writes one. See
+[Rigid axles](../suspension/types.md#rigid-axle). The other sections are those of every suspension:
+`[tyre]`, `[gravity]`, the stops, and `[wheel]`, which may be left out; and `[bushings.POINT]`.
+Points of bushings are the names of the rods with the ending `_chassis` or `_axle`, and
+`wheel_center` of both wheels.
+"""
+
+    def heading(self) -> str:
+        """Return the name of the axle."""
+        return f"rigid {self.rigid_axle} axle"

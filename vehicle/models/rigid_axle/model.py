@@ -8,11 +8,11 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ....core.errors import InputError
-from ....core.named_types import Array
+from ....core.named_types import Array, ArrayLike
 from ....core.validator import Validator
 from ....generated import rigid_axle as equations
 from ..whole_axle_model import WholeAxleModel
-from .axle import RigidAxle
+from .axle import BeamAxle, RigidAxle
 
 HEAVE, ROLL = "heave", "roll"
 """The coordinates: height of the middle between the wheels above design [m], inclination [rad]."""
@@ -55,7 +55,7 @@ class RigidAxleModel(WholeAxleModel):
     """
 
     NEEDED = 'a kintrafo.RigidAxleModel, such as RigidAxleModel("rigid_axle"), is needed'
-    AXLE = RigidAxle
+    AXLE: ClassVar[type[BeamAxle]] = RigidAxle
     EQUATIONS: ClassVar[ModuleType] = equations
     COORDINATES: ClassVar[tuple[str, str]] = (HEAVE, ROLL)
     ENDS = (
@@ -63,17 +63,17 @@ class RigidAxleModel(WholeAxleModel):
         "by 45 deg"
     )
 
-    axle: RigidAxle
+    axle: BeamAxle
 
     def __init__(
-        self, axle: RigidAxle | str | Path, *, guided: bool = False, wheel_loads: bool = False
+        self, axle: BeamAxle | str | Path, *, guided: bool = False, wheel_loads: bool = False
     ) -> None:
         with Validator("RigidAxleModel") as given:
             self._guided = given.flag("guided", guided)
         super().__init__(axle, wheel_loads=wheel_loads)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        made = partial(RigidAxleModel, guided=self.axle.overheld, wheel_loads=self.wheel_loads)
+        made = partial(type(self), guided=self.axle.overheld, wheel_loads=self.wheel_loads)
         return made, (self.axle,)
 
     def _check(self) -> None:
@@ -81,7 +81,7 @@ class RigidAxleModel(WholeAxleModel):
         if self.axle.overheld and not self._guided:
             raise InputError([_OVERHELD.format(rods=", ".join(self.axle.rods))], "RigidAxleModel")
 
-    def placed(self, left: Array, right: Array) -> Array:
+    def placed(self, left: Array, right: Array, rack: ArrayLike = 0.0) -> Array:
         """Return the states at rest at wheel travels, reachable or not.
 
         Parameters
@@ -94,6 +94,7 @@ class RigidAxleModel(WholeAxleModel):
         ndarray, shape (..., 8)
             NaN if the wheels would have to be farther apart than at design.
         """
+        del rack
         states = np.broadcast_to(self.design_state, (*left.shape, self.design_state.size)).copy()
         states[..., self.state_names.index(HEAVE)] = 0.5 * (left + right)
         with np.errstate(invalid="ignore"):
@@ -101,7 +102,7 @@ class RigidAxleModel(WholeAxleModel):
         states[..., self.state_names.index(ROLL)] = rolls
         return states
 
-    def moved(self, states: Array, left: Array, right: Array) -> Array:
+    def moved(self, states: Array, left: Array, right: Array, inputs: Array | None = None) -> Array:
         """Return states with the rates for velocities of the wheels.
 
         Parameters
@@ -109,7 +110,10 @@ class RigidAxleModel(WholeAxleModel):
         states : ndarray, shape (..., 8)
         left, right : ndarray
             Vertical velocities of the wheel centres [m/s].
+        inputs : ndarray, optional
+            Without effect.
         """
+        del inputs
         found = states.copy()
         with np.errstate(all="ignore"):  # of an axle that is inclined too far
             leaning = np.cos(states[..., self.state_names.index(ROLL)])

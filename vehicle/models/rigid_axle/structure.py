@@ -29,15 +29,15 @@ def structure_of(rods: Iterable[str]) -> Structure:
     bearings = [FixedJoint(BEAM, f"wheel_{side}", (f"{CENTER}_{side}",)) for side in SIDES]
     lines = lines_of_sides(dict.fromkeys(SIDES, BEAM))
     # the links of the bar to the body are left out
-    return Structure((*_of_rods(rods), *bearings), lines, {MIDDLE: ""})
+    return Structure((*of_rods(rods), *bearings), lines, {MIDDLE: ""})
 
 
 def of_a_file(rods: Iterable[str]) -> Structure:
     """Return the joints that have bushes in a file: both wheel bearings are one."""
-    return Structure((*_of_rods(rods), FixedJoint(BEAM, "wheel", (CENTER,))), ())
+    return Structure((*of_rods(rods), FixedJoint(BEAM, "wheel", (CENTER,))), ())
 
 
-def _of_rods(rods: Iterable[str]) -> list[PartJoint]:
+def of_rods(rods: Iterable[str]) -> list[PartJoint]:
     """Return a universal joint at the chassis and a ball joint at the axle for each rod."""
     return [
         joint
