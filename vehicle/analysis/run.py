@@ -24,7 +24,7 @@ class MovingCar(Protocol):
 
     @property
     def body(self) -> str:
-        """The name of its body in these equations."""
+        """The name of its body in these equations; empty for an axle on a rig."""
 
     @property
     def wheels(self) -> Sequence[str]:

@@ -102,7 +102,7 @@ class CornerAssembly(HeldAssembly):
         arm = self.model.names.arm
         return self.model, "", {arm: arm}
 
-    def at_rest(self, coordinates: Array, rack: float) -> tuple[Array, Array]:
+    def at_rest(self, coordinates: Array, rack: Array | float) -> tuple[Array, Array]:
         """Return states and inputs with zero rates; a free rack is a state."""
         return at_rest(self.model, coordinates[..., 0], rack)
 

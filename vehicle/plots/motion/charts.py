@@ -1,5 +1,6 @@
 """Pictures of curves of a motion, with a line at the shown time."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -61,8 +62,10 @@ class Chart:
         return {name: getattr(self, name) for name in ("box", "times", "lines", "decimals", "unit")}
 
 
-def charts_of(motion: xr.Dataset, rows: NDArray[np.intp]) -> list[Chart]:
-    """Return the main curves of a motion.
+def charts_of(
+    motion: xr.Dataset, rows: NDArray[np.intp], names: Sequence[str] | None = None
+) -> list[Chart]:
+    """Return curves of a motion.
 
     Parameters
     ----------
@@ -70,10 +73,13 @@ def charts_of(motion: xr.Dataset, rows: NDArray[np.intp]) -> list[Chart]:
         Curves over time.
     rows : ndarray of int
         Indices of the outputs in the scene.
+    names : sequence of str, optional
+        The curves; by default the main ones of a car.
     """
     dataset = for_print(by_axle(motion.transpose("time", ...)), "time")
     with rc_context(STYLE):
-        return [_chart(dataset, name, rows) for name in shown_names(dataset)]
+        shown = shown_names(dataset) if names is None else names
+        return [_chart(dataset, name, rows) for name in shown]
 
 
 def shown_names(dataset: xr.Dataset) -> list[str]:

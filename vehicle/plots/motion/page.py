@@ -41,6 +41,7 @@ def player(scene: CarScene, charts: Sequence[Chart] = ()) -> Markup:
         turns=scene.turns and len(scene.times) > 1,
         last=len(scene.times) - 1,
         whole=scene.centers.shape[1] > 1,
+        has_body=scene.has_body,
         charts=charts,
         data=embedded(_data(scene) | {"charts": [chart.data for chart in charts]}),
     )  # fmt: skip

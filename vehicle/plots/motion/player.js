@@ -109,6 +109,7 @@ function connect(root) {
     }
   }
   function* bodywork() {
+    if (!data.sides[0][index].length) return; // an axle on a rig
     const [left, other] = data.sides.map((side) => triples(side[index]));
     const panels = left.map((p, i) => [p, other[i], other[(i + 1) % left.length], left[(i + 1) % left.length]]);
     for (const panel of [left, other, ...panels]) {

@@ -80,13 +80,20 @@ class CarScene:
     words: list[str]
 
     @property
+    def has_body(self) -> bool:
+        """Whether it shows a car with its body, and not an axle on a rig."""
+        return bool(self.outline.size)
+
+    @property
     def turns(self) -> bool:
         """Whether the path may be curved, unlike that along a road with heights."""
-        return not self.tracks
+        return self.has_body and not self.tracks
 
     @property
     def size(self) -> float:
         """Half of the length that a view shows [m]."""
+        if not self.has_body:
+            return float(np.ptp(self.centers[0, :, 1]))
         around = self.outline[0].reshape(-1, 3)
         return float(max(0.5 * np.ptp(around[:, 0]), 0.9 * around[:, 2].max()))
 
@@ -221,6 +228,8 @@ def _forces(car: MovingCar, motion: xr.Dataset, centers: Array, axes: Array) -> 
     forward = forward / np.linalg.norm(forward, axis=-1, keepdims=True)
     upward = cross(forward, axes)
     contacts = centers - np.array(car.radii)[:, None] * upward
+    if not car.body:
+        return contacts, np.zeros_like(contacts)
     if "fz" not in motion:
         # the force of a tyre is in the plane of the wheel, and acts at the height of the road
         contacts[..., 2] = _of_wheels(motion, "road")
@@ -236,7 +245,9 @@ def _of_wheels(motion: xr.Dataset, name: str) -> Array:
 
 
 def _outline(car: MovingCar, spinning: list[int], states: Array, inputs: Array) -> Array:
-    """Return the outline of the body on both sides."""
+    """Return the outline of the body on both sides; without points if there is no body."""
+    if not car.body:
+        return np.zeros((len(states), 2, 0, 3))
     model = car.model
     row = model.equations.BODIES.index(car.body)
     design = model.evaluate("positions", model.design_state)

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import xarray as xr
+from markupsafe import Markup
 from matplotlib import rc_context
 
 from ....core.tabulated import Tabulated
@@ -16,6 +17,7 @@ from ...assembly.assembly import Assembly
 from ...assembly.by_wheel import WHEEL
 from ...assembly.of import given_assembly
 from ...plots.by_axle import by_axle, names_by_axle
+from ...plots.motion.rig import on_a_rig
 from ...plots.whole_axle import views
 from ...studies.goals import Goal, check_goals
 from .chapter import Chapter, ChapterPicture
@@ -71,6 +73,8 @@ def axle_chapter(axle: Any, goals: Sequence[Goal] = ()) -> Chapter:
     drawn = [*(m for m in _DRAWN if m in assembly.motions), *["right"] * ("right" in wanted)]
     curves = {m: dataset(assembly, m, positions_of(assembly, m, goals)) for m in drawn}
     words, looks, drawings = _of_a_beam(assembly) if assembly.on_a_beam else ((), (), ())
+    players = _players(assembly)
+    words += (_PLAYED,) * len(players)
     usual = assembly.usual_motion
     over = assembly.motions[usual].title if assembly.axles else "parallel travel"
     shown = tuple(_pictures(assembly, curves, goals))
@@ -84,13 +88,14 @@ def axle_chapter(axle: Any, goals: Sequence[Goal] = ()) -> Chapter:
         ),
         panels=shown if assembly.axles else (),
         pictures=drawings if assembly.axles else (*drawings, *shown),
+        players=players,
     )
 
 
 def _of_a_beam(
     assembly: Assembly,
 ) -> tuple[tuple[str, ...], tuple[Tabulated, ...], tuple[ChapterPicture, ...]]:
-    """Return words, tables and drawings of a rigid axle, which has no interactive view."""
+    """Return words, tables and drawings of a rigid axle, without its motions."""
     found = checkup(assembly)
     assert found.axle is not None
     words = [f"Problem: {text}" for text in found.problems]
@@ -101,6 +106,16 @@ def _of_a_beam(
             views(assembly.subject), "The axle from above, from the left and from behind"
         )
     return tuple(words), (look,), (drawing,)
+
+
+_PLAYED = "The player shows the motions of the rig, one after the other, over their usual ranges."
+
+
+def _players(assembly: Assembly) -> tuple[Markup, ...]:
+    """Return the player of an axle without sides; the page of sides shows one of them."""
+    if assembly.corners or assembly.axles or not assembly.moves_rigidly:
+        return ()
+    return (on_a_rig(assembly),)
 
 
 def _not_on_the_page(assembly: Assembly, whole: xr.Dataset) -> xr.Dataset:
