@@ -307,8 +307,8 @@ class Assembly(ABC):
     def at_rest(self, coordinates: Array, rack: Array | float) -> tuple[Array, Array]:
         """Return states and inputs with zero rates, (..., states) and (..., inputs).
 
-        `coordinates` has the shape (..., coordinates); `rack` is the displacement of a rack, or those
-        of all states [m].
+        `coordinates` has the shape (..., coordinates); `rack` is the displacement of a rack, or
+        those of all states [m].
         """
         model, lead = self.model, coordinates.shape[:-1]
         states = np.broadcast_to(model.design_state, (*lead, model.design_state.size)).copy()

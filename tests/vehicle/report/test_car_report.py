@@ -119,7 +119,7 @@ def test_options_of_axles_need_the_file_of_one(kintrafo, option) -> None:
     assert "an axle or a suspension" in message
 
 
-@pytest.mark.parametrize("command", ["loads", "sheet", "compliance"])
+@pytest.mark.parametrize("command", ["loads", "compliance"])
 def test_commands_name_the_files_of_a_cars_axles(kintrafo, command) -> None:
     code, _, message = kintrafo(command, "driving_car")
     assert code == 2
