@@ -67,6 +67,7 @@ def test_tyres_are_files_beside_the_car_or_tables(tmp_path: Any) -> None:
         {"air.drag_area_m2": -0.1},
         {"body.inertia_zz_kg_m2": 0.0},
         {"front.drive.share": 0.5},
+        {"brakes.front_share": 0.6, "rear.side.vehicle.front_brake_share": 0.5},
     ],
 )
 def test_what_contradicts_itself_is_refused(changes: dict[str, Any], refused: Any) -> None:

@@ -81,7 +81,7 @@ class AxleAssembly(SteerableAssembly):
     @property
     def words(self) -> str:
         """A description in sentences."""
-        by = f", {self.axle.right.steering_gear.WORDS}" if self.steered else ""
+        by = f", {self.axle.steering_gear.WORDS}" if self.steered else ""
         words = [
             f"Both wheels of the {self.axle.heading()}{by}.",
             "One side is the mirror image of the other." if self.symmetric else "The sides differ.",
@@ -260,7 +260,7 @@ class AxleAssembly(SteerableAssembly):
         of_bar = super().further(over, poses, found)
         if not self.steered:
             return of_bar
-        return steering_of(self.axle.right.steering_gear, over, found) | of_bar
+        return steering_of(self.axle.steering_gear, over, found) | of_bar
 
     def in_motion(
         self, states: Array, inputs: Array

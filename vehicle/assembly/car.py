@@ -16,7 +16,6 @@ from ...systems.rest import rest
 from ...systems.state import State
 from ..corner.wheeled import WheeledSection
 from ..input.units import in_metres
-from ..models.axle import Axle
 from ..models.car.car import Car, center_of_gravity, masses, suspension_masses
 from ..models.car.equations import CarModel
 from ..models.model import Model
@@ -123,7 +122,10 @@ class CarAssembly(Assembly):
     @property
     def input_sections(self) -> dict[str, Any]:
         """The content of its files, by the prefix of the names of sections."""
-        found: dict[str, Any] = {"": self.car.described}
+        own = self.car.described
+        # a part that is no file's name follows with its sections
+        apart = [name for name in self.held_parts if not isinstance(getattr(own, name), str)]
+        found: dict[str, Any] = {"": own.model_copy(update=dict.fromkeys(apart))}
         for name, part in self.held_parts.items():
             for begin, section in part.input_sections.items():
                 found[f"{name} {begin}".strip()] = section
@@ -255,10 +257,7 @@ class CarAssembly(Assembly):
     @property
     def rack_state(self) -> str | None:
         """The state that is the displacement of the rack [m]; None if the rack is prescribed."""
-        front = self.car.axles.get("front")
-        if self.car.column is None or not isinstance(front, Axle):
-            return None
-        return f"front_{front.right.NAMES.rack}"
+        return None if self.car.column is None else f"front_{self.car.axles['front'].rack_name}"
 
     def names_of(self, wheel: str) -> WheelNames:
         """Return the names of a wheel in the equations."""

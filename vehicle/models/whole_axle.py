@@ -172,6 +172,8 @@ class WholeAxle(WheeledSection):
     """Whether it has no sides."""
     steering: ClassVar[None] = None
     """It has no curve of the steering."""
+    rack_name: ClassVar[str] = ""
+    """The name of the displacement of its steering in the equations; empty without steering."""
     link_part: ClassVar[str] = ""
     """No part has drop links."""
 

@@ -114,7 +114,7 @@ def _tables(section: Section, name: str, meaning: str) -> Iterator[InputTable]:
     rows = [
         (key, _text(value), fields[key].description or "")
         for key, value in values.items()
-        if value is not None and not isinstance(value, Section | Mapping)
+        if value is not None and not _has_tables(value)
     ]
     if rows:
         yield InputTable(name, meaning, rows)
@@ -124,11 +124,18 @@ def _tables(section: Section, name: str, meaning: str) -> Iterator[InputTable]:
         elif isinstance(value, Mapping) and all(isinstance(v, Section) for v in value.values()):
             for inner, named in value.items():
                 yield from _tables(named, f"{key}.{inner}", fields[key].description or "")
-        elif isinstance(value, Mapping):  # of bushes, by point
+        elif _has_tables(value):  # of bushes, by point
             known = BUSH_SCHEMA["properties"]
             for point, table in value.items():
                 rows = [(k, _text(own), known[k]["description"]) for k, own in table.items()]
                 yield InputTable(f"{key}.{point}", fields[key].description or "", rows)
+
+
+def _has_tables(value: Any) -> bool:
+    """Return whether a value is a section, or a table of sections or tables."""
+    if isinstance(value, Mapping):
+        return all(isinstance(inner, Section | Mapping) for inner in value.values())
+    return isinstance(value, Section)
 
 
 def _text(value: Any) -> str:

@@ -240,12 +240,13 @@ def test_a_car_at_rest_has_its_rack_in_the_middle(column) -> None:
     ("changes", "words"),
     [
         ({"stiffness_Nm_per_deg": 0.0}, "stiffness_Nm_per_deg = 0.0 N m/deg is out of range"),
+        ({"stiffness_Nm_per_deg": 1e6}, "0.01 N m/deg to 10,000 N m/deg. Leave the section out"),
         ({"stiffness_Nm_per_deg": None}, "stiffness_Nm_per_deg is missing"),
         ({"damping_Nm_s_per_deg": -1.0}, "damping_Nm_s_per_deg = -1.0 N m s/deg"),
         ({"rack_friction_N": -1.0}, "rack_friction_N = -1.0 N"),
         ({"friction_Nm": -1.0}, "friction_Nm = -1.0 N m"),
         ({"pinion_inertia_kg_m2": -1.0}, "pinion_inertia_kg_m2 = -1.0 kg m^2"),
-        ({"friction_velocity_m_per_s": 0.0}, "friction_velocity_m_per_s = 0.0 m/s"),
+        ({"friction_velocity_m_per_s": 1e-5}, "friction_velocity_m_per_s = 1e-05 m/s"),
         ({"colour": "black"}, "colour"),
     ],
 )
@@ -290,6 +291,29 @@ def test_other_cars_have_no_column() -> None:
     assert [name_of(car).count("column") for car in (light_car(), with_column())] == [0, 1]
     assert "[steering_column]" in with_column().with_changes({"car": "roll"}).unused
     assert Car.from_dict(with_column().to_dict()).to_dict() == with_column().to_dict()
+
+
+def on_a_beam():
+    """Return a car whose front wheels are steered by a drag link."""
+    vehicle = {"vehicle.front_brake_share": None, "vehicle.center_of_gravity_height_mm": None}
+    beam, arm = (
+        kintrafo.load(name).with_changes(vehicle | more)
+        for name, more in (
+            ("steered_rigid_axle", {"vehicle.wheelbase_mm": None}),
+            ("trailing_arm_car", {}),
+        )
+    )
+    axles = {"front": beam, "rear": {"axle": "rear", "side": arm, "drive": {"share": 1.0}}}
+    brakes = {"torque_Nm": 6000.0, "front_share": 0.6}
+    return Car.from_dict(FILE | axles | {"brakes": brakes, "steering_column": COLUMN})
+
+
+def test_a_drag_link_has_a_column() -> None:
+    car = on_a_beam()
+    found, state = declared(car), assembly_of(car).rack_state
+    assert "front_rack_guide" in {joint.name for joint in found.independent}
+    assert [joint.name for joint in found.prescribed] == ["front_wheel_guide"]
+    assert state in {coordinate.name for coordinate in found.mechanism.coordinates}
 
 
 def test_a_pitman_arm_has_a_column() -> None:

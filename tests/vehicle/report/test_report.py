@@ -9,10 +9,12 @@ from html.parser import HTMLParser
 import kintrafo
 import numpy as np
 import pytest
+from driving_cars import light_car
 from folders import ROOT
 from hypothesis import given
 from hypothesis import strategies as st
 from kintrafo import InputError, Model, compliance, loads, state_at_height
+from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.models.points import hardpoints
 from kintrafo.vehicle.models.typical import typical_ranges
 from kintrafo.vehicle.report import compliance_chapter, elastokinematics_chapter, loads_chapter
@@ -361,6 +363,19 @@ def test_every_key_of_the_input_file_is_shown(page):
     assert wanted <= shown
     assert all(f"<code>{key}</code>" in page for _, key in wanted)
     assert "25000" in page
+
+
+def test_the_sections_of_a_car_within_one_file_are_shown_once():
+    """Its axles are tables of it, and so are linear tyres."""
+    sections = assembly_of(light_car()).input_sections
+    tables = [
+        (begin, table) for begin, section in sections.items() for table in input_tables(section)
+    ]
+    own = {table.name: {key: text for key, text, _ in table.rows} for b, table in tables if not b}
+    assert set(own) == {"", "body", "tyres", "brakes", "air"}
+    assert "front" not in own[""]
+    assert own["tyres"]["front"].startswith("radius_mm: 316; ")
+    assert ("front right", "strut") in {(begin, table.name) for begin, table in tables}
 
 
 def test_typical_ranges_are_of_characteristics_that_there_are(data):

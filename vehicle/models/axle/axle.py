@@ -18,7 +18,8 @@ from ...corner.bushes import RACK
 from ...data import data_sets
 from ...data.starter import AXLE, AXLES, CAR, not_of_a_suspension, whole_axle_in
 from ...input.described import DescribedParts, check_keys, described_by, parts_of
-from ...input.vehicle import GravitySection, VehicleSection
+from ...input.pitman_arm import PitmanLinkage
+from ...input.vehicle import GravitySection, Steering, VehicleSection
 from ...kinds import Suspension
 from ..model import Model
 from ..sides import LEFT, RIGHT
@@ -226,6 +227,16 @@ class Axle(DescribedParts):
     def steered_by(self) -> str:
         """The key of the section of its steering, the same in the files of both sides."""
         return self.right.steered_by
+
+    @property
+    def steering_gear(self) -> Steering | PitmanLinkage:
+        """The section of its steering, that of the right side."""
+        return self.right.steering_gear
+
+    @property
+    def rack_name(self) -> str:
+        """The name of the displacement of its rack in the equations; empty without steering."""
+        return self.right.NAMES.rack
 
     # -- interface for a car ----------------------------------------------------------------------
 

@@ -471,7 +471,7 @@ def _problems_of_driving(car: Car) -> list[str]:
 
 def _problems_of_column(front: AnyAxle) -> list[str]:
     """Return the problem of a steering column that moves no rack, or by an unknown ratio."""
-    if isinstance(front, WholeAxle) or not front.steered():
+    if not front.steered():
         problem = (
             "the front wheels are not steered, and there is no rack that it moves. Remove this "
             "section."
@@ -482,9 +482,9 @@ def _problems_of_column(front: AnyAxle) -> list[str]:
             "needs a constant ratio. Replace [steering] by travel_per_turn_mm, or remove this "
             "section."
         )
-    elif front.right.steering_gear.travel_per_turn() is None:
+    elif front.steering_gear.travel_per_turn() is None:
         problem = (
-            f"front: {front.right.steering_gear.TURN_KEY} is missing: how far the rack moves for a "
+            f"front: {front.steering_gear.TURN_KEY} is missing: how far the rack moves for a "
             "turn of the steering wheel, by which the column moves it. Add it."
         )
     else:
@@ -494,21 +494,21 @@ def _problems_of_column(front: AnyAxle) -> list[str]:
 
 def _problems_of_brakes(car: Car) -> list[str]:
     own = car.described.brakes.front_share if car.described.brakes is not None else None
-    theirs = {axle.vehicle.front_brake_share for axle in car.axles.values()} - {None}
+    shares = (axle.vehicle.front_brake_share for axle in car.axles.values())
+    theirs = {share for share in shares if share is not None}
     if own is None and not theirs:
         problem = (
             "[brakes] front_share is missing: the part of the torque at the front wheels. Add it, "
             "or front_brake_share in [vehicle] of an axle's file."
         )
         return [problem]
-    if own is not None and theirs - {own}:
-        (other,) = theirs - {own}
-        problem = (
-            f"[brakes] front_share = {own:g}, and front_brake_share is {other:g} in the file of an "
-            "axle. Make them equal, or remove the first."
-        )
-        return [problem]
-    return []
+    if own is None:
+        return []
+    return [
+        f"[brakes] front_share = {own:g}, and front_brake_share is {other:g} in the file of an "
+        "axle. Make them equal, or remove the first."
+        for other in sorted(theirs - {own})
+    ]
 
 
 def masses(car: Car) -> list[tuple[float, Array]]:

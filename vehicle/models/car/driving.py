@@ -11,7 +11,15 @@ from ....core.errors import InputError
 from ....core.validator import shown
 from ....core.vectors import Vector, components
 from ...input.messages import messages_of
-from ...input.section import Flag, NonNegative, Number, Positive, Section, Triple
+from ...input.section import (
+    AllowedRange,
+    Flag,
+    NonNegative,
+    Number,
+    Positive,
+    Section,
+    Triple,
+)
 from ...input.units import in_metres
 from ...input.vehicle import Share
 from ...tyres import LinearSlip, Tyre, load
@@ -39,32 +47,56 @@ class CarTyres(Section):
     )
 
 
+_REMEDY = "Check the unit of the value."
+# Ranges of a steering column: beyond them the equations are so stiff that a simulation hardly ends.
+_TwistRate = Annotated[
+    Number,
+    Field(ge=0.01, le=1e4),
+    AllowedRange("0.01 {unit} to 10,000 {unit}", "Leave the section out for a rigid column."),
+]
+_TwistDamping = Annotated[
+    Number, Field(ge=0.0, le=10.0), AllowedRange("0 {unit} to 10 {unit}", _REMEDY)
+]
+_PinionInertia = Annotated[
+    Number, Field(ge=0.0, le=1.0), AllowedRange("0 {unit} to 1 {unit}", _REMEDY)
+]
+_ColumnFriction = Annotated[
+    Number, Field(ge=0.0, le=1e3), AllowedRange("0 {unit} to 1,000 {unit}", _REMEDY)
+]
+_RackFriction = Annotated[
+    Number, Field(ge=0.0, le=1e5), AllowedRange("0 {unit} to 100,000 {unit}", _REMEDY)
+]
+_FrictionVelocity = Annotated[
+    Number, Field(ge=1e-4, le=1.0), AllowedRange("0.0001 {unit} to 1 {unit}", _REMEDY)
+]
+
+
 class SteeringColumn(Section):
     """A steering column that twists between the steering wheel and the rack, and friction.
 
     Without this section the rack follows the steering wheel.
     """
 
-    stiffness_Nm_per_deg: Positive = Field(  # noqa: N815 (N m is the unit)
+    stiffness_Nm_per_deg: _TwistRate = Field(  # noqa: N815 (N m is the unit)
         description="torque of the steering wheel over the twist of the column, the rack held; of "
         "column, joints and torsion bar together"
     )
-    damping_Nm_s_per_deg: NonNegative = Field(  # noqa: N815 (N m is the unit)
+    damping_Nm_s_per_deg: _TwistDamping = Field(  # noqa: N815 (N m is the unit)
         default=0.0, description="damping of the twist"
     )
-    pinion_inertia_kg_m2: NonNegative = Field(
+    pinion_inertia_kg_m2: _PinionInertia = Field(
         default=0.0,
         description="moment of inertia of all that turns with the pinion, at its speed; behind the "
         "column on the side of the rack",
     )
-    friction_Nm: NonNegative = Field(  # noqa: N815 (N m is the unit)
+    friction_Nm: _ColumnFriction = Field(  # noqa: N815 (N m is the unit)
         default=0.0,
         description="friction of the column on the side of the steering wheel, in full sliding",
     )
-    rack_friction_N: NonNegative = Field(  # noqa: N815 (N is the newton)
+    rack_friction_N: _RackFriction = Field(  # noqa: N815 (N is the newton)
         default=0.0, description="friction of the rack in its housing, in full sliding"
     )
-    friction_velocity_m_per_s: Positive = Field(
+    friction_velocity_m_per_s: _FrictionVelocity = Field(
         default=0.005, description="velocity of the rack at which 71 % of the friction is reached"
     )
 
@@ -80,7 +112,7 @@ class SteeringColumn(Section):
         travel_per_turn : float
             Travel of the rack for a turn of the steering wheel [m].
         center : ndarray, shape (3,)
-            Middle of the rack, where the pinion is drawn [m].
+            Middle of the axle, where the pinion is drawn [m].
         """
         zero = dict.fromkeys(("pinion_mass", "column_free_twist"), 0.0)
         return (

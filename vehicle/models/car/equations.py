@@ -20,7 +20,6 @@ from ....systems.compile.build import (
 )
 from ....systems.system import System
 from ...tyres.tyre import ContactTerms
-from ..axle.axle import Axle
 from ..model import Model
 from ..packaged import packaged_equations
 from ..sides import SIDES
@@ -183,7 +182,7 @@ class _End:
         name = axle.equations_name
         if not steered:  # what would move the tie rods is a part of the body
             name = name.removesuffix("_pitman_arm")
-        column = steered and car.column is not None
+        column = end == "front" and car.column is not None
         return cls(name, axle.whole, axle.link_part, steered, column, **rolling)
 
     def declared(self) -> "Formulation":
@@ -299,11 +298,9 @@ def _parameters(car: Car, described: Mapping[str, Mapping[str, Any]]) -> dict[st
 def _of_column(car: Car, column: SteeringColumn) -> dict[str, float]:
     """Return the parameters of a steering column, in SI units."""
     front = car.axles["front"]
-    assert isinstance(front, Axle)
-    travel = front.right.steering_gear.travel_per_turn()
+    travel = front.steering_gear.travel_per_turn()
     assert travel is not None
-    ends = [side.hardpoints.metres("tie_rod_inner") for side in front.sides.values()]
-    return column.parameters(travel, np.mean(ends, axis=0))
+    return column.parameters(travel, np.mean([*front.wheel_centers.values()], axis=0))
 
 
 def _of_driving(car: Car) -> dict[str, float]:

@@ -79,6 +79,7 @@ class SteeredRigidAxle(BeamAxle, _Key):
     NEEDED: ClassVar[str] = (
         'a steered rigid axle, such as kintrafo.load("steered_rigid_axle"), is needed'
     )
+    rack_name: ClassVar[str] = "rack_displacement"
     PAGE: ClassVar[str] = """\
 A file of its own, of a beam on four rods, with two knuckles, a Pitman arm, a drag link and a track
 rod; `kintrafo new FILE --suspension steered_rigid_axle` writes one. See
