@@ -280,18 +280,19 @@ def _in_sae(iso_sign: str, sae_sign: str) -> str:
 
 
 def _rows(here: xr.Dataset, places: Iterable[str]) -> Iterator[tuple[str, ...]]:
-    """Yield the rows of a part, each with the values of all places."""
-    names = [str(name) for name in here[QUANTITY].values]
-    for stem in dict.fromkeys(map(without_side, names)):
-        cells = dict.fromkeys(places, "")
-        for name in (name for name in names if without_side(name) == stem):
-            own = here.sel({QUANTITY: name})
-            place = name.removeprefix(stem)
-            cells[place] = significant(float(own["iso_8855"]))
+    """Yield the rows of a part, each with the values of all places in which it has one sign."""
+    found: dict[tuple[str, ...], dict[str, str]] = {}
+    for name in map(str, here[QUANTITY].values):
+        own = here.sel({QUANTITY: name})
         meaning, unit, iso, sae = (
             str(own[key].values) for key in ("meaning", "unit", "iso_8855_sign", "sae_j670_sign")
         )
-        yield (_without_place(meaning, place), *cells.values(), unit, iso, _in_sae(iso, sae))
+        stem, place = without_side(name), _place(name)
+        row = stem, _without_place(meaning, place), unit, iso, _in_sae(iso, sae)
+        cells = found.setdefault(row, dict.fromkeys(places, ""))
+        cells[place] = significant(float(own["iso_8855"]))
+    for (_, words, *signs), cells in found.items():
+        yield (words, *cells.values(), *signs)
 
 
 def _kinematic(assembly: HeldAssembly) -> Iterator[tuple[str, tuple[str, xr.DataArray]]]:

@@ -283,6 +283,12 @@ class CarAssembly(Assembly):
             )
             raise InputError([problem], "equilibrium")
         model = self.model
+        if any(model.slope or ()):
+            problem = (
+                "slope: a car does not rest on a slope, where nothing holds its wheels. Leave it "
+                "out of the CarModel; kintrafo.handling.drive has grade and crossfall."
+            )
+            raise InputError([problem], self.heading)
         rows = [model.state_names.index(name) for name in self.coordinates]
         _, inputs = at(self, held, model.design_state[rows])
         acting = dict(zip(model.input_names, inputs.tolist(), strict=True))
@@ -331,6 +337,13 @@ class CarAssembly(Assembly):
             heave = "body_z" if self.car.drives else "heave"
             state[model.state_names.index(heave)] = -max(gaps) - _PRESSED
         return state
+
+    @property
+    def tyre_radii(self) -> Sequence[float | None]:
+        """The radii of its wheels by wheel [m]: of a car that drives those of its tyres."""
+        if self.car.drives:
+            return [self.car.tyre(wheel).radius for wheel in self.wheels]
+        return super().tyre_radii
 
     @property
     def _free_heights(self) -> list[float]:

@@ -13,7 +13,7 @@ MOST_POINTS = 4_000_000
 
 
 LEAD = 5.0
-"""Distance over which a road rises from level to its first heights, for cars that drive [m]."""
+"""Least distance over which a road rises to its first heights, for cars that drive [m]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,9 +69,22 @@ class Road:
         return self.spacing * (self.left.size - 1)
 
     @property
+    def datum(self) -> float:
+        """The height that is zero for cars that drive: the mean of both first heights [m]."""
+        return float(0.5 * (self.left[0] + self.right[0]))
+
+    @property
     def lead(self) -> float:
-        """Distance before the road at which a car on the level begins: `LEAD`, or zero [m]."""
-        return 0.0 if self.left[0] == self.right[0] == 0.0 else LEAD
+        """Distance before the road at which a car on the level begins [m].
+
+        It is zero if both first heights are equal, else whole spacings of `LEAD` or more.
+        """
+        return 0.0 if self.left[0] == self.right[0] else self.spacing * self._before
+
+    @property
+    def _before(self) -> int:
+        """Number of points before the road."""
+        return int(np.ceil(LEAD / self.spacing))
 
     def over_time(self, side: str, speed: float, behind: float, end: float) -> CubicSpline:
         """Return the height under a wheel over time.
@@ -116,17 +129,17 @@ class Road:
         Returns
         -------
         scipy.interpolate.CubicSpline
-            Height [m] by distance [m], level at both ends: from `LEAD` before the road, where it
-            rises from zero to the first height, to one spacing beyond the last one.
+            Height above `datum` [m] by distance [m], level at both ends: from `LEAD` or more before
+            the road, where it rises from zero to the first height, to one spacing beyond the last
+            one.
         """
         with Validator("Road.over_distance") as given:
             given.among("side", side, ("left", "right"))
-        heights = self.left if side == "left" else self.right
-        before = int(np.ceil(LEAD / self.spacing))
-        share = np.linspace(0.0, 1.0, before, endpoint=False)
+        heights = (self.left if side == "left" else self.right) - self.datum
+        share = np.linspace(0.0, 1.0, self._before, endpoint=False)
         rising = heights[0] * share * share * (3.0 - 2.0 * share)
         every = np.concatenate([rising, heights, heights[-1:]])
-        places = self.spacing * (np.arange(every.size) - before)
+        places = self.spacing * (np.arange(every.size) - self._before)
         return CubicSpline(places, every, bc_type="clamped")
 
     def __add__(self, other: "Road") -> "Road":

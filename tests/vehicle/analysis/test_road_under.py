@@ -10,6 +10,8 @@ from kintrafo.vehicle.analysis.handling import drive
 from kintrafo.vehicle.analysis.handling.driven import driven
 from kintrafo.vehicle.analysis.handling.drivers import Fixed, HeldTorque
 from kintrafo.vehicle.analysis.handling.subject import driving_car
+from kintrafo.vehicle.assembly.of import assembly_of
+from kintrafo.vehicle.models.car.slope import Slope
 
 SPEED, WHEELBASE = 20.0, 2.6
 
@@ -47,6 +49,14 @@ def test_heights_by_distance_are_those_over_time_at_constant_speed(model) -> Non
     assert np.ptp(other.signals["rear_left_fz"]) > 2000.0
 
 
+def test_the_wheels_of_a_car_that_drives_have_the_radius_of_its_tyres() -> None:
+    """For the cams of a tyre on a kerb; the files of the axles have another radius."""
+    car = light_car()
+    assert list(assembly_of(car).tyre_radii) == [car.tyre(one).radius for one in car.wheels]
+    riding = assembly_of(car.with_changes({"car": "roll"}))
+    assert riding.tyre_radii != assembly_of(car).tyre_radii
+
+
 def test_a_wheel_is_on_the_road_at_its_own_distance(model) -> None:
     """In braking: the distance is the integral of the speed, and rear wheels are behind."""
     road = road_profiles.Road(0.5, 0.02 * np.sin(np.arange(80.0)), 0.01 * np.cos(np.arange(80.0)))
@@ -61,10 +71,24 @@ def test_a_wheel_is_on_the_road_at_its_own_distance(model) -> None:
     for wheel, back in {"front_left": 0.0, "front_right": 0.0, "rear_left": WHEELBASE}.items():
         track = road.over_distance(wheel.rpartition("_")[2])
         # the right track begins 10 mm above level: the car begins before the road
-        wanted = track(np.clip(way - road_profiles.road.LEAD - back, track.x[0], track.x[-1]))
+        wanted = track(np.clip(way - road.lead - back, track.x[0], track.x[-1]))
         assert np.abs(found["road"].sel(wheel=wheel) - wanted).max() < 1e-4
     assert way[-1] > 15.0
     assert found.attrs["title"].endswith("a road of given heights")
+
+
+@pytest.mark.parametrize("spacing", [0.3, 8.0])
+def test_a_car_begins_on_the_level_whatever_the_altitude(spacing) -> None:
+    left, right = 0.01 * np.cos(np.arange(6.0)), np.full(6, -0.01)
+    tracks = [road_profiles.Road(spacing, left + height, right + height) for height in (0.0, 812.5)]
+    for side, first in (("left", 0.01), ("right", -0.01)):
+        low, high = (road.over_distance(side) for road in tracks)
+        assert low(-tracks[0].lead) == pytest.approx(0.0, abs=1e-15)
+        assert low(0.0) == pytest.approx(first, abs=1e-15)
+        every = np.linspace(low.x[0], low.x[-1], 50)
+        assert high(every) == pytest.approx(low(every), abs=1e-11)  # rounding of 812.5 m
+    level = road_profiles.Road(spacing, left + 812.5, left + 812.5)
+    assert level.lead == 0.0
 
 
 def test_a_road_is_refused_where_nothing_is_simulated(model) -> None:
@@ -95,7 +119,28 @@ def test_tyres_carry_the_weight_on_a_slope(model, grade, crossfall) -> None:
     lift = float(signals["air_lift"])
     assert total["z"] + lift == pytest.approx(weight * normal, abs=1e-5 * weight)
     assert np.ptp(motion["speed"].values) < 1e-3
+    # on a crossfall the car has a sideslip angle, and moves along the road
+    assert np.ptp(motion["y"].values) < 1e-5
     assert np.ptp(motion["yaw_angle"].values) < 1e-6
+
+
+def test_a_deceleration_is_that_of_brakes_and_grade(model) -> None:
+    """The weight along the grade has 1 m/s^2 of 6: without it the difference would be 2 m/s^2."""
+    changes = {"speed_km_per_h": 40.0, "deceleration_m_per_s2": 6.0}
+    up, down = (
+        float(drive(model, "braking", changes, grade=one).metrics["mean_deceleration"])
+        for one in (0.1, -0.1)
+    )
+    assert up == pytest.approx(down, abs=0.05)
+    with pytest.raises(InputError, match=r"the grade alone has 0\.98 m/s\^2"):
+        drive(model, "braking", changes | {"deceleration_m_per_s2": 0.9}, grade=0.1)
+
+
+def test_a_model_on_a_slope_is_refused_where_a_car_rests() -> None:
+    with pytest.raises(InputError, match="a car does not rest on a slope"):
+        drive(CarModel(light_car(), slope=Slope(0.05)), "straight")
+    with pytest.raises(InputError, match="grade = nan"):
+        CarModel(light_car(), slope=Slope(np.nan))
 
 
 def test_a_slope_is_refused_where_turns_are_steady(model) -> None:

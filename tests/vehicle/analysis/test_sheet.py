@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from kintrafo import Axle, InputError, Model, RigidAxle, characteristics, compliance, load
-from kintrafo.vehicle.analysis.sheet import sheet, tabulated
+from kintrafo import Axle, Car, InputError, Model, RigidAxle, characteristics, compliance, load
+from kintrafo.vehicle.analysis.sheet import one_page, sheet, tabulated
 from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.models.positions import arm_angles, design_height
 from kintrafo.vehicle.models.reach import at_rest
@@ -143,6 +143,24 @@ def test_a_car_has_the_sheets_of_its_axles():
     assert "steer_gradient_rear_left" not in values
     with pytest.raises(InputError, match="bushings: the bushes of a car are"):
         sheet(car, BUSHES)
+
+
+def test_axles_whose_signs_differ_have_rows_of_their_own():
+    """The jacking coefficient counts inboard forces, and those to the left on a rigid axle."""
+    data = load("reference_vehicle").to_dict()
+    data["rear"] = load("rigid_axle").to_dict()
+    del data["rear"]["vehicle"], data["front"]["side"]["vehicle"]["center_of_gravity_height_mm"]
+    found = sheet(Car.from_dict(data))
+    rows = [row for table in tabulated(found, "") for row in table.rows if "jacking" in row[0]]
+    front, rear = ([bool(cell) for cell in row[1:-3]] for row in rows)
+    assert [a or b for a, b in zip(front, rear, strict=True)].count(True) == 3
+    assert not any(a and b for a, b in zip(front, rear, strict=True))
+    assert [row[-1] for row in rows] == ["the same", "the other sign"]
+    (page,) = one_page(found, "")
+    assert [row[0] for row in page.rows if "jack" in row[0]] == [
+        "jacking coefficient",
+        "jacking coefficient *",
+    ]
 
 
 def test_the_page_of_a_car_has_a_column_for_each_axle_of_mirror_images(kintrafo):

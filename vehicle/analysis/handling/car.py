@@ -11,7 +11,7 @@ from ....systems.system import System
 from ...assembly.car import CarAssembly
 from ...assembly.controls import Controls
 from ...models.car.equations import CarModel
-from ...models.car.slope import Slope
+from ...models.car.slope import LEVEL, Slope
 from ...roads.road import Road
 from ..loads.on_a_car import rack_force
 from ..run import Run
@@ -58,6 +58,8 @@ class DrivingCar:
         Called with each `Run` of the car.
     road : Road, optional
         The road on which it drives; level by default.
+    slope : Slope, optional
+        The slope of its road; level by default.
     """
 
     model: System
@@ -76,6 +78,7 @@ class DrivingCar:
     assembly: CarAssembly | None = None
     watched: Callable[[Run], None] | None = None
     road: Road | None = None
+    slope: Slope = LEVEL
 
     @property
     def body(self) -> str:
@@ -104,7 +107,13 @@ class DrivingCar:
         assert self.assembly is not None
         car = self.assembly.car
         model = CarModel(car, slope=slope)
-        return replace(self, model=model, assembly=CarAssembly(car, model))
+        return replace(self, model=model, assembly=CarAssembly(car, model), slope=slope)
+
+    @property
+    def weight_along(self) -> float:
+        """Its weight along the slope of the road, positive uphill, which slows it down [N]."""
+        gravity = self.model.parameters["gravity"]
+        return self.mass * gravity * float(self.slope.upward[0])
 
     def signal_rows(self, what: str, wheels: Sequence[str]) -> list[int]:
         """Return the indices of a signal of some wheels."""

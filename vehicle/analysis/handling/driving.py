@@ -21,10 +21,6 @@ if TYPE_CHECKING:
     from ..run import Run
 
 
-# The steepest slope of a road [1]; more is a mistake, such as a percentage.
-_STEEPEST = 0.5
-
-
 def drive(
     subject: Any,
     manoeuvre: str | Path | Mapping[str, Any] | Manoeuvre,
@@ -49,10 +45,10 @@ def drive(
     road : Road, optional
         The road, such as `kintrafo.road_profiles.iso8608`; level by default. Its tracks are under
         the left and right wheels, and follow the path of the car; heights are those at the distance
-        that the car has travelled. A manoeuvre begins in the motion on a level road, and
-        beyond its end the road is level.
+        that the car has travelled, above the mean of both tracks at their first points. A manoeuvre
+        begins in the motion on a level road, and beyond its end the road is level.
     grade, crossfall : float, optional
-        Slope of the road along the car at the beginning, positive uphill, and across it, positive
+        Slope of the road along the path at the beginning, positive uphill, and across it, positive
         if it falls to the right [1]; for manoeuvres straight ahead.
     progress : callable, optional
         Called with the completed fraction, up to 1.
@@ -83,12 +79,7 @@ def drive(
             given.instance("road", road, Road, "a kintrafo.road_profiles.Road is needed")
             if not found.TRAVELS:
                 given.fail(f"road: {found.TITLE} is not simulated over a road. Leave it out.")
-        slope = Slope(
-            *(
-                given.number(name, value, "1", least=-_STEEPEST, below=_STEEPEST)
-                for name, value in (("grade", grade), ("crossfall", crossfall))
-            )
-        )
+        slope = Slope.checked(given, grade, crossfall)
         if not given.failed and any(slope) and not found.SLOPES:
             straight = [name for name, one in MANOEUVRES.items() if one.SLOPES]
             given.fail(

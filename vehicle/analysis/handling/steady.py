@@ -10,6 +10,7 @@ solved by Newton's method with the exact Jacobian of the equations of motion.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -81,7 +82,7 @@ class Steady:
     slopes : dict of str to float
         Their derivatives in the value of the last condition.
     state, inputs : ndarray
-        At yaw angle zero, above the origin of the road.
+        Above the origin of the road, at yaw angle zero; on a slope the car moves along x.
     tangent : ndarray
         Derivatives of all unknowns.
     state_slope, input_slope : ndarray
@@ -153,12 +154,24 @@ class SteadyMotion:
         at = turn.T @ np.array([forward, left, 0.0 * left])
         motion = self._car.motion
         velocity = at - np.cross(omega, motion.reference - motion.center)
+        turned = self._headed(forward, left, (cp * cr, cp * sr, sp * cr, -sp * sr))
         found = np.array(self._car.model.design_state, dtype=unknown.dtype)
-        found[self._rows] = [z, cp * cr, cp * sr, sp * cr, -sp * sr, *velocity, *omega]
+        found[self._rows] = [z, *turned, *velocity, *omega]
         found[[*self._joints, *self._spin_rates, *self._internal]] = unknown[
             len(_BODY) : -len(_DRIVER)
         ]
         return found
+
+    def _headed(self, forward: Any, left: Any, quaternion: tuple[Any, ...]) -> tuple[Any, ...]:
+        """Return the rotation of the body at its yaw angle: on a slope the car moves along x."""
+        if not any(self._car.slope):
+            return quaternion
+        w, x, y, z = quaternion
+        # of half the yaw angle, whose tangent is -left / forward; abs is not analytic
+        speed = np.sqrt(forward * forward + left * left)
+        c = np.sqrt(0.5 + 0.5 * forward / speed)
+        s = -0.5 * left / (speed * c)
+        return c * w - s * z, c * x - s * y, c * y + s * x, c * z + s * w
 
     def inputs(self, unknown: Array) -> Array:
         """Return the inputs of some unknowns."""

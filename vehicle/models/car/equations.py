@@ -75,6 +75,8 @@ class CarModel(System):
             given.function("progress", progress)
             if slope is not None:
                 given.instance("slope", slope, Slope, "a Slope(grade, crossfall) is needed")
+                if not given.failed:
+                    slope = Slope.checked(given, *slope)
                 if not given.failed and not car.drives:
                     given.fail('slope: only a car that drives, car = "full", can be on a slope.')
         equations = _equations(car, progress)

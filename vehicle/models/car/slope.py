@@ -1,10 +1,14 @@
 """The slope of the road under a car that drives."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ....core.named_types import Array
+from ....core.validator import Validator
+
+# The steepest slope of a road [1]; more is a mistake, such as a percentage.
+_STEEPEST = 0.5
 
 
 class Slope(NamedTuple):
@@ -24,6 +28,19 @@ class Slope(NamedTuple):
     grade: float = 0.0
     crossfall: float = 0.0
 
+    @classmethod
+    def checked(cls, given: Validator, grade: Any, crossfall: Any) -> "Slope":
+        """Return the slope of two arguments, whose problems are added to `given`."""
+        values = {"grade": grade, "crossfall": crossfall}
+        return cls(
+            *(
+                given.number(
+                    name, value, least=-_STEEPEST, below=_STEEPEST, advice="It is 0.05 for 5 %."
+                )
+                for name, value in values.items()
+            )
+        )
+
     @property
     def upward(self) -> Array:
         """The unit vector opposite to gravity in the axes of the road, shape (3,)."""
@@ -41,3 +58,6 @@ class Slope(NamedTuple):
         rise = f"{abs(100.0 * self.grade):g} % {'uphill' if self.grade > 0.0 else 'downhill'}"
         fall = f"crossfall {100.0 * self.crossfall:g} %"
         return ", ".join([rise] * bool(self.grade) + [fall] * bool(self.crossfall))
+
+
+LEVEL = Slope()

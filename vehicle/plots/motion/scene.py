@@ -160,8 +160,8 @@ def _tracks(run: Run, centers: Array, rows: NDArray[np.intp]) -> list[Array]:
     car, road = run.car, run.road
     if road is None:
         return []
-    # the way along the road, from the distance before it at which the car begins
-    before = road.lead if run.way is None else 0.0
+    # a car that drives begins at a distance before the road, and has heights above its datum
+    before, datum = (road.lead, road.datum) if run.way is None else (0.0, 0.0)
     way = (run.places[:, 0] - run.places[0, 0] if run.way is None else run.way)[rows]
     at = centers[0] - way[0] * np.array([1.0, 0.0, 0.0])
     first, last = at[:, 0].min() - _BEYOND, at[:, 0].max() + way[-1] + _BEYOND
@@ -171,7 +171,7 @@ def _tracks(run: Run, centers: Array, rows: NDArray[np.intp]) -> list[Array]:
     for side, heights in (("left", road.left), ("right", road.right)):
         across = [y for wheel, y in zip(car.wheels, at[:, 1], strict=True) if wheel.endswith(side)]
         if across:
-            z = np.interp(along - at[:, 0].max() - before, stations, heights)
+            z = np.interp(along - at[:, 0].max() - before, stations, heights - datum)
             y = np.full(along.size, float(np.mean(across)))
             found.append(np.stack([along, y, z], axis=-1))
     return found

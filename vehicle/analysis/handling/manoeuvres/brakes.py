@@ -45,14 +45,19 @@ class BrakingManoeuvre(SimulatedManoeuvre):
             return self.pedal
         assert self.deceleration_m_per_s2 is not None
         most = car.brake_torque / (car.mass * (sum(car.radii) / len(car.radii)))
-        if self.deceleration_m_per_s2 > most:
+        by_grade = car.weight_along / car.mass
+        found = (self.deceleration_m_per_s2 - by_grade) / most
+        words = f"deceleration_m_per_s2 = {self.deceleration_m_per_s2:g} m/s^2: "
+        if found > 1.0:
             problem = (
-                f"deceleration_m_per_s2 = {self.deceleration_m_per_s2:g} m/s^2: the brakes of this "
-                f"car have torque for {most:.2f} m/s^2 at most. Choose less, or raise the torque "
-                "in [brakes] of the car."
+                f"{words}the brakes of this car have torque for {most + by_grade:.2f} m/s^2 at "
+                "most. Choose less, or raise the torque in [brakes] of the car."
             )
             raise InputError([problem], self.TITLE)
-        return self.deceleration_m_per_s2 / most
+        if found <= 0.0:
+            problem = f"{words}the grade alone has {by_grade:.2f} m/s^2. Choose more."
+            raise InputError([problem], self.TITLE)
+        return found
 
     def refuse_without_end(self, motion: xr.Dataset, key: str, speed: float) -> None:
         """Raise an error for a motion whose last speed is above a limit [m/s]."""

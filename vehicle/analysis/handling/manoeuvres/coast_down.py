@@ -38,9 +38,13 @@ class CoastDown(UntilSpeed):
         if speed[-1] > end:
             problem = (
                 f"until_km_per_h = {self.until_km_per_h:g} km/h: after duration_s = "
-                f"{self.duration_s:g} s the speed is {KM_PER_H * speed[-1]:.1f} km/h, by little or "
-                "no resistance. Give the car [air] and tyres with rolling resistance, or raise "
-                "duration_s."
+                f"{self.duration_s:g} s the speed is {KM_PER_H * speed[-1]:.1f} km/h. "
+            )
+            problem += (
+                "The car does not slow down on this grade. Choose another one."
+                if speed[-1] >= speed[0]
+                else "Its resistance is small: give it [air] and tyres with rolling resistance, or "
+                "raise duration_s."
             )
             raise InputError([problem], self.TITLE)
         reached = first_crossing(time, -speed, -end)

@@ -80,9 +80,11 @@ class SimulatedManoeuvre(Manoeuvre):
         try:
             return turns, turns.begin(0.0)
         except NoSteadyMotionError:
+            slope = car.slope.words
             problem = (
                 f"speed_km_per_h = {self.speed_km_per_h:g} km/h: this car does not run straight "
-                "ahead at this speed. Choose a lower one."
+                f"ahead at this speed{f' on the slope, {slope}' if slope else ''}. Choose a lower "
+                f"{'speed, or less slope' if slope else 'one'}."
             )
             raise InputError([problem], self.TITLE) from None
 

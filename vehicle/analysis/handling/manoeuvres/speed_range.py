@@ -18,7 +18,7 @@ _MOST = 1000  # speeds
 class SpeedRange(Manoeuvre):
     """Straight running over a range of speeds, and the response to small steering angles."""
 
-    TITLE: ClassVar[str] = "straight running"
+    TITLE: ClassVar[str] = "straight running over a range of speeds"
     TRAVELS: ClassVar[bool] = False
 
     manoeuvre: Literal["speed_range"] = Field(description="name of the manoeuvre")
