@@ -136,6 +136,18 @@ def test_a_deceleration_is_that_of_brakes_and_grade(model) -> None:
         drive(model, "braking", changes | {"deceleration_m_per_s2": 0.9}, grade=0.1)
 
 
+@pytest.mark.parametrize(
+    ("grade", "changes", "words"),
+    [
+        (0.2, {"until_km_per_h": 95.0}, "Choose a lower speed"),
+        (-0.1, {"duration_s": 0.5}, "downhill"),
+    ],
+)
+def test_a_coast_down_without_a_result_is_refused(model, grade, changes, words) -> None:
+    with pytest.raises(InputError, match=words):
+        drive(model, "coast_down", changes, grade=grade)
+
+
 def test_a_model_on_a_slope_is_refused_where_a_car_rests() -> None:
     with pytest.raises(InputError, match="a car does not rest on a slope"):
         drive(CarModel(light_car(), slope=Slope(0.05)), "straight")

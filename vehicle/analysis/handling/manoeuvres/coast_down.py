@@ -36,21 +36,29 @@ class CoastDown(UntilSpeed):
         )  # fmt: skip
         time, speed, x = (motion[name].values for name in ("time", "speed", "x"))
         if speed[-1] > end:
+            reason = (
+                "downhill. Choose less grade, or raise duration_s."
+                if car.weight_along < 0.0
+                else "by little or no resistance. Give the car [air] and tyres with rolling "
+                "resistance, or raise duration_s."
+            )
             problem = (
                 f"until_km_per_h = {self.until_km_per_h:g} km/h: after duration_s = "
-                f"{self.duration_s:g} s the speed is {KM_PER_H * speed[-1]:.1f} km/h. "
-            )
-            problem += (
-                "The car does not slow down on this grade. Choose another one."
-                if speed[-1] >= speed[0]
-                else "Its resistance is small: give it [air] and tyres with rolling resistance, or "
-                "raise duration_s."
+                f"{self.duration_s:g} s the speed is {KM_PER_H * speed[-1]:.1f} km/h, {reason}"
             )
             raise InputError([problem], self.TITLE)
         reached = first_crossing(time, -speed, -end)
+        settled = time > _SETTLED - 1e-6  # rounding of the time
+        if settled.sum() < _FEWEST:
+            problem = (
+                f"until_km_per_h = {self.until_km_per_h:g} km/h: reached after {reached:.2f} s. "
+                f"The resistance follows from {_FEWEST} outputs or more after the first "
+                f"{_SETTLED:g} s. Choose a lower speed."
+            )
+            raise InputError([problem], self.TITLE)
         # F = constant + by_square v^2, with the mass of the wheels: a least-squares fit
         slowing = car.mass * -np.gradient(speed, time)
-        by_square, constant = np.polyfit(speed[_SETTLED:] ** 2, slowing[_SETTLED:], 1)
+        by_square, constant = np.polyfit(speed[settled] ** 2, slowing[settled], 1)
         numbers: dict[str, Number] = {
             "coast_down_time": (reached, "time", "s"),
             "coast_down_distance": (float(np.interp(reached, time, x)) - x[0], "distance", "m"),
@@ -64,5 +72,7 @@ class CoastDown(UntilSpeed):
         return HandlingResult(self.judged(numbers), {"": motion})
 
 
-# Outputs after which the springs have settled.
-_SETTLED = 200
+# Time after which the springs have settled [s].
+_SETTLED = 1.0
+# Least number of outputs after it.
+_FEWEST = 20
