@@ -4,6 +4,9 @@
 everything on which its files depend: the structure from which the mechanism was declared, the
 sources that derive and emit equations, and the machine. A changed structure or source has no
 archive, and is derived. SymPy is not needed: its release was the one that `pyproject.toml` pins.
+
+The folder in the cache has a hash of the archive itself, so that the wheels of several versions or
+systems that share a cache never use the files of each other.
 """
 
 import hashlib
@@ -11,11 +14,13 @@ import json
 import platform
 import sys
 import zipfile
-from importlib.resources import as_file, files
+from importlib.resources import files
 from importlib.util import find_spec
+from io import BytesIO
 from pathlib import Path
 from types import ModuleType
 
+from ...core.errors import InputError
 from .cache import MANIFEST, sources_hash
 from .shipped import from_cache
 
@@ -41,19 +46,26 @@ def packed(name: str, structure: str) -> ModuleType | None:
     Raises
     ------
     InputError
-        If the cache cannot be written, or others can write there.
+        If the archive is damaged; if the cache cannot be written, or others can write there.
     """
-    folder = _folder_name(name, structure)
-    archive = files("kintrafo.generated") / f"{folder}.zip"
+    archive = files("kintrafo.generated") / _archive_name(name, structure)
     # some builds of Python have no LZMA
     if not archive.is_file() or find_spec("_lzma") is None:
         return None
+    content = archive.read_bytes()
+    digest = hashlib.sha256(content).hexdigest()[:16]
+    return from_cache(f"{name}-{digest}", lambda: _unpacked(content, str(archive)))
 
-    def content() -> list[tuple[str, bytes]]:
-        with as_file(archive) as path, zipfile.ZipFile(path) as opened:
+
+def _unpacked(content: bytes, archive: str) -> list[tuple[str, bytes]]:
+    """Return names and contents of the files of an archive."""
+    try:
+        with zipfile.ZipFile(BytesIO(content)) as opened:
             return [(entry, opened.read(entry)) for entry in opened.namelist()]
-
-    return from_cache(folder, content)
+    # zipfile lets errors of the reading of cut or changed bytes through, of many types
+    except Exception as error:
+        problem = f"the archive is damaged ({error}). Install kintrafo again."
+        raise InputError([problem], archive) from error
 
 
 def pack(equations: ModuleType, structure: str, into: Path) -> Path:
@@ -69,7 +81,7 @@ def pack(equations: ModuleType, structure: str, into: Path) -> Path:
         A folder.
     """
     compiled = Path(str(equations.__file__)).parent
-    path = into / f"{_folder_name(equations.NAME, structure)}.zip"
+    path = into / _archive_name(equations.NAME, structure)
     with zipfile.ZipFile(path, "w", zipfile.ZIP_LZMA) as archive:
         for name in sorted(json.loads((compiled / MANIFEST).read_bytes())["files"]):
             entry = zipfile.ZipInfo(name, _NO_DATE)
@@ -78,7 +90,7 @@ def pack(equations: ModuleType, structure: str, into: Path) -> Path:
     return path
 
 
-def _folder_name(name: str, structure: str) -> str:
+def _archive_name(name: str, structure: str) -> str:
     parts = ("packed", name, structure, sources_hash(), platform.machine(), sys.platform)
     key = hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
-    return f"{name}-{key}"
+    return f"{name}-{key}.zip"

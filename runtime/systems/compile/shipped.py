@@ -8,6 +8,7 @@ from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 
+from ...core.errors import InputError
 from .cache import MANIFEST, appearing, cache_folder, damage, foreign, seal
 from .loader import load, refuse_damaged
 
@@ -59,12 +60,16 @@ def from_cache(folder: str, content: Callable[[], Iterable[tuple[str, bytes]]]) 
     Raises
     ------
     InputError
-        If the folder cannot be written or loaded, or others can write there.
+        If the folder cannot be written or loaded, or others can write there; if a file would be in
+        another folder.
     """
     kept = cache_folder() / folder
     if damage(kept) or foreign(kept):
         with appearing(kept) as temporary:
             for name, text in content():
+                if Path(name).name != name:
+                    problem = f"{name!r} is the name of a file in another folder."
+                    raise InputError([problem], folder)
                 (temporary / name).write_bytes(text)
             seal(temporary, kept.name)
         refuse_damaged(kept)

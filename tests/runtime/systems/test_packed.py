@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import sys
+import zipfile
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import kintrafo
@@ -16,7 +19,7 @@ from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.systems.compile.loader import forget
 
 if TYPE_CHECKING:
-    from pathlib import Path
+    from collections.abc import Iterator
     from types import ModuleType
 
 pytestmark = pytest.mark.skipif(find_compiler() is None, reason="no compiler")
@@ -24,22 +27,29 @@ NAME, STRUCTURE = "four_bar", "four bars"
 
 
 @pytest.fixture
-def archive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def archive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """Return the archive of a mechanism, the only one that is found; the cache is empty."""
     path = packed.pack(kintrafo.compile(FOUR_BAR), STRUCTURE, tmp_path)
     monkeypatch.setattr(packed, "files", lambda _: tmp_path)
     monkeypatch.setenv("KINTRAFO_CACHE", str(tmp_path / "cache"))
-    return path
+    yield path
+    own = [k for k, m in sys.modules.items() if str(tmp_path) in str(getattr(m, "__file__", ""))]
+    forget(own)
 
 
 def found(structure: str = STRUCTURE) -> ModuleType | None:
     return packed_mechanism(NAME, structure, lambda: model_of(FOUR_BAR))
 
 
+def folder_of(equations: ModuleType | None) -> Path:
+    assert equations is not None
+    return Path(str(equations.__file__)).parent
+
+
 def test_it_is_what_was_compiled(archive: Path) -> None:
     equations = found()
     assert equations is not None
-    assert equations.__name__.partition(".")[0] == f"kintrafo_{archive.stem.replace('-', '_')}"
+    assert folder_of(equations).parent == archive.parent / "cache"
     states = [[0.2, 1.0], [0.3, -1.0]]
     np.testing.assert_array_equal(equations.rhs(states), generated.rhs(states))
     derived_again(equations)  # for exports, by its declaration
@@ -56,14 +66,46 @@ def test_a_changed_structure_or_source_has_no_archive(
 
 
 def test_a_damaged_file_in_the_cache_is_unpacked_again(archive: Path) -> None:
-    assert found() is not None
-    folder = archive.parent / "cache" / archive.stem
+    equations = found()
+    assert equations is not None
+    folder = archive.parent / "cache" / folder_of(equations).name
     (folder / "four_bar.json").write_text("{}")
-    name = f"kintrafo_{archive.stem.replace('-', '_')}"
-    forget([name, f"{name}._four_bar", f"{name}.four_bar"])
+    package = equations.__name__.partition(".")[0]
+    forget([name for name in sys.modules if name.partition(".")[0] == package])
     again = found()
     assert again is not None
     assert (folder / "four_bar.json").stat().st_size > 1000
+
+
+def test_archives_of_several_versions_share_a_cache(archive: Path) -> None:
+    """Sources that a key does not have, such as options of the compiler, may differ."""
+    first = folder_of(found())
+    rewritten(archive, {"another_version.c": b"int another_version;"})
+    second = folder_of(found())
+    assert not (first / "another_version.c").exists()
+    assert (second / "another_version.c").exists()
+
+
+def test_a_cut_archive_is_refused(archive: Path) -> None:
+    archive.write_bytes(archive.read_bytes()[:2000])
+    with pytest.raises(kintrafo.InputError, match=r"(?s)four_bar-\w+\.zip.* Install kintrafo"):
+        found()
+    assert [path for path in (archive.parent / "cache").iterdir() if path.is_dir()] == []
+
+
+@pytest.mark.parametrize("name", ["../outside.py", "folder/inside.py", "/outside.py", ".."])
+def test_files_of_other_folders_are_refused(archive: Path, name: str) -> None:
+    rewritten(archive, {name: b""})
+    with pytest.raises(kintrafo.InputError, match="another folder"):
+        found()
+    assert list(archive.parent.rglob("*side.py")) == []
+
+
+def rewritten(archive: Path, more: dict[str, bytes]) -> None:
+    """Add files to an archive."""
+    with zipfile.ZipFile(archive, "a", zipfile.ZIP_LZMA) as opened:
+        for name, content in more.items():
+            opened.writestr(name, content)
 
 
 def test_python_without_its_module_for_archives_has_none(
