@@ -9,9 +9,11 @@ from kintrafo import CarModel, InputError, road_profiles, simulate
 from kintrafo.vehicle.analysis.handling import drive
 from kintrafo.vehicle.analysis.handling.driven import driven
 from kintrafo.vehicle.analysis.handling.drivers import Fixed, HeldTorque
+from kintrafo.vehicle.analysis.handling.road_under import RoadUnder
 from kintrafo.vehicle.analysis.handling.subject import driving_car
 from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.models.car.slope import Slope
+from kintrafo.vehicle.models.sides import SIDES
 
 SPEED, WHEELBASE = 20.0, 2.6
 
@@ -89,6 +91,27 @@ def test_a_car_begins_on_the_level_whatever_the_altitude(spacing) -> None:
         assert high(every) == pytest.approx(low(every), abs=1e-11)  # rounding of 812.5 m
     level = road_profiles.Road(spacing, left + 812.5, left + 812.5)
     assert level.lead == 0.0
+
+
+def test_a_car_that_rolls_back_returns_over_its_road() -> None:
+    """Uphill without a drive, and a spin, in which the car goes on backward."""
+    names = [f"front_{side}_road_{kind}" for side in SIDES for kind in ("height", "velocity")]
+    road = road_profiles.sine(0.02, 8.0, end=60.0)
+    wheels = [f"front_{side}" for side in SIDES]
+    track, step = road.over_distance("left"), 0.01
+    times = step * np.arange(400)
+    angle = 2.0 * times  # of the velocity to the heading
+    for velocities, places in (
+        ([(4.0 - 2.0 * t, 0.0) for t in times], 4.0 * times - times**2),
+        ([(4.0 * np.cos(a), 4.0 * np.sin(a)) for a in angle], 4.0 * times),
+    ):
+        under, inputs = RoadUnder(road, wheels, [0.0, 0.0], names), np.zeros(4)
+        heights = []
+        for velocity in velocities:
+            under.advance(inputs, velocity, step)
+            heights.append(inputs[0])
+        # the height of a sample is that expected at the sample before: 0.1 mm at 4 m/s
+        assert np.abs(heights - track(places)).max() < 1e-4
 
 
 def test_a_road_is_refused_where_nothing_is_simulated(model) -> None:

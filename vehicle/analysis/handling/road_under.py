@@ -16,8 +16,8 @@ class RoadUnder:
 
     Both tracks of the road follow the path of the car: a wheel is on the track of its side, at the
     distance that the reference point has travelled, less the distance of the wheel behind the front
-    wheels. Between two samples heights change linearly. The front wheels begin `Road.lead` before
-    the start of the road.
+    wheels. A car that stops and rolls back returns along its path. Between two samples heights
+    change linearly. The front wheels begin `Road.lead` before the start of the road.
 
     Parameters
     ----------
@@ -42,7 +42,8 @@ class RoadUnder:
             back = np.array([behind[i] for i in own])
             self._sides.append((road.over_distance(side), back, heights, rates))
         self._travelled = -road.lead
-        self._speed: float | None = None
+        self._speed: float | None = None  # below zero while the car rolls back
+        self._sense, self._last = 1.0, (0.0, 0.0)  # of its motion, and its last velocity but zero
         self._reached: list[Array] = [
             self._at(spline, back, 0.0) for spline, back, *_ in self._sides
         ]
@@ -60,7 +61,11 @@ class RoadUnder:
         step : float
             Time between two samples [s].
         """
-        speed = math.hypot(*velocity)
+        if self._last[0] * velocity[0] + self._last[1] * velocity[1] < 0.0:
+            self._sense = -self._sense
+        if any(velocity):
+            self._last = velocity
+        speed = self._sense * math.hypot(*velocity)
         if self._speed is not None:
             self._travelled += 0.5 * (self._speed + speed) * step
         self._speed = speed
