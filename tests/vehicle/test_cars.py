@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from kintrafo.vehicle.analysis.characteristics import datasets
 from kintrafo.vehicle.models.car import Car
-from kintrafo.vehicle.models.car.car import center_of_gravity, masses
-from kintrafo.vehicle.models.car.equations import CarModel
+from kintrafo.vehicle.models.car.car import center_of_gravity, masses, suspension_masses
+from kintrafo.vehicle.models.car.equations import CarModel, _parameters, declared
 
 
 @pytest.fixture(scope="module")
@@ -85,6 +85,41 @@ def test_the_gravity_centre_is_that_of_all_masses() -> None:
         + 2 * (12.0 * 300.0 + 22.0 * 300.0)
     )
     assert 1e3 * center_of_gravity(car)[2] == pytest.approx(moments / (1382.4 + 167.0), abs=1e-9)
+
+
+def _of_any_car(name: str) -> dict[str, Any]:
+    """Return the data of an axle without those of the whole vehicle."""
+    data = kintrafo.load(name).to_dict()
+    for part in (data, data.get("side", {})):
+        for key in ("wheelbase_mm", "center_of_gravity_height_mm", "front_brake_share"):
+            part.get("vehicle", {}).pop(key, None)
+    return data
+
+
+@pytest.mark.parametrize(
+    ("front", "rear"),
+    [
+        ("reference_axle", "rear_axle"),
+        ("reference_axle", "twist_beam"),
+        ("steered_rigid_axle", "rigid_axle"),
+    ],
+)
+def test_masses_are_those_of_the_bodies_in_the_equations(front: str, rear: str) -> None:
+    body = Car.load("reference_vehicle").to_dict()["body"]
+    data = {"car": "roll", "wheelbase_mm": 2600.0, "rear_origin_mm": -2600.0, "body": body}
+    axles = {"front": _of_any_car(front), "rear": _of_any_car(rear)}
+    car = Car.from_dict(data | axles)
+    formulation = declared(car)
+    needed = {p.name: {"unit": p.unit} for p in formulation.mechanism.parameters}
+    values = _parameters(car, needed)
+    bodies = [one for one in formulation.mechanism.bodies if formulation.has_mass(one.name)]
+    weights = [values[one.mass.name] for one in bodies]
+    places = [[values[f"{one.com.name}_{axis}"] for axis in "xyz"] for one in bodies]
+    assert sum(mass for mass, _ in masses(car)) == pytest.approx(sum(weights), rel=1e-14)
+    assert sum(suspension_masses(car).values()) == pytest.approx(sum(weights[1:]), rel=1e-14)
+    # rounding, of sums of some 20 products
+    center = np.average(places, axis=0, weights=weights)
+    np.testing.assert_allclose(center_of_gravity(car), center, rtol=0.0, atol=1e-14)
 
 
 def test_a_quarter_car_rests_on_its_spring(quarter: CarModel) -> None:

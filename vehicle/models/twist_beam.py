@@ -237,6 +237,15 @@ and `[bushings.POINT]`, whose points are `pivot`, `shear_center` and `wheel_cent
         own = self._of_bodies("arm")
         return values | {name: value for name, value in own.items() if PIVOT not in name}
 
+    def parameters_of_masses(self) -> list[Mapping[str, float]]:
+        """Return the parameters of each side, with the names of the right one for both.
+
+        The equations have those of the right arm alone; the left arm is its mirror image.
+        """
+        right, left = super().parameters_of_masses()
+        arm = {name: right[name] for name in ("arm_mass", "arm_com_x", "arm_com_y", "arm_com_z")}
+        return [right, arm | {"arm_com_y": -arm["arm_com_y"]} | left]
+
     # -- its checks -----------------------------------------------------------------------------
 
     def _own_problems(self) -> list[str]:
