@@ -35,7 +35,7 @@ cdef extern from "steered_rigid_axle.h" nogil:
         const double *constants, const double *state, const double *inputs,
         double *out)
 
-MECHANISM = "d69c9b3f3a8a911e"
+MECHANISM = "2b0b10e092c02db5"
 ADDRESSES = {
     "prepare": <uintptr_t> &steered_rigid_axle_prepare,
     "design_state": <uintptr_t> &steered_rigid_axle_design_state,

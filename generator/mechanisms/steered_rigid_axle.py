@@ -59,7 +59,7 @@ _LEFT = d.Copy(_SIDE, "left_", mirrored=True, shared=beam.SHARED, own=_OWN)
 
 # -- the steering ---------------------------------------------------------------------------------
 
-_PIVOT = d.Point("pitman_pivot", (0.66, 0.44, 0.66), "bearing of the Pitman arm")
+_PIVOT = d.Point("pitman_pivot", (0.66, 0.64, 0.46), "bearing of the Pitman arm")
 _BALL = d.Point("pitman_ball", (0.66, 0.44, 0.46), "drag link at the Pitman arm")
 _ARM_END = d.Point("drag_link_knuckle", (0.0, 0.50, 0.46), "drag link at the knuckle")
 _ENDS = {
@@ -67,10 +67,11 @@ _ENDS = {
     for side, y in (("left", 0.66), ("right", -0.66))
 }
 _RACK_AXIS = d.Direction("rack_axis", (1.0, 0.0, 0.0), "direction of the ball of the Pitman arm")
-_AXIS = d.Direction("pitman_axis", (0.0, -1.0, 0.0), "axis of the Pitman arm")
+# upright: equations of a hinge with such a default have no singular direction
+_AXIS = d.Direction("pitman_axis", (0.0, 0.0, 1.0), "axis of the Pitman arm")
 
 RACK = d.Body("rack", 0.0, (0.66, 0.44, 0.46))
-PITMAN_ARM = d.Body("pitman_arm", 0.0, (0.66, 0.44, 0.56))
+PITMAN_ARM = d.Body("pitman_arm", 0.0, (0.66, 0.54, 0.46))
 DRAG_LINK = d.Body("drag_link", 0.0, (0.33, 0.47, 0.46))
 TRACK_ROD = d.Body("track_rod", 0.0, (-0.16, 0.0, 0.31))
 

@@ -43,9 +43,8 @@ _WORDS = {
     "anti_lift_braked": "anti-lift under braking",
     "anti_squat": "anti-squat",
 }
-# Left out: they are in the facts of each corner, or in the description of a beam.
-_NOT_OF_CORNERS = ("roll_steer", "roll_stiffness_bar", "wheel_rate_left", "wheel_rate_right")
-_NOT_ON_A_BEAM = ("track", "bar_share")
+# Left out where there are corners: they are in the facts of each.
+_OF_EACH_CORNER = ("roll_steer", "roll_stiffness_bar", "wheel_rate_left", "wheel_rate_right")
 # Farther from design at rest, a rate, a unit or a free length is probably wrong [m].
 _MOST_TRAVEL = 0.5 * USUAL_TRAVEL
 
@@ -210,7 +209,7 @@ class _AxleLook:
         assembly = self._assembly
         found = assembly.values("bump", np.zeros(1))
         known = columns(assembly.measures("bump"), assembly.wheels)
-        left_out = _NOT_ON_A_BEAM if assembly.on_a_beam else _NOT_OF_CORNERS
+        left_out = _OF_EACH_CORNER if assembly.corners else ()
         alike = len(assembly.corners) < len(assembly.wheels)
         for stem, words in _WORDS.items():
             name = stem if stem in found else f"{stem}_left"

@@ -24,7 +24,7 @@ from .units import LengthUnit, point_in_metres
 SMALLEST_DISTANCE = 0.001
 # Least size of a suspension and largest coordinate; beyond them the unit is wrong [m].
 _SMALLEST_SUSPENSION = 0.01
-_LARGEST_COORDINATE = 20.0
+LARGEST_COORDINATE = 20.0
 # Least angle of a hinge axis to the vertical [deg].
 _SMALLEST_HINGE_ANGLE = 1.0
 # Least angle of a link to the first axis of its universal joint [deg].
@@ -127,10 +127,10 @@ class Hardpoints(Section):
     def unit_problems(self) -> list[str]:
         """Return the problem of coordinates with a wrong unit, which precedes all other checks."""
         points = {name: self.metres(name) for name in self.given()}
-        far = [n for n, point in points.items() if greatest(map(abs, point)) > _LARGEST_COORDINATE]
+        far = [n for n, point in points.items() if greatest(map(abs, point)) > LARGEST_COORDINATE]
         remedy = f'Correct the coordinates or `unit = "{self.unit}"`.'
         if far:
-            limit = f"allowed is -{_LARGEST_COORDINATE:g} m to {_LARGEST_COORDINATE:g} m"
+            limit = f"allowed is -{LARGEST_COORDINATE:g} m to {LARGEST_COORDINATE:g} m"
             return [f"{self.text(*far)}: out of range, {limit}. {remedy}"]
         size = greatest(self.distance(*pair) for pair in combinations(points, 2))
         if size < _SMALLEST_SUSPENSION:

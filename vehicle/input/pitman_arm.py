@@ -17,7 +17,7 @@ from ...core.vectors import (
     distance_from_line,
     unit_vector,
 )
-from .hardpoints import SMALLEST_DISTANCE
+from .hardpoints import LARGEST_COORDINATE, SMALLEST_DISTANCE
 from .section import AllowedRange, Number, Section, Triple, without_direction
 from .units import in_metres
 
@@ -118,7 +118,19 @@ class PitmanArmSection(Section):
     # -- checks -----------------------------------------------------------------------------------
 
     def problems(self) -> list[str]:
-        """Return the reasons why an arm cannot turn: an axis without direction, or no length."""
+        """Return the reasons why an arm cannot turn: an axis without direction, or no length.
+
+        Points with a wrong unit precede them.
+        """
+        far = {
+            name.removeprefix("[pitman_arm] "): at
+            for name, at in self.given_points().items()
+            if max(map(abs, at)) > LARGEST_COORDINATE
+        }
+        if far:
+            limit = f"allowed is -{LARGEST_COORDINATE:g} m to {LARGEST_COORDINATE:g} m"
+            listed = " and ".join(f"{name} = {list(getattr(self, name))} mm" for name in far)
+            return [f"{listed}: out of range, {limit}. Correct the coordinates, in mm."]
         axes = {"axis": self.axis} | self._further_axes()
         remedy = "Enter [0.0, 0.0, 1.0] for an arm that turns to the left."
         problems = without_direction(axes, remedy)

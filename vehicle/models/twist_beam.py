@@ -244,7 +244,7 @@ and `[bushings.POINT]`, whose points are `pivot`, `shear_center` and `wheel_cent
         """
         right, left = super().parameters_of_masses()
         arm = {name: right[name] for name in ("arm_mass", "arm_com_x", "arm_com_y", "arm_com_z")}
-        return [right, arm | {"arm_com_y": -arm["arm_com_y"]} | left]
+        return [right, {**arm, "arm_com_y": -arm["arm_com_y"], **left}]
 
     # -- its checks -----------------------------------------------------------------------------
 

@@ -387,10 +387,17 @@ class WholeAxle(WheeledSection):
                 f"points left; less than {-1e3 * _SMALLEST_HALF_TRACK:g} mm is needed. Correct the "
                 "sign of y."
             )
-        left = {name: p for name, p in self.points(LEFT).items() if p[1] <= 0.0}
-        if left and not problems:
+        left = [name for name, p in self.points(LEFT).items() if p[1] <= 0.0]
+        own = [name for name in left if name in self._left_points()]
+        mirrored = [name for name in left if name not in own]
+        if mirrored and not problems:
             problems.append(
-                f"[left_hardpoints] {', '.join(left)}: not on the left side, where y is more than "
+                f"{points.text(*mirrored)}: not on the right side, where y is less than 0. Correct "
+                "the sign of y."
+            )
+        if own and not problems:
+            problems.append(
+                f"[left_hardpoints] {', '.join(own)}: not on the left side, where y is more than "
                 "0. Correct the sign of y."
             )
         for name in ("spring", "damper"):

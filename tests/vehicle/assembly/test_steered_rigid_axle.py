@@ -137,6 +137,23 @@ def test_poses_are_the_root_of_all_distances(left: float, right: float, rack: fl
     np.testing.assert_allclose(heights, [left, right], rtol=0.0, atol=1e-12)
 
 
+@pytest.mark.parametrize("axis", [(0.0, 0.0, 1.0), (0.0, 0.0, -1.0), (0.4, 0.2, 0.5)])
+def test_the_axis_of_the_arm_has_any_direction(axis: tuple[float, ...]) -> None:
+    """An upright one, too: the ball moves on a level circle."""
+    pivot = [-730.0, 600.0, 445.0]
+    axle = AXLE.with_changes({"pitman_arm.axis": [*axis], "pitman_arm.pivot_mm": pivot})
+    model, rack = kintrafo.model_of(axle), 0.04
+    states, inputs = model.states_at(0.03, -0.02, rack), model.inputs_at(rack)
+    parts = assembly_of(axle).PARTS.of(model, states[None], inputs[None])
+    oracle = Poses(axle)
+    x = oracle.found(rack, (0.03, -0.02))
+    # roundings, those at the knuckles by a lever of 0.17 m
+    np.testing.assert_allclose(parts.points["pitman_ball"][0], oracle.pitman(rack), atol=1e-15)
+    for side in SIDES:
+        place = oracle.at(x, side, oracle.points[side]["track_rod"])
+        np.testing.assert_allclose(parts.points[f"track_rod_{side}"][0], place, atol=1e-12)
+
+
 def test_both_knuckles_are_turned_in_closed_form() -> None:
     """The drag link turns the one, then the track rod the other one, for either side."""
     for name in ("steered_rigid_axle", "steered_rigid_axle_right"):
@@ -364,6 +381,11 @@ def test_it_rests_at_its_design() -> None:
         ({"pitman_arm.ball_mm": [-10.0, 530.0, 300.0]}, "from the vertical"),
         ({"pitman_arm.ball_mm": [-730.0, 400.0, 645.0]}, "from the axis of the Pitman arm"),
         ({"pitman_arm.axis": [0.0, 0.0, 0.0]}, "no direction"),
+        ({"pitman_arm.pivot_mm": [-930.0, 470.0, 445.0]}, "at its dead centre"),
+        ({"pitman_arm.ball_mm": [-1e9, 470.0, 445.0]}, r"ball_mm = .* out of range"),
+        ({"drag_link.knuckle": [-1e6, 530.0, 445.0]}, "knuckle is farther than 20 m"),
+        ({"hardpoints.track_rod": [-170.0, 697.0, 300.0]}, r"\[hardpoints\] track_rod = .* right"),
+        ({"brakes.torque_on": "body"}, "half shafts"),
         ({"drive": {"share": 1.0}}, "not driven"),
         ({"rods.track_rod": {"chassis": [1, 2, 3], "axle": [4, 5, 6]}}, "name of another part"),
         ({"steered_rigid_axle": "rear"}, "front"),

@@ -13,6 +13,8 @@ from ....core.vectors import components, unit_vector
 from ...corner.bushes import Bush, Bushings, bushes_of
 from ...corner.coil_sprung import ApartDamper
 from ...corner.structure import Structure
+from ...input.bodies import RigidBody
+from ...input.hardpoints import LARGEST_COORDINATE
 from ...input.spring import SpringSection
 from ...input.stop import StopSection
 from ...input.units import point_in_metres
@@ -29,8 +31,6 @@ from .structure import CENTER, of_a_file, structure_of
 _SMALLEST_ANGLE = 1.0
 # Rounding of a flexibility, relative to the greatest one of a bush.
 _ROUNDING = 1e-12
-# Largest coordinate of a rod [m].
-_LARGEST = 20.0
 # Names of parts and sources of loads besides the rods; there are two of most of them.
 _PARTS = (
     "chassis", "beam", "wheel", "spring", "damper", "bar", "road", "drive", "gravity", "inertia",
@@ -186,10 +186,10 @@ class BeamAxle(WholeAxle):
         for name, (chassis, axle) in ends.items():
             length = float(np.linalg.norm(axle - chassis))
             across = float(np.hypot(*(axle - chassis)[:2]))
-            if max(np.abs(chassis).max(), np.abs(axle).max()) > _LARGEST:
+            if max(np.abs(chassis).max(), np.abs(axle).max()) > LARGEST_COORDINATE:
                 problems.append(
-                    f"[rods.{name}] is farther than {_LARGEST:g} m from the origin. Correct its "
-                    f'points, or `unit = "{self.hardpoints.unit}"` in [hardpoints].'
+                    f"[rods.{name}] is farther than {LARGEST_COORDINATE:g} m from the origin. "
+                    f'Correct its points, or `unit = "{self.hardpoints.unit}"` in [hardpoints].'
                 )
             elif length < SHORTEST:
                 problems.append(
@@ -225,6 +225,18 @@ class BeamAxle(WholeAxle):
                 "radial_N_per_mm where its axis is across the rod."
             )
 
+    def _further_points(self) -> dict[str, Array]:
+        """Return points besides those of hardpoints and rods [m], by their text in the file."""
+        return {}
+
+    def _carriers(self) -> dict[str, RigidBody]:
+        """Return the bodies besides the wheels, by name."""
+        return {"beam": self.bodies.beam}
+
+    def _unsprung_mass(self) -> float:
+        """Return the mass of these bodies at a wheel [kg]."""
+        return 0.5 * self.bodies.beam.mass_kg
+
     def _unlikely(self) -> Iterable[str]:
         """Yield almost certain mistakes: units, and rods with swapped ends."""
         ends_of_rods = {
@@ -232,9 +244,11 @@ class BeamAxle(WholeAxle):
             for name, ends in self.ends().items()
             for end, at in zip(RodSection.model_fields, ends, strict=True)
         }
-        beam = self.bodies.beam
         yield from self._unlikely_of(
-            ends_of_rods, {"beam": beam}, self.half_track, 0.5 * beam.mass_kg
+            ends_of_rods | self._further_points(),
+            self._carriers(),
+            self.half_track,
+            self._unsprung_mass(),
         )
         for name, ends in self.ends().items():
             inner, outer = (float(np.hypot(*(end - self.center)[[0, 2]])) for end in ends)

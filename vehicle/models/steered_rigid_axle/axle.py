@@ -12,7 +12,8 @@ from ....core.validator import Validator
 from ....core.vectors import angle_between_lines, components, cross, unit_vector
 from ...corner.bushes import Bush, bushes_of
 from ...corner.structure import Structure
-from ...input.hardpoints import SMALLEST_DISTANCE
+from ...input.bodies import RigidBody
+from ...input.hardpoints import LARGEST_COORDINATE, SMALLEST_DISTANCE
 from ...input.pitman_arm import PitmanArmSection
 from ...input.units import point_in_metres
 from ..rigid_axle.axle import BeamAxle
@@ -39,6 +40,10 @@ _TURNED = ("xy", "yz")
 _DRIVEN = (
     "[drive]: a steered axle is not driven here, since the joints in its half shafts would turn "
     "the knuckles. Leave it out."
+)
+_BRAKED = (
+    '[brakes] torque_on = "body": brakes on the chassis need half shafts, whose joints would turn '
+    'the knuckles. Enter "carrier".'
 )
 _KNUCKLES, _DRAG_LINK, _TRACK_ROD = "#4a525a", "#8c564b", "#17becf"
 
@@ -221,10 +226,30 @@ ends of the drag link, `pitman_ball` and `drag_link_knuckle`.
         """Return problems of rods, and of links without length or without lever at a kingpin."""
         if self.drive is not None:
             return [_DRIVEN]
+        if self.brakes.torque_on == "body":
+            return [_BRAKED]
         problems = super()._own_problems()
+        if np.abs(self.steering_points()[KNUCKLE_END]).max() > LARGEST_COORDINATE:
+            problems.append(
+                f"[drag_link] knuckle is farther than {LARGEST_COORDINATE:g} m from the origin. "
+                f'Correct it, or `unit = "{self.hardpoints.unit}"` in [hardpoints].'
+            )
+            return problems
         for name, ends in self.links().items():
             problems += self._problems_of_link(name, *ends)
-        return problems
+        return problems or [*self._problems_of_pitman_arm()]
+
+    def _problems_of_pitman_arm(self) -> Iterator[str]:
+        ball, end = self.links()["drag_link"]
+        lever = self.pitman_arm.length() * abs(
+            float(self.pitman_arm.direction() @ unit_vector(end - ball))
+        )
+        if lever < SMALLEST_DISTANCE:
+            yield (
+                f"[drag_link] pulls at the Pitman arm with a lever of {1e3 * lever:.3f} mm; at "
+                f"least {1e3 * SMALLEST_DISTANCE:g} mm are needed, or the steering is at its dead "
+                "centre. Move [pitman_arm] ball_mm, so that arm and link are not in line."
+            )
 
     def _problems_of_link(self, name: str, first: Array, last: Array) -> Iterator[str]:
         section = "[drag_link]" if name == "drag_link" else "[hardpoints] track_rod: the track rod"
@@ -257,6 +282,19 @@ ends of the drag link, `pitman_ball` and `drag_link_knuckle`.
         """Return the lever of a force along a line about the kingpin of a side [m]."""
         low, high = self._kingpin(side)
         return abs(float(cross(unit_vector(high - low), at - low) @ unit_vector(along)))
+
+    def _further_points(self) -> dict[str, Array]:
+        """Return the points of Pitman arm and drag link [m], by their text in the file."""
+        end = self.steering_points()[KNUCKLE_END]
+        return {**self.pitman_arm.given_points(), "[drag_link] knuckle": end}
+
+    def _carriers(self) -> dict[str, RigidBody]:
+        """Return the bodies besides the wheels, by name."""
+        return super()._carriers() | {"knuckle": self.bodies.knuckle}
+
+    def _unsprung_mass(self) -> float:
+        """Return the mass of these bodies at a wheel [kg]."""
+        return super()._unsprung_mass() + self.bodies.knuckle.mass_kg
 
     def _unlikely(self) -> Iterable[str]:
         """Yield almost certain mistakes: units, swapped ends, and a drag link at the other side."""

@@ -72,7 +72,7 @@ def axle_chapter(axle: Any, goals: Sequence[Goal] = ()) -> Chapter:
     wanted = {goal.over for goal in goals}
     drawn = [*(m for m in _DRAWN if m in assembly.motions), *["right"] * ("right" in wanted)]
     curves = {m: dataset(assembly, m, positions_of(assembly, m, goals)) for m in drawn}
-    words, looks, drawings = _of_a_beam(assembly) if assembly.on_a_beam else ((), (), ())
+    words, looks, drawings = _of_a_whole_axle(assembly) if _is_whole(assembly) else ((), (), ())
     players = _players(assembly)
     words += (_PLAYED,) * len(players)
     usual = assembly.usual_motion
@@ -92,10 +92,15 @@ def axle_chapter(axle: Any, goals: Sequence[Goal] = ()) -> Chapter:
     )
 
 
-def _of_a_beam(
+def _is_whole(assembly: Assembly) -> bool:
+    """Return whether it is an axle without sides, and so without an interactive view of one."""
+    return not (assembly.corners or assembly.axles)
+
+
+def _of_a_whole_axle(
     assembly: Assembly,
 ) -> tuple[tuple[str, ...], tuple[Tabulated, ...], tuple[ChapterPicture, ...]]:
-    """Return words, tables and drawings of a rigid axle, without its motions."""
+    """Return words, tables and drawings of an axle without an interactive view."""
     found = checkup(assembly)
     assert found.axle is not None
     words = [f"Problem: {text}" for text in found.problems]
@@ -113,14 +118,13 @@ _PLAYED = "The player shows the motions of the rig, one after the other, over th
 
 def _players(assembly: Assembly) -> tuple[Markup, ...]:
     """Return the player of an axle without sides; the page of sides shows one of them."""
-    if assembly.corners or assembly.axles or not assembly.moves_rigidly:
-        return ()
-    return (on_a_rig(assembly),)
+    plays = _is_whole(assembly) and assembly.moves_rigidly
+    return (on_a_rig(assembly),) if plays else ()
 
 
 def _not_on_the_page(assembly: Assembly, whole: xr.Dataset) -> xr.Dataset:
     """Return characteristics without those of a wheel if its page has them: of equal sides."""
-    if assembly.on_a_beam or assembly.axles or not assembly.symmetric:
+    if _is_whole(assembly) or assembly.axles or not assembly.symmetric:
         return whole
     own = [n for n, data in whole.items() if WHEEL in data.dims and n in KNOWN["travel"]]
     return whole.drop_vars([name for name in own if not str(name).startswith("anti_")])
