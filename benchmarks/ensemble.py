@@ -181,9 +181,9 @@ def bound(found: Sequence[Call], times: int) -> str:
         f"In {widest.lanes} lanes a right-hand side consists of {counted.products} products of "
         f"vectors, {counted.sums} sums and differences, {counted.quotients} quotients and "
         f"{counted.roots} roots. The same number of independent operations takes {least:.1f} ns a "
-        "car on this processor: the arithmetic alone would allow "
-        f"{found[0].nanoseconds / least:.1f} times the rate of one by one, of which "
-        f"{100.0 * least / widest.nanoseconds:.0f} % is reached."
+        "car on this processor. The arithmetic alone would be "
+        f"{found[0].nanoseconds / least:.1f} times as fast as one by one; "
+        f"{100.0 * least / widest.nanoseconds:.0f} % of this speed is reached."
     )
 
 

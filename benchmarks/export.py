@@ -181,7 +181,7 @@ def run(
     ]  # fmt: skip
     header = (
         "FMI", "kB", "`kintrafo export` [s]", "`export_model` [s]",
-        "arithmetic of a step [µs]", "`DoStep` [µs]", "above it [µs]", "by FMPy [µs]",
+        "arithmetic of a step [µs]", "`DoStep` [µs]", "difference [µs]", "by FMPy [µs]",
     )  # fmt: skip
     blocks = {
         "export": markdown_table(header, rows),

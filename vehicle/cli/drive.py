@@ -59,7 +59,7 @@ def command(
     ] = None,
     road: RoadOptions,
     grade: Annotated[
-        float, option("Slope of the road along the car, positive uphill; straight ahead.", "%")
+        float, option("Slope of the road along a car that runs straight, positive uphill.", "%")
     ] = 0.0,
     crossfall: Annotated[
         float,
@@ -74,8 +74,9 @@ def command(
     The car is one whose body moves freely, car = "full" in its file. A manoeuvre is a file that
     can be edited; kintrafo new FILE --template NAME writes one that comes with kintrafo. Metrics
     are those of the standards, in the axes of ISO 8855. Data files have the curves over time,
-    lateral acceleration or frequency; figures show them, and the path in a file whose name ends in
-    _path. --road, --bump-height and --kerb are roads whose tracks follow the path of the car.
+    lateral acceleration or frequency; figures show them. Unless the car runs straight, a figure
+    whose name ends in _path shows its path. --road, --bump-height and --kerb are roads whose tracks
+    follow the path of the car.
     --animate shows the car in motion, with the forces on its tyres; --loads has the forces of all
     joints, springs and tyres, whose greatest ones are printed.
     """
@@ -162,14 +163,13 @@ def _write(
         written += outputs.write_data(curves, suffix)
     if not outputs.pages:
         return written
-    from ..plots.handling import write_curves, write_path
+    from ..plots.handling import runs_straight, write_curves, write_path
 
     for suffix in _drawn(chosen):
         curves = found.curves[suffix]
         written += outputs.draw(write_curves, curves, title=title, suffix=suffix)
-    if chosen.TRAVELS:
-        cones = found.curves.get("_cones")
-        motion = found.curves[""]
+    motion, cones = found.curves[""], found.curves.get("_cones")
+    if chosen.TRAVELS and not (cones is None and runs_straight(motion)):
         drawn = {"cones": cones, "wanted": chosen.wanted_path()}
         written += outputs.draw(write_path, motion, **drawn, title=title, suffix="_path")
     return written

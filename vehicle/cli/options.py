@@ -100,8 +100,8 @@ Which = Annotated[
 ]
 Held = Literal["height", "tyre", "spring", "locked"]
 SUPPORT = (
-    "Support of the wheel: height, of the contact, is constant; tyre: the tyre deflects; spring: "
-    "the vertical force is constant; locked: the length of the spring is constant."
+    "Support of the wheel. height: the contact stays at its height; tyre: the tyre deflects; "
+    "spring: the vertical force is constant; locked: the length of the spring is constant."
 )
 Bushes = Annotated[
     Path | None,

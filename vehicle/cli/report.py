@@ -59,10 +59,10 @@ def command(
     FILE may be the Python file of a mechanism of your own.
 
     The 3D view shows one side of an axle; a chapter has the characteristics of both sides on a rig.
-    A rigid axle has drawings, tables and curves. A car is shown at rest, in motion over a bump and,
-    if it drives, in a step steer, with curves of the same time; each axle has a chapter. Targets
-    and limits of --goals have a chapter. Compliance is included if FILE has bushes, or with
-    --bushes.
+    A rigid axle or a twist beam is shown in its motions on a rig. A car is shown at rest, in motion
+    over a bump and, if it drives, in a step steer, with curves of the same time; each axle has a
+    chapter. Targets and limits of --goals have a chapter. Compliance is included if FILE has
+    bushes, or with --bushes.
     """
     from ...core.files import refuse
     from ..report import ENDINGS, write, write_chapters

@@ -78,7 +78,7 @@ class DoubleWishboneHardpoints(Hardpoints):
     lower_ball_joint: Triple = Field(description="ball joint of lower arm and knuckle")
     upper_ball_joint: Triple = Field(description="ball joint of upper arm and knuckle")
     tie_rod_outer: Triple = Field(description="ball joint of tie rod and knuckle")
-    tie_rod_inner: Triple = Field(description="joint of tie rod and rack")
+    tie_rod_inner: Triple = Field(description="joint of tie rod and rack or relay rod")
     spring_top: Triple = Field(description="upper end of spring and damper, on the chassis")
     spring_seat: Triple = Field(description="lower end of spring and damper, on the lower arm")
     wheel_center: Triple = Field(description="centre of the wheel")

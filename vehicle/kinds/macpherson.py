@@ -95,7 +95,7 @@ class MacPhersonHardpoints(Hardpoints):
     ball_joint: Triple = Field(description="ball joint of control arm and knuckle")
     strut_top: Triple = Field(description="upper mount of the strut")
     tie_rod_outer: Triple = Field(description="ball joint of tie rod and knuckle")
-    tie_rod_inner: Triple = Field(description="joint of tie rod and rack")
+    tie_rod_inner: Triple = Field(description="joint of tie rod and rack or relay rod")
     wheel_center: Triple = Field(description="centre of the wheel")
     strut_lower: Triple | None = Field(
         default=None,

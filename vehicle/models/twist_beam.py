@@ -125,7 +125,8 @@ class TwistBeamAxle(WholeAxle):
 A file of its own, of two arms and the beam between them; `kintrafo new FILE --suspension
 twist_beam` writes one. See [Twist-beam axles](../suspension/twist-beam.md). The other sections are
 those of every suspension: `[tyre]`, `[gravity]`, the stops, and `[wheel]`, which may be left out;
-and `[bushings.POINT]`, whose points are `pivot`, `shear_center` and `wheel_center`, of both sides.
+and `[bushings.POINT]`, whose points are `pivot` and `wheel_center`, on both sides, and
+`shear_center`.
 """
 
     twist_beam: End = Field(description='where the axle is: "front" or "rear"')

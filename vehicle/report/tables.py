@@ -139,7 +139,9 @@ def _has_tables(value: Any) -> bool:
 
 
 def _text(value: Any) -> str:
-    """Return a value as text; numbers in full, points with commas."""
+    """Return a value as text; numbers in full, points with commas, truth as in TOML."""
+    if isinstance(value, bool):
+        return str(value).lower()
     if isinstance(value, tuple | list):
         return ", ".join(_text(item) for item in value)
     if isinstance(value, Mapping):

@@ -63,6 +63,15 @@ def test_curves_and_path_with_cones_are_written(tmp_path):
     assert all(path.stat().st_size for path in written)
 
 
+def test_a_straight_path_has_no_picture(tmp_path):
+    car = motion()
+    car["y"] = 0.05 * car["y"] / np.abs(car["y"]).max()
+    chosen = load_manoeuvre("acceleration")
+    outputs = SingleFigureOptions(plot=[tmp_path / "a.png"]).files("car.toml", suffixes=("",))
+    written = drive._write(outputs, HandlingResult(Dataset(), {"": car}), chosen, "a car")
+    assert [path.name for path in written] == ["a.png"]
+
+
 def test_many_runs_have_a_row_each():
     runs = variable("amplitude", np.deg2rad(np.arange(20.0)), "amplitude", "rad")
     ratio = quantity("amplitude", np.arange(20.0), "ratio", "1")

@@ -395,6 +395,20 @@ def test_on_paper_of_any_width_charts_cover_no_words(watch, width):
     assert drawn["y"] + drawn["height"] <= room["y"] + room["height"]
 
 
+def test_on_paper_tables_are_open_and_keys_whole(watched):
+    page = watched.page
+    closed = page.locator("details:not([open])")
+    before = closed.count()
+    page.evaluate("window.dispatchEvent(new Event('beforeprint'))")
+    page.emulate_media(media="print")
+    shown = "all => all.filter((e) => !e.closest('figure') && e.checkVisibility()).length"
+    assert closed.evaluate_all(shown) == 0
+    key = page.locator("th code", has_text="center_of_gravity_height_mm")
+    assert key.evaluate("code => code.getClientRects().length") == 1
+    page.evaluate("window.dispatchEvent(new Event('afterprint'))")
+    assert closed.count() == before
+
+
 def test_design_position_is_before_anything_has_moved(watched):
     watched.page.evaluate("kintrafo.set({ time: 0.4 })")
     watched.page.locator("#design").click()

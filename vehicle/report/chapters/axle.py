@@ -113,7 +113,10 @@ def _of_a_whole_axle(
     return tuple(words), (look,), (drawing,)
 
 
-_PLAYED = "The player shows the motions of the rig, one after the other, over their usual ranges."
+_PLAYED = (
+    "The motions of the rig follow one another, each over its usual range: the picture and the "
+    "curves over time show them."
+)
 
 
 def _players(assembly: Assembly) -> tuple[Markup, ...]:

@@ -8,9 +8,13 @@ const PICTURE = { width: 1500, height: 1000 }; // sharp on paper, half a page hi
 
 export function connectPrinting({ data, view, charts, position }) {
   const root = document.documentElement;
-  const closed = [...document.querySelectorAll("details.more:not([open])")];
+  let closed = []; // those that printing has opened
   window.addEventListener("beforeprint", () => {
     root.classList.add("printing"); // light colours, which all that is drawn asks for
+    // all but the definitions below the charts
+    closed = [...document.querySelectorAll("details:not([open])")].filter(
+      (details) => !details.closest("figure"),
+    );
     for (const details of closed) details.open = true;
     showPicture(view, position, data.steering);
     for (const chart of charts) chart.print();
