@@ -160,10 +160,12 @@ def alive_in(function: Function | Stage, part: OwnSteps, steps: Iterable[Assignm
 
 def symbols_in(operation: Operation) -> Iterator[str]:
     """Yield the names of the symbols in an operation."""
-    if operation.kind == "symbol":
-        yield operation.of.name
-    for operand in operation.operands:
-        yield from symbols_in(operand)
+    waiting = [operation]
+    while waiting:
+        part = waiting.pop()
+        waiting += part.operands
+        if part.kind == "symbol":
+            yield part.of.name
 
 
 def _short_formula(kind: str, parts: Sequence[Operation], of: Any) -> str:

@@ -11,7 +11,7 @@ import sympy as sp
 from .function import Function, IterationBlock
 from .functions import SignOf
 from .steps import Step, ancestors, first_free
-from .symbols import symbols_of
+from .symbols import symbols_of, with_symbols
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -60,9 +60,7 @@ class ConstantStage:
 
     def insert_derived(self, expression: sp.Expr) -> sp.Expr:
         """Write an expression without derived symbols."""
-        if self.derived.keys().isdisjoint(symbols_of(expression)):
-            return expression
-        return expression.xreplace(self.derived)
+        return with_symbols(expression, self.derived)
 
     def has(self, name: str) -> bool:
         """Return whether a name is that of a constant, a parameter, a state or an input.
@@ -104,7 +102,7 @@ class ConstantStage:
 
     def collect(self, expression: sp.Expr) -> sp.Expr:
         """Return a name for a constant part of an equation."""
-        if expression.is_Atom or (-expression).is_Symbol:
+        if expression.is_Atom or (expression.is_Mul and (-expression).is_Symbol):
             return expression
         if expression.could_extract_minus_sign():
             return -self.collect(-expression)

@@ -6,8 +6,9 @@ from operator import attrgetter
 from typing import TYPE_CHECKING
 
 import sympy as sp
-from sympy.core.cache import cacheit
 
+from ..memory import remembered
+from .composing import composed
 from .symbols import symbols_of
 from .vectors import product
 
@@ -28,7 +29,7 @@ def chain_rule(
         The derivative of each symbol that varies.
     """
     found = partials(expression, tangent, symbol)
-    return sp.Add(*(product(partial, tangent[s]) for s, partial in found))
+    return composed(sp.Add, (product(partial, tangent[s]) for s, partial in found))
 
 
 def partials(
@@ -64,7 +65,7 @@ def _partials(
             yield s, _derivative(terms, s)
 
 
-@cacheit  # type: ignore[untyped-decorator]  # SymPy has no types
+@remembered
 def _terms_by_symbol(expression: sp.Expr) -> list[tuple[sp.Symbol, tuple[sp.Expr, ...]]]:
     """Return the symbols of an expression by name, each with the terms that have it.
 
@@ -78,10 +79,10 @@ def _terms_by_symbol(expression: sp.Expr) -> list[tuple[sp.Symbol, tuple[sp.Expr
     return [(s, tuple(having[s])) for s in sorted(having, key=attrgetter("name"))]
 
 
-@cacheit  # type: ignore[untyped-decorator]  # SymPy has no types
+@remembered
 def _derivative(terms: tuple[sp.Expr, ...], s: sp.Symbol) -> sp.Expr:
     """Return the derivative of a sum, which is the same for all directions of a program."""
-    return sp.Add(*(_partial(term, s) for term in terms))
+    return composed(sp.Add, (_partial(term, s) for term in terms))
 
 
 def _partial(expression: sp.Expr, s: sp.Symbol) -> sp.Expr:
@@ -102,7 +103,7 @@ def _partial(expression: sp.Expr, s: sp.Symbol) -> sp.Expr:
     if expression.is_Mul:
         return sp.Add(
             *(
-                sp.Mul(*arguments[:place], _partial(a, s), *arguments[place + 1 :])
+                composed(sp.Mul, (*arguments[:place], _partial(a, s), *arguments[place + 1 :]))
                 for place, a in having
             )
         )

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
+from .composing import composed
 from .dependencies import Dependencies
 from .derivatives import chain_rule
 from .floors import SMALLEST
@@ -25,7 +26,7 @@ from .functions import Component, Frozen, Guarded, Iterated
 from .narrow import function_of
 from .spelling import SpellingError, spelled
 from .steps import Guard, Step, ancestors, first_free
-from .symbols import symbols_of
+from .symbols import symbols_of, with_symbols
 from .together import share_together
 from .vectors import Vector
 
@@ -51,6 +52,8 @@ class Program:
     guards: dict[sp.Symbol, Guard] = field(default_factory=dict)
     _section: str = ""
     _known: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
+    # symbols of each of these
+    _read: set[frozenset[sp.Symbol]] = field(default_factory=set)
     _varying: set[sp.Expr] = field(default_factory=set)  # without parts to hoist
     _spells: bool = False
     # outputs of narrow parts with their inputs, and the derivatives with respect to these
@@ -86,14 +89,15 @@ class Program:
             return self.constants.define(name, expression, self._section)
         if expression in self._known:
             return self._known[expression]
-        if (opposite := -expression) in self._known:
+        reads = symbols_of(expression)
+        if reads in self._read and (opposite := -expression) in self._known:
             return -self._known[opposite]
         symbol = first_free(name, self._has)
         self.constants.note(symbol.name)
         self.steps[symbol] = Step(symbol, expression, self._section)
-        read = () if isinstance(expression, Frozen) else symbols_of(expression)
-        self._dependencies.add(symbol, read)
+        self._dependencies.add(symbol, () if isinstance(expression, Frozen) else reads)
         self._known[expression] = symbol
+        self._read.add(reads)
         return symbol
 
     @contextmanager
@@ -298,7 +302,7 @@ class Program:
                 guard = self.guards[step.symbol]
                 new = self.guarded(
                     f"{step.symbol}__{label}",
-                    step.expression.xreplace(replaced),
+                    with_symbols(step.expression, replaced),
                     guard.meaning,
                     guard.unit,
                     guard.floor,
@@ -306,10 +310,11 @@ class Program:
                 original = guard.original or step.symbol
                 self.guards[new] = replace(self.guards[new], original=original)
             else:
-                new = self.define(f"{step.symbol}__{label}", step.expression.xreplace(replaced))
+                same = with_symbols(step.expression, replaced)
+                new = self.define(f"{step.symbol}__{label}", same)
             if new != step.symbol:
                 replaced[step.symbol] = new
-        return [target.xreplace(replaced) for target in targets]
+        return [with_symbols(target, replaced) for target in targets]
 
     # -- pruning --------------------------------------------------------------------------------
 
@@ -385,4 +390,4 @@ class Program:
                 group = self.constants.collect(expression.func(*constant))
                 return expression.func(group, *rest)
         unchanged = all(new is old for new, old in zip(arguments, expression.args, strict=True))
-        return expression if unchanged else expression.func(*arguments)
+        return expression if unchanged else composed(expression.func, arguments)

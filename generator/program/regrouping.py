@@ -8,6 +8,8 @@ import sympy as sp
 from sympy.core.numbers import NumberSymbol
 from sympy.simplify.cse_main import Unevaluated, match_common_args
 
+from .composing import composed
+
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
@@ -41,7 +43,7 @@ def regrouped(expressions: Iterable[sp.Expr]) -> dict[sp.Expr, Unevaluated]:
                 seen.add(opposite)
                 expression = opposite
         if expression.is_Mul:
-            products[expression.func(*expression.args)] = None
+            products[composed(sp.Mul, expression.args)] = None
         elif expression.is_Add:
             sums[expression] = None
         elif expression.is_Pow and expression.exp.could_extract_minus_sign():
@@ -56,7 +58,7 @@ def regrouped(expressions: Iterable[sp.Expr]) -> dict[sp.Expr, Unevaluated]:
 
 
 def _opposite(expression: sp.Expr) -> sp.Expr:
-    return sp.Add(*(-term for term in expression.args)) if expression.is_Add else -expression
+    return composed(sp.Add, (-t for t in expression.args)) if expression.is_Add else -expression
 
 
 def _is_better_negative(expression: sp.Expr) -> bool:

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
+from .composing import composed
 from .regrouping import regrouped
 from .steps import Step
-from .symbols import symbols_of
+from .symbols import symbols_of, with_symbols
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -56,8 +57,8 @@ def share(
     results = list(reduced[len(steps) :])
     for result in results:
         place(result, "results")
-    renamed = [Step(s.symbol, s.expression.xreplace(owner), s.section) for s in shared]
-    return renamed, [r.xreplace(owner) for r in results]
+    renamed = [Step(s.symbol, with_symbols(s.expression, owner), s.section) for s in shared]
+    return renamed, [with_symbols(r, owner) for r in results]
 
 
 class _Common:
@@ -93,7 +94,7 @@ class _Common:
         if not self._parts(expression) or (settled and not self._is_changed(expression)):
             return expression
         grouped = self._regrouped.get(expression, expression)
-        result = grouped.func(*map(self.named, self._in_order(grouped)))
+        result = composed(grouped.func, map(self.named, self._in_order(grouped)))
         if expression not in self._repeated:
             return result
         name = self._named[expression] = next(self._names)

@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
+from .composing import composed
 from .steps import Step, first_free
-from .symbols import symbols_of
+from .symbols import symbols_of, with_symbols
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Container, Iterable, Mapping
@@ -45,9 +46,9 @@ def take_out_signs(
     values = [_absorbed(result, signs.opposite) for result in results]
     called = signs.called
     return [
-        Step(called.get(s.symbol, s.symbol), s.expression.xreplace(called), s.section)
+        Step(called.get(s.symbol, s.symbol), with_symbols(s.expression, called), s.section)
         for s in written
-    ], [value.xreplace(called) for value in values]
+    ], [with_symbols(value, called) for value in values]
 
 
 class _Signs:
@@ -101,9 +102,10 @@ def _absorbed(expression: sp.Expr, opposite: Mapping[sp.Symbol, sp.Expr]) -> sp.
         for a in expression.args
     ]
     if not (expression.is_Mul or _is_whole_power(expression)):
-        return expression.func(*arguments)
+        return composed(expression.func, arguments)
     signs = [a.is_Add and _is_negative(a) for a in arguments]
-    result = expression.func(*(-a if sign else a for a, sign in zip(arguments, signs, strict=True)))
+    turned = (-a if sign else a for a, sign in zip(arguments, signs, strict=True))
+    result = composed(expression.func, turned)
     odd = sum(signs) % 2 if expression.is_Mul else signs[0] and expression.exp % 2
     return sp.Mul(-1, result) if odd else result
 

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from sympy.core.cache import cacheit
-
+from ..memory import remembered
 from .functions import Guarded
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     import sympy as sp
 
 
-@cacheit  # type: ignore[untyped-decorator]  # SymPy has no types
+@remembered
 def symbols_of(expression: sp.Expr) -> frozenset[sp.Symbol]:
     """Return the symbols of an expression; those of each of its parts are collected once.
 
@@ -24,7 +25,14 @@ def symbols_of(expression: sp.Expr) -> frozenset[sp.Symbol]:
     return frozenset().union(*map(symbols_of, expression.args))
 
 
-@cacheit  # type: ignore[untyped-decorator]  # SymPy has no types
+def with_symbols(expression: sp.Expr, others: Mapping[sp.Symbol, sp.Expr]) -> sp.Expr:
+    """Return an expression with other expressions for some of its symbols."""
+    if others.keys().isdisjoint(symbols_of(expression)):
+        return expression  # without the traversal of `xreplace`
+    return expression.xreplace(others)
+
+
+@remembered
 def guarded_in(expression: sp.Expr) -> frozenset[sp.Expr]:
     """Return the quantities that are guarded in an expression, collected like its symbols."""
     own = (expression.args[0],) if isinstance(expression, Guarded) else ()

@@ -15,7 +15,7 @@ import sympy as sp
 from .sharing import drop_dead, share
 from .signs import LOCAL, take_out_signs
 from .steps import Step, first_free
-from .symbols import symbols_of
+from .symbols import symbols_of, with_symbols
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -77,7 +77,7 @@ class _Joined:
         """Add the steps of a function; return it with the names that its steps have here."""
         names: dict[sp.Symbol, sp.Symbol] = {}
         for step in function.steps:
-            expression = step.expression.xreplace(names)
+            expression = with_symbols(step.expression, names)
             symbol = self._named(step.symbol, expression, ending)
             if symbol != step.symbol:
                 names[step.symbol] = symbol
@@ -89,7 +89,7 @@ class _Joined:
             replace(guard, quantity=names.get(guard.quantity, guard.quantity))
             for guard in function.guards
         )
-        results = tuple(result.xreplace(names) for result in function.results)
+        results = tuple(with_symbols(result, names) for result in function.results)
         return replace(function, results=results, guards=guards)
 
     def _named(self, symbol: sp.Symbol, expression: sp.Expr, ending: str) -> sp.Symbol:

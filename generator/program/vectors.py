@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
+from .composing import composed
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -26,7 +28,9 @@ def product(a: Any, b: Any) -> Any:
     a, b
         Expressions or numbers.
     """
-    return sp.S.Zero if a is sp.S.Zero or b is sp.S.Zero else a * b
+    if a is sp.S.Zero or b is sp.S.Zero:
+        return sp.S.Zero
+    return composed(sp.Mul, (sp.sympify(a), sp.sympify(b)))
 
 
 @dataclass(frozen=True)
