@@ -59,7 +59,8 @@ def command(
     ] = None,
     road: RoadOptions,
     grade: Annotated[
-        float, option("Slope of the road along a car that runs straight, positive uphill.", "%")
+        float,
+        option("Slope of the road along the path of the car, positive uphill.", "%"),
     ] = 0.0,
     crossfall: Annotated[
         float,
@@ -74,11 +75,11 @@ def command(
     The car is one whose body moves freely, car = "full" in its file. A manoeuvre is a file that
     can be edited; kintrafo new FILE --template NAME writes one that comes with kintrafo. Metrics
     are those of the standards, in the axes of ISO 8855. Data files have the curves over time,
-    lateral acceleration or frequency; figures show them. Unless the car runs straight, a figure
-    whose name ends in _path shows its path. --road, --bump-height and --kerb are roads whose tracks
-    follow the path of the car.
-    --animate shows the car in motion, with the forces on its tyres; --loads has the forces of all
-    joints, springs and tyres, whose greatest ones are printed.
+    lateral acceleration or frequency; figures show them. If a simulated car does not run straight,
+    a second figure, whose name ends in _path, shows its path. --road, --bump-height and --kerb are
+    roads whose tracks follow the path of the car. --animate shows the car in motion, with the
+    forces on its tyres; --loads has the forces of all joints, springs and tyres, whose greatest
+    ones are printed.
     """
     from ...core.errors import InputError
     from ...core.files import refuse
