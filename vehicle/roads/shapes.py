@@ -54,7 +54,8 @@ def bump(
     x = points(end, spacing)
     phase = np.clip((x - at) / length, 0.0, 1.0)
     heights = 0.5 * height * (1.0 - np.cos(2.0 * np.pi * phase))
-    words = f"a {'pothole' if height < 0.0 else 'bump'} of {1e3 * height:g} mm over {length:g} m"
+    kind = "pothole" if height < 0.0 else "bump"
+    words = f"a {kind} of {1e3 * abs(height):g} mm over {length:g} m"
     return both(spacing, heights, sides, words)
 
 
