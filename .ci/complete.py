@@ -4,7 +4,8 @@ No other check detects a missing part: without SUNDIALS, SciPy integrates; only 
 lanes; a compiler replaces the library for an FMU and a compiled car. On Windows,
 where wheels have neither SUNDIALS nor lanes nor cars, every model is simulated by SciPy.
 
-Usage: complete.py [--part], see fill.py.
+Usage: complete.py [--part | --built]. A part is that of fill.py; --built leaves out what fill.py
+adds, as in a checkout.
 """
 
 import sys
@@ -26,7 +27,8 @@ from kintrafo.vehicle.models.car.equations import CarStructure
 
 def main() -> None:
     """Simulate a model by each method in C, and every model in lanes; look for its libraries."""
-    look_for_libraries("--part" in sys.argv[1:])
+    filled = () if "--built" in sys.argv[1:] else PART if "--part" in sys.argv[1:] else None
+    look_for_libraries(filled)
     if sys.platform == "win32":
         by_scipy()
         return
@@ -34,9 +36,8 @@ def main() -> None:
         sys.exit(f"incomplete: no method in C, since {solvers.why_not_native()}.")
     if not library.widths():
         sys.exit("incomplete: no lanes, for which it must be built with GCC or Clang.")
-    for structure in map(CarStructure.of, cars("--part" in sys.argv[1:])):
-        if packed(structure.name, structure.text()) is None:
-            sys.exit(f"incomplete: {structure.name} is not compiled.")
+    if filled != ():
+        look_for_cars(part=filled is not None)
     systems = every_system()
     crank = systems["slider_crank"]
     for method in solvers.native_methods():
@@ -49,11 +50,18 @@ def main() -> None:
     print(f"complete: {', '.join(solvers.native_methods())} in C, {len(systems)} models in lanes")
 
 
-def look_for_libraries(part: bool) -> None:
-    """Refuse models without libraries for FMUs."""
+def look_for_cars(*, part: bool) -> None:
+    """Refuse packaged cars that are not compiled."""
+    for structure in map(CarStructure.of, cars(part)):
+        if packed(structure.name, structure.text()) is None:
+            sys.exit(f"incomplete: {structure.name} is not compiled.")
+
+
+def look_for_libraries(filled: tuple[str, ...] | None) -> None:
+    """Refuse models without libraries for FMUs; for Windows only those that are named, or all."""
     for name, files in files_of_libraries():
-        filled = ("windows",) if name in PART or not part else ()
-        for platform in (*binaries.HERE, *filled):
+        windows = ("windows",) if filled is None or name in filled else ()
+        for platform in (*binaries.HERE, *windows):
             if binaries.shipped(files, name, platform) is None:
                 sys.exit(f"incomplete: {name} has no library for FMUs on {platform}.")
 

@@ -104,12 +104,10 @@ def command(
         raise InputError([problem], "--loads" if loads else "--animate")
     if animate is not None:
         refuse([animate], endings=ENDINGS, **outputs.rule)
+    slope = _slope(chosen, grade, crossfall)
     assembly, profile = _on_road(file, chosen, road)
     with progress_bar(chosen.TITLE) as progress:
-        found = handling.drive(
-            assembly, chosen, road=profile, grade=grade / 100.0,
-            crossfall=crossfall / 100.0, progress=progress,
-        )  # fmt: skip
+        found = handling.drive(assembly, chosen, road=profile, progress=progress, **slope)
     title = f"{title_of(file)}: {found.metrics.attrs['title']}"
     written = _write(outputs, found, chosen, title)
     if animate is not None:
@@ -132,6 +130,21 @@ def command(
             console.print(each)
         name_files(written)
     end_if_not_valid(found.not_valid)
+
+
+def _slope(chosen: "Manoeuvre", grade: float, crossfall: float) -> dict[str, float]:
+    """Return the slopes [1] from those of the options [%]."""
+    from ...core.validator import Validator
+    from ..analysis.handling.driving import refuse_slope
+    from ..models.car.slope import STEEPEST
+
+    percent = {"grade": grade, "crossfall": crossfall}
+    with Validator("kintrafo drive") as given:
+        for name, value in percent.items():
+            given.number(f"--{name}", value, "%", least=-100 * STEEPEST, below=100 * STEEPEST)
+        if any(percent.values()):
+            refuse_slope(given, chosen)
+    return {name: value / 100.0 for name, value in percent.items()}
 
 
 def _on_road(

@@ -15,6 +15,7 @@ _UNITS = {
     **{name.upper(): name for name in ("mm", "m", "deg", "s", "ms", "km/h", "rev/s", "1/s", "kg")},
     "HZ": "Hz",
     "N": "N",
+    "%": "%",
 }
 _NAMES = {float: "NUMBER", int: "COUNT"}
 

@@ -79,7 +79,7 @@ def test_every_number_is_refused_with_its_unit(
     kintrafo: Any, command: str, option: str, unit: str, whole: bool
 ) -> None:
     known = {"MM": "mm", "M": "m", "DEG": "deg", "S": "s", "MS": "ms", "HZ": "Hz", "KM/H": "km/h"}
-    known |= {"REV/S": "rev/s", "1/S": "1/s", "N": "N"}
+    known |= {"REV/S": "rev/s", "1/S": "1/s", "N": "N", "%": "%"}
     assert whole or unit in (*known, "NUMBER", "TIMES"), "a unit that no message names"
     for value in ("80mm", "1_0"):
         code, _, err = kintrafo(*command.split(), "a", "b", "c", option, value)

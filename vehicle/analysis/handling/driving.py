@@ -80,12 +80,8 @@ def drive(
             if not found.TRAVELS:
                 given.fail(f"road: {found.TITLE} is not simulated over a road. Leave it out.")
         slope = Slope.checked(given, grade, crossfall)
-        if not given.failed and any(slope) and not found.SLOPES:
-            straight = [name for name, one in MANOEUVRES.items() if one.SLOPES]
-            given.fail(
-                f"grade, crossfall: {found.TITLE} is for a level road. Leave them out, or choose "
-                f"one of {', '.join(straight)}."
-            )
+        if not given.failed and any(slope):
+            refuse_slope(given, found)
     if not isinstance(subject, DrivingCar):
         subject = car_that_drives("drive", subject)
         found.check(subject.car)
@@ -97,6 +93,16 @@ def drive(
     for each in (result.metrics, *result.curves.values()) if words else ():
         each.attrs["title"] = f"{each.attrs.get('title', found.TITLE)}, {words}"
     return result
+
+
+def refuse_slope(given: Validator, manoeuvre: Manoeuvre) -> None:
+    """Refuse a slope under a manoeuvre that is for a level road."""
+    if not manoeuvre.SLOPES:
+        straight = [name for name, one in MANOEUVRES.items() if one.SLOPES]
+        given.fail(
+            f"grade, crossfall: {manoeuvre.TITLE} is for a level road. Leave them out, or choose "
+            f"one of {', '.join(straight)}."
+        )
 
 
 # Constant quantities of steady turns by argument: the condition, and the unit of the argument.

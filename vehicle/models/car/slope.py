@@ -7,8 +7,8 @@ import numpy as np
 from ....core.named_types import Array
 from ....core.validator import Validator
 
-# The steepest slope of a road [1]; more is a mistake, such as a percentage.
-_STEEPEST = 0.5
+STEEPEST = 0.5
+"""The steepest slope of a road [1]; more is a mistake, such as a percentage."""
 
 
 class Slope(NamedTuple):
@@ -35,7 +35,7 @@ class Slope(NamedTuple):
         return cls(
             *(
                 given.number(
-                    name, value, least=-_STEEPEST, below=_STEEPEST, advice="It is 0.05 for 5 %."
+                    name, value, least=-STEEPEST, below=STEEPEST, advice="It is 0.05 for 5 %."
                 )
                 for name, value in values.items()
             )
