@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from ..analysis.handling import HandlingResult
     from ..analysis.handling.manoeuvres import Manoeuvre
     from ..assembly.car import CarAssembly
+    from ..models.car.slope import Slope
     from ..roads import Road
 
 EXAMPLES = (
@@ -107,7 +108,10 @@ def command(
     slope = _slope(chosen, grade, crossfall)
     assembly, profile = _on_road(file, chosen, road)
     with progress_bar(chosen.TITLE) as progress:
-        found = handling.drive(assembly, chosen, road=profile, progress=progress, **slope)
+        found = handling.drive(
+            assembly, chosen, road=profile, grade=slope.grade, crossfall=slope.crossfall,
+            progress=progress,
+        )  # fmt: skip
     title = f"{title_of(file)}: {found.metrics.attrs['title']}"
     written = _write(outputs, found, chosen, title)
     if animate is not None:
@@ -132,11 +136,11 @@ def command(
     end_if_not_valid(found.not_valid)
 
 
-def _slope(chosen: "Manoeuvre", grade: float, crossfall: float) -> dict[str, float]:
-    """Return the slopes [1] from those of the options [%]."""
+def _slope(chosen: "Manoeuvre", grade: float, crossfall: float) -> "Slope":
+    """Return the slope of the options [%]; refuse it under manoeuvres for a level road."""
     from ...core.validator import Validator
     from ..analysis.handling.driving import refuse_slope
-    from ..models.car.slope import STEEPEST
+    from ..models.car.slope import STEEPEST, Slope
 
     percent = {"grade": grade, "crossfall": crossfall}
     with Validator("kintrafo drive") as given:
@@ -144,7 +148,7 @@ def _slope(chosen: "Manoeuvre", grade: float, crossfall: float) -> dict[str, flo
             given.number(f"--{name}", value, "%", least=-100 * STEEPEST, below=100 * STEEPEST)
         if any(percent.values()):
             refuse_slope(given, chosen)
-    return {name: value / 100.0 for name, value in percent.items()}
+    return Slope(grade / 100.0, crossfall / 100.0)
 
 
 def _on_road(
