@@ -11,7 +11,7 @@ DO = queue._do
 
 
 def lost_once(flag: str, common: Common, chunk: Chunk) -> ChunkResult:
-    """Simulate a chunk; the first worker that is asked for it is killed."""
+    """Simulate a chunk; kill the first worker that begins it."""
     try:
         Path(flag).touch(exist_ok=False)
     except FileExistsError:

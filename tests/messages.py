@@ -25,7 +25,7 @@ def stored() -> dict[str, str | list[str]]:
 
 
 def key_of(item: pytest.Item) -> str:
-    """Return the name of a test in that file: that of its own file, and its own."""
+    """Return the key of a test among the stored messages: its file and its name."""
     return f"{item.path.stem}{item.nodeid.partition('.py')[2]}"
 
 
@@ -54,7 +54,7 @@ class StoredMessages:
             assert self.shown == so_far, "if on purpose: pytest --update-messages"
 
     def end(self) -> None:
-        """Store the messages, if they are to be stored."""
+        """Store the messages with ``--update-messages``."""
         if self.update and self.shown:
             stored()[self.key] = self.shown[0] if len(self.shown) == 1 else self.shown
             text = json.dumps(stored(), indent=1, sort_keys=True, ensure_ascii=False)

@@ -97,7 +97,7 @@ def _growing(call: Call, first: bytes, size: int) -> str:
     return ""
 
 
-# -- what is taken --------------------------------------------------------------------------------
+# -- memory and open files ------------------------------------------------------------------------
 
 
 def _taken() -> tuple[int, int, int]:
@@ -167,7 +167,7 @@ def _told(seed: int, tells: Connection) -> None:
         tells.send((False, f"{type(error).__name__}: {error}"))
 
 
-# -- what is called -------------------------------------------------------------------------------
+# -- calls ----------------------------------------------------------------------------------------
 
 
 @cache

@@ -357,7 +357,7 @@ def test_texts_are_those_of_the_model() -> None:
 
 @each_model
 def test_ranges_are_left_to_the_manifest(name: str) -> None:
-    """As in the header: `prepare` compares no parameter with a number."""
+    """`prepare` compares no parameter with a number, and the header contains no range."""
     ranges = {bound for entry in EMITTED[name].PARAMETERS.values() for bound in entry}
     assert ranges & {"least", "above", "most"}
     assert "Ranges of parameters are not" in header(name)

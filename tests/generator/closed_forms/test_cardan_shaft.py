@@ -196,7 +196,7 @@ def test_shafts_in_a_row_go_round_as_the_oracle_says(tmp_path: Path) -> None:
     check_with_the_oracle(model, tmp_path, pi)
 
 
-# -- what is refused -------------------------------------------------------------------------------
+# -- errors ----------------------------------------------------------------------------------------
 
 
 def test_a_guide_beside_the_line_of_the_crosses_is_reported_by_how_much() -> None:

@@ -491,7 +491,7 @@ def design_angle(derived: Derivation) -> float:
     return float(Built(derived.formulation, None, parameters).design[0])
 
 
-# -- what is refused ------------------------------------------------------------------------------
+# -- errors ---------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda m: m.name)

@@ -338,7 +338,7 @@ def test_report_names_joints_and_equations(derive: Callable[[Formulation], Deriv
     assert text.count("3 equations for the 3 coordinates of bar_pin, block_hinge, slot") == 2
 
 
-# -- what is refused ------------------------------------------------------------------------------
+# -- errors ---------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

@@ -404,7 +404,7 @@ def test_macros_of_the_emitted_code_are_reserved():
 @needs_gcc
 @pytest.mark.parametrize("in_lanes", [False, True])
 def test_macros_around_the_emitted_code_are_reserved(in_lanes):
-    """Also those of the C library and of lanes, and the functions that macros call."""
+    """So are macros of the C library and of lanes, and functions that macros call."""
     emitted = [str(lanes.EMITTED / "multi_link.c")]
     macros = ['-DMODEL="multi_link.c"', "-DWIDTH=2"]
     read = [*macros, str(lanes.HEADERS / "model.c")] if in_lanes else emitted
@@ -420,7 +420,7 @@ def test_macros_around_the_emitted_code_are_reserved(in_lanes):
 
 
 def test_files_of_the_generated_code_are_no_names_of_models():
-    """Its files are beside others, also where file names do not distinguish capital letters."""
+    """Generated files share a folder, also where file names do not distinguish capitals."""
     headers = {Path(name).stem for name in (ELEMENTARY, *own_lanes.HEADERS)}
     for name in (*sorted(headers), "Vectors"):
         with pytest.raises(DeclarationError, match=f"needs is called {name.lower()}; rename"):

@@ -198,7 +198,7 @@ def test_a_thread_swings_on_its_spring_as_a_pendulum_of_torsion() -> None:
     np.testing.assert_allclose(found.y[0], angle, atol=1e-8)
 
 
-# -- together with what else there is --------------------------------------------------------------
+# -- with other forces and joints ------------------------------------------------------------------
 
 
 def test_what_follows_is_no_candidate_and_what_is_followed_must_be() -> None:
@@ -226,7 +226,7 @@ def test_a_mirror_image_turns_with_its_original() -> None:
     )
 
 
-# -- what is refused -------------------------------------------------------------------------------
+# -- errors ----------------------------------------------------------------------------------------
 
 
 def test_a_number_alone_is_no_ratio() -> None:

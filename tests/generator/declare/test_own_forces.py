@@ -147,7 +147,7 @@ def test_steps_of_its_own_may_have_formulas(tmp_path):
     assert module.rhs([[0.3, -0.7]])[0, 1] == pytest.approx(expected, rel=1e-14)
 
 
-# -- what is refused ------------------------------------------------------------------------------
+# -- errors ---------------------------------------------------------------------------------------
 
 
 def refused(force: Force, *joints: Any) -> str:

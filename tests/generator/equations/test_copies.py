@@ -67,7 +67,7 @@ def test_the_sample_has_every_step_of_the_catalogue() -> None:
 
 
 def test_a_step_does_not_take_the_name_of_a_parameter_of_a_copy() -> None:
-    """It would be replaced by the expression of that parameter."""
+    """A step of that name would be replaced by the expression of the parameter."""
     height, angle = sp.symbols("rod_end_x angle")
     stage = ConstantStage(
         (height,), frozenset(["angle"]), derived={sp.Symbol("a_rod_end_x"): -height}

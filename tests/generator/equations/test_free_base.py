@@ -328,7 +328,7 @@ def test_methods_agree(box, method):
     np.testing.assert_allclose(found, expected, atol=2e-6)
 
 
-# -- what reads states ----------------------------------------------------------------------------
+# -- functions of states --------------------------------------------------------------------------
 
 
 def test_rest_and_modes_are_those_of_a_body_on_a_spring(hanging):
@@ -493,7 +493,7 @@ def test_its_points_are_drawn_where_they_are(box):
                 _close(place, box.oracle.point(motion, body, design).value)
 
 
-# -- what is refused ------------------------------------------------------------------------------
+# -- errors ---------------------------------------------------------------------------------------
 
 
 def test_a_strut_from_the_world_is_refused():

@@ -311,7 +311,7 @@ def test_a_skate_that_is_steered_keeps_its_pace():
     assert rest.A.shape == (3, 3)
 
 
-# -- what is refused ------------------------------------------------------------------------------
+# -- errors ---------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

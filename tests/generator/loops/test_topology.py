@@ -291,7 +291,7 @@ def test_sum_of_two_cycles_is_dependent(mechanism: Mechanism) -> None:
             assert not topology.independent([a, b, c])
 
 
-# -- what cannot be analysed ----------------------------------------------------------------------
+# -- mechanisms without an analysis ---------------------------------------------------------------
 
 
 def test_unreachable_body() -> None:

@@ -44,7 +44,7 @@ def on_struts_and_a_beam() -> Formulation:
 
 
 def on_a_column() -> Formulation:
-    """Return a car whose rack is moved by a compliant column, with an inertia that counts."""
+    """Return a car with a compliant steering column and an inertia of the pinion."""
     struts = on_column(car.of_corners(model_named("macpherson")))
     arms = car.of_corners(model_named("trailing_arm"))
     axles = (car.driving(one, linear, relaxing=False, drive_on=None) for one in (struts, arms))

@@ -475,7 +475,7 @@ def kinetic_energy(built: Built, state: Array) -> float:
     return float(0.5 * rates @ built("mass_matrix", state) @ rates)
 
 
-# -- what declarations may say ---------------------------------------------------------------------
+# -- declarations ----------------------------------------------------------------------------------
 
 
 def four_bar(name: str, **changes: Any) -> Formulation:

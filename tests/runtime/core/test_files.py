@@ -39,7 +39,7 @@ def put(path, text, **rule):
         temporary.write_text(text, encoding="utf-8")
 
 
-# -- whose a file is ----------------------------------------------------------------------------
+# -- replaced and kept files --------------------------------------------------------------------
 
 
 def test_what_was_written_is_written_again(tmp_path):
@@ -182,7 +182,7 @@ def test_without_a_register_nothing_is_lost(tmp_path, cache):
         put(tmp_path / "a.csv", "y")
 
 
-# -- whole, and through nobody's links ------------------------------------------------------------
+# -- complete files, and links --------------------------------------------------------------------
 
 
 def test_temporary_files_are_ours_alone(tmp_path):
@@ -231,7 +231,7 @@ def test_threads_that_write_one_file(tmp_path):
     assert [p.name for p in tmp_path.iterdir()] == ["a.csv"]
 
 
-# -- what the system refuses -------------------------------------------------------------------
+# -- errors of the operating system ------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

@@ -159,7 +159,7 @@ def test_amounts_beyond_all_measure(value: float) -> None:
             study()
 
 
-# -- what --of shows -------------------------------------------------------------------------------
+# -- tables with --of ------------------------------------------------------------------------------
 
 BUSHES = {
     "reference_car": "[bushings.arm_rear]\nradial_N_per_mm = 1000.0\n",

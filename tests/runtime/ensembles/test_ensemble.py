@@ -277,7 +277,7 @@ def test_an_error_that_no_step_keeps(car: Model, start: Any, monkeypatch: Any) -
     assert "Loosen rtol" in found["reason"].item()
 
 
-# -- what is kept -------------------------------------------------------------------------------
+# -- checkpoints --------------------------------------------------------------------------------
 
 
 def time_above(values: np.ndarray, times: np.ndarray, level: float) -> float:
@@ -390,7 +390,7 @@ def test_what_is_kept_is_written_and_goes_on_in_pieces(
     assert len(rows) == 1 + 9 * 9
 
 
-# -- what the explicit method cannot do -----------------------------------------------------------
+# -- stiff systems --------------------------------------------------------------------------------
 
 
 def sticking(friction: list[float]) -> tuple[Model, dict[str, Any], Any]:

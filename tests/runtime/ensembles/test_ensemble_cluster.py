@@ -61,7 +61,7 @@ def start(car: Model) -> Any:
 
 @pytest.fixture
 def small(monkeypatch: Any) -> None:
-    """Make chunks of few cars, whose ends fall anywhere."""
+    """Make chunks of seven cars."""
     monkeypatch.setattr(cutting, "_FEWEST", 7)
     monkeypatch.setattr(cutting, "_MOST", 7)
 
@@ -151,7 +151,7 @@ def test_what_stiff_cars_report(client: Any, car: Model, start: Any, monkeypatch
     same(found, ensemble(car, cars, SPAN, start, **options))
 
 
-# -- what is lost, and what is stopped ------------------------------------------------------------
+# -- lost workers and interrupts ------------------------------------------------------------------
 
 
 @pytest.mark.usefixtures("small")
@@ -243,14 +243,14 @@ def test_progress_is_reported(client: Any, car: Model, start: Any, monkeypatch: 
     assert shown[-1] == 50
 
 
-# -- what is kept ---------------------------------------------------------------------------------
+# -- checkpoints ----------------------------------------------------------------------------------
 
 
 @pytest.mark.usefixtures("small")
-def test_it_goes_on_from_what_was_kept(
+def test_an_interrupted_ensemble_continues_from_its_chunks(
     client: Any, car: Model, start: Any, tmp_path: Path, done: Any, monkeypatch: Any
 ) -> None:
-    """After an interruption only what is missing is done, in whatever chunks, here or there."""
+    """Only missing chunks are simulated, also in other sizes, and here or by a cluster."""
     cars, options = of_all_kinds(car)
     expected = ensemble(car, cars, SPAN, start, **options)
     folder = tmp_path / "kept"
@@ -271,7 +271,7 @@ def test_it_goes_on_from_what_was_kept(
     assert done == [(14, 34), (34, 54), (54, 60)]
     again = {"kept": tmp_path / "again", "cluster": client}
     same(ensemble(car, cars, SPAN, start, **options, **again), expected)
-    # of a whole one nothing is done, and no cluster is asked
+    # a complete folder needs neither a simulation nor a cluster
     whole_one = {"kept": str(folder), "cluster": "127.0.0.1:1"}
     same(ensemble(car, cars, SPAN, start, **options, **whole_one), expected)
     assert len(done) == 3

@@ -217,7 +217,7 @@ def test_steps_of_a_stepper_have_the_same_bits() -> None:
         np.testing.assert_array_equal(states, whole.y[:, 1:].T)
 
 
-# -- what is stiff --------------------------------------------------------------------------------
+# -- stiff equations ------------------------------------------------------------------------------
 
 BLOCK = g.Body("block", 2.0, (0.1, 0.0, 0.0))
 GUIDE = g.Prismatic("way", g.Ground("base"), BLOCK, g.FORWARD)

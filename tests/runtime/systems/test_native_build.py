@@ -79,7 +79,7 @@ def test_the_first_package_has_what_set_up_has_just_built(tmp_path, named):
 
 
 def complete(missing=""):
-    """Run the check of every wheel for this checkout, with something taken away."""
+    """Run the check of wheels on this checkout, after statements that hide a part of it."""
     script = ROOT / ".ci/complete.py"
     code = f"import runpy, sys\nsys.path.insert(0, {str(script.parent)!r})\n{missing}\n"
     code += f"runpy.run_path({str(script)!r}, run_name='__main__')"

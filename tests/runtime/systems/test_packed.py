@@ -28,7 +28,7 @@ NAME, STRUCTURE = "four_bar", "four bars"
 
 @pytest.fixture
 def archive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
-    """Return the archive of a mechanism, the only one that is found; the cache is empty."""
+    """Return the only archive, that of a four-bar linkage, beside an empty cache."""
     path = packed.pack(kintrafo.compile(FOUR_BAR), STRUCTURE, tmp_path)
     monkeypatch.setattr(packed, "files", lambda _: tmp_path)
     monkeypatch.setenv("KINTRAFO_CACHE", str(tmp_path / "cache"))
@@ -52,7 +52,7 @@ def test_it_is_what_was_compiled(archive: Path) -> None:
     assert folder_of(equations).parent == archive.parent / "cache"
     states = [[0.2, 1.0], [0.3, -1.0]]
     np.testing.assert_array_equal(equations.rhs(states), generated.rhs(states))
-    derived_again(equations)  # for exports, by its declaration
+    derived_again(equations)  # exports derive the equations from the declaration
 
 
 def test_a_changed_structure_or_source_has_no_archive(
@@ -78,7 +78,7 @@ def test_a_damaged_file_in_the_cache_is_unpacked_again(archive: Path) -> None:
 
 
 def test_archives_of_several_versions_share_a_cache(archive: Path) -> None:
-    """Sources that a key does not have, such as options of the compiler, may differ."""
+    """Files without influence on the key, such as options of the compiler, may differ."""
     first = folder_of(found())
     rewritten(archive, {"another_version.c": b"int another_version;"})
     second = folder_of(found())

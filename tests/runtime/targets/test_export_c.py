@@ -105,7 +105,7 @@ def test_equations_without_a_compiler_have_their_c_all_the_same(tmp_path):
     assert "four_bar_rhs(" in (folder / "four_bar.c").read_text(encoding="utf-8")
 
 
-# -- what is refused ------------------------------------------------------------------------------
+# -- errors ---------------------------------------------------------------------------------------
 
 
 def test_what_cannot_be_used_is_refused(tmp_path):

@@ -233,7 +233,7 @@ def test_units_are_powers_of_base_units(unit_text, wanted):
 @pytest.mark.parametrize("version", VERSIONS)
 @pytest.mark.parametrize("name", NAMES)
 def test_derivatives_are_those_of_the_linearisation(fmu, name, version):
-    """And those of central differences, which share no code with the Jacobians."""
+    """Central differences agree, too; they share no code with the Jacobians."""
     system, at = system_named(name), start(name)
     linear = kintrafo.linearise(system, at, getattr(at, "inputs", None))
     instance = fmu(name, version).instance("ModelExchange")
@@ -392,7 +392,7 @@ def test_inputs_go_on_by_their_derivatives(fmu, version):
 
 
 def test_slopes_of_inputs(fmu):
-    """FMI 2.0 sets them by order; derivatives that the model takes are inputs, too."""
+    """FMI 2.0 sets derivatives of inputs by their order; rates in the equations are inputs, too."""
     instance = fmu("reference_car", 2).instance()
     assert instance.initialise(tolerance=1e-12) == OK
     given = {"road_height": 2, "rack_position": 2}
@@ -470,7 +470,7 @@ def integrated(instance, end, length):
 @pytest.mark.parametrize("version", VERSIONS)
 @pytest.mark.parametrize(("torque", "rate"), [(10.0, 0.0), (-5.5, -5.8), (4.3, -5.6), (1.0, 1.0)])
 def test_steps_of_an_importer_do_not_pass_a_dead_point(fmu, version, torque, rate):
-    """Beyond it the equations have another motion, which a solver accepts."""
+    """Beyond a dead point the equations have another motion, which a solver accepts."""
     system = kintrafo.System(system_named("four_bar").equations, SHORT)
     given = {"crank_torque": torque, "crank_angle_rate": rate}
     try:
@@ -626,7 +626,7 @@ def test_parameters_are_those_that_are_set(fmu, version):
     instance.free()
 
 
-# -- what is refused ------------------------------------------------------------------------------
+# -- errors ---------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("version", VERSIONS)
@@ -657,7 +657,7 @@ def test_parameters_out_of_range(fmu, version, values, words):
     [({"ixx": 0.05}, True), ({"ixx": 1.0}, False), ({"ixy": 0.5}, False), ({"ixx": -0.01}, False)],
 )
 def test_inertia_of_no_body(fmu, values, fine):
-    """Refused as by `prepare` in Python, which checks the principal moments."""
+    """The FMU refuses it like `prepare` in Python, which checks the principal moments."""
     system = system_named("reference_car")
     body = next(n for n in system.parameters if n.endswith("_inertia_xx")).removesuffix(
         "_inertia_xx"
@@ -914,7 +914,7 @@ def test_an_fmu_of_a_shipped_model_needs_no_compiler(tmp_path, name):
 
 @pytest.mark.skipif(shutil.which(MINGW) is None, reason=f"{MINGW} is not installed")
 def test_a_library_for_windows(tmp_path):
-    """It exports the functions of FMI only, and has no folder of this machine."""
+    """The library exports the functions of FMI only, and contains no path of this machine."""
     path = tmp_path / "a.fmu"
     kintrafo.export_model(system_named("four_bar"), path, "fmu", platforms=["linux", "windows"])
     with zipfile.ZipFile(path) as archive:

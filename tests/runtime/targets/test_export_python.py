@@ -364,7 +364,7 @@ def test_jax_refuses_single_precision_and_other_shapes(jax, module_of):
         module.rhs(np.zeros(2), np.zeros(1), constants)
 
 
-# -- what is refused ------------------------------------------------------------------------------
+# -- errors ---------------------------------------------------------------------------------------
 
 
 def test_what_cannot_be_exported_is_refused(tmp_path):

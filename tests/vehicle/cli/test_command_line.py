@@ -173,12 +173,12 @@ def test_help_says_all_that_the_function_does(name, monkeypatch):
             assert " ".join((info.help or "").split()) in " ".join(shown.split())
 
 
-# Lists of names differ: directions or frames, motions, wheels on a road or under a load.
+# Options with different lists of names: frames, motions, wheels on a road or under a load.
 _OF_SEVERAL_LISTS = {"--axes", "--over", "--wheels"}
 
 
 def test_options_of_one_name_have_values_of_one_kind():
-    """A length nowhere, and a time elsewhere: one grammar of all commands."""
+    """No option is a length in one command and a time in another one."""
     kinds = defaultdict(set)
     groups = [typer.main.get_command(cli.app)]
     for group in groups:

@@ -11,7 +11,7 @@ from kintrafo.vehicle.report import axle_chapter
 
 @pytest.mark.parametrize("name", ["rigid_axle", "twist_beam", "steered_rigid_axle"])
 def test_wheels_move_as_on_a_rig(name) -> None:
-    """In bump by the travel, in roll oppositely, in steering about the vertical."""
+    """Wheels rise equally in bump and oppositely in roll; in steering they turn."""
     (player,) = axle_chapter(kintrafo.load(name)).players
     (text,) = re.findall(r'<script type="application/json">(.*?)</script>', str(player), re.DOTALL)
     data = json.loads(text)
@@ -20,7 +20,7 @@ def test_wheels_move_as_on_a_rig(name) -> None:
     travels = [float(word.split()[-2]) for word in data["words"][:75]]
     np.testing.assert_allclose(risen[:75].T, [travels, travels], atol=1.0)  # whole millimetres
     assert max(travels) > 70.0
-    # of the axles as they are packaged: mirror images
+    # both sides of the packaged axles are mirror images
     np.testing.assert_allclose(risen[75:150].sum(axis=1), 0.0, atol=2.0)
     assert np.ptp(risen[75:150, 0]) > 80.0
     if name == "steered_rigid_axle":
@@ -29,6 +29,6 @@ def test_wheels_move_as_on_a_rig(name) -> None:
     assert not np.any(data["forces"])
 
 
-def test_an_axle_of_sides_has_none() -> None:
-    """Its page shows one of them."""
+def test_an_axle_of_two_suspensions_has_no_player() -> None:
+    """The interactive view of its page shows one side."""
     assert axle_chapter(kintrafo.load("reference_axle")).players == ()

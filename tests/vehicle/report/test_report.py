@@ -366,7 +366,7 @@ def test_every_key_of_the_input_file_is_shown(page):
 
 
 def test_the_sections_of_a_car_within_one_file_are_shown_once():
-    """Its axles are tables of it, and so are linear tyres."""
+    """Axles and linear tyres are tables of the car in its file."""
     sections = assembly_of(light_car()).input_sections
     tables = [
         (begin, table) for begin, section in sections.items() for table in input_tables(section)
@@ -412,7 +412,7 @@ def test_errors_are_rounded_up(error, text):
     assert _upper_limit(error) == text
 
 
-# -- what is committed --------------------------------------------------------------------------
+# -- committed files ----------------------------------------------------------------------------
 
 
 def test_bundle_was_made_from_these_sources():
