@@ -83,7 +83,7 @@ class NonlinearOptions:
         return {"--over": self.over}
 
     def refuse_without_effect(self, rig: "_Rig", held: Held | None) -> None:
-        """Refuse options without effect on a file, beside others."""
+        """Refuse options without effect on this file or with the other options."""
         if len(rig.assembly.wheels) == 1:
             refuse_options("the file of an axle", {"--wheels": self.wheels} | self.motions)
         if self.under is None:

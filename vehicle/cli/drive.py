@@ -137,7 +137,7 @@ def command(
 
 
 def _slope(chosen: "Manoeuvre", grade: float, crossfall: float) -> "Slope":
-    """Return the slope of the options [%]; refuse it under manoeuvres for a level road."""
+    """Return the slope from options in percent; refuse it in manoeuvres for a level road."""
     from ...core.validator import Validator
     from ..analysis.handling.driving import refuse_slope
     from ..models.car.slope import STEEPEST, Slope
@@ -225,10 +225,9 @@ _OVER = {
 }  # fmt: skip
 # Widths of the headings of rows, and of a column of numbers [characters].
 _HEADS, _COLUMN = 30, 10
-
-
 # Smaller forces are rounding [N].
 _LEAST = 0.5
+# Ends of messages about a manoeuvre.
 _NO_ROAD = "is not simulated, and so not over a road. Leave it out."
 _NO_MOTION = "has no simulation, and so no motion to show. Leave it out."
 

@@ -51,14 +51,9 @@ def command(
             "N",
         ),
     ] = None,
-    car: Annotated[
+    member_file: Annotated[
         Path | None,
-        option(
-            "Write the hardpoint file of the chosen member: .toml.",
-            "PATH",
-            "--member-file",
-            panel=OUTPUT,
-        ),
+        option("Write the hardpoint file of the chosen member: .toml.", "PATH", panel=OUTPUT),
     ] = None,
     output: SingleFigureOptions,
 ) -> None:
@@ -70,7 +65,7 @@ def command(
     from ...datasets import export
     from .. import studies as variation
 
-    outputs = output.files(file, study, car=car)
+    outputs = output.files(file, study, car=member_file)
     _refuse_member(member, population)
     subject = variable_subject(file)
     asked = variation.read(study)

@@ -46,7 +46,7 @@ def command(
     *,
     title: Annotated[str | None, option("Heading of the report.")] = None,
     model_name: Which = None,
-    loads: Annotated[
+    standard_cases: Annotated[
         bool, option("Add the standard load cases and their free bodies.", None, "--standard-cases")
     ] = False,
     cases: Annotated[Path | None, option("Add the load cases of this file (TOML).", "PATH")] = None,
@@ -78,7 +78,7 @@ def command(
         refuse_options(
             "the file of a suspension",
             {
-                "--standard-cases": loads or None,
+                "--standard-cases": standard_cases or None,
                 "--cases": cases,
                 "--bushes": bushes,
                 "--goals": goals,
@@ -93,7 +93,14 @@ def command(
         aims = _aims(assembly, goals)
         with problems.status("tables and curves") as status:
             chapters = [
-                *_chapters(assembly, aims, cases, bushes, loads=loads, progress=status.update)
+                *_chapters(
+                    assembly,
+                    aims,
+                    cases,
+                    bushes,
+                    standard_cases=standard_cases,
+                    progress=status.update,
+                )
             ]
         name = f"{title_of(file)}: {assembly.heading}" if assembly.body_moves else None
         moved, page = _page(assembly, title or name, chapters, aims)
@@ -158,7 +165,7 @@ def _chapters(
     cases: Path | None,
     bushes: Path | None,
     *,
-    loads: bool,
+    standard_cases: bool,
     progress: "Callable[[str], None]",
 ) -> "Iterator[Chapter]":
     """Yield the chapters of an assembly, then those of its parts on a held body."""
@@ -190,7 +197,7 @@ def _chapters(
     of_parts = () if assembly.body_moves else goals
     for name, part in assembly.held_parts.items():
         progress(f"tables and curves {name}".strip())
-        for chapter in _of_held(part, of_parts, cases, bushes, loads=loads):
+        for chapter in _of_held(part, of_parts, cases, bushes, standard_cases=standard_cases):
             title = f"{chapter.title}: {name}" if name else chapter.title
             yield replace(chapter, title=title)
 
@@ -201,7 +208,7 @@ def _of_held(
     cases: Path | None,
     bushes: Path | None,
     *,
-    loads: bool,
+    standard_cases: bool,
 ) -> "Iterator[Chapter]":
     """Yield the chapters of a suspension or an axle: loads, compliance, goals, K&C sheet."""
     from ..analysis import compliance
@@ -210,7 +217,7 @@ def _of_held(
     from ..report import goals_chapter, loads_chapter, sheet_chapter
 
     described = None if bushes is None else compliance.read_bushes(bushes)
-    if loads or cases is not None:
+    if standard_cases or cases is not None:
         of_cases = {} if cases is None else study.read(cases)
         at_rest = of_cases.get("static_load_N")
         yield loads_chapter(study.static(assembly, of_cases.get("cases"), static_load=at_rest))

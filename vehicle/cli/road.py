@@ -35,13 +35,9 @@ class RoadOptions:
         int | None,
         option("Seed of the rough road: equal seeds give equal roads. Default: 1.", "N"),
     ] = None
-    bump: Annotated[
+    bump_height: Annotated[
         float | None,
-        option(
-            "Height of one bump instead of the rough road; negative: a pothole.",
-            "MM",
-            "--bump-height",
-        ),
+        option("Height of one bump instead of the rough road; negative: a pothole.", "MM"),
     ] = None
     bump_length: Annotated[float | None, option("Length of the bump. Default: 0.5 m.", "M")] = None
     kerb: Annotated[
@@ -64,11 +60,11 @@ class RoadOptions:
     def __post_init__(self) -> None:
         from ...core.validator import Validator
 
-        roads = {"--road": self.road, "--bump-height": self.bump, "--kerb": self.kerb}
+        roads = {"--road": self.road, "--bump-height": self.bump_height, "--kerb": self.kerb}
         chosen = [name for name, value in roads.items() if value is not None]
         if len(chosen) > 1:
             raise typer.BadParameter(f"{' and '.join(chosen)} are given: choose one of them")
-        if self.bump is None:
+        if self.bump_height is None:
             refuse_options("--bump-height", {"--bump-length": self.bump_length})
         if not self.is_obstacle:
             refuse_options("--bump-height and --kerb", {"--wheels": self.wheels})
@@ -92,7 +88,7 @@ class RoadOptions:
     @property
     def is_given(self) -> bool:
         """Whether an option chooses a road."""
-        return any(each is not None for each in (self.road, self.bump, self.kerb))
+        return any(each is not None for each in (self.road, self.bump_height, self.kerb))
 
     def refuse_without_road(self) -> None:
         """Refuse options of a road if no option chooses one."""
@@ -113,7 +109,7 @@ class RoadOptions:
     @property
     def is_obstacle(self) -> bool:
         """Whether the road is level with a bump or a kerb."""
-        return self.bump is not None or self.kerb is not None
+        return self.bump_height is not None or self.kerb is not None
 
     @property
     def is_rough(self) -> bool:
@@ -158,11 +154,11 @@ class RoadOptions:
             at = min(5.0, 0.2 * distance)
             how: Any = {**self._tyre(assembly), "sides": self.sides}
             return roads.kerb(self.kerb / 1e3, at=at, end=max(distance, 2.0 * at), **how)
-        if self.bump is not None:
+        if self.bump_height is not None:
             at = min(5.0, 0.1 * distance)
             length = _BUMP_LENGTH if self.bump_length is None else self.bump_length
             end = max(distance, at + length)
-            found = roads.bump(self.bump / 1e3, length, at=at, end=end, sides=self.sides)
+            found = roads.bump(self.bump_height / 1e3, length, at=at, end=end, sides=self.sides)
         elif self.is_rough:
             longest = max(distance, 1.01 / roads.rough.WAVES[0])
             seed = 1 if self.seed is None else self.seed
