@@ -47,7 +47,7 @@ _ROUNDING = 1e-6
 _COLUMNS = 3
 # Least drawn width of a path [m].
 _LEAST = 2.0
-# Distance from a straight line within which a path is not worth a picture [m].
+# Lateral extent below which a path is not drawn [m].
 _STRAIGHT = 0.1
 # Time between two outlines of the car [s].
 _BETWEEN = 0.5

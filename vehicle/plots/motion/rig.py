@@ -23,15 +23,15 @@ from .scene import scene_of
 
 _MOTIONS = ("bump", "roll", "steer")
 _CHARTS = ("camber", "toe", "steer")
-# Time of each motion [s], and positions in it.
+# Duration of each motion [s], and its number of positions.
 _DURATION, _POSITIONS = 3.0, 75
-# Radius of the drawn wheels without one in the file [m].
+# Radius of drawn wheels if the file has no tyre [m].
 _RADIUS = 0.3
 
 
 @dataclass(frozen=True)
-class _OnARig:
-    """An axle with the properties that pictures of a moving car need; its body is held."""
+class _AxleOnRig:
+    """An axle on a fixed body, with the properties that pictures of a moving car need."""
 
     model: System
     wheels: Sequence[str]
@@ -41,8 +41,8 @@ class _OnARig:
     assembly: CarAssembly | None = None
 
 
-class _Part(NamedTuple):
-    """A motion: states, inputs, curves over time, and the text at each position."""
+class _RigMotion(NamedTuple):
+    """A motion of the rig: states, inputs, curves over time, and the text at each position."""
 
     states: Array
     inputs: Array
@@ -50,36 +50,39 @@ class _Part(NamedTuple):
     words: list[str]
 
 
-def on_a_rig(assembly: Assembly) -> Markup:
+def rig_player(assembly: Assembly) -> Markup:
     """Return the part of a page that plays parallel travel, roll and steering of an axle.
 
     Parameters
     ----------
     assembly : Assembly
-        An axle with equations of its own for both wheels; it must move with rigid joints.
+        A rigid axle or a twist beam that can move with rigid joints.
     """
-    parts = list(_parts(assembly))
-    count = sum(len(part.states) for part in parts)
+    motions = list(_motions(assembly))
+    states = np.concatenate([motion.states for motion in motions])
+    inputs = np.concatenate([motion.inputs for motion in motions])
+    count = len(states)
     times = _DURATION / _POSITIONS * np.arange(count)
     curves = {
-        name: xr.concat([part.curves[name] for part in parts], "time", combine_attrs="override")
+        name: xr.concat(
+            [motion.curves[name] for motion in motions], "time", combine_attrs="override"
+        )
         for name in _CHARTS
     }
-    motion = xr.Dataset(curves, {"time": ("time", times, {"units": "s", "long_name": "time"})})
-    states, inputs = (np.concatenate([part[i] for part in parts]) for i in (0, 1))
-    car = _OnARig(
+    over_time = xr.Dataset(curves, {"time": ("time", times, {"units": "s", "long_name": "time"})})
+    axle = _AxleOnRig(
         assembly.model,
         assembly.wheels,
         [assembly.names_of(wheel).spin for wheel in assembly.wheels],
         [radius or _RADIUS for radius in assembly.tyre_radii],
     )
     rows = np.arange(count)
-    scene = scene_of(Run(car, motion, states, inputs, np.zeros((count, 2))), rows)
-    words = [text for part in parts for text in part.words]
-    return player(replace(scene, words=words), charts_of(motion, rows, _CHARTS))
+    scene = scene_of(Run(axle, over_time, states, inputs, np.zeros((count, 2))), rows)
+    words = [text for motion in motions for text in motion.words]
+    return player(replace(scene, words=words), charts_of(over_time, rows, _CHARTS))
 
 
-def _parts(assembly: Assembly) -> Iterator[_Part]:
+def _motions(assembly: Assembly) -> Iterator[_RigMotion]:
     for motion in _MOTIONS:
         if motion not in assembly.motions:
             continue
@@ -94,4 +97,4 @@ def _parts(assembly: Assembly) -> Iterator[_Part]:
         curves = curves.drop_vars(set(curves.coords) - {WHEEL})
         unit = display_of(over.attrs).units
         words = [f"{long_name(over)} {value:.1f} {unit}" for value in displayed(over)]
-        yield _Part(states, inputs, {name: curves[name] for name in _CHARTS}, words)
+        yield _RigMotion(states, inputs, {name: curves[name] for name in _CHARTS}, words)

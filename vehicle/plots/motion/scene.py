@@ -81,7 +81,7 @@ class CarScene:
 
     @property
     def has_body(self) -> bool:
-        """Whether it shows a car with its body, and not an axle on a rig."""
+        """Whether the scene shows a car with its body; it has none for an axle on a rig."""
         return bool(self.outline.size)
 
     @property
@@ -160,7 +160,7 @@ def _tracks(run: Run, centers: Array, rows: NDArray[np.intp]) -> list[Array]:
     car, road = run.car, run.road
     if road is None:
         return []
-    # a car that drives begins at a distance before the road, and has heights above its datum
+    # a car that drives begins `lead` before the road; its heights are above `datum`
     before, datum = (road.lead, road.datum) if run.way is None else (0.0, 0.0)
     way = (run.places[:, 0] - run.places[0, 0] if run.way is None else run.way)[rows]
     at = centers[0] - way[0] * np.array([1.0, 0.0, 0.0])

@@ -17,7 +17,7 @@ from ...assembly.assembly import Assembly
 from ...assembly.by_wheel import WHEEL
 from ...assembly.of import given_assembly
 from ...plots.by_axle import by_axle, names_by_axle
-from ...plots.motion.rig import on_a_rig
+from ...plots.motion.rig import rig_player
 from ...plots.whole_axle import views
 from ...studies.goals import Goal, check_goals
 from .chapter import Chapter, ChapterPicture
@@ -93,7 +93,7 @@ def axle_chapter(axle: Any, goals: Sequence[Goal] = ()) -> Chapter:
 
 
 def _is_whole(assembly: Assembly) -> bool:
-    """Return whether it is an axle without sides, and so without an interactive view of one."""
+    """Return whether an axle has no two suspensions: the page has no interactive view of it."""
     return not (assembly.corners or assembly.axles)
 
 
@@ -120,9 +120,9 @@ _PLAYED = (
 
 
 def _players(assembly: Assembly) -> tuple[Markup, ...]:
-    """Return the player of an axle without sides; the page of sides shows one of them."""
+    """Return the player of a rigid axle or a twist beam; other axles have the interactive view."""
     plays = _is_whole(assembly) and assembly.moves_rigidly
-    return (on_a_rig(assembly),) if plays else ()
+    return (rig_player(assembly),) if plays else ()
 
 
 def _not_on_the_page(assembly: Assembly, whole: xr.Dataset) -> xr.Dataset:
