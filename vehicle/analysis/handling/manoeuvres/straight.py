@@ -20,7 +20,7 @@ class Straight(SimulatedManoeuvre):
     TITLE: ClassVar[str] = "straight running"
     SLOPES: ClassVar[bool] = True
 
-    manoeuvre: Literal["straight"] = Field(description="which manoeuvre this is")
+    manoeuvre: Literal["straight"] = Field(description="name of the manoeuvre")
     duration_s: Positive = Field(default=10.0, description="duration of the simulation")
 
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
