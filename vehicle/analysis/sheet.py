@@ -15,14 +15,13 @@ from ...core.quantities import attributes, displayed, long_name, unit_or_stroke
 from ...core.tabulated import Tabulated, significant
 from ...core.validator import Validator
 from ..assembly.assembly import HeldAssembly
-from ..assembly.by_wheel import flat
+from ..assembly.by_wheel import flat, without_side
 from ..assembly.of import given_assembly
 from ..models.car.file import ENDS
 from ..models.sides import SIDES
 from .characteristics.datasets import dataset
 from .compliance.flexibility import HELD, WheelSupport
 from .compliance.linear import linear
-from .loads.sheets import without_side
 
 QUANTITY = "quantity"
 """Dimension of the sheet."""
@@ -138,11 +137,9 @@ def _placed(
     name: str, row: tuple[str, xr.DataArray], end: str
 ) -> tuple[str, tuple[str, xr.DataArray]]:
     """Return the name and the row of a quantity with the end of a car before its side."""
-    stem, (part, data) = without_side(name), row
-    side = name.removeprefix(stem)
-    words = long_name(data).removesuffix(side.replace("_", ", "))
-    words += f", {end}{side}".replace("_", " ")
-    return f"{stem}_{end}{side}", (part, data.assign_attrs(long_name=words))
+    side, (part, data) = _place(name), row
+    words = f"{_without_place(long_name(data), side)}, {end}{side.replace('_', ' ')}"
+    return f"{without_side(name)}_{end}{side}", (part, data.assign_attrs(long_name=words))
 
 
 def tabulated(found: xr.Dataset, title: str) -> list[Tabulated]:
@@ -236,7 +233,7 @@ def _by_load(found: xr.Dataset) -> Iterator[Tabulated]:
         stem = without_side(name)
         kind, _, load = stem.partition("_by_")
         unit, _, each = own["unit"].partition("/")
-        side = name.removeprefix(stem)
+        side = _place(name)
         words = _without_place(own["meaning"], side).partition(" by ")[2]
         _, comma, together = words.partition(", ")
         row = f"{load.partition('_')[0]}, {together}" if comma else words.removeprefix("a ")

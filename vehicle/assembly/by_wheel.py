@@ -79,6 +79,12 @@ def flat(dataset: xr.Dataset) -> xr.Dataset:
     return with_columns(with_columns(dataset, WHEEL), AXLE)
 
 
+def without_side(name: str) -> str:
+    """Return a name of a flat table without the side and the axle at its end."""
+    without = name.removesuffix("_left").removesuffix("_right")
+    return without.removesuffix("_front").removesuffix("_rear")
+
+
 def wheel_that_begins(name: str, wheels: Sequence[str]) -> str:
     """Return the wheel whose name begins another one; empty if there is none."""
     return next((wheel for wheel in wheels if name.startswith(f"{wheel}_")), "")

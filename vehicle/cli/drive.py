@@ -235,7 +235,8 @@ _NO_MOTION = "has no simulation, and so no motion to show. Leave it out."
 def _greatest(on_every: "Dataset", title: str) -> "Table":
     """Return a table of the greatest force at every joint, spring and tyre, with its time."""
     from ..analysis.loads import peaks
-    from ..analysis.loads.sheets import shown_rows, without_side
+    from ..analysis.loads.sheets import shown_rows
+    from ..assembly.by_wheel import without_side
 
     found = peaks(on_every)
     rows = []

@@ -14,7 +14,7 @@ from matplotlib.text import Annotation
 
 from ...core.files import Paths
 from ...pictures.figures import BLUE, ORANGE, STYLE, save, written_plainly
-from ..analysis.loads.sheets import without_side
+from ..assembly.by_wheel import without_side
 from .columns import in_columns
 from .curves import check_formats
 

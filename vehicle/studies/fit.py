@@ -265,8 +265,8 @@ def _target(given: Validator, curve: xr.DataArray, over: str, accuracy: Any) -> 
         within = _USUAL_ACCURACY * float(np.ptp(values))
         if within == 0.0:
             given.fail(
-                f"measured: {name} does not vary: its accuracy does not follow from its range. "
-                f"Give it, in {shown.units or 'its unit'}."
+                f"measured: {name} does not vary, and its accuracy does not follow from its "
+                f"range. Give the accuracy, in {shown.units or 'its unit'}."
             )
             return None
     return TargetValue(name, over, at, values, within * _repeated(values.size))

@@ -80,7 +80,7 @@ def test_a_wheel_is_on_the_road_at_its_own_distance(model) -> None:
 
 
 @pytest.mark.parametrize("spacing", [0.3, 8.0])
-def test_a_car_begins_on_the_level_whatever_the_altitude(spacing) -> None:
+def test_a_car_begins_on_the_level_at_any_altitude(spacing) -> None:
     left, right = 0.01 * np.cos(np.arange(6.0)), np.full(6, -0.01)
     tracks = [road_profiles.Road(spacing, left + height, right + height) for height in (0.0, 812.5)]
     for side, first in (("left", 0.01), ("right", -0.01)):

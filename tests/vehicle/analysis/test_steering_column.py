@@ -93,7 +93,7 @@ def test_the_frequency_of_the_free_rack_is_that_of_one_mass(railed) -> None:
 
 
 def test_slow_steering_loses_what_friction_takes(railed) -> None:
-    """Friction times the way of the rack, which rests while the column winds up the other way."""
+    """Friction times the travel of the rack, which rests while the twist of the column reverses."""
     friction, amplitude, period = 200.0, 0.02, 4.0
     changes = {"rack_friction": friction, "rack_friction_speed": 1e-4, "gravity": 0.0}
     model = kintrafo.System(railed.model.equations, railed.model.parameters | changes)

@@ -7,8 +7,7 @@ import xarray as xr
 
 from ....core.quantities import bracketed, display_of, displayed, long_name
 from ....core.tabulated import Tabulated, significant
-from ...assembly.by_wheel import WHEEL, flat
-from ..loads.sheets import without_side
+from ...assembly.by_wheel import WHEEL, flat, without_side
 
 # Variables in tables of deflections, and names of the other curve.
 _IN_TABLES = (

@@ -111,7 +111,7 @@ class DrivingCar:
 
     @property
     def weight_along(self) -> float:
-        """Its weight along the slope of the road, positive uphill, which slows it down [N]."""
+        """The component of its weight that slows it down on a slope, positive uphill [N]."""
         gravity = self.model.parameters["gravity"]
         return self.mass * gravity * float(self.slope.upward[0])
 

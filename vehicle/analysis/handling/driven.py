@@ -21,7 +21,7 @@ from .drivers import Observation, Pedals, Pushes, Steers
 from .result import quantity
 
 _METHOD: Literal["DormandPrince"] = "DormandPrince"
-# A car that moves less to a side runs along the road, which its pictures show [m].
+# Greatest lateral displacement of a straight path; pictures show the road under no other [m].
 _STRAIGHT = 0.5
 # Below this cosine of the tilt of the body the car overturns.
 _FALLEN = 0.5

@@ -90,8 +90,9 @@ def drive(
     car = car.on_slope(slope) if any(slope) else car
     result = found.run(car, progress or (lambda _: None))._replace(runs=tuple(runs))
     words = ", ".join(filter(None, [slope.words, "" if road is None else road.words]))
-    for each in (result.metrics, *result.curves.values()) if words else ():
-        each.attrs["title"] = f"{each.attrs.get('title', found.TITLE)}, {words}"
+    if words:
+        for each in (result.metrics, *result.curves.values()):
+            each.attrs["title"] = f"{each.attrs.get('title', found.TITLE)}, {words}"
     return result
 
 

@@ -167,7 +167,8 @@ class SteadyMotion:
         if not any(self._car.slope):
             return quaternion
         w, x, y, z = quaternion
-        # of half the yaw angle, whose tangent is -left / forward; abs is not analytic
+        # cosine and sine of half the yaw angle, whose tangent is -left / forward; the speed has a
+        # square root, since abs is not analytic
         speed = np.sqrt(forward * forward + left * left)
         c = np.sqrt(0.5 + 0.5 * forward / speed)
         s = -0.5 * left / (speed * c)

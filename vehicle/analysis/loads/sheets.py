@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from ....core.tabulated import Tabulated, whole
-from ...assembly.by_wheel import flat
+from ...assembly.by_wheel import flat, without_side
 from .mounts import ALL, CHASSIS, with_totals
 
 _ACTING = ("spring", "damper", "road", "drive", "steering", "bar")
@@ -15,12 +15,6 @@ _ACTING = ("spring", "damper", "road", "drive", "steering", "bar")
 def acts(by: str) -> bool:
     """Return whether a load is applied, rather than that of a joint."""
     return without_side(by) in _ACTING
-
-
-def without_side(name: str) -> str:
-    """Return a name of an axle or a car without its side and its end."""
-    without = name.removesuffix("_left").removesuffix("_right")
-    return without.removesuffix("_front").removesuffix("_rear")
 
 
 def overview(found: xr.Dataset, title: str, parts: Sequence[str] = ()) -> Tabulated:

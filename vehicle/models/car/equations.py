@@ -36,8 +36,9 @@ Report = Callable[[str], None]
 class CarModel(System):
     """The compiled equations of a car: body, axles, tyres.
 
-    Those of quarter cars are part of kintrafo, and wheels contain those of all packaged cars;
-    others are derived and compiled at first use, as by `kintrafo.compile`, and cached.
+    Those of quarter cars are part of kintrafo, and its binary packages contain those of all
+    packaged cars; others are derived and compiled at first use, as by `kintrafo.compile`, and
+    cached.
 
     Parameters
     ----------
@@ -52,7 +53,7 @@ class CarModel(System):
     car : Car
         The data of the files.
     parameters, constants, design_state
-        Numbers, constants and state at design of the equations. States are those of the body,
+        Parameters, constants and state at design of the equations. States are those of the body,
         ``heave``, ``pitch`` and ``roll``, followed by those of the suspensions; their names, and
         those of inputs and signals, have the prefix of the wheel, ``front_left_``, or of the axle,
         and no prefix in a quarter car. The body of a driving car moves freely, with ``body_x`` to
@@ -190,8 +191,8 @@ class _End:
     def declared(self) -> "Formulation":
         """Return the declaration of the axle."""
         from ....generator.mechanisms import car as page  # noqa: PLC0415 (an extra)
-        from ....generator.mechanisms import model_named  # noqa: PLC0415
-        from ....generator.mechanisms.steering_column import on_a_column  # noqa: PLC0415
+        from ....generator.mechanisms import model_named  # noqa: PLC0415 (an extra)
+        from ....generator.mechanisms.steering_column import on_a_column  # noqa: PLC0415 (an extra)
 
         found = (
             page.of_whole_axle(model_named(self.suspension))
@@ -215,7 +216,7 @@ class _End:
 
 @dataclass(frozen=True)
 class CarStructure:
-    """Everything that determines the declaration of a car; its values do not.
+    """The structure of a car: everything on which its declaration depends, without values.
 
     Attributes
     ----------
@@ -247,7 +248,7 @@ class CarStructure:
         return cls(name, title, ends, None if car.drives else tuple(car.coordinates))
 
     def text(self) -> str:
-        """Return it as a text, with the source of this file, which declares a car from it."""
+        """Return the structure and the source of this file, which declares a car from it."""
         source = Path(__file__).read_text(encoding="utf-8")
         return json.dumps([asdict(self), source])
 
@@ -260,7 +261,7 @@ class CarStructure:
 @lru_cache(maxsize=8)
 def _declared(structure: CarStructure) -> "Formulation":
     from ....generator.mechanisms import car as page  # noqa: PLC0415 (an extra)
-    from ....generator.mechanisms import model_named  # noqa: PLC0415
+    from ....generator.mechanisms import model_named  # noqa: PLC0415 (an extra)
 
     if structure.corner:
         return page.quarter(model_named(structure.corner))

@@ -139,7 +139,8 @@ class Parking(Manoeuvre):
         slopes = CubicSpline(pinion, steer, axis=-1)(pinion, 1)
         # from the middle to the left, to the right and to the left again; where it turns back, a
         # rack with friction rests at one position
-        rows, first = np.arange(angles.size), 0 if column.rubs else 1
+        rows = np.arange(angles.size)
+        first = 0 if column.rubs else 1
         path = np.concatenate([rows[count:], rows[::-1][first:], rows[first:]])
         towards = np.repeat([1.0, -1.0, 1.0], [count + 1, *2 * [angles.size - first]])
         moments = self.moments(steer[:, path], loads[:, path])

@@ -83,4 +83,5 @@ class PathFollowing(SimulatedManoeuvre):
         return HandlingResult(self.judged(numbers | greatest(motion)), {"": motion})
 
 
+# Least number of points of a path, and number of points of its picture.
 _FEWEST, _DRAWN = 4, 400

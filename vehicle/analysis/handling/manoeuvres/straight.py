@@ -56,7 +56,7 @@ class Straight(SimulatedManoeuvre):
                 float(np.sqrt(np.mean(vertical**2))), "RMS of the vertical acceleration", "m/s^2"
             ),
             "greatest_vertical_acceleration": (
-                float(np.abs(vertical).max()), "greatest vertical acceleration, in size", "m/s^2"
+                float(np.abs(vertical).max()), "greatest absolute vertical acceleration", "m/s^2"
             ),
             "greatest_load": (float(motion["fz"].max()), "greatest load of a wheel", "N"),
             **{name: others[name] for name in ("smallest_load", "greatest_roll_angle")},
