@@ -104,7 +104,7 @@ class WheelsUnderLoad:
 
     @property
     def described(self) -> dict[str, str]:
-        """Support and hardpoints in words, attributes of results."""
+        """The support of the wheels and the meaning of the hardpoints, as attributes of results."""
         return {"held": HELD[self.held], "hardpoints": HARDPOINTS[self.hardpoints]}
 
     def equilibria(
@@ -124,8 +124,49 @@ class WheelsUnderLoad:
         base = at_height(suspension, travels)
         of_each = zip(self.parts, suspension.wheels, strict=True)
         unit = np.stack([part * unit_load(self.load, wheel) for part, wheel in of_each], axis=1)
-        states = _under_amounts(suspension, base, unit, self.held, self.load, amounts)
+        states = self._under_amounts(suspension, base, unit, amounts)
         return suspension, base, states
+
+    def _under_amounts(
+        self, suspension: ElasticEquilibrium, base: ElasticState, unit: Array, wanted: Array
+    ) -> list[ElasticState]:
+        """Return the equilibria under some amounts of the load, each found from a smaller one."""
+        _refuse_on_tyres(suspension, self.load, wanted)
+        found: dict[float, ElasticState] = {}
+        for sense in (1.0, -1.0):
+            state, at = base, 0.0
+            for amount in sorted({a for a in wanted.tolist() if sense * a >= 0.0}, key=abs):
+                state = self._towards(suspension, base, state, (at, amount), unit)
+                at, found[amount] = amount, state
+        states = [found[amount] for amount in wanted.tolist()]
+        _refuse_beyond(suspension, states, self.load, wanted)
+        return states
+
+    def _towards(
+        self,
+        suspension: ElasticEquilibrium,
+        base: ElasticState,
+        state: ElasticState,
+        amounts: tuple[float, float],
+        unit: Array,
+    ) -> ElasticState:
+        """Return the equilibrium under one amount of the load from that under another, in steps."""
+        at, end = amounts
+        step = end - at
+        while at != end:
+            to = end if abs(step) >= abs(end - at) else at + step
+            there = suspension.under(to * unit, self.held, state, base)
+            if there.found.all():
+                state, at, step = there, to, 2.0 * step
+                continue
+            step *= 0.5
+            if abs(step) <= _LEAST_STEP * abs(end):
+                raise PositionError(
+                    f"no stable equilibrium was found under {self.load.words} of more than "
+                    f"{at:.4g} {self.load.unit}: the bushes do not hold the linkage. Use smaller "
+                    "loads or stiffer bushes."
+                )
+        return state
 
 
 def assembly_given(
@@ -158,16 +199,16 @@ def _parts_of(
     given: Validator, assembly: HeldAssembly, under: str, wheels: Any
 ) -> tuple[float, ...]:
     """Return the factors of a load on the wheels."""
-    ways = {how.name: how.parts for how in loadings(BY_NAME[under], assembly.wheels)}
+    factors = {how.name: how.parts for how in loadings(BY_NAME[under], assembly.wheels)}
     if len(assembly.wheels) == 1:
         if wheels is not None:
             given.fail("wheels: a corner has one wheel. Leave it out, or give an axle.")
-        return ways[""]
+        return factors[""]
     if wheels is None or isinstance(wheels, str):
         for which, wheel in enumerate(assembly.wheels):
-            ways[wheel] = tuple(np.eye(len(assembly.wheels))[which].tolist())
+            factors[wheel] = tuple(np.eye(len(assembly.wheels))[which].tolist())
         given.among("wheels", wheels or _PARALLEL, WHEELS)
-        return ways.get(wheels or _PARALLEL, ())
+        return factors.get(wheels or _PARALLEL, ())
     both = given.array("wheels", wheels, "1", dimensions=[1])
     if both.shape != (len(assembly.wheels),) or not (np.abs(both) <= 1.0).all():
         given.fail("wheels: two numbers from -1 to 1 are needed, of the left and right wheel.")
@@ -193,55 +234,6 @@ def unit_load(load: RigLoad, on_road: RoadWheel) -> Array:
     if load.at == CENTER:
         return np.concatenate([still, still, force], axis=1)
     return np.concatenate([at_contact, still], axis=1)
-
-
-def _under_amounts(
-    suspension: ElasticEquilibrium,
-    base: ElasticState,
-    unit: Array,
-    held: WheelSupport,
-    load: RigLoad,
-    wanted: Array,
-) -> list[ElasticState]:
-    """Return the equilibria under some amounts of a load, each found from a smaller one."""
-    _refuse_on_tyres(suspension, load, wanted)
-    found: dict[float, ElasticState] = {}
-    for sense in (1.0, -1.0):
-        state, at = base, 0.0
-        for amount in sorted({a for a in wanted.tolist() if sense * a >= 0.0}, key=abs):
-            state = _towards(suspension, base, state, (at, amount), unit, held, load)
-            at, found[amount] = amount, state
-    states = [found[amount] for amount in wanted.tolist()]
-    _refuse_beyond(suspension, states, load, wanted)
-    return states
-
-
-def _towards(
-    suspension: ElasticEquilibrium,
-    base: ElasticState,
-    state: ElasticState,
-    amounts: tuple[float, float],
-    unit: Array,
-    held: WheelSupport,
-    load: RigLoad,
-) -> ElasticState:
-    """Return the equilibrium under one amount of a load from that under another, in steps."""
-    at, end = amounts
-    step = end - at
-    while at != end:
-        to = end if abs(step) >= abs(end - at) else at + step
-        there = suspension.under(to * unit, held, state, base)
-        if there.found.all():
-            state, at, step = there, to, 2.0 * step
-            continue
-        step *= 0.5
-        if abs(step) <= _LEAST_STEP * abs(end):
-            raise PositionError(
-                f"no stable equilibrium was found under {load.words} of more than {at:.4g} "
-                f"{load.unit}: the bushes do not hold the linkage. Use smaller loads or "
-                "stiffer bushes."
-            )
-    return state
 
 
 def _refuse_on_tyres(suspension: ElasticEquilibrium, load: RigLoad, wanted: Array) -> None:
