@@ -1,8 +1,8 @@
 """Mechanisms of random dimensions, and where their paths lead: in maximal coordinates.
 
 A path is followed from the design position in short steps, each along the tangent of all joints'
-equations and corrected by Newton's method (`Follower`). Only the declaration is read. How regular a
-path is, the least singular value of those equations tells.
+equations and corrected by Newton's method (`Follower`). Only the declaration is read. The least
+singular value of those equations measures how regular a path is.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import own_loops
 from kintrafo.generator import Prismatic, Revolute, Universal
 from kintrafo.generator.mechanisms.chains import AXES, PLACES, SEVEN_HINGES
 from kintrafo.generator.mechanisms.held_by_rods import MODELS
-from oracle.constraints import perpendiculars
+from oracle.constraints import perpendiculars, skew
 from oracle.maximal import Motion, Oracle
 from own_mechanisms import askew
 from placements import Placements
@@ -184,8 +184,8 @@ class Follower:
             one, two = turned[i] @ (at - self._centers[i]), turned[j] @ (at - self._centers[j])
             values += list((x[j] + two - x[i] - one) / size)
             lines = np.zeros((3, len(x), 6))
-            lines[:, i, :3], lines[:, i, 3:] = -np.eye(3), _across(one) / size
-            lines[:, j, :3], lines[:, j, 3:] = np.eye(3), -_across(two) / size
+            lines[:, i, :3], lines[:, i, 3:] = -np.eye(3), skew(one) / size
+            lines[:, j, :3], lines[:, j, 3:] = np.eye(3), -skew(two) / size
             rows += list(lines[:, 1:].reshape(3, -1))
         for i, j, a, b in squares:
             one, two = turned[i] @ a, turned[j] @ b
@@ -214,12 +214,6 @@ def _cross(a: Array, b: Array) -> Array:
     return np.array(
         [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     )
-
-
-def _across(a: Array) -> Array:
-    """Return the matrix that multiplies a vector by `a` from the left."""
-    x, y, z = a
-    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
 
 
 # -- mechanisms of random dimensions --------------------------------------------------------------

@@ -6,6 +6,7 @@ import kintrafo
 import numpy as np
 import pytest
 from kintrafo import generator as g
+from oracle.constraints import skew
 
 FRAME = g.Ground("frame")
 PIVOT = g.Point("pivot", (0.1, 0.0, 1.0))
@@ -36,7 +37,7 @@ def test_both_swing_as_one_body() -> None:
     system = pendulum()
     n = np.array(ACROSS.along) / np.linalg.norm(ACROSS.along)
     turn, rate = 0.7, 1.3
-    cross = np.array([[0, -n[2], n[1]], [n[2], 0, -n[0]], [-n[1], n[0], 0]])
+    cross = skew(n)
     rotation = np.eye(3) + np.sin(turn) * cross + (1.0 - np.cos(turn)) * cross @ cross
     inertia, moment = 0.0, 0.0
     for body in (ARM, BURDEN):

@@ -34,6 +34,7 @@ from kintrafo.generator.declare.forces.force import Action, Force
 from kintrafo.generator.declare.world import WORLD
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.systems.skeleton import Skeleton
+from oracle.constraints import skew
 from own_models import Built, own
 from scipy.integrate import solve_ivp
 from scipy.optimize import minimize
@@ -85,10 +86,11 @@ def test_a_thrown_body_follows_eulers_equations(block):
 
     def rates(_, y):
         turned, omega = y[:9].reshape(3, 3), y[9:]
-        x, y, z = omega
-        whirl = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
         return np.concatenate(
-            [(turned @ whirl).ravel(), np.linalg.solve(TENSOR, -np.cross(omega, TENSOR @ omega))]
+            [
+                (turned @ skew(omega)).ravel(),
+                np.linalg.solve(TENSOR, -np.cross(omega, TENSOR @ omega)),
+            ]
         )
 
     start = block.state(**SPINNING)

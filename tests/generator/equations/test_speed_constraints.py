@@ -11,6 +11,7 @@ from kintrafo import generator as g
 from kintrafo.equations.errors import ModelError, ParameterError
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.systems.compile.declaration import model_of
+from oracle.constraints import skew
 from own_models import own
 
 FINE = {"rtol": 1e-11, "atol": 1e-12, "method": "DormandPrince"}
@@ -201,7 +202,7 @@ def test_accelerations_of_the_disc_are_those_with_multipliers(disc):
         tensor = turned @ np.diag([DIAMETRAL, SPIN, DIAMETRAL]) @ turned.T
         # with force F at the arm r: m a = F + m g and I alpha + ... = r x F, where a is that of
         # a centre with the velocity r x omega: a = r x alpha + r' x omega
-        cross = np.array([[0.0, -arm[2], arm[1]], [arm[2], 0.0, -arm[0]], [-arm[1], arm[0], 0.0]])
+        cross = skew(arm)
         weight = np.array([0.0, 0.0, -9.81])
         known = MASS * np.cross(arm, np.cross(sliding, omega) - weight)
         left = tensor - MASS * cross @ cross
