@@ -28,13 +28,11 @@ from .coupling import BodyPose
 from .held import RestConditions
 from .load import Load
 from .measures.axle import OVER_RACK, OVER_STEERING, OVER_TRAVEL
-from .measures.measure import Measure
 from .part_poses import CornerParts, PartPoses, states_with
-from .quantity import STEERING_WHEEL
 from .rest import settled
 from .rig import RigPosition, SweepRange, WheelReach
 from .soft_lines import SoftLines
-from .steered import STEERING, SteerableAssembly, motions_of_two
+from .steered import SteerableAssembly, motions_of_two
 from .steering_linkage import on_the_steering, steering_of
 from .wheel_names import WheelNames
 
@@ -50,6 +48,7 @@ _NO_REST = (
 class AxleAssembly(SteerableAssembly):
     """An axle of two corners; `model` has its equations, if they exist already."""
 
+    MEASURES, OVER_STEERING, OVER_RACK = OVER_TRAVEL, OVER_STEERING, OVER_RACK
     ENDS = "the linkage or a drop link reaches no farther"
     BAR_SIGN = "positive with the left half turned the farther"
 
@@ -157,12 +156,6 @@ class AxleAssembly(SteerableAssembly):
     def joints(self, suffix: str) -> tuple[str, ...]:
         """Return the moving hardpoints of a side."""
         return self.axle.sides[suffix.removeprefix("_")].hardpoints.JOINTS
-
-    def measures(self, motion: str) -> tuple[Measure, ...]:
-        """Return its characteristics over a motion."""
-        if motion not in STEERING:
-            return OVER_TRAVEL
-        return OVER_STEERING if self.motions[motion].along is STEERING_WHEEL else OVER_RACK
 
     def kinematics(self, position: RigPosition) -> AxleKinematics:
         """Return positions and first derivatives of both wheels."""

@@ -2,6 +2,7 @@
 
 from abc import abstractmethod
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 
@@ -10,6 +11,7 @@ from ...core.validator import Validator
 from ..models.sides import LEFT, RIGHT, SIDES
 from . import motions
 from .assembly import HeldAssembly
+from .measures.measure import Measure
 from .quantity import ROLL, STEERING_WHEEL, TRAVEL, Quantity
 from .rig import RigMotion, RigPosition, SweepRange
 from .steering_wheel import SteeringWheel
@@ -19,8 +21,19 @@ STEERING = ("steer", "rack")
 
 
 class SteerableAssembly(HeldAssembly):
-    """An axle, whose wheels may be steered."""
+    """An axle whose wheels may be steered.
 
+    Attributes
+    ----------
+    MEASURES : tuple of Measure
+        Its characteristics over motions of the wheels.
+    OVER_STEERING, OVER_RACK : tuple of Measure
+        Those over angles of the steering wheel, and over displacements of the steering.
+    """
+
+    MEASURES: ClassVar[tuple[Measure, ...]]
+    OVER_STEERING: ClassVar[tuple[Measure, ...]] = ()
+    OVER_RACK: ClassVar[tuple[Measure, ...]] = ()
     wheels = SIDES
 
     # -- its steering -----------------------------------------------------------------------------
@@ -50,6 +63,16 @@ class SteerableAssembly(HeldAssembly):
         """The motion of the steering wheel, or of the rack if no file has the steering's ratio."""
         turns = self.steered and self.steering_wheel.known
         return "steer" if turns else "rack" if self.steered else None
+
+    def _turns_the_wheel(self, motion: str) -> bool:
+        """Return whether the positions of a motion are angles of the steering wheel."""
+        return motion == "steer" and self.steering_wheel.known
+
+    def measures(self, motion: str) -> tuple[Measure, ...]:
+        """Return its characteristics over a motion."""
+        if motion not in STEERING:
+            return self.MEASURES
+        return self.OVER_STEERING if self._turns_the_wheel(motion) else self.OVER_RACK
 
     def refuse_positions(self, given: Validator, motion: str, along: Array) -> None:
         """Refuse steering-wheel angles without a known ratio to the rack, or beyond its curve."""
@@ -95,8 +118,11 @@ class SteerableAssembly(HeldAssembly):
         """Return the positions of wheels and rack along a motion."""
         if motion in STEERING:
             wheel, travels = self.steering_wheel, np.full_like(along, travel)
-            turns = motion == "steer" and wheel.known
-            racks, per_turn = wheel.rack(along) if turns else (along, wheel.per_turn_at(along))
+            racks, per_turn = (
+                wheel.rack(along)
+                if self._turns_the_wheel(motion)
+                else (along, wheel.per_turn_at(along))
+            )
             return RigPosition(dict.fromkeys(SIDES, travels), racks, per_turn)
         left, right = self.travels_in(motion, along, rack)
         return RigPosition({LEFT: left, RIGHT: right}, np.asarray(rack, float))

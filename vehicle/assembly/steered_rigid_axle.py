@@ -26,14 +26,11 @@ from ..models.steered_rigid_axle.structure import (
 from . import wheel
 from .coupling import BodyPose
 from .load import Load
-from .measures.measure import Measure
 from .measures.steered_rigid_axle import MEASURES, OVER_RACK, OVER_STEERING
 from .part_poses import CENTER, PartPoses
-from .rig import RigPosition
 from .rigid_axle import RigidAxleAssembly
 from .rigid_axle_kinematics import RigidAxleKinematics
 from .rigid_axle_parts import RigidAxleParts
-from .steered import STEERING
 from .steering_axis import AxisOfPoints
 from .steering_linkage import on_the_steering, steering_of
 from .whole_axle_kinematics import TravellingWheel
@@ -155,12 +152,10 @@ class SteeredRigidAxleKinematics(RigidAxleKinematics):
     ----------
     parts : SteeredRigidAxleParts
     per_turn : ndarray or None
-        Signed displacement of the steering for one turn of the steering wheel there [m]; None if
-        it is not known.
+        As for `WholeAxleKinematics`.
     """
 
     parts: SteeredRigidAxleParts
-    per_turn: Array | None = None
 
     @cached_property
     def corners(self) -> dict[str, Any]:
@@ -246,7 +241,8 @@ class SteeredRigidAxleAssembly(RigidAxleAssembly):
     """A steered rigid axle; `model` has its equations, if they exist already."""
 
     AXLE, MODEL, PARTS = SteeredRigidAxle, SteeredRigidAxleModel, SteeredRigidAxleParts
-    KINEMATICS, MEASURES = SteeredRigidAxleKinematics, MEASURES
+    KINEMATICS = SteeredRigidAxleKinematics
+    MEASURES, OVER_STEERING, OVER_RACK = MEASURES, OVER_STEERING, OVER_RACK
     ENDS = (
         "a rod, the drag link, the track rod or a damper reaches no farther, or a spring or a "
         "damper has turned by a right angle"
@@ -266,20 +262,6 @@ class SteeredRigidAxleAssembly(RigidAxleAssembly):
             f"{super().words} A Pitman arm moves the drag link to the {self.axle.near} knuckle, "
             "and a track rod turns the other one."
         )
-
-    def measures(self, motion: str) -> tuple[Measure, ...]:
-        """Return its characteristics over a motion."""
-        if motion not in STEERING:
-            return self.MEASURES
-        turns = motion == "steer" and self.steering_wheel.known
-        return OVER_STEERING if turns else OVER_RACK
-
-    def kinematics(self, position: RigPosition) -> SteeredRigidAxleKinematics:
-        """Return positions and first derivatives of the axle."""
-        self.require_rigid_motion()
-        parts = self._at(position)
-        assert isinstance(parts, SteeredRigidAxleParts)  # its class of parts
-        return SteeredRigidAxleKinematics(parts, position.per_turn)
 
     def between(
         self, poses: Mapping[str, PartPoses], loads: Sequence[Load]

@@ -19,7 +19,6 @@ from ..models.whole_axle_model import WholeAxleModel
 from .assembly import Bushings
 from .held import RestConditions
 from .load import Load
-from .measures.measure import Measure
 from .motions import MOST_ROLL, USUAL_ROLL, USUAL_ROLL_STEP
 from .part_poses import PartPoses, states_with
 from .rest import settled
@@ -57,14 +56,13 @@ class WholeAxleAssembly(SteerableAssembly):
     PARTS, KINEMATICS : type
         Classes of its parts, and of the first derivatives of their motion.
     MEASURES : tuple of Measure
-        Its characteristics, the same over all motions.
+        Its characteristics over motions of the wheels.
     """
 
     AXLE: ClassVar[type[WholeAxle]]
     MODEL: ClassVar[type[WholeAxleModel]]
     PARTS: ClassVar[type[WholeAxleParts]]
     KINEMATICS: ClassVar[type[WholeAxleKinematics]] = WholeAxleKinematics
-    MEASURES: ClassVar[tuple[Measure, ...]]
     BAR_SIGN = "positive with the left wheel up"
 
     axle: Any
@@ -187,15 +185,10 @@ class WholeAxleAssembly(SteerableAssembly):
         found: tuple[str, ...] = self.axle.joint_names
         return found
 
-    def measures(self, motion: str) -> tuple[Measure, ...]:
-        """Return its characteristics, the same over all motions."""
-        del motion
-        return self.MEASURES
-
     def kinematics(self, position: RigPosition) -> WholeAxleKinematics:
         """Return positions and first derivatives of the axle."""
         self.require_rigid_motion()
-        return self.KINEMATICS(self._at(position))
+        return self.KINEMATICS(self._at(position), position.per_turn)
 
     def poses(self, position: RigPosition) -> dict[str, PartPoses]:
         """Return the parts with rigid joints."""

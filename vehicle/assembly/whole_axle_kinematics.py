@@ -49,9 +49,13 @@ class WholeAxleKinematics:
     Attributes
     ----------
     parts : WholeAxleParts
+    per_turn : ndarray or None
+        Signed displacement of the steering for one turn of the steering wheel there [m]; None if
+        it is not known.
     """
 
     parts: WholeAxleParts
+    per_turn: Array | None = None
 
     @property
     def model(self) -> WholeAxleModel:
