@@ -5,9 +5,11 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from ...core.named_types import Array
 from ...core.quantities import variable
 from ..models.rigid_axle.axle import BeamAxle, RigidAxle
 from ..models.rigid_axle.model import HEAVE, ROLL, RigidAxleModel
+from ..models.rigid_axle.rods import Ends
 from ..models.rigid_axle.structure import BEAM
 from .anti_roll_bar import RollBar
 from .measures.measure import Measure
@@ -82,11 +84,7 @@ class RigidAxleAssembly(WholeAxleAssembly):
         from xarray import Variable  # noqa: PLC0415 (slow to import)
 
         rods = [*self.axle.rods]
-        forces = (found["force"].sel(load=f"{BEAM} at {rod}_axle by {rod}").values for rod in rods)
-        pulls = [
-            np.einsum("ni,ni->n", force, poses[""].rod(rod))
-            for rod, force in zip(rods, forces, strict=True)
-        ]
+        pulls = [pull(found, f"{BEAM} at {rod}_axle by {rod}", poses[""].rod(rod)) for rod in rods]
         words = "force along a rod, positive in tension"
         return {
             "rod": Variable("rod", rods),
@@ -95,11 +93,8 @@ class RigidAxleAssembly(WholeAxleAssembly):
 
     def described(self) -> dict[str, str]:
         """Return the track and the lengths of the rods as text."""
-        rods = ", ".join(
-            f"{name.replace('_', ' ')} {1e3 * float(np.linalg.norm(outer - inner)):.1f} mm"
-            for name, (inner, outer) in self.axle.ends().items()
-        )
-        return {"track": f"{2e3 * self.axle.half_track:.4g} mm", "rods": rods}
+        track = f"{2e3 * self.axle.half_track:.4g} mm"
+        return {"track": track, "rods": lengths_of(self.axle.ends())}
 
     @property
     def bar(self) -> RollBar | None:
@@ -107,3 +102,27 @@ class RigidAxleAssembly(WholeAxleAssembly):
         if self.axle.anti_roll_bar is None:
             return None
         return RollBar(self.model.parameters["bar_rate"], BEAM)
+
+
+def pull(found: "xr.Dataset", load: str, along: Array) -> Array:
+    """Return the force of a load along a link, positive in tension, (n,) [N].
+
+    Parameters
+    ----------
+    found : xarray.Dataset
+        All loads.
+    load : str
+        The name of the link's load on the axle.
+    along : ndarray, shape (n, 3)
+        Unit vector from this end of the link to its other end.
+    """
+    force: Array = np.einsum("ni,ni->n", found["force"].sel(load=load).values, along)
+    return force
+
+
+def lengths_of(links: Mapping[str, Ends]) -> str:
+    """Return the lengths of links by name, as text."""
+    return ", ".join(
+        f"{name.replace('_', ' ')} {1e3 * float(np.linalg.norm(last - first)):.1f} mm"
+        for name, (first, last) in links.items()
+    )

@@ -110,7 +110,11 @@ class RigidAxleParts(WholeAxleParts):
 
     def rod(self, name: str) -> Array:
         """Return the unit vector along a rod from the axle to the chassis, (n, 3)."""
-        way = self.points[f"{name}_{CHASSIS}"] - self.points[f"{name}_axle"]
+        return self.along(f"{name}_{CHASSIS}", f"{name}_axle")
+
+    def along(self, first: str, last: str) -> Array:
+        """Return the unit vector from the last to the first point of a link, (n, 3)."""
+        way = self.points[first] - self.points[last]
         along: Array = way / np.linalg.norm(way, axis=-1, keepdims=True)
         return along
 

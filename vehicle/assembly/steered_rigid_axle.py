@@ -28,7 +28,7 @@ from .coupling import BodyPose
 from .load import Load
 from .measures.steered_rigid_axle import MEASURES, OVER_RACK, OVER_STEERING
 from .part_poses import CENTER, PartPoses
-from .rigid_axle import RigidAxleAssembly
+from .rigid_axle import RigidAxleAssembly, lengths_of, pull
 from .rigid_axle_kinematics import RigidAxleKinematics
 from .rigid_axle_parts import RigidAxleParts
 from .steering_axis import AxisOfPoints
@@ -117,9 +117,7 @@ class SteeredRigidAxleParts(RigidAxleParts):
         """Return the velocities of the parts for a unit velocity of the steering, (n, 6)."""
         inputs = self.inputs.copy()
         inputs[:, self.model.input_names.index("rack_velocity")] = 1.0
-        found = self.model.evaluate("velocities", self.states, inputs)
-        bodies = self.model.equations.BODIES
-        return {part: found[:, bodies.index(body)] for part, body in self.MASSIVE.items()}
+        return self._by_part(self.model.evaluate("velocities", self.states, inputs))
 
 
 _LINKS = {
@@ -146,14 +144,7 @@ class SteeredWheel(TravellingWheel):
 
 @dataclass(frozen=True)
 class SteeredRigidAxleKinematics(RigidAxleKinematics):
-    """A steered rigid axle at rest in n positions.
-
-    Attributes
-    ----------
-    parts : SteeredRigidAxleParts
-    per_turn : ndarray or None
-        As for `WholeAxleKinematics`.
-    """
+    """A steered rigid axle at rest in n positions."""
 
     parts: SteeredRigidAxleParts
 
@@ -178,10 +169,8 @@ class SteeredRigidAxleKinematics(RigidAxleKinematics):
         twists, found = self.parts.steering_twists(), {}
         for side in SIDES:
             part = self.parts.carrier(side)
-            twist = twists[part]
-            arm = self.wheel_center(side) - self.parts.centers[part]
-            velocity = twist[:, 3:] + cross(twist[:, :3], arm)
-            found[side] = CarrierMotion(velocity, twist[:, :3])
+            velocity = self.parts.velocity_at(part, self.wheel_center(side), twists[part])
+            found[side] = CarrierMotion(velocity, twists[part][:, :3])
         return found
 
     def _steering(self, side: str) -> CarrierMotion:
@@ -274,18 +263,15 @@ class SteeredRigidAxleAssembly(RigidAxleAssembly):
     ) -> "dict[str, xr.Variable]":
         """Return forces along rods and links, the moment of the steering, the torque of the bar."""
         steering = steering_of(self.axle.steering_gear, over, found)
+        knuckles = {DRAG_LINK: knuckle(self.axle.near), TRACK_ROD: knuckle(RIGHT)}
         for name, (first, last) in _LINKS.items():
-            along = poses[""].points[first] - poses[""].points[last]
-            along = along / np.linalg.norm(along, axis=-1, keepdims=True)
-            (load,) = {*found["load"].values[found["load"].str.contains(f"{last} by {name}")]}
-            force = np.einsum("ni,ni->n", found["force"].sel(load=load).values, along)
+            end = f"{knuckles[name]} at {last} by {name}"
+            force = pull(found, end, poses[""].along(first, last))
             words = f"force along the {name.replace('_', ' ')}, positive in tension"
             steering[f"{name}_force"] = variable(over, force, words, "N")
         return super().further(over, poses, found) | steering
 
     def described(self) -> dict[str, str]:
         """Return the track and the lengths of rods and links as text."""
-        design = {name: 1e3 * float(np.linalg.norm(a - b)) for name, (a, b) in
-                  self.axle.links().items()}  # fmt: skip
-        links = ", ".join(f"{name.replace('_', ' ')} {far:.1f} mm" for name, far in design.items())
+        links = lengths_of(self.axle.links())
         return super().described() | {"steering": f"{links}, drag link at the {self.axle.near}"}

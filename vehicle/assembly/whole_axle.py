@@ -55,8 +55,6 @@ class WholeAxleAssembly(SteerableAssembly):
         Classes of the data of a file, and of their equations.
     PARTS, KINEMATICS : type
         Classes of its parts, and of the first derivatives of their motion.
-    MEASURES : tuple of Measure
-        Its characteristics over motions of the wheels.
     """
 
     AXLE: ClassVar[type[WholeAxle]]

@@ -118,7 +118,7 @@ class WholeAxleKinematics:
         `place` is its position, (n, 3) [m], `by` the coordinate.
         """
         twist = self._twists[part][:, self.model.COORDINATES.index(by)]
-        return twist[:, 3:] + cross(twist[:, :3], place - self.parts.centers[part])
+        return self.parts.velocity_at(part, place, twist)
 
     def turning(self, side: str, by: str) -> Array:
         """Return the angular velocity of a wheel's carrier per unit of a coordinate, (n, 3)."""

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.named_types import Array
+from ...core.vectors import cross
 from ...systems.allowed import LengthLimit
 from ..corner.corner import UP, RoadWheel
 from ..corner.structure import LineForce, Structure
@@ -168,9 +169,25 @@ class WholeAxleParts(PartPoses):
             states = self.states.copy()
             states[:, self.model.state_names.index(f"{coordinate}_rate")] = 1.0
             found.append(self.model.evaluate("velocities", states, self.inputs))
-        both = np.stack(found, axis=-2)
+        return self._by_part(np.stack(found, axis=-2))
+
+    def velocity_at(self, part: str, place: Array, twist: Array) -> Array:
+        """Return the velocity of a point of a part, (n, 3).
+
+        Parameters
+        ----------
+        part : str
+        place : ndarray, shape (n, 3)
+            Position of the point [m].
+        twist : ndarray, shape (n, 6)
+            Angular velocity of the part, and velocity of its centre of mass.
+        """
+        return twist[:, 3:] + cross(twist[:, :3], place - self.centers[part])
+
+    def _by_part(self, velocities: Array) -> dict[str, Array]:
+        """Return velocities of all bodies, (n, bodies, ...), by the parts with a mass."""
         bodies = self.model.equations.BODIES
-        return {part: both[:, bodies.index(body)] for part, body in self.MASSIVE.items()}
+        return {part: velocities[:, bodies.index(body)] for part, body in self.MASSIVE.items()}
 
     def masses(self) -> dict[str, PartMass]:
         """Return mass and inertia of each part with a mass."""
