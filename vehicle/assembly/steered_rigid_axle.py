@@ -12,7 +12,7 @@ from ...core.quantities import variable
 from ...core.vectors import cross
 from ..corner.corner import CarrierMotion, SteeringAxis
 from ..models.rigid_axle.structure import BEAM
-from ..models.sides import LEFT, RIGHT, SIDES
+from ..models.sides import LEFT, MIRROR, RIGHT, SIDES
 from ..models.steered_rigid_axle.axle import SteeredRigidAxle
 from ..models.steered_rigid_axle.file import LOWER, TRACK_ROD, UPPER
 from ..models.steered_rigid_axle.model import SteeredRigidAxleModel
@@ -38,7 +38,6 @@ from .whole_axle_kinematics import TravellingWheel
 if TYPE_CHECKING:
     import xarray as xr
 
-_MIRROR = np.array([1.0, -1.0, 1.0])
 _KNUCKLES = {knuckle(side): f"{side}_knuckle" for side in SIDES}
 
 
@@ -101,7 +100,7 @@ class SteeredRigidAxleParts(RigidAxleParts):
     def design_centers(cls, axle: Any) -> dict[str, Array]:
         """Return the centres of mass of beam and knuckles, and that of the Pitman arm, (3,) [m]."""
         right = np.asarray(axle.bodies.knuckle.centre_of_mass(axle.hardpoints))
-        knuckles = {knuckle(LEFT): right * _MIRROR, knuckle(RIGHT): right}
+        knuckles = {knuckle(LEFT): right * MIRROR, knuckle(RIGHT): right}
         return {**super().design_centers(axle), **knuckles, **axle.pitman_arm.centers_of_mass()}
 
     @property

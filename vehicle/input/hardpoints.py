@@ -28,7 +28,7 @@ LARGEST_COORDINATE = 20.0
 # Least angle of a hinge axis to the vertical [deg].
 _SMALLEST_HINGE_ANGLE = 1.0
 # Least angle of a link to the first axis of its universal joint [deg].
-_SMALLEST_CROSS_ANGLE = 1.0
+SMALLEST_CROSS_ANGLE = 1.0
 
 Pair = tuple[str, str]
 
@@ -195,11 +195,11 @@ class Hardpoints(Section):
         """
         first, second = (self.metres(end) for end in ends)
         angle = angle_between_lines(second - first, axis)
-        if angle >= _SMALLEST_CROSS_ANGLE:
+        if angle >= SMALLEST_CROSS_ANGLE:
             return []
         problem = (
             f"{self.text(*ends)}: the {link} is {angle:.3f} deg from {name}; at least "
-            f"{_SMALLEST_CROSS_ANGLE:g} deg are needed for its universal joint to hold "
+            f"{SMALLEST_CROSS_ANGLE:g} deg are needed for its universal joint to hold "
             "it. Move one of the two points."
         )
         return [problem]

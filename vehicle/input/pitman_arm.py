@@ -17,7 +17,7 @@ from ...core.vectors import (
     distance_from_line,
     unit_vector,
 )
-from .hardpoints import LARGEST_COORDINATE, SMALLEST_DISTANCE
+from .hardpoints import LARGEST_COORDINATE, SMALLEST_CROSS_ANGLE, SMALLEST_DISTANCE
 from .section import AllowedRange, Number, Section, Triple, without_direction
 from .units import in_metres
 
@@ -25,8 +25,6 @@ RELAY_ROD = "relay_rod"
 
 _NAMES = {"pitman_arm": "Pitman arm", "idler_arm": "idler arm"}
 _UP = np.array([0.0, 0.0, 1.0])
-# Nearer than this to the vertical, the relay rod turns in its universal joint, in degrees.
-_SMALLEST_CROSS_ANGLE = 1.0
 
 GearRatio = Annotated[
     Number,
@@ -238,10 +236,10 @@ class PitmanLinkage(PitmanArmSection):
         """Return the problems of an arm in line with the rod, and of an upright rod."""
         problems = []
         angle = angle_between_lines(rod, _UP)
-        if angle < _SMALLEST_CROSS_ANGLE:
+        if angle < SMALLEST_CROSS_ANGLE:
             problems.append(
                 f"the relay rod, from ball_mm to idler_ball_mm, is {angle:.3f} deg from the "
-                f"vertical; at least {_SMALLEST_CROSS_ANGLE:g} deg are needed for its universal "
+                f"vertical; at least {SMALLEST_CROSS_ANGLE:g} deg are needed for its universal "
                 "joint to hold it. Move one of the two points."
             )
         for arm, name in _NAMES.items():

@@ -379,13 +379,11 @@ class TwistBeamModel(WholeAxleModel):
     def moved(self, states: Array, left: Array, right: Array, inputs: Array | None = None) -> Array:
         """Return states with the rates for velocities of the wheels [m/s]."""
         del inputs
-        found = states.copy()
         lift, twist = (states[..., self.state_names.index(name)] for name in self.COORDINATES)
         with np.errstate(all="ignore"):
             _, slopes = _heights(self.axle, lift, twist)
             rates = solved_for_two(slopes, np.stack(np.broadcast_arrays(left, right), axis=-1))
-        found[..., [self.state_names.index(f"{name}_rate") for name in self.COORDINATES]] = rates
-        return found
+        return self.with_rates(states, rates)
 
     def turned(self, states: Array) -> Array:
         """Return the larger of both angles [rad]; pi for NaN."""

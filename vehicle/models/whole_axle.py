@@ -35,7 +35,7 @@ from .plausibility import (
     unlikely_wheel,
     unusual_alignment,
 )
-from .sides import LEFT, RIGHT, SIDES
+from .sides import LEFT, MIRROR, RIGHT, SIDES
 
 if TYPE_CHECKING:
     from ..corner.coil_sprung import ApartDamper
@@ -48,7 +48,6 @@ if TYPE_CHECKING:
 _SMALLEST_HALF_TRACK = 0.1
 # Least length of a spring or a damper [m].
 SHORTEST = 0.001
-_MIRROR = np.array([1.0, -1.0, 1.0])
 # The signals and inputs of a side that sum up to the force of a spring or a damper.
 _FORCES = {
     "spring": ("spring_spring_force", "spring_actuator"),
@@ -233,7 +232,7 @@ class WholeAxle(WheeledSection):
         found = self.hardpoints.at_design()
         if side == RIGHT:
             return found
-        return {name: point * _MIRROR for name, point in found.items()} | self._left_points()
+        return {name: point * MIRROR for name, point in found.items()} | self._left_points()
 
     def _left_points(self) -> dict[str, Array]:
         """Return the points of the left side that are not mirror images [m]."""

@@ -184,6 +184,12 @@ class WholeAxleModel(System):
         `inputs` have the position and the velocity of the steering.
         """
 
+    def with_rates(self, states: Array, rates: ArrayLike) -> Array:
+        """Return a copy of states, (..., states), with rates of both coordinates, (..., 2)."""
+        found = states.copy()
+        found[..., [self.state_names.index(f"{name}_rate") for name in self.COORDINATES]] = rates
+        return found
+
     @abstractmethod
     def turned(self, states: Array) -> Array:
         """Return the largest rotation of a part from design [rad], which is limited to 45 deg."""

@@ -19,12 +19,11 @@ from pydantic import Field
 
 from ....core.named_types import Array
 from ....core.vectors import angle_between_lines, cross, distance_from_line, unit_vector
-from ...input.hardpoints import SMALLEST_DISTANCE
+from ...input.hardpoints import SMALLEST_CROSS_ANGLE, SMALLEST_DISTANCE
 from ...input.section import AllowedRange, NonNegative, Number, Section, Triple
 from ...input.units import LengthUnit, in_metres, point_in_metres
+from ..sides import MIRROR
 
-# Least angle of a drop link to the x axis, at which its universal joint is singular [deg].
-_SMALLEST_CROSS_ANGLE = 1.0
 # Steel: shear modulus [GPa], and Young's modulus over it, 2 (1 + nu) with nu = 0.3.
 _STEEL, _YOUNG = 79.3, 2.6
 _RADIANS = pi / 180.0
@@ -176,10 +175,10 @@ class AntiRollBar(Section):
     def _problems_of_link(self, bush: Array, top: Array, foot: Array) -> list[str]:
         problems = []
         tilt = angle_between_lines(top - foot, np.array([1.0, 0.0, 0.0]))
-        if tilt < _SMALLEST_CROSS_ANGLE:
+        if tilt < SMALLEST_CROSS_ANGLE:
             problems.append(
                 f"the drop link from link_foot to link_top is {tilt:.3f} deg from the x axis; at "
-                f"least {_SMALLEST_CROSS_ANGLE:g} deg are needed. Move one of the two points."
+                f"least {SMALLEST_CROSS_ANGLE:g} deg are needed. Move one of the two points."
             )
         axis = unit_vector(self.axis)
         pull = abs(float(cross(axis, top - bush) @ unit_vector(top - foot)))
@@ -274,7 +273,7 @@ class AntiRollBar(Section):
 
     def half(self, *, mirrored: bool = False) -> "HalfBar":
         """Return the half that the file describes, or the other one."""
-        image = np.array([1.0, -1.0, 1.0]) if mirrored else np.ones(3)
+        image = MIRROR if mirrored else np.ones(3)
         # the image of a rotation about an axis is one about the opposite of the axis' image
         sense = -1.0 if mirrored else 1.0
         return HalfBar(

@@ -79,6 +79,8 @@ class BeamAxle(WholeAxle):
 
     PARTS: ClassVar[tuple[str, ...]] = _PARTS
     """Names of its parts besides rods, and of sources of loads."""
+    POINTS_OF_SIDES: ClassVar[tuple[str, ...]] = (CENTER,)
+    """Points of the right side with bushes, which the left side has, too."""
 
     # -- its properties -------------------------------------------------------------------------
 
@@ -131,21 +133,24 @@ class BeamAxle(WholeAxle):
         given : Validator
             Collects problems.
         described : mapping
-            By the name of a rod with the ending ``_chassis`` or ``_axle``, and ``wheel_center`` for
-            the bearings of both wheels.
+            By the name of a rod with the ending ``_chassis`` or ``_axle``, or of another point; one
+            of the right side has the bushes of both sides.
         """
-        points = {CENTER: self.hardpoints.metres(CENTER)} | self.points_of_rods()
         spin = -self.wheel.spin_axis(-1.0)
-        found = bushes_of(given, described, of_a_file(self.rods), points, spin)
+        found = bushes_of(given, described, self._joints_of_a_file(), self._bush_points(), spin)
         return [
             own
-            for bush in sorted(found, key=lambda bush: bush.point == CENTER)
-            for own in (on_both_sides(bush) if bush.point == CENTER else [bush])
+            for bush in sorted(found, key=lambda bush: bush.point in self.POINTS_OF_SIDES)
+            for own in (on_both_sides(bush) if bush.point in self.POINTS_OF_SIDES else [bush])
         ]
 
-    def points_of_rods(self) -> dict[str, Array]:
-        """Return the ends of the rods at design by the names of their points [m]."""
-        points = dict[str, Array]()
+    def _joints_of_a_file(self) -> Structure:
+        """Return the joints that have bushes in a file: those of both sides are one."""
+        return of_a_file(self.rods)
+
+    def _bush_points(self) -> dict[str, Array]:
+        """Return the points of these joints at design by name [m]."""
+        points = {name: self.hardpoints.metres(name) for name in self.POINTS_OF_SIDES}
         for name, (inner, outer) in self.ends().items():
             points |= {f"{name}_{CHASSIS}": inner, f"{name}_axle": outer}
         return points

@@ -1,25 +1,24 @@
 """`SteeredRigidAxle`: the data of a steered rigid axle's file."""
 
-from collections.abc import Iterable, Iterator, Mapping
-from typing import Any, ClassVar, Literal
+from collections.abc import Iterable, Iterator
+from typing import ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 
 from ....core.named_types import Array
 from ....core.physical import ELEMENTS
-from ....core.validator import Validator
 from ....core.vectors import angle_between_lines, components, cross, unit_vector
-from ...corner.bushes import Bush, bushes_of
+from ...corner.corner import UP
 from ...corner.structure import Structure
 from ...input.bodies import RigidBody
-from ...input.hardpoints import LARGEST_COORDINATE, SMALLEST_DISTANCE
+from ...input.hardpoints import LARGEST_COORDINATE, SMALLEST_CROSS_ANGLE, SMALLEST_DISTANCE
 from ...input.pitman_arm import PitmanArmSection
 from ...input.units import point_in_metres
 from ..rigid_axle.axle import BeamAxle
 from ..rigid_axle.structure import CENTER
-from ..sides import LEFT, RIGHT, SIDES
-from ..whole_axle import WholeAxle, on_both_sides
+from ..sides import LEFT, MIRROR, RIGHT, SIDES
+from ..whole_axle import WholeAxle
 from ..whole_axle_file import AxleDrive
 from .file import (
     LOWER,
@@ -31,10 +30,6 @@ from .file import (
 )
 from .structure import BALL, KNUCKLE_END, of_a_file, structure_of
 
-_MIRROR = np.array([1.0, -1.0, 1.0])
-_UP = np.array([0.0, 0.0, 1.0])
-# Nearer than this to the vertical a rod turns in its universal joint [deg].
-_SMALLEST_CROSS_ANGLE = 1.0
 # Elements of an inertia tensor that have the other sign in the mirror image.
 _TURNED = ("xy", "yz")
 _DRIVEN = (
@@ -104,6 +99,7 @@ ends of the drag link, `pitman_ball` and `drag_link_knuckle`.
     PARTS: ClassVar[tuple[str, ...]] = (
         *BeamAxle.PARTS, "knuckle", "drag_link", "track_rod", "pitman_arm", "steering",
     )  # fmt: skip
+    POINTS_OF_SIDES: ClassVar[tuple[str, ...]] = (LOWER, UPPER, TRACK_ROD, CENTER)
 
     def heading(self) -> str:
         """Return the name of the axle."""
@@ -183,22 +179,14 @@ ends of the drag link, `pitman_ball` and `drag_link_knuckle`.
         """Return the structure that connects its parts."""
         return structure_of(self.rods, self.near)
 
-    def bushes(self, given: Validator, described: Mapping[str, Any]) -> list[Bush]:
-        """Return the described bushes: of rods, kingpins, drag link, track rod and wheels.
+    def _joints_of_a_file(self) -> Structure:
+        """Return the joints that have bushes in a file: those of both sides are one."""
+        return of_a_file(self.rods)
 
-        Those of a point of the right side are of both sides.
-        """
-        both = (LOWER, UPPER, TRACK_ROD, CENTER)
-        points = {name: self.hardpoints.metres(name) for name in both}
-        points |= {f"{TRACK_ROD}_other": points[TRACK_ROD] * _MIRROR, **self.steering_points()}
-        points |= self.points_of_rods()
-        spin = -self.wheel.spin_axis(-1.0)
-        found = bushes_of(given, described, of_a_file(self.rods), points, spin)
-        return [
-            own
-            for bush in sorted(found, key=lambda bush: bush.point in both)
-            for own in (on_both_sides(bush) if bush.point in both else [bush])
-        ]
+    def _bush_points(self) -> dict[str, Array]:
+        """Return the points of these joints at design by name [m]."""
+        other = {f"{TRACK_ROD}_other": self.points(LEFT)[TRACK_ROD]}
+        return super()._bush_points() | other | self.steering_points()
 
     def parameters(self) -> dict[str, float]:
         """Return the parameters of the equations of motion by name, in SI units."""
@@ -216,7 +204,7 @@ ends of the drag link, `pitman_ball` and `drag_link_knuckle`.
         for name, side in (("knuckle", RIGHT), ("left_knuckle", LEFT)):
             turned = {e: -1.0 if side == LEFT and e in _TURNED else 1.0 for e in ELEMENTS}
             found[f"{name}_mass"] = body.mass_kg
-            found |= components(f"{name}_com", center * _MIRROR if side == LEFT else center)
+            found |= components(f"{name}_com", center * MIRROR if side == LEFT else center)
             found |= {f"{name}_inertia_{e}": turned[e] * elements[e] + 0.0 for e in ELEMENTS}
         return found
 
@@ -260,11 +248,11 @@ ends of the drag link, `pitman_ball` and `drag_link_knuckle`.
                 "are needed. Move one of its ends."
             )
             return
-        angle = angle_between_lines(last - first, _UP)
-        if angle < _SMALLEST_CROSS_ANGLE:
+        angle = angle_between_lines(last - first, UP)
+        if angle < SMALLEST_CROSS_ANGLE:
             yield (
                 f"{section} is {angle:.3f} deg from the vertical; at least "
-                f"{_SMALLEST_CROSS_ANGLE:g} deg are needed for its universal joint to hold it. "
+                f"{SMALLEST_CROSS_ANGLE:g} deg are needed for its universal joint to hold it. "
                 "Move one of its ends."
             )
         sides = [self.near] if name == "drag_link" else [RIGHT]

@@ -7,7 +7,7 @@ import numpy as np
 
 from ....core.named_types import Array, ArrayLike
 from ....generated import steered_rigid_axle as equations
-from ....systems.compile.build import compile_mechanism, require_generator
+from ..packaged import equations_named
 from ..rigid_axle.axle import BeamAxle
 from ..rigid_axle.model import RigidAxleModel
 from ..sides import SIDES
@@ -30,7 +30,8 @@ class SteeredRigidAxleModel(RigidAxleModel):
     axle : SteeredRigidAxle, str or Path
         The data, or the name of a packaged data set or path of a TOML file.
     guided : bool, optional
-        As for `RigidAxleModel`.
+        Whether an axle on five rods, which has no motion with rigid rods, has the equations of four
+        of them; otherwise it is refused.
     wheel_loads : bool, optional
         Whether the equations have loads on the wheels as inputs.
 
@@ -63,13 +64,7 @@ class SteeredRigidAxleModel(RigidAxleModel):
 
     def _equations(self) -> ModuleType:
         """Return the equations for the side of the drag link."""
-        name = self.axle.equations_name
-        if name == equations.NAME:
-            return equations
-        require_generator()
-        from ....generator.mechanisms import model_named  # noqa: PLC0415 (an extra)
-
-        return compile_mechanism(model_named(name))
+        return equations_named(self.axle.equations_name)
 
     def placed(self, left: Array, right: Array, rack: ArrayLike = 0.0) -> Array:
         """Return the states at rest at wheel travels and displacements of the steering.
@@ -116,7 +111,7 @@ class SteeredRigidAxleModel(RigidAxleModel):
             With the position and the velocity of the steering.
         """
         lead = states.shape[:-1]
-        rows = self._at_rates(states.reshape(-1, states.shape[-1]))
+        rows = self.with_rates(states.reshape(-1, states.shape[-1]), 0.0)
         acting = self.inputs_at(np.zeros(lead)) if inputs is None else inputs
         acting = np.broadcast_to(acting, (*lead, acting.shape[-1])).reshape(len(rows), -1)
         _, slopes = self._heights(rows, acting)
@@ -124,13 +119,7 @@ class SteeredRigidAxleModel(RigidAxleModel):
         wanted = np.stack(np.broadcast_arrays(left, right, np.empty(lead))[:2], axis=-1)
         with np.errstate(all="ignore"):
             rates = solved_for_two(slopes, wanted.reshape(still.shape) - still)
-        return self._at_rates(rows, rates).reshape(*lead, -1)
-
-    def _at_rates(self, states: Array, rates: ArrayLike = 0.0) -> Array:
-        """Return a copy of states with rates of heave and roll."""
-        found = states.copy()
-        found[:, [self.state_names.index(f"{name}_rate") for name in self.COORDINATES]] = rates
-        return found
+        return self.with_rates(rows, rates).reshape(*lead, -1)
 
     def _of_wheels(self, name: str, states: Array, inputs: Array) -> Array:
         """Return a signal of both wheels, (n, 2); NaN where a loop does not close."""
@@ -148,7 +137,7 @@ class SteeredRigidAxleModel(RigidAxleModel):
         still = inputs.copy()
         still[:, self.input_names.index("rack_velocity")] = 0.0
         slopes = [
-            self._of_wheels("wheel_velocity", self._at_rates(states, unit), still)
+            self._of_wheels("wheel_velocity", self.with_rates(states, unit), still)
             for unit in np.eye(len(self.COORDINATES))
         ]
         return self._of_wheels("wheel_center_z", states, still), np.stack(slopes, axis=-1)
