@@ -20,7 +20,7 @@ from ..models.car.car import Car, center_of_gravity, masses, suspension_masses
 from ..models.car.equations import CarModel
 from ..models.model import Model
 from ..models.reach import PositionError
-from ..models.sides import LEFT, RIGHT, SIDES
+from ..models.sides import LEFT, RIGHT
 from .assembly import Assembly, HeldAssembly
 from .axle_of import axle_assembly
 from .car_kinematics import CarKinematics, measures_of_axles
@@ -205,8 +205,7 @@ class CarAssembly(Assembly):
 
     def _lever(self, end: str) -> float:
         """Return the distance of an axle in front of the body's centre of mass [m]."""
-        x = [self.car.wheel_centers[f"{end}_{side}"][0] for side in SIDES]
-        return float(np.mean(x) - self.car.com[0])
+        return float(self.car.axle_positions[end] - self.car.com[0])
 
     def refuse_holding(self, given: Validator, motion: str, travel: float, rack: float) -> None:
         """Refuse a travel: the body moves over all wheels."""

@@ -11,7 +11,6 @@ from ...core.validator import Validator
 MOST_POINTS = 4_000_000
 """Number of points that a road has at most: 32 MB a track."""
 
-
 LEAD = 5.0
 """Least distance over which a road rises to its first heights, for cars that drive [m]."""
 

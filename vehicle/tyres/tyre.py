@@ -16,7 +16,6 @@ from ...formulas.magic_formula import Contact, Forces
 if TYPE_CHECKING:
     from ...generator.declare.contact_laws import ContactLaw
 
-
 USUAL_SPEED = 16.7
 """Speed of a tyre's measurement if its file has none [m/s]."""
 LOWEST_SPEED = 1.0

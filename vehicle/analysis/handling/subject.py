@@ -44,8 +44,7 @@ def driving_car(source: str, subject: Any) -> DrivingCar:
     car, names = found.car, found.model.state_names
     center = center_of_gravity(car)
     heights = found.model.signals(rest)
-    front = np.mean([car.wheel_centers[wheel][0] for wheel in found.wheels[:2]])
-    rear = np.mean([car.wheel_centers[wheel][0] for wheel in found.wheels[2:]])
+    axles = car.axle_positions
     return DrivingCar(
         model=found.model,
         rest=np.asarray(rest),
@@ -55,8 +54,8 @@ def driving_car(source: str, subject: Any) -> DrivingCar:
         wheels=found.wheels,
         spins=tuple(found.names_of(wheel).spin for wheel in found.wheels),
         radii=tuple(float(heights[f"{wheel}_wheel_center_z"]) for wheel in found.wheels),
-        wheelbase=float(front - rear),
-        front=float(front - center[0]),
+        wheelbase=axles["front"] - axles["rear"],
+        front=float(axles["front"] - center[0]),
         mass=sum(mass for mass, _ in masses(car)),
         rack_state=found.rack_state,
         assembly=found,

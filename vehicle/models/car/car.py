@@ -274,6 +274,14 @@ class Car(DescribedParts):
         }
 
     @property
+    def axle_positions(self) -> dict[str, float]:
+        """The mean x coordinates of the wheel centres of the axles, by end [m]."""
+        return {
+            end: float(np.mean([self.wheel_centers[f"{end}_{side}"][0] for side in SIDES]))
+            for end in self.axles
+        }
+
+    @property
     def com(self) -> Array:
         """The centre of mass of the body at design, axes of the car [m]."""
         given = self.described.body.com_mm
@@ -384,10 +392,7 @@ def _problems_of_axles(car: Car) -> list[str]:
 
 def _problems_of_places(car: Car) -> list[str]:
     """Return problems of the wheelbase, and of a centre of mass that is not between the axles."""
-    x = {
-        end: float(np.mean([car.wheel_centers[f"{end}_{side}"][0] for side in SIDES]))
-        for end in ENDS
-    }
+    x = car.axle_positions
     between, given = x["front"] - x["rear"], in_metres(car.described.wheelbase_mm or 0.0, "mm")
     problems = []
     if abs(between - given) > _CLOSE:

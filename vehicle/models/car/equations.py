@@ -22,7 +22,6 @@ from ....systems.system import System
 from ...tyres.tyre import ContactTerms
 from ..model import Model
 from ..packaged import packaged_equations
-from ..sides import SIDES
 from .car import Car
 from .driving import Air, SteeringColumn
 from .slope import Slope
@@ -321,8 +320,7 @@ def _of_driving(car: Car) -> dict[str, float]:
     air = car.described.air or Air()
     center = car.com if air.center_mm is None else 1e-3 * np.array(air.center_mm)
     lifts = {"front": air.front_lift_area_m2, "rear": air.rear_lift_area_m2}
-    levers = {end: np.mean([car.wheel_centers[f"{end}_{s}"][0] for s in SIDES]) - center[0]
-              for end in lifts}  # fmt: skip
+    levers = {end: x - center[0] for end, x in car.axle_positions.items()}
     return (
         values
         | components("air_center", center)
