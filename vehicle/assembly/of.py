@@ -78,7 +78,7 @@ def model_of(
 
     Returns
     -------
-    Model, AxleModel, RigidAxleModel, CarModel or that of a twist-beam axle
+    Model, AxleModel, CarModel or the equations of an axle without sides
 
     Raises
     ------

@@ -49,7 +49,7 @@ class SteeredRigidAxleParts(RigidAxleParts):
     ----------
     model : SteeredRigidAxleModel
     states, inputs, points, centers, turned
-        As for `RigidAxleParts`; the centre of a link is its middle.
+        See `PartPoses`; the centre of a link without mass is its middle.
     """
 
     model: SteeredRigidAxleModel
@@ -65,7 +65,7 @@ class SteeredRigidAxleParts(RigidAxleParts):
     def of(cls, model: Any, states: Array, inputs: Array | None = None) -> Self:
         """Return the parts in some states, by default with zero inputs."""
         found = super().of(model, states, inputs)
-        # as of the rods, the equations have no centre of mass of these links
+        # the equations have no centre of mass of these links, which have no mass
         for name, (first, last) in _LINKS.items():
             found.centers[name] = 0.5 * (found.points[first] + found.points[last])
         return found
@@ -98,7 +98,10 @@ class SteeredRigidAxleParts(RigidAxleParts):
 
     @classmethod
     def design_centers(cls, axle: Any) -> dict[str, Array]:
-        """Return the centres of mass of beam and knuckles, and that of the Pitman arm, (3,) [m]."""
+        """Return centres of mass at design, (3,) [m].
+
+        They are those of beam and knuckles; the Pitman arm has no mass, and its middle is used.
+        """
         right = np.asarray(axle.bodies.knuckle.centre_of_mass(axle.hardpoints))
         knuckles = {knuckle(LEFT): right * MIRROR, knuckle(RIGHT): right}
         return {**super().design_centers(axle), **knuckles, **axle.pitman_arm.centers_of_mass()}
@@ -113,7 +116,7 @@ class SteeredRigidAxleParts(RigidAxleParts):
         return knuckle(side)
 
     def steering_twists(self) -> dict[str, Array]:
-        """Return the velocities of the parts for a unit velocity of the steering, (n, 6)."""
+        """Return angular velocities and velocities per unit velocity of the steering, (n, 6)."""
         inputs = self.inputs.copy()
         inputs[:, self.model.input_names.index("rack_velocity")] = 1.0
         return self._by_part(self.model.evaluate("velocities", self.states, inputs))
@@ -192,7 +195,7 @@ class SteeredRigidAxleKinematics(RigidAxleKinematics):
 
     @property
     def rack(self) -> Array:
-        """The displacement of the steering, (n,) [m]."""
+        """The displacement of the Pitman arm's ball along its circle, (n,) [m]."""
         return self.parts.inputs[:, self.model.input_names.index("rack_position")]
 
     @property

@@ -76,8 +76,7 @@ def steering_of(
 def on_the_arm(poses: PartPoses, loads: Sequence[Load]) -> tuple[list[Load], dict[str, BodyPose]]:
     """Return the loads on a Pitman arm that moves a drag link, and on the chassis.
 
-    `poses` are those of an axle behind it; `loads` are all others, that of the drag link among
-    them.
+    `poses` are those of the steered axle; `loads` are all others, with that of the drag link.
     """
     gear = poses.steering_gear
     pivot = np.broadcast_to(gear.metres("pivot"), poses.points["pitman_ball"].shape)
@@ -93,7 +92,7 @@ def on_the_linkage(
     Parameters
     ----------
     poses : PartPoses
-        Of a suspension behind the linkage, in n positions.
+        Of a suspension that the linkage steers, in n positions.
     loads : sequence of Load
         All others; those of tie rods on the relay rod are among them.
 

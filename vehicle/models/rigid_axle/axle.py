@@ -231,7 +231,7 @@ class BeamAxle(WholeAxle):
             )
 
     def _further_points(self) -> dict[str, Array]:
-        """Return points besides those of hardpoints and rods [m], by their text in the file."""
+        """Return points besides hardpoints and rods [m], by their names in messages."""
         return {}
 
     def _carriers(self) -> dict[str, RigidBody]:
@@ -239,7 +239,7 @@ class BeamAxle(WholeAxle):
         return {"beam": self.bodies.beam}
 
     def _unsprung_mass(self) -> float:
-        """Return the mass of these bodies at a wheel [kg]."""
+        """Return the unsprung mass at a wheel, without the wheel [kg]."""
         return 0.5 * self.bodies.beam.mass_kg
 
     def _unlikely(self) -> Iterable[str]:
@@ -266,7 +266,7 @@ class BeamAxle(WholeAxle):
 
 
 class _Key(WholeAxle):
-    """The key of a rigid axle's file, which is before its sections."""
+    """The top-level key of the file; as the last base it has the first field of `RigidAxle`."""
 
     rigid_axle: End = Field(description='where the axle is: "front" or "rear"')
 

@@ -40,11 +40,12 @@ _BRAKED = (
     '[brakes] torque_on = "body": brakes on the chassis need half shafts, whose joints would turn '
     'the knuckles. Enter "carrier".'
 )
+# Colours of a drawing.
 _KNUCKLES, _DRAG_LINK, _TRACK_ROD = "#4a525a", "#8c564b", "#17becf"
 
 
 class _Key(WholeAxle):
-    """The key of a steered rigid axle's file, which is before its sections."""
+    """The top-level key of the file; as the last base it has the first field of the axle."""
 
     steered_rigid_axle: Literal["front"] = Field(description='where the axle is: "front"')
 
@@ -211,7 +212,7 @@ ends of the drag link, `pitman_ball` and `drag_link_knuckle`.
     # -- its checks -----------------------------------------------------------------------------
 
     def _own_problems(self) -> list[str]:
-        """Return problems of rods, and of links without length or without lever at a kingpin."""
+        """Return problems of drive and brakes, of rods, and of drag link and track rod."""
         if self.drive is not None:
             return [_DRIVEN]
         if self.brakes.torque_on == "body":
@@ -272,7 +273,7 @@ ends of the drag link, `pitman_ball` and `drag_link_knuckle`.
         return abs(float(cross(unit_vector(high - low), at - low) @ unit_vector(along)))
 
     def _further_points(self) -> dict[str, Array]:
-        """Return the points of Pitman arm and drag link [m], by their text in the file."""
+        """Return the points of Pitman arm and drag link [m], by their names in messages."""
         end = self.steering_points()[KNUCKLE_END]
         return {**self.pitman_arm.given_points(), "[drag_link] knuckle": end}
 
@@ -281,7 +282,7 @@ ends of the drag link, `pitman_ball` and `drag_link_knuckle`.
         return super()._carriers() | {"knuckle": self.bodies.knuckle}
 
     def _unsprung_mass(self) -> float:
-        """Return the mass of these bodies at a wheel [kg]."""
+        """Return the unsprung mass at a wheel, without the wheel [kg]."""
         return super()._unsprung_mass() + self.bodies.knuckle.mass_kg
 
     def _unlikely(self) -> Iterable[str]:
