@@ -72,6 +72,20 @@ class PitmanArmSection(Section):
         """Return the distance of the ball of the Pitman arm from its axis [m]."""
         return self._length_of("pitman_arm")
 
+    def lever(self, arm: str, rod: Vector) -> float:
+        """Return the lever of a force along a rod at the ball of an arm, about its axis [m].
+
+        Parameters
+        ----------
+        arm : str
+        rod : ndarray, shape (3,)
+            A vector along the rod, of any length.
+        """
+        pivot, ball = self.BODIES[arm]
+        across = cross(self.direction_of(arm), self.metres(ball) - self.metres(pivot))
+        lever: float = abs(number(across @ unit_vector(rod)))
+        return lever
+
     # -- interface of a steering, as that of a rack -----------------------------------------------
 
     WORDS: ClassVar[str] = "steered by a Pitman arm"
@@ -132,14 +146,12 @@ class PitmanArmSection(Section):
         axes = {"axis": self.axis} | self._further_axes()
         remedy = "Enter [0.0, 0.0, 1.0] for an arm that turns to the left."
         problems = without_direction(axes, remedy)
-        return problems or [problem for arm in self._arms() for problem in self._arm_problems(arm)]
+        arms = [arm for arm in _NAMES if arm in self.BODIES]
+        return problems or [problem for arm in arms for problem in self._arm_problems(arm)]
 
     def _further_axes(self) -> dict[str, Any]:
         """Return the axes of other arms by key; None for a default."""
         return {}
-
-    def _arms(self) -> list[str]:
-        return [name for name in _NAMES if name in self.BODIES]
 
     def _length_of(self, arm: str) -> float:
         pivot, ball = self.BODIES[arm]
@@ -198,10 +210,10 @@ class PitmanLinkage(PitmanArmSection):
 
     def direction_of(self, arm: str) -> Vector:
         """Return the unit vector along the axis of ``pitman_arm`` or ``idler_arm``."""
-        if arm == "idler_arm" and self.idler_axis is not None:
-            return unit_vector(self.idler_axis)
+        if arm != "idler_arm":
+            return super().direction_of(arm)
         x, y, z = self.axis
-        return unit_vector([x, 0.0 - y, z] if arm == "idler_arm" else self.axis)
+        return unit_vector(self.idler_axis or [x, 0.0 - y, z])
 
     def points(self) -> dict[str, Vector]:
         """Return the points of the linkage at design by name [m]."""
@@ -243,9 +255,8 @@ class PitmanLinkage(PitmanArmSection):
                 "joint to hold it. Move one of the two points."
             )
         for arm, name in _NAMES.items():
-            pivot, ball = self.BODIES[arm]
-            across = cross(self.direction_of(arm), self.metres(ball) - self.metres(pivot))
-            lever = abs(number(across @ unit_vector(rod)))
+            _, ball = self.BODIES[arm]
+            lever = self.lever(arm, rod)
             if lever < SMALLEST_DISTANCE:
                 problems.append(
                     f"the relay rod pulls at the {name} with a lever of "

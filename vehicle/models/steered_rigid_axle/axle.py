@@ -28,7 +28,7 @@ from .file import (
     SteeredHardpoints,
     SteeredRigidAxleBodies,
 )
-from .structure import BALL, KNUCKLE_END, of_a_file, structure_of
+from .structure import BALL, KNUCKLE_END, PITMAN_ARM, of_a_file, structure_of
 
 # Elements of an inertia tensor that have the other sign in the mirror image.
 _TURNED = ("xy", "yz")
@@ -230,9 +230,7 @@ ends of the drag link, `pitman_ball` and `drag_link_knuckle`.
 
     def _problems_of_pitman_arm(self) -> Iterator[str]:
         ball, end = self.links()["drag_link"]
-        lever = self.pitman_arm.length() * abs(
-            float(self.pitman_arm.direction() @ unit_vector(end - ball))
-        )
+        lever = self.pitman_arm.lever(PITMAN_ARM, end - ball)
         if lever < SMALLEST_DISTANCE:
             yield (
                 f"[drag_link] pulls at the Pitman arm with a lever of {1e3 * lever:.3f} mm; at "
