@@ -42,8 +42,8 @@ def main(folder: Path, part: bool) -> None:
 
 def add_libraries(folder: Path, part: bool) -> None:
     """Write the libraries of FMUs for Windows."""
-    from complete import files_of_libraries  # noqa: PLC0415 (imports the wheel)
-    from kintrafo.targets.fmi import binaries  # noqa: PLC0415 (that of the wheel)
+    from complete import files_of_libraries
+    from kintrafo.targets.fmi import binaries
 
     for name, files in files_of_libraries():
         if part and name not in PART:
@@ -56,9 +56,9 @@ def add_libraries(folder: Path, part: bool) -> None:
 
 def add_cars(folder: Path, part: bool, wheel: str) -> None:
     """Write the archives of the compiled cars."""
-    from kintrafo import CarModel  # noqa: PLC0415 (that of the wheel)
-    from kintrafo.systems.compile.packed import pack  # noqa: PLC0415
-    from kintrafo.vehicle.models.car.equations import CarStructure  # noqa: PLC0415
+    from kintrafo import CarModel
+    from kintrafo.systems.compile.packed import pack
+    from kintrafo.vehicle.models.car.equations import CarStructure
 
     for car in cars(part):
         equations = CarModel(car).equations
@@ -70,8 +70,8 @@ def add_cars(folder: Path, part: bool, wheel: str) -> None:
 
 def cars(part: bool) -> "Iterator[kintrafo.Car]":
     """Yield the packaged cars on two axles, and those that can drive as driving ones, too."""
-    import kintrafo  # noqa: PLC0415 (that of the wheel)
-    from kintrafo.vehicle.data.starter import packaged_cars  # noqa: PLC0415
+    import kintrafo
+    from kintrafo.vehicle.data.starter import packaged_cars
 
     for name in PART[1:] if part else packaged_cars():
         car = kintrafo.load(name)

@@ -1,7 +1,7 @@
 """Draw docs/images/axle_goals.png: ``python docs/images/axle_goals.py``.
 
 The goals are those of the file that stands on docs/suspension/axles.md.
-"""  # noqa: INP001 (a script beside its picture)
+"""
 
 import re
 import tomllib

@@ -1,7 +1,7 @@
 """Draw docs/images/car_report.png: ``python docs/images/car_report.py``.
 
 The step steer in the report of the packaged car that drives. Needs Playwright and Chromium.
-"""  # noqa: INP001 (a script beside its picture)
+"""
 
 import shutil
 import sys

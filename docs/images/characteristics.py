@@ -2,7 +2,7 @@
 
 The suspension is the reference car with angles and offsets made large enough to be seen. Points and
 lines are computed, not sketched.
-"""  # noqa: INP001 (a script beside its picture)
+"""
 
 from pathlib import Path
 from typing import TYPE_CHECKING

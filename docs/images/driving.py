@@ -2,7 +2,7 @@
 
 The packaged car that drives, in the middle of a double lane change: smaller than kintrafo writes
 it, with half of the frames.
-"""  # noqa: INP001 (a script beside its picture)
+"""
 
 from pathlib import Path
 from tempfile import TemporaryDirectory

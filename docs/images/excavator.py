@@ -2,7 +2,7 @@
 
 Left the compiled excavator in three positions, with all that the pin of its bucket can reach; right
 how boom, arm and bucket turn with the strokes of their cylinders.
-"""  # noqa: INP001 (a script beside its picture)
+"""
 
 from pathlib import Path
 

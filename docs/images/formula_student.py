@@ -1,4 +1,4 @@
-"""Draw docs/images/formula_student.png: ``python docs/images/formula_student.py``."""  # noqa: INP001 (a script beside its picture)
+"""Draw docs/images/formula_student.png: ``python docs/images/formula_student.py``."""
 
 from pathlib import Path
 

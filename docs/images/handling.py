@@ -1,4 +1,4 @@
-"""Draw the pictures of docs/suspension/handling.md: ``python docs/images/handling.py``."""  # noqa: INP001 (a script beside its pictures)
+"""Draw the pictures of docs/suspension/handling.md: ``python docs/images/handling.py``."""
 
 from pathlib import Path
 

@@ -2,7 +2,7 @@
 
 Figures 1 to 3 as the generator draws those of any mechanism, and the two solutions of Eq. 15: the
 end D of the tie rod turns about the strut's axis BC on a circle, and keeps its distance from E.
-"""  # noqa: INP001 (a script beside its picture)
+"""
 
 import tempfile
 from pathlib import Path

@@ -2,7 +2,7 @@
 
 Left the sketch of docs/mechanisms/own-mechanism.md, right the compiled mechanism at three heights
 of the wheel, and its motion after a step of the road.
-"""  # noqa: INP001 (a script beside its picture)
+"""
 
 from pathlib import Path
 

@@ -3,7 +3,7 @@
 Reports in Chromium: two as they open, and that of the packaged push-rod suspension, whose wheel
 moves through its travel, then the rack through its own, and curves follow. Needs Chromium, and
 Playwright of the extra ``dev``.
-"""  # noqa: INP001 (a script beside its picture)
+"""
 
 import io
 import shutil

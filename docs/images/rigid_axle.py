@@ -1,4 +1,4 @@
-"""Draw docs/images/rigid_axle.png: ``python docs/images/rigid_axle.py``."""  # noqa: INP001 (a script beside its picture)
+"""Draw docs/images/rigid_axle.png: ``python docs/images/rigid_axle.py``."""
 
 from pathlib import Path
 

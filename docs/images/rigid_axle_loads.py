@@ -1,4 +1,4 @@
-"""Draw docs/images/rigid_axle_loads.png: ``python docs/images/rigid_axle_loads.py``."""  # noqa: INP001 (a script beside its picture)
+"""Draw docs/images/rigid_axle_loads.png: ``python docs/images/rigid_axle_loads.py``."""
 
 from pathlib import Path
 

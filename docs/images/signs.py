@@ -2,7 +2,7 @@
 
 Every angle and displacement in its positive sense, on the left and on the right side. Wheels and
 axes are drawn from the definitions in docs/reference/conventions.md, with large angles.
-"""  # noqa: INP001 (a script beside its picture)
+"""
 
 from pathlib import Path
 

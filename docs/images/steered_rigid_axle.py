@@ -1,4 +1,4 @@
-"""Draw docs/images/steered_rigid_axle.png: ``python docs/images/steered_rigid_axle.py``."""  # noqa: INP001 (a script beside its picture)
+"""Draw docs/images/steered_rigid_axle.png: ``python docs/images/steered_rigid_axle.py``."""
 
 from pathlib import Path
 

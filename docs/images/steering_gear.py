@@ -2,7 +2,7 @@
 
 Left the mechanism of examples/steering_gear.py from the side; right how far its rack goes for a
 turn of the column, for forks of the shaft that are turned against each other.
-"""  # noqa: INP001 (a script beside its picture)
+"""
 
 from math import cos, radians, sin
 from pathlib import Path

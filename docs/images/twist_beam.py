@@ -1,4 +1,4 @@
-"""Draw docs/images/twist_beam.png: ``python docs/images/twist_beam.py``."""  # noqa: INP001 (a script beside its picture)
+"""Draw docs/images/twist_beam.png: ``python docs/images/twist_beam.py``."""
 
 from pathlib import Path
 

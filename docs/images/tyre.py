@@ -1,4 +1,4 @@
-"""Draw docs/images/tyre.png: ``python docs/images/tyre.py``."""  # noqa: INP001 (a script beside its picture)
+"""Draw docs/images/tyre.png: ``python docs/images/tyre.py``."""
 
 from pathlib import Path
 

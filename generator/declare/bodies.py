@@ -146,7 +146,7 @@ class Rotor(Body):
         centre of mass [kg m^2].
     """
 
-    inertia: Inertia | None = field(default=None, kw_only=True)  # type: ignore[assignment]
+    inertia: Inertia | None = field(default=None, kw_only=True)  # type: ignore[assignment] # of spin, diametral
     axis: Direction = field(kw_only=True)
     spin: Number = field(kw_only=True)
     diametral: Number = field(kw_only=True)

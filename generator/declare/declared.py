@@ -99,8 +99,8 @@ Numeral = Annotated[int, Field(ge=0)]
 
 def declared(cls: Declared) -> Declared:
     """Return a dataclass that checks its arguments."""
-    # no assignment, against ruff's advice: mypy does not allow to replace a method
-    setattr(cls, "__init__", _checked(vars(cls)["__init__"], cls.__name__, cls))  # noqa: B010
+    checked_init = _checked(vars(cls)["__init__"], cls.__name__, cls)
+    setattr(cls, "__init__", checked_init)  # noqa: B010 (mypy allows no assignment to a method)
     return cls
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import sympy as sp
 from typing_extensions import override
@@ -125,8 +125,8 @@ class AnyLaw(ABC):
 def _with_formula(law: AnyLaw) -> str:
     """Return the name of a law, and its force by the names of its inputs."""
     length, velocity, slide = (sp.Symbol(name) for name in ("length", "velocity", "slide"))
-    # its formula alone, without a program for steps
-    force = law.force(Stretch(None, "", length, velocity, slide))  # type: ignore[arg-type]
+    program: Any = None  # a formula has no steps
+    force = law.force(Stretch(program, "", length, velocity, slide))
     return f"{law.meaning} `{force}`"
 
 

@@ -15,7 +15,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from .. import declare as d
-from .suspension import RACK_FORCE, RACK_MOTION, damper, tyre
+from .suspension import RACK_FORCE, RACK_MOTION, damper, rod_joints, tyre
 
 Place = tuple[float, float, float]
 
@@ -30,13 +30,7 @@ class Rod:
 
     def joints(self, base: d.Body) -> tuple[d.Joint, d.Joint]:
         """Return its joints, the inner one at a base."""
-        name, line = self.body.name, d.Line(self.inner, self.outer)
-        return (
-            d.Universal(
-                f"{name}_cross", base, self.body, at=self.inner, shaft=line, first_axis=d.UP
-            ),
-            d.Spherical(f"{name}_ball", CARRIER, self.body, at=self.outer),
-        )
+        return rod_joints(self.body, (base, self.inner), (CARRIER, self.outer))
 
 
 def _rod(name: str, inner: Place, outer: Place) -> Rod:

@@ -16,6 +16,7 @@ from .suspension import (
     RACK_MOTION,
     actuator,
     damper,
+    rod_joints,
     spring,
     spring_and_damper,
     tyre,
@@ -55,9 +56,7 @@ def _link(
     inner_end = d.Point(f"{name}_inner", inner, f"inner end of the {words}")
     outer_end = d.Point(f"{name}_outer", outer, f"{words} at the knuckle")
     body = d.Body(name, mass, (x, y, z), (0.01 * mass, 0.001 * mass, 0.01 * mass))
-    line = d.Line(inner_end, outer_end)
-    cross = d.Universal(f"{name}_cross", base, body, at=inner_end, shaft=line, first_axis=d.UP)
-    return body, (cross, d.Spherical(f"{name}_ball", KNUCKLE, body, at=outer_end))
+    return body, rod_joints(body, (base, inner_end), (KNUCKLE, outer_end))
 
 
 FRONT_UPPER, _front_upper = _link(

@@ -20,6 +20,7 @@ from .suspension import (
     actuator,
     damper,
     own_values,
+    rod_joints,
     spring,
     spring_and_damper,
     tyre,
@@ -55,12 +56,7 @@ def _rod(number: int, chassis: Place, axle: Place) -> tuple[d.Joint, d.Joint]:
     body = d.Body(name, 0.0, (x, y, z))
     inner = d.Point(f"{name}_chassis", chassis, f"end of rod {number} on the chassis")
     outer = d.Point(f"{name}_axle", axle, f"end of rod {number} on the axle")
-    return (
-        d.Universal(
-            f"{name}_cross", CHASSIS, body, at=inner, shaft=d.Line(inner, outer), first_axis=d.UP
-        ),
-        d.Spherical(f"{name}_ball", BEAM, body, at=outer),
-    )
+    return rod_joints(body, (CHASSIS, inner), (BEAM, outer))
 
 
 RODS = (

@@ -20,7 +20,14 @@ from .. import declare as d
 from . import rigid_axle as beam
 from .pitman_arm import MOTION, TURN, TURNED
 from .rigid_axle import BEAM, CHASSIS
-from .suspension import RACK_FORCE, own_values, spring_and_damper, tyre, with_damping_and_liftoff
+from .suspension import (
+    RACK_FORCE,
+    own_values,
+    rod_joints,
+    spring_and_damper,
+    tyre,
+    with_damping_and_liftoff,
+)
 
 # -- a side, the right one ------------------------------------------------------------------------
 
@@ -91,24 +98,8 @@ def _steered(near: d.Body, far: d.Body, sides: tuple[str, str]) -> tuple[d.Joint
     return (
         RACK_GUIDE,
         PITMAN_HINGE,
-        d.Universal(
-            "drag_link_cross",
-            PITMAN_ARM,
-            DRAG_LINK,
-            at=_BALL,
-            shaft=d.Line(_BALL, _ARM_END),
-            first_axis=d.UP,
-        ),
-        d.Spherical("drag_link_ball", near, DRAG_LINK, at=_ARM_END),
-        d.Universal(
-            "track_rod_cross",
-            near,
-            TRACK_ROD,
-            at=first,
-            shaft=d.Line(first, last),
-            first_axis=d.UP,
-        ),
-        d.Spherical("track_rod_ball", far, TRACK_ROD, at=last),
+        *rod_joints(DRAG_LINK, (PITMAN_ARM, _BALL), (near, _ARM_END)),
+        *rod_joints(TRACK_ROD, (near, first), (far, last)),
     )
 
 

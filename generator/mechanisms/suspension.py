@@ -104,6 +104,26 @@ def spring_and_damper(
     )
 
 
+def rod_joints(
+    rod: d.Body, start: tuple[d.Body, d.Point], end: tuple[d.Body, d.Point]
+) -> tuple[d.Universal, d.Spherical]:
+    """Return the universal joint at the start of a rod and the ball joint at its end.
+
+    Parameters
+    ----------
+    rod
+        The rod; the names of the joints begin with its name.
+    start, end
+        The body at each end, and the centre of the joint there.
+    """
+    (base, center), (carrier, ball) = start, end
+    shaft = d.Line(center, ball)
+    return (
+        d.Universal(f"{rod.name}_cross", base, rod, at=center, shaft=shaft, first_axis=d.UP),
+        d.Spherical(f"{rod.name}_ball", carrier, rod, at=ball),
+    )
+
+
 def own_values(side: tuple[Any, ...], carrier: d.Body) -> tuple[Owner, ...]:
     """Return the owners of the parameters of one side's parts, without those of its carrier."""
     others = set(parts(carrier))

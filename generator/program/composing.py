@@ -65,8 +65,7 @@ def _sum(terms: Sequence[sp.Expr]) -> sp.Expr | None:
 def _in_form(kind: type[sp.Expr], numbers: Sequence[sp.Expr], others: Sequence[sp.Expr]) -> sp.Expr:
     """Return a sum or a product of parts in the order of SymPy."""
     parts = [*numbers, *sorted(others, key=_in_order)]
-    # SymPy's public ways to build an expression of given parts search these too
-    return kind._from_args(parts, is_commutative=True)  # noqa: SLF001
+    return kind._from_args(parts, is_commutative=True)  # noqa: SLF001 (others search, too)
 
 
 def _is_power(factor: sp.Expr) -> bool:

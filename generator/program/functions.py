@@ -5,7 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 
-class Guarded(sp.Function):  # type: ignore[misc]  # SymPy has no types
+class Guarded(sp.Function):
     """The first argument where it exceeds its floor, the second; elsewhere that floor.
 
     Guards a root or a divisor of a closed form that vanishes when a loop cannot close. The
@@ -19,7 +19,7 @@ class Guarded(sp.Function):  # type: ignore[misc]  # SymPy has no types
         return sp.Integer(int(argindex == 1))
 
 
-class Positive(sp.Function):  # type: ignore[misc]  # SymPy has no types
+class Positive(sp.Function):
     """The argument where it is positive, zero elsewhere."""
 
     nargs = 1
@@ -30,7 +30,7 @@ class Positive(sp.Function):  # type: ignore[misc]  # SymPy has no types
         return IsPositive(self.args[0])
 
 
-class _Constant(sp.Function):  # type: ignore[misc]  # SymPy has no types
+class _Constant(sp.Function):
     """A function whose derivative is zero, or zero by definition."""
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
