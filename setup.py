@@ -236,8 +236,8 @@ def _headers(*folders: Path) -> list[str]:
 
 def _is_gcc(program: str) -> bool:
     command = [program, "--version"]
-    said = subprocess.run(command, capture_output=True, text=True, check=False)
-    return "Free Software Foundation" in said.stdout
+    shown = subprocess.run(command, capture_output=True, text=True, check=False)
+    return "Free Software Foundation" in shown.stdout
 
 
 def lanes_extensions(wrappers: Iterable[Path]) -> Iterator[Lanes]:

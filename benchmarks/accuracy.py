@@ -48,7 +48,7 @@ def errors(name: str) -> tuple[float, float]:
 def main() -> int:
     """Run the command."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--page", type=Path, help="a page whose table is written anew")
+    parser.add_argument("--page", type=Path, help="a page whose table is replaced")
     options = parser.parse_args()
     rows = [
         [f"`{name}`", *(f"{error:.1e}" for error in errors(name))]

@@ -16,6 +16,7 @@ import numpy as np
 import typer
 from kintrafo import SimulationError, System, simulate
 from kintrafo import generator as g
+from kintrafo.core.units import KM_PER_H
 from numpy.typing import NDArray
 from rich.console import Console
 from rich.markdown import Markdown
@@ -24,7 +25,7 @@ from .report import count, fill_page, markdown_table, seconds_of
 
 Array = NDArray[np.float64]
 
-SPEED, DURATION, TORQUE = 100.0 / 3.6, 5.0, 900.0  # m/s, s, N m
+SPEED, DURATION, TORQUE = 100.0 / KM_PER_H, 5.0, 900.0  # m/s, s, N m
 BODY, WHEEL, INERTIA, RADIUS = 340.0, 40.0, 1.1, 0.31  # kg, kg, kg m^2, m
 STILL = 0.5  # spin below which the brake fades [rad/s]
 TIMES = np.linspace(0.0, DURATION, 501)

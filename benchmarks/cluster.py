@@ -65,7 +65,7 @@ def simulate(cars: int, **where: Any) -> None:
 
 
 def timed(client: Client, cars: int, **where: Any) -> Time:
-    """Simulate cars; return what it takes here and by the workers of a client."""
+    """Simulate cars; return the times here and with the workers of a client."""
 
     def of_all() -> float:
         return time.process_time() + sum(client.run(time.process_time).values())

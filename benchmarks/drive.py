@@ -12,6 +12,7 @@ from tempfile import TemporaryDirectory
 
 import kintrafo
 import numpy as np
+from kintrafo.core.units import KM_PER_H
 from kintrafo.generator.backends.counting import operations_of
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.systems.compile.build import build
@@ -25,7 +26,7 @@ from .report import children_seconds, fill_page
 
 PAGE = Path(__file__).parent.parent / "docs/suspension/handling.md"
 CAR = "driving_car"
-SPEED, DURATION = 80.0 / 3.6, 5.0  # m/s, s
+SPEED, DURATION = 80.0 / KM_PER_H, 5.0  # m/s, s
 ANGLE, PERIOD = np.deg2rad(25.0), 1.0  # of the steering wheel, a sine, from 0.5 s on
 METHODS = (
     ("Runge-Kutta of order 4, 1 ms", {"method": "RK4", "step": 1e-3}),

@@ -8,7 +8,7 @@ a unique way on.
 
 Beside it, one large mechanism: a Stewart platform (`benchmarks.large`).
 
-All rockers of the chain stay parallel, so that it is a pendulum whatever N is; the error of each
+All rockers of the chain stay parallel, so that it is a pendulum for every N; the error of each
 run is that against the pendulum's own equation.
 """
 

@@ -1,10 +1,10 @@
 """Which results are the same bits elsewhere: ``python -m benchmarks.same_bits``.
 
 The emitted arithmetic is compiled without contraction, and its sines, cosines and inverses are made
-of it. So it should be the same bits whatever compiles it, and wherever it runs. This program
-compiles every shipped model in several ways (those that are installed: on Debian, ``apt-get install
-clang gcc-aarch64-linux-gnu qemu-user``), evaluates it at random states, and counts the results that
-are not those of the first way.
+of it. So its results should have the same bits with every compiler and on every machine. This
+program compiles every shipped model in several ways (those that are installed: on Debian, ``apt-get
+install clang gcc-aarch64-linux-gnu qemu-user``), evaluates it at random states, and counts the
+results that are not those of the first way.
 """
 
 import os
@@ -47,7 +47,7 @@ class Way:
     compiler : tuple of str
         With what differs of its options.
     runner : tuple of str
-        What runs the program, if it does not run by itself.
+        Command that runs the program, such as an emulator; empty for none.
     older : bool
         Whether it sees a processor of 2008.
     """

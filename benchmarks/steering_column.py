@@ -1,7 +1,7 @@
-"""What a steering column that twists changes in handling: `python -m benchmarks.steering_column`.
+"""Handling with and without a compliant steering column: `python -m benchmarks.steering_column`.
 
-Steady turns at 80 km/h and a step steer of `driving_car`, with the rack on the steering wheel and
-on a column. The second car is derived and compiled at first use.
+Steady turns at 80 km/h and a step steer of `driving_car`, with a rigid column and with a
+compliant one. The second car is derived and compiled at first use.
 """
 
 from __future__ import annotations
@@ -10,8 +10,9 @@ import argparse
 
 import kintrafo
 import numpy as np
+from kintrafo.core.units import KM_PER_H
 
-SPEED = 80.0 / 3.6  # m/s
+SPEED = 80.0 / KM_PER_H  # m/s
 GRAVITY = 9.80665
 TURN = 3.0  # lateral acceleration of the steady turn, m/s^2
 COLUMN = {"damping_Nm_s_per_deg": 0.005, "pinion_inertia_kg_m2": 0.0005, "rack_friction_N": 100.0}

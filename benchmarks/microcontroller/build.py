@@ -43,7 +43,7 @@ def missing() -> list[str]:
 
 @dataclass(frozen=True)
 class Measured:
-    """What the board says.
+    """Output of the board.
 
     Attributes
     ----------

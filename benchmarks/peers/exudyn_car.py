@@ -21,6 +21,7 @@ import exudyn as exu
 import exudyn.itemInterface as items
 import kintrafo
 import numpy as np
+from kintrafo.core.units import KM_PER_H
 from kintrafo.generator import (
     AlongLine,
     AlongTelescope,
@@ -51,7 +52,7 @@ if TYPE_CHECKING:
     from kintrafo.generator.declare.joints import Joint
 
 PAGE = Path(__file__).parents[2] / "docs/theory/other-tools.md"
-SPEED, DURATION = 80.0 / 3.6, 4.0  # m/s, s
+SPEED, DURATION = 80.0 / KM_PER_H, 4.0  # m/s, s
 BEGIN, RISE, ANGLE = 0.5, 0.2, np.deg2rad(40.0)  # of the step of the steering wheel: s, s, rad
 TIMES = np.linspace(0.0, DURATION, 401)
 SAMPLED = np.linspace(0.0, DURATION, 4001)  # times at which the rack is sampled for its spline

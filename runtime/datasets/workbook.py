@@ -9,14 +9,14 @@ from collections.abc import Iterable, Mapping
 from datetime import datetime
 from pathlib import Path
 from typing import Any
-from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
+from zipfile import ZIP_DEFLATED, ZipFile
 
+from ..core.archives import EARLIEST, undated
 from ..core.errors import InputError
 from ..core.excel import COLUMNS, ROWS
 from ..core.legible import legible
 from ..core.optional import require
 
-_FIRST = 1980, 1, 1  # the earliest date in an archive: the time of writing of every member
 _WIDEST = 60  # characters of a column: longer texts are cut by the next cell
 _MEASURED = 200  # rows that determine the width of a column
 
@@ -38,7 +38,7 @@ def write(frames: Mapping[str, Any], path: Path) -> None:
         _check(name, *frame.shape)
     book = Workbook(write_only=True)
     book.properties.creator = "kintrafo"
-    book.properties.created = book.properties.modified = datetime(*_FIRST)  # noqa: DTZ001 (a date without a zone)
+    book.properties.created = book.properties.modified = datetime(*EARLIEST)  # noqa: DTZ001 (a date without a zone)
     for name, frame in frames.items():
         _fill(book.create_sheet(name), frame)
     with path.open("wb") as file, _Timeless(file, "w", ZIP_DEFLATED) as archive:
@@ -106,15 +106,10 @@ class _Timeless(ZipFile):
 
     def writestr(self, zinfo_or_arcname: Any, data: Any, *_: Any, **__: Any) -> None:
         """Add a member of given content."""
-        super().writestr(_member(str(zinfo_or_arcname)), data)
+        super().writestr(undated(str(zinfo_or_arcname), ZIP_DEFLATED), data)
 
     def write(self, filename: Any, arcname: Any = None, *_: Any, **__: Any) -> None:
         """Add a file as a member."""
-        with Path(filename).open("rb") as source, self.open(_member(str(arcname)), "w") as target:
+        member = undated(str(arcname), ZIP_DEFLATED)
+        with Path(filename).open("rb") as source, self.open(member, "w") as target:
             shutil.copyfileobj(source, target)
-
-
-def _member(name: str) -> ZipInfo:
-    found = ZipInfo(name, (*_FIRST, 0, 0, 0))
-    found.compress_type = ZIP_DEFLATED
-    return found

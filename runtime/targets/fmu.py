@@ -7,6 +7,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from ..core.archives import undated
 from ..core.files import Paths, replacing
 from ..core.validator import Validator
 from .emitted import Emitted
@@ -18,9 +19,6 @@ from .target import Target
 
 ENDING = ".fmu"
 VERSIONS: Mapping[int, ModuleType] = {2: fmi2, 3: fmi3}
-
-# The same export has the same bytes.
-_NO_DATE = (1980, 1, 1, 0, 0, 0)
 
 
 def check(path: Path, *, fmi: int = 2, platforms: Sequence[str] = binaries.HERE) -> None:
@@ -76,8 +74,7 @@ def contents(emitted: Emitted, fmi: int, platforms: Sequence[str]) -> dict[str, 
 def _pack(path: Path, found: Mapping[str, bytes]) -> None:
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
         for name, content in found.items():
-            entry = zipfile.ZipInfo(name, _NO_DATE)
-            entry.compress_type = zipfile.ZIP_DEFLATED
+            entry = undated(name, zipfile.ZIP_DEFLATED)
             entry.external_attr = 0o644 << 16
             archive.writestr(entry, content)
 

@@ -10,7 +10,6 @@ systems that share a cache never use the files of each other.
 """
 
 import hashlib
-import json
 import platform
 import sys
 import zipfile
@@ -20,12 +19,10 @@ from io import BytesIO
 from pathlib import Path
 from types import ModuleType
 
+from ...core.archives import undated
 from ...core.errors import InputError
-from .cache import MANIFEST, sources_hash
-from .shipped import from_cache
-
-# Archives of the same files have the same bytes.
-_NO_DATE = (1980, 1, 1, 0, 0, 0)
+from .cache import sources_hash
+from .shipped import from_cache, shipped
 
 
 def packed(name: str, structure: str) -> ModuleType | None:
@@ -80,13 +77,10 @@ def pack(equations: ModuleType, structure: str, into: Path) -> Path:
     into : Path
         A folder.
     """
-    compiled = Path(str(equations.__file__)).parent
     path = into / _archive_name(equations.NAME, structure)
     with zipfile.ZipFile(path, "w", zipfile.ZIP_LZMA) as archive:
-        for name in sorted(json.loads((compiled / MANIFEST).read_bytes())["files"]):
-            entry = zipfile.ZipInfo(name, _NO_DATE)
-            entry.compress_type = zipfile.ZIP_LZMA
-            archive.writestr(entry, (compiled / name).read_bytes())
+        for name, content in sorted(shipped(equations).files):
+            archive.writestr(undated(name, zipfile.ZIP_LZMA), content)
     return path
 
 
