@@ -1,7 +1,7 @@
 """A command as a processor of 2008 would run it: ``python -m benchmarks.older_processor COMMAND``.
 
 The C library, NumPy and OpenBLAS choose among versions of a function by what the processor has.
-Each has a setting that hides some of them.
+Each has a setting that hides some features from it.
 """
 
 import os
