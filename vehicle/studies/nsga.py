@@ -45,7 +45,7 @@ def evolve(
     )
     algorithm = nsga2.NSGA2(pop_size=len(first), sampling=first)
     algorithm.setup(problem, termination=("n_gen", generations), seed=seed, verbose=False)
-    # asked and told, so that an interruption ends it at once and is no business of pymoo
+    # candidates are evaluated here, outside pymoo, so that an interruption ends the search at once
     while algorithm.has_next():
         candidates = algorithm.ask()
         if candidates is None:

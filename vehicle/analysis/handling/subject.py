@@ -73,5 +73,5 @@ def require_controls(car: Car, *, brakes: bool = False) -> None:
 
 _NEEDED = (
     'a kintrafo.Car that drives, such as kintrafo.load("driving_car"), is needed; the body of a '
-    "suspension or an axle by itself is held"
+    "suspension or an axle alone is held"
 )

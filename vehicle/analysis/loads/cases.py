@@ -153,7 +153,7 @@ def _of_wheel(given: Validator, name: str, table: Any, wheel: str, *, racks: boo
     for key in (key for key in own if key in both):
         given.fail(
             f"[cases.{name}] {key} is that of both wheels, and [cases.{name}.{wheel}] has it, too. "
-            f"Give it to both by itself, or to left and right."
+            "Give it to both, or to left and right."
         )
     return both | dict(own)
 

@@ -70,5 +70,5 @@ def riding_car(assembly: CarAssembly, state: Array, inputs: Array) -> RidingCar:
 
 _NEEDED = (
     'a kintrafo.Car, such as kintrafo.load("quarter_car"), is needed; the body of a suspension or '
-    "an axle by itself is held"
+    "an axle alone is held"
 )
