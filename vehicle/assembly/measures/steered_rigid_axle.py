@@ -1,35 +1,23 @@
 """The measures of a steered rigid axle: those of a rigid axle, and of wheels on kingpins."""
 
-from .. import wheel
 from ..quantity import PITMAN_BALL
 from . import axle_rolling, rolling
 from .corner import COMPARED, GROUND, STEERING
-from .measure import Measure, of_axle, of_corner
+from .corner import PLACE as OF_A_CORNER
+from .measure import Measure, of_axle
 from .rigid_axle import MEASURES as OF_THE_BEAM
 from .twist_beam import ROLL_STEER
 
-_STEERED = ("steered",)
-_NEITHER = ("roll_steer",)  # that of the axle, and here each wheel has its own
+_BY_TRAVEL = ("bump_steer", "caster_gradient")
 
-PLACE = (
-    of_corner("caster", wheel.caster, _STEERED),
-    of_corner("kingpin_inclination", wheel.kingpin_inclination, _STEERED),
-    of_corner("trail", wheel.trail, (*_STEERED, *GROUND)),
-    of_corner("steering_axis_offset", wheel.steering_axis_offset, (*_STEERED, *GROUND)),
-    of_corner("scrub_radius", wheel.scrub_radius, (*_STEERED, *GROUND)),
-    of_corner("hub_trail", wheel.hub_trail, _STEERED),
-    of_corner("spindle_offset", wheel.spindle_offset, _STEERED),
-)
+PLACE = tuple(m for m in OF_A_CORNER if "steered" in m.needs and m.name not in _BY_TRAVEL)
 """The kingpins, over travel and over the steering."""
 
-TRAVEL = (
-    of_corner("bump_steer", wheel.bump_steer),
-    of_corner("caster_gradient", wheel.caster_gradient, _STEERED),
-    ROLL_STEER,
-)
+TRAVEL = (*(m for m in OF_A_CORNER if m.name in _BY_TRAVEL), ROLL_STEER)
 """Steering of the wheels by travel and roll, with the Pitman arm held."""
 
-MEASURES = (*(m for m in OF_THE_BEAM if m.name not in _NEITHER), *PLACE, *TRAVEL)
+# each wheel has a roll steer of its own, instead of that of the beam
+MEASURES = (*(m for m in OF_THE_BEAM if m.name != ROLL_STEER.name), *PLACE, *TRAVEL)
 
 _ANGLES = ("camber", "toe", "steer")
 OVER_RACK = (
@@ -40,8 +28,10 @@ OVER_RACK = (
     of_axle("track_change", axle_rolling.track_change, GROUND),
     *COMPARED,
 )
+"""Measures over displacements of the Pitman arm's ball."""
 
 OVER_STEERING = (
     *OVER_RACK,
     Measure(PITMAN_BALL, lambda of: of.rack, "axle", (), lambda of: of.per_turn is not None),
 )
+"""Measures over the steering wheel."""
