@@ -88,7 +88,7 @@ def show(page, curve):
 
 
 def until(condition, seconds=20.0):
-    """Wait for what the page does by itself; its security policy forbids waiting inside of it."""
+    """Wait for the scripts of the page; its security policy forbids waiting inside of it."""
     end = time.monotonic() + seconds
     while not condition():
         assert time.monotonic() < end, "waited in vain"

@@ -1,6 +1,6 @@
 """The emitted C as text: its functions as tokens, and the operations in them.
 
-Nothing of the project's printers is used: what counts is what the file says.
+No printer of the project is used: only the text of the file counts.
 """
 
 import re
@@ -21,7 +21,7 @@ EMITTED = {
 STRAIGHT = {
     name: module
     for name, module in EMITTED.items()
-    if not any("iterates" in told for told in module.equations.manifest["functions"].values())
+    if not any("iterates" in entry for entry in module.equations.manifest["functions"].values())
 }
 """Those whose loops are all closed in closed form: straight lines."""
 

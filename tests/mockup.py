@@ -185,8 +185,8 @@ class Instance:
             self.call("GetRealStatus", None, 2, ct.byref(self.reached))
             return status
         flags = [ct.c_bool() for _ in range(3)]
-        told = (*map(ct.byref, flags), ct.byref(self.reached))
-        return self.call("DoStep", None, *at, ct.c_bool(True), *told)
+        results = (*map(ct.byref, flags), ct.byref(self.reached))
+        return self.call("DoStep", None, *at, ct.c_bool(True), *results)
 
     def slopes(self, orders: Any, values: Any) -> int:
         """Set derivatives of inputs, by name."""
@@ -224,8 +224,8 @@ class Instance:
             self.status = self.call("NewDiscreteStates", None, ct.byref(info))
             return bool(info.terminate)
         flags = [ct.c_bool() for _ in range(5)]
-        told = (*map(ct.byref, flags), ct.byref(ct.c_double()))
-        self.status = self.call("", "UpdateDiscreteStates", *told)
+        results = (*map(ct.byref, flags), ct.byref(ct.c_double()))
+        self.status = self.call("", "UpdateDiscreteStates", *results)
         return flags[1].value
 
     # -- saved ----------------------------------------------------------------------------------

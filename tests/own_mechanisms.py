@@ -740,7 +740,7 @@ def steering_shaft(name: str, *, turned: bool = False) -> Formulation:
                 0.6,
                 0.2,
                 0.25,
-            ),  # beside y = 0, where the sine of an azimuth says least
+            ),  # beside y = 0, where the sine of an azimuth is least exact
             "box_bearing": (0.8, 0.0, 0.0),
             "box_seat": (0.72, 0.2, 0.1),
             "ground_seat": (0.5, 0.3, 0.4),

@@ -112,7 +112,7 @@ LINES = {
 def crosses_in_a_row() -> Formulation:
     """Return three shafts with two crosses between them, on a bracket and a lever that move.
 
-    A last shaft has a bearing in a body that turns about the centre of its cross by itself.
+    A last shaft has a bearing in a body that turns independently about the centre of its cross.
     """
     return declare(
         "crosses_in_a_row",

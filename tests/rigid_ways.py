@@ -70,7 +70,7 @@ def judged(axles: list[RigidAxle], random: Random) -> Judged:
     found = Judged(ways=len(axles))
     for k, model in enumerate(models):
         if parts[k] > followed.reached[k] + BESIDE:
-            text = f"{k}: {parts[k]:.6g} of the way is said to be reached, and the path ends at "
+            text = f"{k}: {parts[k]:.6g} of the way is reported as reached, and the path ends at "
             found.wrong.append(f"{text}{followed.reached[k]:.6g}")
             continue
         if parts[k] < followed.reached[k] - LONGER:

@@ -30,7 +30,7 @@ LINKS = ("front_upper_link", "rear_upper_link", "front_lower_link", "rear_lower_
 LEVER, ABOVE = 0.5, 1.0
 # Poses are those of the continuation by so much: beside a dead point both are as exact as the root
 # of their rounding. Arm angles [rad] that are nearer to the end of a way are not judged, and ways
-# of the continuation that end later by more than the last are said to be refused.
+# of the continuation that end later by more than the last count as refused.
 SAME, BESIDE, LONGER = 1e-5, 1e-5, 0.02
 # What ends the range of a model though its loops close: guards of other things than the links.
 OTHER_ENDS = ("right angle", "lies along", "coincide", "flat", "mass matrix")
@@ -216,7 +216,7 @@ class Ways:
         return found
 
     def longer(self, k: int, model: Model, reach: AngleRange) -> list[str]:
-        """Return how much farther than a range the ways go, if that is said to be the links'."""
+        """Return how much farther than a range the ways go, if the links limit the range."""
         found = []
         limits = (reach.lower_limit, 1.0), (reach.upper_limit, -1.0)
         for (limit, sense), end in zip(limits, reach.arm_angle, strict=True):

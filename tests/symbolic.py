@@ -184,7 +184,7 @@ def _solved(block: IterationBlock) -> Any:
     """Return a function that finds the results of a block to mpmath's precision.
 
     The path is that of the emitted code, straight from the design position, but its stages are all
-    alike and short, whatever the equations are.
+    alike and short for all equations.
     """
     once, n = python(block.once), len(block.unknowns)
     read = {s.name for s in block.once.free_symbols}

@@ -134,7 +134,7 @@ def test_links_of_the_readme_are_addresses_on_an_index(monkeypatch):
     readme = runpy.run_path(str(ROOT / ".ci/long_description.py"))
     before = text_of(ROOT / "README.md")
     monkeypatch.delenv("KINTRAFO_REPOSITORY", raising=False)
-    assert readme["long_description"](ROOT) == before, "nobody has said where the sources are"
+    assert readme["long_description"](ROOT) == before, "the address of the sources is not known"
     monkeypatch.setenv("KINTRAFO_REPOSITORY", "https://forge.example/someone/kintrafo")
     monkeypatch.setenv("KINTRAFO_REVISION", "v1.2.3")
     after = readme["long_description"](ROOT)

@@ -1,4 +1,4 @@
-"""The command lines of help texts and pages: each does what it says, and ends well."""
+"""The command lines of help texts and pages: each writes the files that it names, and succeeds."""
 
 from __future__ import annotations
 

@@ -105,7 +105,7 @@ def test_constants_against_the_symbolic_program(
     with mpmath.workdps(DIGITS):
         values = {key: Rounded.of(value) for key, value in parameters.items()}
         exact = [Rounded.of(result) for result in python(prepare)(values)]
-        # each constant by itself: they have many units
+        # each constant alone: they have many units
         for label, element, value in zip(prepare.labels, exact, found, strict=True):
             size = abs(element.value) + element.error / mpmath.mpf(2) ** -53
             compare(label, [element], np.array([value]), size)

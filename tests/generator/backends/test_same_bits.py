@@ -35,7 +35,7 @@ def test_digest(name: str) -> None:
     digest = sha256()
     for function in FUNCTIONS:
         if hasattr(system.equations, function):
-            # minus zero is zero; the first byte of a number is its last, whatever the machine
+            # minus zero is zero; the first byte of a number is its last on every machine
             digest.update((system.evaluate(function, states) + 0.0).astype("<f8").tobytes())
     assert digest.hexdigest()[:16] == EXPECTED.get(name)
 

@@ -201,8 +201,10 @@ def test_shafts_in_a_row_go_round_as_the_oracle_says(tmp_path: Path) -> None:
 
 def test_a_guide_beside_the_line_of_the_crosses_is_reported_by_how_much() -> None:
     model = column("askew", 0.3, 0.3, 0.0, along=(1.0, 0.0, 0.02))
-    said = f"guide spline of upper and lower must be along .*{degrees(np.arctan(0.02)):.3g} degrees"
-    with pytest.raises(DeclarationError, match=said):
+    message = (
+        f"guide spline of upper and lower must be along .*{degrees(np.arctan(0.02)):.3g} degrees"
+    )
+    with pytest.raises(DeclarationError, match=message):
         generate(model, derivatives=False)
 
 
@@ -214,8 +216,8 @@ def test_a_guide_of_its_own_direction_counts_along_it(sense: float, tmp_path: Pa
 
 def test_a_hinge_beside_its_cross_is_reported_by_how_much() -> None:
     model = column("beside", 0.3, 0.3, 0.0, beside=0.004)
-    said = r"hinge rolling must go through the centre lower_center .* 4 mm"
-    with pytest.raises(DeclarationError, match=said):
+    message = r"hinge rolling must go through the centre lower_center .* 4 mm"
+    with pytest.raises(DeclarationError, match=message):
         generate(model, derivatives=False)
 
 

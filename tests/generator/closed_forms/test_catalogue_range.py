@@ -339,9 +339,9 @@ def test_to_the_end_of_the_range(name: str, side: int, loop: Callable[[str], Loo
             drive = where
             assert case.off_by(where, root) < 4e-15 / before**0.5
         state, inputs = case.state(float(end * (1 + mpf("1e-9"))))
-        with pytest.raises(ClosureError) as told:
+        with pytest.raises(ClosureError) as caught:
             case.built("positions", state, inputs)
-        assert case.guard in told.value.margins
+        assert case.guard in caught.value.margins
 
 
 @pytest.mark.parametrize("off", [1e-1, 1e-3, 1e-5, 1e-7])

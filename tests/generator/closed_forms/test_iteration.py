@@ -309,7 +309,7 @@ def test_energy_stays_where_nothing_dissipates(built: Callable[[str], Built]) ->
 def test_jacobians_are_exact(
     name: str, by: str, built: Callable[[str], Built], derive: Callable[[str], Derivation]
 ) -> None:
-    # differences in 50 digits: every perturbed state is solved anew, to 50 digits as well
+    # differences in 50 digits: every perturbed state is solved again, to 50 digits
     model, derived = built(name), derive(name)
     state, inputs = (values[0] for values in states(model, 1, seed=3))
     found = model("rhs_jacobian" if by == "state" else "rhs_input_jacobian", state, inputs)
@@ -348,10 +348,12 @@ def test_out_of_reach_is_an_error_with_the_loop(name: str, built: Callable[[str]
     state = np.array([*model.design, 0.0, 0.0])
     inputs = np.array([1.5, 0.0, 0.0, 0.0])  # the rack: no toe link is that long
     rods = ", ".join(RODS[name])
-    with pytest.raises(ClosureError, match=f"loops of carrier through {rods} cannot close") as told:
+    with pytest.raises(
+        ClosureError, match=f"loops of carrier through {rods} cannot close"
+    ) as caught:
         model("rhs", state, inputs)
-    assert told.value.margins["carrier_closure"] < 0.0
-    assert str(ITERATIONS) in str(told.value)
+    assert caught.value.margins["carrier_closure"] < 0.0
+    assert str(ITERATIONS) in str(caught.value)
 
 
 @MODEL_NAMES
@@ -432,7 +434,7 @@ def test_c_computes_what_numpy_computes(built: Callable[[str], Built]) -> None:
                 with pytest.raises(ClosureError, match="loops of carrier"):
                     model("positions", one, given)
     text = Path(compiled.module.__file__).with_name(f"{ARM.name}.c").read_text()
-    assert text.count("for (int i = 0; i < ITERATIONS; ++i)") == 1  # whatever the loops are
+    assert text.count("for (int i = 0; i < ITERATIONS; ++i)") == 1  # for all loops
     assert f"#define ITERATIONS {ITERATIONS}\n" in text
     rest = kintrafo.System(compiled.module).state()
     result = kintrafo.simulate(kintrafo.System(compiled.module), (0.0, 0.2), rest)
@@ -496,9 +498,9 @@ def design_angle(derived: Derivation) -> float:
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda m: m.name)
 def test_without_permission_the_loop_is_refused(model: Any) -> None:
-    with pytest.raises(NoClosedFormError) as told:
+    with pytest.raises(NoClosedFormError) as caught:
         CataloguePlan.of(replace(model, allow_iteration=False))
-    text = str(told.value)
+    text = str(caught.value)
     assert "has no closed form in the catalogue" in text
     assert "leaves 1 equation(s)" in text
     count = len(RODS[model.name])
@@ -513,9 +515,9 @@ def test_a_hinge_in_place_of_a_ball_joint_has_no_block() -> None:
     ball, line = held_by_rods.LOWER_BALL, Line(held_by_rods.ARM_BALL, held_by_rods.SPIN_AXIS)
     hinge = Revolute("lower_ball", held_by_rods.LOWER_ARM, held_by_rods.CARRIER, axis=line)
     model = changed(ARM, (ball, hinge))
-    with pytest.raises(NoClosedFormError, match="no closed") as told:
+    with pytest.raises(NoClosedFormError, match="no closed") as caught:
         CataloguePlan.of(model)
-    assert "allow_iteration" not in str(told.value)
+    assert "allow_iteration" not in str(caught.value)
 
 
 def test_rods_on_the_ground_only_cannot_move() -> None:

@@ -193,7 +193,7 @@ def test_jacobians_are_exact(
     built: Callable[[Formulation], Built],
     derive: Callable[[Formulation], Derivation],
 ) -> None:
-    # differences in 50 digits: every perturbed state is solved anew, to 50 digits as well
+    # differences in 50 digits: every perturbed state is solved again, to 50 digits
     compiled, derived = built(model), derive(model)
     state = states(compiled, 5)[3]
     with mpmath.workdps(50):
@@ -351,9 +351,9 @@ def test_report_names_joints_and_equations(derive: Callable[[Formulation], Deriv
     ],
 )
 def test_without_permission_the_loop_is_refused(model: Formulation, words: str) -> None:
-    with pytest.raises(NoClosedFormError, match=words) as told:
+    with pytest.raises(NoClosedFormError, match=words) as caught:
         CataloguePlan.of(replace(model, allow_iteration=False))
-    assert "declared with allow_iteration=True" in str(told.value)
+    assert "declared with allow_iteration=True" in str(caught.value)
 
 
 def test_six_hinges_in_general_cannot_move() -> None:
@@ -361,10 +361,10 @@ def test_six_hinges_in_general_cannot_move() -> None:
     model = with_default(BRICARD, place_3_x=-0.25)
     with pytest.raises(
         NoClosedFormError, match="they cannot move from the design position"
-    ) as told:
+    ) as caught:
         CataloguePlan.of(model)
-    assert "leave 5 equations for the 4 unknown coordinates" in str(told.value)
-    assert "allow_iteration" not in str(told.value)
+    assert "leave 5 equations for the 4 unknown coordinates" in str(caught.value)
+    assert "allow_iteration" not in str(caught.value)
 
 
 def test_a_dead_point_at_design_is_refused() -> None:
@@ -383,8 +383,10 @@ def test_too_many_unknowns_are_refused() -> None:
     mechanism = SEVEN_HINGES.mechanism
     branch = JointOfTree(mechanism.joint("hinge_1"), "one", "two")
     action = CoupledLoops("two", (branch,) * (MOST_UNKNOWNS + 1), (), ())
-    told = obstacle(action, Mobility(JointGraph(mechanism), ("hinge_0",)))
-    assert told == f"{MOST_UNKNOWNS + 1} unknowns are more than the {MOST_UNKNOWNS} of an iteration"
+    caught = obstacle(action, Mobility(JointGraph(mechanism), ("hinge_0",)))
+    assert (
+        caught == f"{MOST_UNKNOWNS + 1} unknowns are more than the {MOST_UNKNOWNS} of an iteration"
+    )
 
 
 # -- mobility in numbers --------------------------------------------------------------------------

@@ -1,7 +1,7 @@
 """Branches and dead points of the closed forms, against circles that are cut in many digits.
 
-The design position says on which side of its rod an arm stands; it stays there, up to the dead
-point. There the formulas end, and the status says so by name. Just before it a position is worth
+In the design position an arm is on one side of its rod, and it remains there up to the dead
+point. There the formulas end, and the status names it. Just before it a position is worth
 half of the digits: that is the geometry, and the model loses no more than that.
 """
 
@@ -22,7 +22,7 @@ EPSILON = 2.0**-52
 def linkage(crank: float, coupler: float, rocker: float, ground: float, side: int) -> Built:
     """Return a four-bar of given lengths, declared with its crank upright.
 
-    `side` tells where the rocker's pin is, seen from the crank's pin towards the rocker's bearing:
+    `side` is that of the rocker's pin, seen from the crank's pin towards the rocker's bearing:
     1 left, -1 right.
     """
     pin = np.array([0.0, crank])

@@ -347,6 +347,6 @@ def test_a_mirror_image_has_the_constants_of_the_original() -> None:
     one, both = (
         generate(m) for m in (pendulum("shoulder", "elbow"), pair_of_pendulums(roped=False))
     )
-    # what two parts have alike is one step, whatever the signs with which it enters them
+    # what two parts have alike is one step, with any signs
     assert len(both.prepare.steps) == len(one.prepare.steps)
     assert len(both.prepare.results) == len(one.prepare.results)

@@ -253,7 +253,7 @@ def test_pins_of_a_cylinder_at_different_places_along_their_hinges_are_refused()
     assert "move piston_pin or barrel_pin along the direction of that hinge" in text
     angle = np.degrees(np.arctan2(0.05, np.linalg.norm(span)))
     assert amount(text, "degrees") == pytest.approx(angle, rel=5e-3)
-    # what the message says to do: the other pin along its hinge as well
+    # the remedy in the message: the other pin along its hinge, too
     both = moved(beside, "barrel_pin", 0.05 * unit(NORMAL))
     for module in modules:
         built = Built.of(model, module, both)

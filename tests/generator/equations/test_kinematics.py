@@ -49,7 +49,7 @@ def poses(car_of: ModuleType, seed: int) -> tuple[Mechanism, list[tuple[Instant,
     for rack in np.linspace(-0.06, 0.06, 7 if finest else 3):
         start = None
         for height in middle + np.linspace(-0.15, 0.15, 13 if finest else 5):
-            # Newton by height tells how far the arm turns; its angle then is exact by definition.
+            # Newton finds the angle of the arm by height; this angle is then exact by definition.
             start = solve_pose_at_height(car, height, rack, SPIN, start)
             instant = Instant(car.beta1(start), SPIN, rack)
             found.append((instant, instant.pose(car, start)))

@@ -1,7 +1,7 @@
 """Mechanisms with many coordinates: their derivatives do without those of the mass matrix.
 
 An open chain with a wheel at its end is differentiated in 50 digits; a Stewart platform, whose pose
-is found by iteration, moves as the oracle says.
+is found by iteration, moves like the oracle.
 """
 
 from __future__ import annotations

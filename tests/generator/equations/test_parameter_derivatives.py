@@ -196,7 +196,7 @@ def test_what_leaves_the_equations_is_refused() -> None:
     for name in broken:
         with pytest.raises(InputError, match="leaves the mechanisms that the equations are of"):
             kintrafo.derivative(system, "rhs", {name: 1.0}, at)
-    # beside what may move by itself, however far
+    # also together with a parameter that may change alone by any amount
     free = next(
         n for n, e in system.equations.PARAMETERS.items() if e["unit"] == "m" and n not in broken
     )

@@ -38,7 +38,7 @@ each_model = pytest.mark.parametrize("model", MODELS.values(), ids=MODELS.keys()
 
 # the functions with the common signature
 COMMON = {name: list(model.equations.functions) for name, model in MODELS.items()}
-# margins says how far a loop is from closing, and so does not refuse it
+# `margins` measures how far a loop is from closing, and so does not refuse it
 REFUSING = {name: [f for f in found if f != "margins"] for name, found in COMMON.items()}
 
 

@@ -2,7 +2,7 @@
 
 `test_mechanisms` compares it with maximal coordinates, like every mechanism. Here the oracle is
 that a whole is worth its parts: with a bar that resists nothing, each side moves like the
-`macpherson` of that side, whose left hardpoints this file mirrors by itself.
+`macpherson` of that side, whose left hardpoints this file mirrors.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Arguments that cannot be used are told by name, with what would be right."""
+"""Messages name arguments that cannot be used, with the allowed values."""
 
 import re
 from contextlib import suppress

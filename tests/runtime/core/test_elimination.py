@@ -42,7 +42,7 @@ def test_pivots_that_vanish_elsewhere_are_reported():
     (_, before) = eliminated(entries, right)
     alone = {at: values.copy() for at, values in entries.items()}
     for (row, _), values in alone.items():
-        values[7] *= 0.0 if row == 3 else 1.0  # one equation says nothing there
+        values[7] *= 0.0 if row == 3 else 1.0  # one equation is empty there
     found, accurate = eliminated(alone, right)
     assert before[7]
     assert not accurate[7]

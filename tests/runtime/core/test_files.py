@@ -216,7 +216,7 @@ def test_a_file_keeps_its_mode(tmp_path):
 
 
 def test_threads_that_write_one_file(tmp_path):
-    """Each result is whole, whoever comes last, and nobody is told of an error."""
+    """Each file is complete, and no thread has an error."""
     path, texts = tmp_path / "a.csv", [str(i) * 50_000 for i in range(4)]
     together = threading.Barrier(len(texts))
 

@@ -77,7 +77,9 @@ LARGE = {
 @pytest.mark.parametrize("what", LARGE)
 def test_large_ensembles_are_refused_at_once(what):
     given, words = LARGE[what]
-    with pytest.raises(InputError, match=r"need .* [MGT]B, and 1 MB are free. Take fewer") as told:
+    with pytest.raises(
+        InputError, match=r"need .* [MGT]B, and 1 MB are free. Take fewer"
+    ) as caught:
         ensemble(
             CAR,
             given["variants"],
@@ -85,7 +87,7 @@ def test_large_ensembles_are_refused_at_once(what):
             START,
             **{k: v for k, v in given.items() if k != "variants"},
         )
-    assert words in str(told.value)
+    assert words in str(caught.value)
 
 
 @needs_lanes
@@ -151,7 +153,7 @@ def test_loads_along_a_long_motion_are_refused(monkeypatch):
     ids=["signals", "systems", "spectra", "percentile"],
 )
 def test_the_estimate_is_what_is_taken(monkeypatch, count, given):
-    """Beside what Python itself says it has taken, at the most."""
+    """The estimate is within a factor of 2 of the peak that Python traces."""
     needed = []
     monkeypatch.setattr(
         "kintrafo.ensembles.room.refuse_beyond", lambda _, size, *__: needed.append(size)
@@ -163,7 +165,7 @@ def test_the_estimate_is_what_is_taken(monkeypatch, count, given):
     _, most = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert found["success"].all()
-    # no more than twice what it was said to be, or half of it: what is free is not known better
+    # the free memory is not known better than by such a factor
     assert 0.5 * most < needed[-1] < 2.0 * most
 
 

@@ -1,4 +1,4 @@
-"""What is said at the command line and in pages: units and names that a person knows."""
+"""Words of the command line and of pages: units and names that users know."""
 
 from __future__ import annotations
 
@@ -83,12 +83,12 @@ def test_every_number_is_refused_with_its_unit(
     assert whole or unit in (*known, "NUMBER", "TIMES"), "a unit that no message names"
     for value in ("80mm", "1_0"):
         code, _, err = kintrafo(*command.split(), "a", "b", "c", option, value)
-        said = " ".join(re.sub(r"[│╭╰─╮╯]", " ", err).split())
+        message = " ".join(re.sub(r"[│╭╰─╮╯]", " ", err).split())
         assert code == 2
-        assert "valid" not in said.replace("Invalid value for", ""), said
+        assert "valid" not in message.replace("Invalid value for", ""), message
         in_unit = f" in {known[unit]}, without the unit," if unit in known else ""
         wanted = "a whole number" if whole else f"a finite number{in_unit}"
-        assert f"{value!r}: {wanted}" in said
+        assert f"{value!r}: {wanted}" in message
 
 
 def test_there_are_such_options() -> None:
@@ -144,7 +144,7 @@ TINY = (5e-324, 1e-320, 1e-200, 1e-13, 1e12, 1e200, 1e308)
 
 @pytest.mark.parametrize("value", TINY)
 def test_amounts_beyond_all_measure(value: float) -> None:
-    """Their squares would be zero or infinite: no raw error, whatever study asks."""
+    """Their squares would be zero or infinite: no raw error in any study."""
     car = Suspension.load("reference_car")
     measured = kintrafo.characteristics.over(Model(car), "travel", [-0.02, 0.0, 0.02])[["toe"]]
     place = "hardpoints.tie_rod_inner.z"

@@ -53,9 +53,11 @@ def spans(folder):
 
 def check_damaged(folder):
     """See that the middle file is left out, with a warning."""
-    with pytest.warns(RuntimeWarning, match="damaged. Systems 2 to 4 are simulated again") as told:
+    with pytest.warns(
+        RuntimeWarning, match="damaged. Systems 2 to 4 are simulated again"
+    ) as warned:
         assert spans(folder) == [(0, 2), (4, 6)]
-    assert len(told) == 1
+    assert len(warned) == 1
 
 
 def test_a_sound_folder_is_read(folder):

@@ -53,7 +53,7 @@ def start(car: Model) -> Any:
 
 
 def alone(car: Model, cars: dict[str, np.ndarray], place: int, start: Any, **options: Any) -> Any:
-    """Simulate one of some cars by itself."""
+    """Simulate one of some cars alone."""
     own = {n: float(v[place]) for n, v in cars.items() if n in car.parameters}
     state = np.array(start)
     for name in set(cars) & set(car.state_names):
@@ -348,7 +348,7 @@ def test_spectra_and_percentiles_of_what_simulate_finds(
 
 
 def test_series_do_not_fill_the_memory(car: Model, start: Any, monkeypatch: Any) -> None:
-    """Samples of a few systems at a time are held, whatever the number of all; the same bits."""
+    """Memory has samples of a few systems at a time, for any number of systems; the same bits."""
     times = np.linspace(*SPAN, 301)
     options = {"t_eval": times, "reductions": {"camber": [("percentile", 95.0), ("psd", 64)]}}
     expected = ensemble(car, some_cars(100), SPAN, start, **options)
@@ -534,18 +534,18 @@ def test_a_model_without_signals() -> None:
 
 
 def test_progress_is_reported(car: Model, start: Any, monkeypatch: Any) -> None:
-    told: list[int] = []
+    reported: list[int] = []
     monkeypatch.setattr(run, "_FEWEST", 10)
     real = run._wait_for
 
     def noted(waiting: Any, report: Callable[[int], None] | None) -> None:
         assert report is not None
-        real(waiting, lambda done: (told.append(done), report(done)))
+        real(waiting, lambda done: (reported.append(done), report(done)))
 
     monkeypatch.setattr(run, "_wait_for", noted)
     ensemble(car, some_cars(50), (0.0, 0.01), start, progress=True)
-    assert told == sorted(told)
-    assert told[-1] == 50
+    assert reported == sorted(reported)
+    assert reported[-1] == 50
 
 
 @pytest.mark.usefixtures("interruptible")
@@ -747,9 +747,11 @@ def test_levels_are_reported_with_their_unit(car: Model) -> None:
     }
     wanted = {name: ("above", level) for name, (level, _) in levels.items()}
     found = ensemble(car, None, (0.0, 0.01), reductions=wanted)
-    told = [str(data.attrs["long_name"]) for name, data in found.items() if "_above_" in str(name)]
+    reported = [
+        str(data.attrs["long_name"]) for name, data in found.items() if "_above_" in str(name)
+    ]
     for name, (_, words) in levels.items():
-        assert f"time for which {name.replace('_', ' ')} is above {words}" in told
+        assert f"time for which {name.replace('_', ' ')} is above {words}" in reported
 
 
 def test_levels_that_look_alike_have_names_of_their_own(car: Model) -> None:
@@ -792,7 +794,7 @@ def test_axles_in_lanes_do_what_they_do_alone() -> None:
 
 
 def test_what_iterates_beside_what_does_not_close() -> None:
-    """Five links: each as alone, whatever the width; one in the middle starts out of reach."""
+    """Five links: each as alone, for any width; one in the middle starts out of reach."""
     model, name, count = Model("multi_link_car"), "front_upper_link_inner_y", 9
     cars = {
         name: model.parameters[name] + 1e-3 * np.arange(count),

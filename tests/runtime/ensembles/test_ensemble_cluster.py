@@ -166,7 +166,7 @@ def test_what_a_lost_worker_did_is_done_again(
 
 
 def test_what_loses_one_worker_after_another() -> None:
-    """What the scheduler tells then, and where it is gone itself."""
+    """Messages of the scheduler about lost workers, and of a lost scheduler."""
     shown = {
         distributed.scheduler.KilledWorker("chunk", None, 3): "systems 7 to 14: several workers",
         CancelledError(): "the scheduler was lost, or",
@@ -208,7 +208,7 @@ def test_an_interruption_ends_what_workers_do(
 def test_few_pieces_are_held_at_a_time(
     client: Any, car: Model, start: Any, monkeypatch: Any
 ) -> None:
-    """Whatever the number of all: what is cut and sent, and not yet put into the whole."""
+    """The number of chunks in memory does not depend on the number of systems."""
     held, most = 0, 0
 
     def cut(*given: Any) -> Any:

@@ -23,7 +23,7 @@ EXAMPLE = ROOT / "examples" / "pushrod_suspension.py"
 
 @pytest.mark.parametrize("name", GENERATED)
 def test_bodies_carry_the_points_of_their_joints_together(name):
-    """Both bodies of a joint have its points in the same place, whatever moves."""
+    """Both bodies of a joint have its points in the same place in every motion."""
     module = import_module(f"kintrafo.generated.{name}")
     skeleton = Skeleton(kintrafo.System(module))
     start = skeleton.system.design_state
@@ -87,7 +87,7 @@ def test_report_of_a_mechanism_has_the_positions_of_the_equations(tmp_path):
 
 
 def test_a_full_turn_is_offered_where_it_can_be_made(tmp_path):
-    """The crank of a slider-crank turns round; that it cannot go further is not said."""
+    """The crank of a slider-crank turns round; the page mentions no limit."""
     data = _payload(kintrafo.report.write(kintrafo.System(slider_crank), tmp_path / "page.html"))
     values = data["scenes"][0]["values"]
     assert values[-1] - values[0] == pytest.approx(2 * np.pi, rel=1e-5)
@@ -103,7 +103,7 @@ def spun():
 
 
 def test_gif_lasts_as_long_as_the_motion(spun, tmp_path):
-    """As many frames as it says, and each shown so long."""
+    """0.4 s at half speed are 17 frames of 50 ms."""
     path = kintrafo.animate(spun, tmp_path / "linkage.gif", fps=20, slower=2)
     with Image.open(path) as picture:
         assert picture.n_frames == 17
@@ -194,9 +194,9 @@ class TestInABrowser:
 def test_where_it_does_not_stay_is_reported(tmp_path):
     """The excavator rests where modes grow; a four-bar swings about its lowest position."""
     grows = "It does not stay there"
-    for module, told in ((excavator, True), (four_bar, False)):
-        page = kintrafo.report.write(kintrafo.System(module), tmp_path / f"{told}.html")
-        assert (grows in page.read_text(encoding="utf-8")) == told
+    for module, grown in ((excavator, True), (four_bar, False)):
+        page = kintrafo.report.write(kintrafo.System(module), tmp_path / f"{grown}.html")
+        assert (grows in page.read_text(encoding="utf-8")) == grown
 
 
 def test_a_motion_of_another_mechanism_is_refused(spun, tmp_path):
@@ -206,7 +206,7 @@ def test_a_motion_of_another_mechanism_is_refused(spun, tmp_path):
 
 
 def test_of_several_mechanisms_in_a_file_one_is_shown(tmp_path):
-    """What the hint says to add works with each command that gives it."""
+    """The option in the hint works with each command that prints the hint."""
     path = tmp_path / "two.py"
     path.write_text(
         "from kintrafo.generator.mechanisms.four_bar import FOUR_BAR\n"

@@ -125,9 +125,9 @@ def test_what_runs_in_a_notebook_is_reported(monkeypatch):
 
 
 def test_importing_kintrafo_loads_none_of_it():
-    told = "import sys, kintrafo; print([n for n in sys.modules if re.search(PATTERN, n)])"
+    listing = "import sys, kintrafo; print([n for n in sys.modules if re.search(PATTERN, n)])"
     pattern = r"matplotlib|IPython|notebook\.p"
-    program = f"import re; PATTERN = {pattern!r}; {told}"
+    program = f"import re; PATTERN = {pattern!r}; {listing}"
     found = subprocess.run([sys.executable, "-c", program], capture_output=True, check=True)
     assert re.fullmatch(rb"\[\]\s*", found.stdout)
 

@@ -42,7 +42,7 @@ def test_all_methods_end_at_the_same_time(method, car, step, time):
     model = Model(car)
     road = excitation({"road_height": TimeProfile(step=step, step_at=0.1)}, 0.5, None)
     error = ended(model, equilibrium(model), 0.5, method=method, inputs=road)
-    # rtol of a state that changes by itself some ten times in this time
+    # rtol of a state that changes some ten times in this time
     assert error.time == pytest.approx(time, abs=5e-6)
     assert "beyond its dead point" in error.reason
     partial = error.partial

@@ -205,7 +205,7 @@ class TestFunctions:
         assert np.ptp(result.signals["wheel_center_z"]) == pytest.approx(np.ptp(height), rel=0.03)
 
     def test_a_step_is_asked_for_to_see_what_is_shorter(self):
-        """Shorter than a millisecond: `max_step` says how closely a function is looked at."""
+        """Below a millisecond: `max_step` limits the time between two calls of a function."""
         for start in (0.70003, 0.3007, 1.2222):
             spike = bump(start, 1e-4, 1.0)
             found = time_inputs(MODEL, {"strut_force": spike}, (0.0, 2.0), max_step=4e-5)

@@ -1,4 +1,4 @@
-"""Functions of time alone as events: their zeros are known, whatever the motion is."""
+"""Functions of time alone as events: their zeros are known for every motion."""
 
 import numpy as np
 import pytest
@@ -21,7 +21,7 @@ MODEL = Model("reference_car")
 START = state_at_height(MODEL, 0.325, spin_rate=93.0)
 METHODS = [*native_methods(), "RK45"]
 each_method = pytest.mark.parametrize("method", METHODS)
-# Solvers tell times apart that differ by some hundred roundings of a second; SciPy's by 4e-12.
+# Solvers distinguish times that differ by some hundred roundings of a second; SciPy's by 4e-12.
 RESOLVED = 1e-11
 
 
@@ -85,7 +85,7 @@ BROKEN = Samples([0.0, 0.1, 0.1, 0.2, 0.2, 1.0], [0.0, 0.0, 0.01, 0.01, 0.0, 0.0
 
 @each_method
 def test_crossings_are_counted_over_all_segments(method):
-    """A road that jumps at 0.1 s and 0.2 s does not make the counting begin anew."""
+    """A road that jumps at 0.1 s and 0.2 s does not restart the counting."""
     event = sine(20.0, 0.5, terminal=5)
     found = simulate(
         MODEL, (0.0, 0.4), START, method=method, events=event, max_step=0.02,

@@ -21,7 +21,7 @@ pytestmark = [
 
 DIGITS = 50
 ANGLES = 400
-LARGEST = 1e6  # greatest angle, as elementary.h says
+LARGEST = 1e6  # greatest angle of elementary.h
 TAKEN = "real", "root", "magnitude"
 CARS, STATES = 4, 8  # parameter sets of a model, and states of each
 
@@ -122,7 +122,7 @@ class Both:
             pointers = [a.ctypes.data for a in (*given, out)]
             expected = alone(*pointers, *[None] * (4 - len(pointers)))
             assert status[lane] == expected, function
-            # a NaN has many bits, and says the same
+            # NaN is equal to NaN here, with any bits
             np.testing.assert_array_equal(found[:, lane], out, strict=True)
         return found
 

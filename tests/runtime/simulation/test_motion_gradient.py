@@ -114,7 +114,7 @@ def test_what_is_at_rest_at_first_is_followed_too(system: kintrafo.System) -> No
 
 
 def test_it_is_the_gradient_of_the_numbers_that_the_steps_give(system: kintrafo.System) -> None:
-    """Steps of 10 ms all along, whatever the error: of these numbers, not of the true motion."""
+    """Steps of 10 ms with any error: gradients of these numbers, not of the true motion."""
     coarse: dict[str, Any] = {"rtol": 0.5, "atol": 1e3, "max_step": 0.01}
     found = kintrafo.motion_gradient(system, SPAN, START, OF, t_eval=TIMES, **coarse)
     true = kintrafo.motion_gradient(system, SPAN, START, OF, t_eval=TIMES, rtol=1e-11, atol=1e-13)

@@ -149,7 +149,7 @@ def four_bar() -> kintrafo.System:
 def test_the_same_bits_in_any_lanes(
     four_bar: kintrafo.System, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Whatever the width, and whatever stands beside a direction."""
+    """The bits depend neither on the width nor on other directions."""
     start, names = four_bar.state(), [*four_bar.parameters][8:17]  # one more than the widest has
     in_lanes(monkeypatch, widths()[0])
     several = kintrafo.motion_sensitivity(four_bar, (0.0, 0.3), start, names)

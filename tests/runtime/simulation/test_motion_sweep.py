@@ -131,18 +131,18 @@ def test_an_interrupt_is_seen_on_the_way() -> None:
     """The function that is called at every stage does nothing but send one."""
     interrupt = ctypes.cast(ctypes.pythonapi.PyErr_SetInterrupt, ctypes.c_void_p).value
     count, (one, none) = 10_000, (np.ones(1), np.zeros(0))
-    lengths, anew = np.ones(count), np.zeros(count, np.uint8)
-    anew[0] = 1
+    lengths, restarts = np.ones(count), np.zeros(count, np.uint8)
+    restarts[0] = 1
     shape = (count, len(STAGES), 1)
     inputs, states, rates = np.zeros((*shape[:2], 0)), np.zeros(shape), np.zeros(shape)
     states[:, 0] = 1.0
     with pytest.raises(KeyboardInterrupt):
-        _steps.go_through(interrupt, one, STAGES, lengths, anew, inputs, states, rates)
+        _steps.go_through(interrupt, one, STAGES, lengths, restarts, inputs, states, rates)
     assert not states[-1, 1].any()
     by_start = np.zeros(1)
     with pytest.raises(KeyboardInterrupt):
         _steps.go_back(
-            interrupt, one, STAGES, lengths, anew, inputs, states, np.ones((count, 1)),
+            interrupt, one, STAGES, lengths, restarts, inputs, states, np.ones((count, 1)),
             np.zeros(shape), np.zeros(1), by_start, none,
         )  # fmt: skip
     assert 0.0 < by_start[0] < count

@@ -466,7 +466,7 @@ def test_an_explanation_where_the_steps_become_too_small():
 
 
 def test_steps_that_gain_nothing_end():
-    """1e100 N: steps of 1e-50 s, for ever, where a clock at zero can still tell them apart."""
+    """1e100 N: steps of 1e-50 s, for ever, where a clock at zero can still distinguish them."""
     with pytest.raises(SimulationError, match="too small"):
         simulate(MODEL, (0, 1), START, inputs={"strut_force": 1e100}, method="RK45")
 
@@ -484,10 +484,10 @@ def test_without_sundials_the_user_is_warned_once(monkeypatch):
 
     monkeypatch.setattr(solvers, "sundials", None)
     monkeypatch.setattr(simulation, "_warned", False)
-    with pytest.warns(RuntimeWarning, match="built without SUNDIALS") as told:  # noqa: PT031
+    with pytest.warns(RuntimeWarning, match="built without SUNDIALS") as warned:  # noqa: PT031
         first = simulate(MODEL, (0, 0.1), START)
         second = simulate(MODEL, (0, 0.1), START)
-    assert len(told) == 1
+    assert len(warned) == 1
     assert first.solver == second.solver == "SciPy"
     with pytest.raises(InputError, match="needs SUNDIALS"):
         simulate(MODEL, (0, 0.1), START, method="Adams")

@@ -1,4 +1,4 @@
-"""What a simulation says about its end: interrupted, too long, on paths that no car can go."""
+"""Ends of simulations and their messages: interrupts, too many steps, impossible paths."""
 
 import os
 import pickle
@@ -111,7 +111,7 @@ def test_a_broken_native_module_is_not_called_missing(monkeypatch):
 def test_who_follows_the_advice_is_not_refused(
     monkeypatch, release, moves, compiled, backend, method, stop
 ):
-    """Whatever is linked, and whatever is asked for: what the message names instead is there."""
+    """The method and backend that a message advises are available in every build."""
     linked = None if release == "none" else SimpleNamespace(version=lambda: release)
     monkeypatch.setattr(solvers, "sundials", linked)
     monkeypatch.setattr(simulation, "_warned", True)
@@ -127,22 +127,22 @@ def test_who_follows_the_advice_is_not_refused(
     try:
         choose(backend, method, stop)
     except InputError as error:
-        (told,) = error.problems
-        others = dict(re.findall(r"(method|backend) '(\w+)'", advice(told)))
-        out = re.findall(r"leave out (.*):", advice(told).lower())
+        (message,) = error.problems
+        others = dict(re.findall(r"(method|backend) '(\w+)'", advice(message)))
+        out = re.findall(r"leave out (.*):", advice(message).lower())
         left = out[0].split(" and ") if out else []
         other = others.get("method", method)
         found = choose(
             others.get("backend", backend), other, stop and "stop_at_outputs" not in left
         )
         in_c = found is simulation.solve_native
-        assert in_c == ("in C then" in told) == (compiled and moves and linked is not None)
+        assert in_c == ("in C then" in message) == (compiled and moves and linked is not None)
         assert other == "RK4" or method != "RK4" or "step" in left
 
 
-def advice(told):
+def advice(message):
     """Return the last sentence."""
-    return re.search(r"[.] ([^.]*)[.]$", told)[1]
+    return re.search(r"[.] ([^.]*)[.]$", message)[1]
 
 
 def run(*arguments):

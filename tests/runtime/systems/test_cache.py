@@ -252,7 +252,7 @@ class TestLeftovers:
         assert young.exists()
 
     def test_many_processes_at_a_time(self, tmp_path):
-        """Each removes what the others remove, fill and move: nobody is told of an error."""
+        """Each removes what the others remove, fill and move: none has an error."""
         context = multiprocessing.get_context("spawn")
         with ProcessPoolExecutor(2, mp_context=context) as pool:
             list(pool.map(cache_stress.stress, [tmp_path] * 2, [1, 2]))

@@ -1,4 +1,4 @@
-"""What is told while a mechanism is derived and compiled, and what is left where it is stopped."""
+"""Progress of deriving and compiling a mechanism, and the files after an interrupt."""
 
 import io
 import os
@@ -21,10 +21,10 @@ needs_compiler = pytest.mark.skipif(find_compiler() is None, reason="no C compil
 
 @needs_compiler
 def test_what_is_done_is_reported_with_how_much_there_is(tmp_path, capfd):
-    told = []
-    kintrafo.compile(FOUR_BAR, folder=tmp_path, progress=told.append)
+    reported = []
+    kintrafo.compile(FOUR_BAR, folder=tmp_path, progress=reported.append)
     places = [
-        next(i for i, text in enumerate(told) if part in text)
+        next(i for i, text in enumerate(reported) if part in text)
         for part in (
             "finding the loops",
             "equations of motion of 3 bodies",
@@ -37,7 +37,7 @@ def test_what_is_done_is_reported_with_how_much_there_is(tmp_path, capfd):
         )
     ]
     assert places == sorted(places)
-    assert not any("to go" in text or "about" in text for text in told)  # over in a second
+    assert not any("to go" in text or "about" in text for text in reported)  # over in a second
     assert capfd.readouterr() == ("", "")
 
 
@@ -53,10 +53,14 @@ def test_it_is_shown_on_a_terminal_only(tmp_path, monkeypatch, terminal):
 
 
 def test_of_what_takes_long_the_rest_is_estimated(monkeypatch):
-    clock, told = iter([0.0, 0.0, 4.0, 8.0]), []
+    clock, reported = iter([0.0, 0.0, 4.0, 8.0]), []
     monkeypatch.setattr(progress.time, "monotonic", lambda: next(clock))
-    assert list(progress.counted(told.append, "solving", "abc")) == ["a", "b", "c"]
-    assert told == ["solving: 1 of 3", "solving: 2 of 3, 8 s to go", "solving: 3 of 3, 4 s to go"]
+    assert list(progress.counted(reported.append, "solving", "abc")) == ["a", "b", "c"]
+    assert reported == [
+        "solving: 1 of 3",
+        "solving: 2 of 3, 8 s to go",
+        "solving: 3 of 3, 4 s to go",
+    ]
     monkeypatch.setattr(os, "cpu_count", lambda: 2)
     assert _estimated([20_000, 30_000]) == ""
     assert _estimated([20_000, 160_000]) == ", about 20 s"
@@ -64,7 +68,7 @@ def test_of_what_takes_long_the_rest_is_estimated(monkeypatch):
 
 
 def waiting_compiler(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Let CC be a program that starts another one and waits for it, and tells both numbers."""
+    """Let CC be a program that starts another one, waits, and writes the numbers of both."""
     script, numbers = folder / "slow-cc", folder / "numbers"
     script.write_text(
         "#!/bin/sh\n"

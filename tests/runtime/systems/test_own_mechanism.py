@@ -174,9 +174,9 @@ class TestCache:
         first = kintrafo.compile(FOUR_BAR)
         (made,) = cache.iterdir()
         monkeypatch.setattr(own_build, "build", None)
-        said = []
-        assert kintrafo.compile(FOUR_BAR, progress=said.append) is first
-        assert not said
+        reported = []
+        assert kintrafo.compile(FOUR_BAR, progress=reported.append) is first
+        assert not reported
         assert list(cache.iterdir()) == [made]
 
     @pytest.mark.parametrize("what", ["joint", "default", "flags", "backend"])
@@ -205,9 +205,9 @@ class TestCache:
             there = pool.submit(simulated_end, 0.1)
             here = simulated_end(0.1)
             assert there.result() == here
-        said = []
-        kintrafo.compile(FOUR_BAR, progress=said.append)
-        assert not said
+        reported = []
+        kintrafo.compile(FOUR_BAR, progress=reported.append)
+        assert not reported
         assert [p.name.startswith("four_bar-") for p in cache.iterdir()] == [True]
 
     def test_systems_go_to_other_processes(self):

@@ -82,10 +82,10 @@ def test_what_others_can_write_to_is_refused(where, how, cache, monkeypatch):
         path.chmod(0o1777 if how == "sticky" else path.stat().st_mode | 0o002)
     with pytest.raises(kintrafo.InputError) as refused:
         compiled(cache)
-    said = str(refused.value)
-    assert str(path) in said or how == "owner"
-    assert "belongs to user" in said if how == "owner" else "chmod go-w" in said
-    assert "KINTRAFO_CACHE" in said
+    message = str(refused.value)
+    assert str(path) in message or how == "owner"
+    assert "belongs to user" in message if how == "owner" else "chmod go-w" in message
+    assert "KINTRAFO_CACHE" in message
     assert not any(name.startswith("kintrafo_four_bar_") for name in sys.modules)
 
 

@@ -23,5 +23,5 @@ def test_a_controller_computes_the_same_bits(tmp_path):
         for name in FUNCTIONS:
             operations = getattr(system.equations, name).operations["total"]
             assert found.instructions[name] > operations
-            assert 0 < found.stack[name] < 20_000  # bytes, as README.txt says
+            assert 0 < found.stack[name] < 20_000  # bytes, as in README.txt
         assert 1000 < found.code < 100_000

@@ -1,4 +1,4 @@
-"""``kintrafo drive``: its tables and files, and what it says of mistakes."""
+"""``kintrafo drive``: its tables and files, and messages of mistakes."""
 
 from pathlib import Path
 

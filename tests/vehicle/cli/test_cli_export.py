@@ -28,9 +28,9 @@ def test_a_file_with_a_value_out_of_its_range(kintrafo, tmp_path, to):
         file.write_text(text.replace("rate_N_per_m = 25000.0", f"rate_N_per_m = {value}"))
         code, out, err = kintrafo("export", "a.toml", "--to", to)
         assert (code, out) == (2, "")
-        said = " ".join(err.split())
-        assert f"spring_rate_N_per_m = {value}" in said
-        assert words in said
+        message = " ".join(err.split())
+        assert f"spring_rate_N_per_m = {value}" in message
+        assert words in message
         assert [path.name for path in tmp_path.iterdir()] == ["a.toml"]
 
 

@@ -1,4 +1,4 @@
-"""The command line and the disk: nobody's file is lost, and what cannot be printed is told."""
+"""The command line and the disk: no file is lost, and errors of printing have a message."""
 
 import json
 import os

@@ -98,6 +98,6 @@ def test_the_documented_code_prints_what_it_says(capsys):
     blocks = re.findall(r"```python\n(.*?)```", PAGE, flags=re.DOTALL)
     code = "".join(blocks)
     exec(compile(code, "types.md", "exec"), {})
-    said = re.findall(r"print.*# (.*)\n", code)
-    assert len(said) == len(blocks)
-    assert capsys.readouterr().out.splitlines() == said
+    expected = re.findall(r"print.*# (.*)\n", code)
+    assert len(expected) == len(blocks)
+    assert capsys.readouterr().out.splitlines() == expected

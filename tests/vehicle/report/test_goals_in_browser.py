@@ -1,4 +1,4 @@
-"""Targets and limits in a report, in a real browser: each mark is where its number says.
+"""Targets and limits in a report, in a real browser: each mark is at its value.
 
 A chart tells its own scale: the marker on its curve stands at two positions, whose values the
 compiled model has.
@@ -152,7 +152,7 @@ def test_marks_stay_with_their_values_while_the_curve_moves(watched: Any) -> Non
 
 
 def test_marks_are_printed(watched: Any) -> None:
-    """On paper a chart is a drawing of lines: the curve itself tells its scale."""
+    """On paper a chart is a drawing of lines: its curve defines its scale."""
     watched.start_again()
     watched.page.pdf()
     drawing = watched.page.locator('figure[data-curve="camber"] .printed')

@@ -1,4 +1,4 @@
-"""Targets and limits in the charts of a report that move: what the page is handed, and told."""
+"""Targets and limits in the interactive charts of a report: data and words of the page."""
 
 import json
 import re

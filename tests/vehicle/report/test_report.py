@@ -167,7 +167,7 @@ def test_encoding_loses_what_it_says():
 
 
 def stated_accuracy(page):
-    """Return what the page says of positions [m] and of the wheel's axis [rad]."""
+    """Return the errors in the page: of positions [m] and of the wheel's axis [rad]."""
     powers = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
     words = re.search(r"largest differences are (.+?) mm of a position and (.+?)°", page)
     millimetres, degrees = (
@@ -251,7 +251,7 @@ def test_motion_that_cannot_be_shown_is_said():
 
 
 def rows_at_design(page):
-    """Return what the table says at design, by the curves' keys."""
+    """Return the values of the table at design, by the keys of curves."""
     cells = re.findall(
         r'<td class="number">([^<]*)</td><td class="number now" data-now="(\w+)"', page
     )

@@ -255,8 +255,8 @@ def test_keyboard_reaches_and_moves_everything(watched):
 
 def test_phone_needs_no_sideways_scrolling(watched):
     page = watched.page
-    told = page.locator("meta[name=viewport]").get_attribute("content")
-    assert told == "width=device-width, initial-scale=1"
+    shown_values = page.locator("meta[name=viewport]").get_attribute("content")
+    assert shown_values == "width=device-width, initial-scale=1"
     for details in page.locator("details").all():
         details.evaluate("d => d.open = true")
     for width in (390, 320):
@@ -349,14 +349,14 @@ def test_what_is_interpolated_says_so(browser, tmp_path, monkeypatch):
     grid = Grid(GridAxis(-0.05, 0.025, 5), GridAxis(-0.04, 0.02, 5))
     monkeypatch.setattr("kintrafo.vehicle.report.page.reachable_grid", lambda _: grid)
     watched = Watched(browser, kintrafo.report.write(MODEL, tmp_path / "coarse.html"))
-    told = {}
+    shown_values = {}
     for travel in (0.0, 0.025, 0.010):
         watched.page.evaluate(f"kintrafo.set({{ travel: {travel}, rack: 0 }})")
         cell = watched.page.locator('[data-now="bump_steer"]').inner_text()
-        told[travel] = cell
-    exact = kintrafo.characteristics.over(MODEL, "travel", list(told))["bump_steer"].values
-    for (travel, text), value in zip(told.items(), np.degrees(exact) * 1e-3, strict=True):
-        assert text.startswith("\u2248") == (travel == 0.010), told
+        shown_values[travel] = cell
+    exact = kintrafo.characteristics.over(MODEL, "travel", list(shown_values))["bump_steer"].values
+    for (travel, text), value in zip(shown_values.items(), np.degrees(exact) * 1e-3, strict=True):
+        assert text.startswith("\u2248") == (travel == 0.010), shown_values
         number = float(text.lstrip("\u2248\u00a0").replace("\u2212", "-"))
         assert travel == 0.010 or number == pytest.approx(value, abs=0.51e-4)
     watched.context.close()
