@@ -26,12 +26,12 @@ def main() -> int:
     parser.add_argument("--rounds", type=int, default=25, help="so many times the short run")
     parser.add_argument("--attempts", type=int, help="so many at each door instead")
     parser.add_argument("--first", type=int, default=0, help="the first seed")
-    parser.add_argument("--page", type=Path, help="a page whose table is written anew")
+    parser.add_argument("--page", type=Path, help="a page whose table is replaced")
     options = parser.parse_args()
     campaigns = []
     for name in options.doors:
         count = options.attempts or options.rounds * short(name)
-        found = campaign(name, count, first=options.first, told=_progress)
+        found = campaign(name, count, first=options.first, progress=_progress)
         campaigns.append(found)
         for one in found.defects:
             print(f"{name}, seed {one.seed}: {one.outcome}: {one.text}")

@@ -1,4 +1,4 @@
-"""What one attempt at a door may come to, and how it is told.
+"""Outcomes of one attempt at a door, and their words.
 
 A door is a module of `fuzz.doors` with a docstring whose first line says what is tried,
 and with a function ``attempt(random)`` that tries it once with what it draws from a
@@ -82,7 +82,7 @@ def door(name: str) -> ModuleType:
 
 
 def what_is_tried(name: str) -> str:
-    """Return the first line of what a door says."""
+    """Return the first line of the docstring of a door."""
     return (ast.get_docstring(_text_of(name)) or "").partition("\n")[0].rstrip(".")
 
 

@@ -63,7 +63,7 @@ class Campaign:
 
 
 def campaign(
-    name: str, count: int, *, first: int = 0, told: Callable[[Campaign], None] | None = None
+    name: str, count: int, *, first: int = 0, progress: Callable[[Campaign], None] | None = None
 ) -> Campaign:
     """Try a door with so many seeds.
 
@@ -75,8 +75,8 @@ def campaign(
         Number of attempts.
     first
         The first seed.
-    told
-        Called after every attempt with what there is so far.
+    progress
+        Called after every attempt with the results so far.
     """
     found = Campaign(name, what_is_tried(name))
     seed, end = first, first + count
@@ -84,25 +84,25 @@ def campaign(
         for one in _worked(name, seed, end - seed):
             found.note(one)
             seed = one.seed + 1
-            if told:
-                told(found)
+            if progress:
+                progress(found)
     return found
 
 
 def _worked(name: str, first: int, count: int) -> Iterator[Tried]:
-    """Yield what one process tells, and at the end what the seed that ended it came to."""
+    """Yield the results of one process, and at its end that of the seed that ended it."""
     seed = first
-    told, tells = _PROCESSES.Pipe(duplex=False)
+    receiver, sender = _PROCESSES.Pipe(duplex=False)
     # a file, since a pipe that nobody reads from would fill up
     with NamedTemporaryFile("r", encoding="utf-8", errors="replace") as complaints:
         process = _PROCESSES.Process(
-            target=worker.main, args=(name, first, count, tells, complaints.name)
+            target=worker.main, args=(name, first, count, sender, complaints.name)
         )
         process.start()
-        tells.close()
+        sender.close()
         with suppress(EOFError):
             while True:
-                one = told.recv()
+                one = receiver.recv()
                 seed = one.seed + 1
                 yield one
         process.join()

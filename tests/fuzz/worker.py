@@ -1,7 +1,7 @@
-"""Try a door with a row of seeds, each told as it comes: what processes of `fuzz.campaign` run.
+"""Try a door with a row of seeds, and send each result: for the processes of `fuzz.campaign`.
 
-A seed that hangs ends the process by a timer that no Python code can stop; the seed that was begun
-and not told is the one. Time is that of the processor, which a busy machine does not make longer;
+A seed that hangs ends the process by a timer that no Python code can stop: the seed after the last
+sent result. Time is that of the processor, which a busy machine does not make longer;
 what waits for something is given ten times as much on the clock.
 """
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from multiprocessing.connection import Connection
 
 
-def main(name: str, first: int, count: int, told: Connection, complaints: str) -> None:
+def main(name: str, first: int, count: int, sender: Connection, complaints: str) -> None:
     """Try the seeds from `first` on.
 
     Parameters
@@ -27,23 +27,23 @@ def main(name: str, first: int, count: int, told: Connection, complaints: str) -
         Of the door.
     first, count
         The seeds.
-    told
-        Where what came of each is sent.
+    sender
+        The end of a pipe to which the result of each seed is sent.
     complaints
         Path of the file for what goes to standard error.
     """
-    _lead(os.devnull, 1)  # whatever an attempt prints goes nowhere
+    _lead(os.devnull, 1)  # output of an attempt goes nowhere
     _lead(complaints, 2)
     module = door(name)
     seconds = setting(module, "SECONDS")
-    faulthandler.register(signal.SIGPROF, chain=True)  # tells where, and the process ends
+    faulthandler.register(signal.SIGPROF, chain=True)  # prints the place, and the process ends
     for seed in range(first, first + count):
         faulthandler.dump_traceback_later(10.0 * seconds, exit=True)
         signal.setitimer(signal.ITIMER_PROF, seconds)
         found = tried(module, seed)
         signal.setitimer(signal.ITIMER_PROF, 0.0)
         faulthandler.cancel_dump_traceback_later()
-        told.send(found)
+        sender.send(found)
 
 
 def _lead(path: str, stream: int) -> None:

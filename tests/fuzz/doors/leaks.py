@@ -141,14 +141,14 @@ def _by_malloc() -> int:
 def _elsewhere(way: str, seed: int) -> str:
     """Return the digest of what another process computes."""
     context = multiprocessing.get_context(way)
-    told, tells = context.Pipe(duplex=False)
-    process = context.Process(target=_told, args=(seed, tells))
+    receiver, sender = context.Pipe(duplex=False)
+    process = context.Process(target=_send_digest, args=(seed, sender))
     process.start()
-    tells.close()
+    sender.close()
     try:
-        if not told.poll(0.5 * SECONDS):
+        if not receiver.poll(0.5 * SECONDS):
             raise WrongError(f"a process by {way} does not end")
-        fine, text = told.recv()
+        fine, text = receiver.recv()
     except EOFError:
         process.join()
         raise WrongError(f"a process by {way} ends with {process.exitcode}") from None
@@ -160,11 +160,11 @@ def _elsewhere(way: str, seed: int) -> str:
     return str(text)
 
 
-def _told(seed: int, tells: Connection) -> None:
+def _send_digest(seed: int, sender: Connection) -> None:
     try:
-        tells.send((True, measured(seed, _FEW)))
+        sender.send((True, measured(seed, _FEW)))
     except Exception as error:  # noqa: BLE001 (any error goes to the parent, which fails the attempt)
-        tells.send((False, f"{type(error).__name__}: {error}"))
+        sender.send((False, f"{type(error).__name__}: {error}"))
 
 
 # -- calls ----------------------------------------------------------------------------------------

@@ -255,8 +255,8 @@ def test_keyboard_reaches_and_moves_everything(watched):
 
 def test_phone_needs_no_sideways_scrolling(watched):
     page = watched.page
-    shown_values = page.locator("meta[name=viewport]").get_attribute("content")
-    assert shown_values == "width=device-width, initial-scale=1"
+    viewport = page.locator("meta[name=viewport]").get_attribute("content")
+    assert viewport == "width=device-width, initial-scale=1"
     for details in page.locator("details").all():
         details.evaluate("d => d.open = true")
     for width in (390, 320):
