@@ -4,8 +4,8 @@ No other check detects a missing part: without SUNDIALS, SciPy integrates; only 
 lanes; a compiler replaces the library for an FMU and a compiled car. On Windows,
 where wheels have neither SUNDIALS nor lanes nor cars, every model is simulated by SciPy.
 
-Usage: complete.py [--part | --built]. A part is that of fill.py; --built leaves out what fill.py
-adds, as in a checkout.
+Usage: complete.py [--part | --built]. By default all files that fill.py adds are expected; with
+--part those that it adds with --part; with --built none of them, as in a checkout.
 """
 
 import sys

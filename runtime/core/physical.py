@@ -90,7 +90,7 @@ def impossible(
     values : mapping
         By name: a finite number, or an array of shape (count,); SI units.
     described : mapping
-        As for `out_of_range`.
+        Unit and bounds of parameters by name; see `out_of_range`.
     count : int
         Number of sets.
 

@@ -48,14 +48,14 @@ def input_sets_of(
     ----------
     model : System
     inputs : mapping
-        As for `kintrafo.simulate`; or by label, where systems have different ones.
+        Signals by name of an input, see `time_inputs`; or by label, where systems differ.
     variants : Variants
     t_span : tuple of float
         First and last time [s].
     held : ndarray or None
         Values of the inputs that are not given.
     max_step : float
-        As for `time_inputs`.
+        Longest step of the integration, and longest time between two calls of a function [s].
     """
     rows, of = _combinations(variants)
     different = []

@@ -217,7 +217,7 @@ class Stepper:
         Parameters
         ----------
         y0, inputs, t0
-            As for the class.
+            Initial state, inputs, and initial time [s]; see `Stepper`.
         """
         with Validator("Stepper") as given:
             state = given.array("y0", y0, last=self.state.size)

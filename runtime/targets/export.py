@@ -112,7 +112,8 @@ def check_export(
     Parameters
     ----------
     path, to, force, read, **options
-        As for `export_model`.
+        Path, kind of export, whether other files are replaced, files that are never replaced, and
+        options of the kind; see `export_model`.
 
     Raises
     ------

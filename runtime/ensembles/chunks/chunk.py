@@ -42,7 +42,7 @@ class Common:
     asked : OutputSpec
     accuracy : Accuracy
     width, stiff_after : int
-        As for `Problem`.
+        Number of lanes; steps after which a stiff system ends, 0 if it does not.
     again : bool
         Whether systems that lanes do not finish are simulated again.
     versions : dict

@@ -42,7 +42,7 @@ class Variable:
         Its value reference; they count from zero, in order.
     name, meaning, unit : str
     causality, variability, initial : str
-        As in FMI; `initial` is empty for none.
+        Attributes of FMI; `initial` is empty for none.
     start : float or None
     derivative_of : int or None
         Reference of the variable of which this is the derivative.
