@@ -295,7 +295,7 @@ def _rows(here: xr.Dataset, places: Iterable[str]) -> Iterator[tuple[str, ...]]:
 def _kinematic(assembly: HeldAssembly) -> Iterator[tuple[str, tuple[str, xr.DataArray]]]:
     """Yield the characteristics at design with the parts of the sheet, by their names."""
     known: dict[str, xr.DataArray] = {}
-    steering = () if assembly.steered_by is None else (assembly.steered_by,)
+    steering = () if assembly.steering_motion is None else (assembly.steering_motion,)
     for motion in (assembly.usual_motion, *steering):
         curves = flat(dataset(assembly, motion, np.zeros(1)))
         known = {str(name): data for name, data in curves.items()} | known

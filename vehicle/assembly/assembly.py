@@ -250,7 +250,7 @@ class Assembly(ABC):
         del given, motion, along
 
     @property
-    def steered_by(self) -> str | None:
+    def steering_motion(self) -> str | None:
         """The motion in which the steering moves, if it has one."""
         return None
 

@@ -120,7 +120,7 @@ class CornerAssembly(HeldAssembly):
         self.subject.refuse_without_rack(what)
 
     @property
-    def steered_by(self) -> str | None:
+    def steering_motion(self) -> str | None:
         """The motion of the rack."""
         return "rack" if self.steered else None
 

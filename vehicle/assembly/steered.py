@@ -59,7 +59,7 @@ class SteerableAssembly(HeldAssembly):
         }
 
     @property
-    def steered_by(self) -> str | None:
+    def steering_motion(self) -> str | None:
         """The motion of the steering wheel, or of the rack if no file has the steering's ratio."""
         turns = self.steered and self.steering_wheel.known
         return "steer" if turns else "rack" if self.steered else None
