@@ -379,7 +379,7 @@ def test_loads_that_nothing_holds_are_refused(
     refused(PositionError, lambda: compliance.nonlinear(axle_of(STRUT), weak, "braking", [9e5]))
 
 
-# -- what is told ---------------------------------------------------------------------------------
+# -- tables and messages --------------------------------------------------------------------------
 
 
 def test_tables_have_each_wheel_and_both() -> None:

@@ -538,7 +538,7 @@ def test_how_bearings_share_matters_to_the_toe() -> None:
     assert abs(float(found) / float(toes[1][0, 0]) - 1.0) > 1e-5
 
 
-# -- what no rubber can do -----------------------------------------------------------------------
+# -- loads beyond the bushes ---------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("subject", ["suspension", "axle", "rigid axle"])

@@ -145,7 +145,7 @@ def test_the_mirror_image_of_a_case_is_carried_alike(subject: Any) -> None:
         np.testing.assert_allclose(ours, theirs * signs, atol=1e-5)
 
 
-# -- what is refused ------------------------------------------------------------------------------
+# -- errors ---------------------------------------------------------------------------------------
 
 # Of every assembly, of those with two wheels, and of one of them.
 WRONG: list[tuple[str, Any, str]] = [

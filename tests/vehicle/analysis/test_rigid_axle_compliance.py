@@ -28,6 +28,7 @@ from kintrafo.vehicle.analysis.checkup import checkup
 from kintrafo.vehicle.analysis.compliance.tables import compliances_of_beam
 from kintrafo.vehicle.analysis.sheet import sheet
 from kintrafo.vehicle.assembly.by_wheel import flat
+from oracle.constraints import skew
 from rigid_axles import AXLE, FIVE, LOPSIDED, TRIANGULATED, Found
 from scipy.optimize import root
 from scipy.spatial.transform import Rotation
@@ -62,11 +63,6 @@ def upward(axis: Array) -> Array:
     """Return what points up in the plane of a wheel."""
     found = UP - axis * axis[2]
     return found / np.linalg.norm(found)
-
-
-def skew(vector: Array) -> Array:
-    x, y, z = vector
-    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
 
 
 class Placed:
@@ -454,7 +450,7 @@ def test_large_loads_move_it_as_a_beam_on_springs(
     assert abs(told_of(at)["axle_lateral"]) + abs(told_of(at)["axle_steer"]) > 1e-3
 
 
-# -- files, commands, and what is wrong -----------------------------------------------------------
+# -- files, commands and errors -------------------------------------------------------------------
 
 
 def test_five_rods_move_only_as_their_bushes_give_way() -> None:

@@ -355,7 +355,7 @@ def test_a_motion_needs_nothing_else(motion: Any) -> None:
     np.testing.assert_allclose(np.linalg.norm(friction[:, 0], axis=-1), abs(pushes), atol=1e-9)
 
 
-# -- what is not carried, and what is refused -----------------------------------------------------
+# -- unsupported loads, and errors ----------------------------------------------------------------
 
 
 def test_no_spring_is_turned_upside_down() -> None:

@@ -436,7 +436,7 @@ def test_without_a_ratio_the_rack_moves() -> None:
         characteristics.over(axle, "steer", [0.0])
 
 
-# -- files, and what is wrong with them ---------------------------------------------------------
+# -- files and their errors ---------------------------------------------------------------------
 
 WRONG = {
     "two ways": {"side": "reference_car", "left": "reference_car"},

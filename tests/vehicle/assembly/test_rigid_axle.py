@@ -93,7 +93,7 @@ def test_first_motions_are_those_of_the_root_finder(axle: RigidAxle) -> None:
         np.testing.assert_allclose(shown, by, rtol=0.0, atol=3e-10)
 
 
-# -- what its springs do --------------------------------------------------------------------------
+# -- springs --------------------------------------------------------------------------------------
 
 
 @each_axle
@@ -452,7 +452,7 @@ def test_no_gap_is_too_narrow() -> None:
         short.states_at(0.2, 0.2)
 
 
-# -- what is refused ------------------------------------------------------------------------------
+# -- errors ---------------------------------------------------------------------------------------
 
 
 def test_four_links_and_a_panhard_rod_are_one_too_many() -> None:

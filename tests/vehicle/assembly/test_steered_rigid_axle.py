@@ -367,7 +367,7 @@ def test_it_rests_at_its_design() -> None:
     assert np.abs(np.asarray(state)[:2]).max() < 1e-6
 
 
-# -- what is refused ------------------------------------------------------------------------------
+# -- errors ---------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

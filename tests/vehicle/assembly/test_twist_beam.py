@@ -25,6 +25,7 @@ from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.assembly.rig import RigPosition
 from kintrafo.vehicle.assembly.twist_beam import TwistBeamParts
 from listed_loads import wrench
+from oracle.constraints import skew
 from scipy.integrate import solve_ivp
 
 Array = np.ndarray
@@ -43,12 +44,6 @@ K_AXIAL, K_RADIAL = 1.2e6, 4e6
 def of(side: str, point: Array) -> Array:
     """Return the image of a point of the right side."""
     return point if side == "right" else point * MIRROR
-
-
-def skew(vector: Array) -> Array:
-    """Return the matrix of a vector product."""
-    x, y, z = vector
-    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
 
 
 # -- positions ------------------------------------------------------------------------------------
@@ -132,7 +127,7 @@ def test_positions_out_of_reach_are_refused() -> None:
         MODEL.states_at(0.5, -0.5)
 
 
-# -- what roll does first -------------------------------------------------------------------------
+# -- motion in roll -------------------------------------------------------------------------------
 
 
 def drawn(side: str = "left") -> dict[str, float]:

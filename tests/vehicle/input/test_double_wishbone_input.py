@@ -127,7 +127,7 @@ def test_metres():
     assert in_metres.parameters() == CAR.parameters()
 
 
-# -- what is refused ------------------------------------------------------------------------------
+# -- errors ---------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

@@ -291,7 +291,7 @@ def test_comparison_shows_what_both_have() -> None:
     assert np.isfinite(found["camber"].values).all()
 
 
-# -- what cannot move ---------------------------------------------------------------------------
+# -- mechanisms that cannot move ----------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

@@ -420,7 +420,7 @@ def test_five_links_go_together() -> None:
     assert np.abs(found["camber"].diff("damper.rate_N_s_per_m")).max() > 1e-5
 
 
-# -- what cannot be used ------------------------------------------------------------------------
+# -- arguments ----------------------------------------------------------------------------------
 
 TOE = {"toe": {"value": 0.0, "within": 0.1}}
 
