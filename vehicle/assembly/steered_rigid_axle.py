@@ -11,8 +11,9 @@ from ...core.named_types import Array
 from ...core.quantities import variable
 from ...core.vectors import cross
 from ..corner.corner import CarrierMotion, SteeringAxis
+from ..models.mirror import MIRROR
 from ..models.rigid_axle.structure import BEAM
-from ..models.sides import LEFT, MIRROR, RIGHT, SIDES
+from ..models.sides import LEFT, RIGHT, SIDES
 from ..models.steered_rigid_axle.axle import SteeredRigidAxle
 from ..models.steered_rigid_axle.file import LOWER, TRACK_ROD, UPPER
 from ..models.steered_rigid_axle.model import SteeredRigidAxleModel

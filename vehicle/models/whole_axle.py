@@ -24,6 +24,7 @@ from ..data import data_sets
 from ..data.starter import WHOLE_AXLES, words_of
 from ..input.described import check_keys
 from ..input.messages import messages_of
+from .mirror import MIRROR
 from .plausibility import (
     Plausibility,
     beyond_the_table,
@@ -35,7 +36,7 @@ from .plausibility import (
     unlikely_wheel,
     unusual_alignment,
 )
-from .sides import LEFT, MIRROR, RIGHT, SIDES
+from .sides import LEFT, RIGHT, SIDES
 
 if TYPE_CHECKING:
     from ..corner.coil_sprung import ApartDamper

@@ -22,7 +22,7 @@ from ....core.vectors import angle_between_lines, cross, distance_from_line, uni
 from ...input.hardpoints import SMALLEST_CROSS_ANGLE, SMALLEST_DISTANCE
 from ...input.section import AllowedRange, NonNegative, Number, Section, Triple
 from ...input.units import LengthUnit, in_metres, point_in_metres
-from ..sides import MIRROR
+from ..mirror import MIRROR
 
 # Steel: shear modulus [GPa], and Young's modulus over it, 2 (1 + nu) with nu = 0.3.
 _STEEL, _YOUNG = 79.3, 2.6

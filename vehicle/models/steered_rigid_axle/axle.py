@@ -15,9 +15,10 @@ from ...input.bodies import RigidBody
 from ...input.hardpoints import LARGEST_COORDINATE, SMALLEST_CROSS_ANGLE, SMALLEST_DISTANCE
 from ...input.pitman_arm import PitmanArmSection
 from ...input.units import point_in_metres
+from ..mirror import MIRROR
 from ..rigid_axle.axle import BeamAxle
 from ..rigid_axle.structure import CENTER
-from ..sides import LEFT, MIRROR, RIGHT, SIDES
+from ..sides import LEFT, RIGHT, SIDES
 from ..whole_axle import WholeAxle
 from ..whole_axle_file import AxleDrive
 from .file import (
