@@ -121,7 +121,9 @@ def _wrong(place: _Place, detail: ErrorDetails) -> str:
             f"{allowed.remedy}"
         )
     if detail["type"] == "literal_error":
-        return f"{value} must be {detail['ctx']['expected']}. Choose one of them."
+        expected = detail["ctx"]["expected"]
+        remedy = "Choose one of them." if " or " in expected else "Enter it."
+        return f"{value} must be {expected}. {remedy}"
     return f"{value} {_EXPECTATIONS.get(detail['type'], 'cannot be used. Correct it.')}"
 
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 from importlib import import_module
 from importlib.resources.abc import Traversable
 from types import ModuleType
-from typing import TYPE_CHECKING, Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self, get_args
 
 import numpy as np
 from pydantic import ValidationError
@@ -138,10 +138,11 @@ class WholeAxle(WheeledSection):
         """
         check_keys(source, "data", data, f"keys and values of {words_of(cls.KEY)}'s file")
         if cls.KEY not in data:
+            first, *others = reversed(get_args(cls.model_fields[cls.KEY].annotation))
+            line = " or ".join([f'`{cls.KEY} = "{first}"`', *(f'"{end}"' for end in others)])
             problem = (
-                f"{cls.KEY} is missing: where the axle is. Add a line "
-                f'`{cls.KEY} = "rear"` or "front"; `kintrafo new FILE --suspension {cls.KEY}` '
-                "writes such a file."
+                f"{cls.KEY} is missing: where the axle is. Add a line {line}; "
+                f"`kintrafo new FILE --suspension {cls.KEY}` writes such a file."
             )
             raise InputError([problem], source)
         try:

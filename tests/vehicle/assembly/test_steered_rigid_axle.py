@@ -446,3 +446,13 @@ def test_points_of_the_steering_are_design_variables() -> None:
     for name, value in (("drag_link.knuckle.z", 445.0), ("pitman_arm.ball_mm.x", -730.0)):
         assert (places[name].unit, places[name].value) == ("mm", value)
         assert places[name].moved(1e-3) == {name: value + 1.0}
+
+
+def test_where_it_is_can_only_be_the_front() -> None:
+    data = kintrafo.load("steered_rigid_axle").to_dict()
+    cls = type(kintrafo.load("steered_rigid_axle"))
+    with pytest.raises(InputError, match=r"'rear' must be 'front'\. Enter it"):
+        cls.from_dict(data | {"steered_rigid_axle": "rear"})
+    del data["steered_rigid_axle"]
+    with pytest.raises(InputError, match='Add a line `steered_rigid_axle = "front"`;'):
+        cls.from_dict(data)
