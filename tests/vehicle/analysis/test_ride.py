@@ -253,7 +253,7 @@ def test_upward_is_the_second_derivative_of_the_height() -> None:
 
 
 def test_a_held_body_does_not_ride() -> None:
-    with pytest.raises(kintrafo.InputError, match="by itself is held"):
+    with pytest.raises(kintrafo.InputError, match="axle alone is held"):
         kintrafo.ride.modes(kintrafo.load("reference_axle"))
 
 
