@@ -42,17 +42,11 @@ NOT_A_CAR = (
 
 @dataclass(frozen=True)
 class Bushings:
-    """The bushes of an assembly, and the flexibility of its rack.
+    """The bushes of an assembly, and the flexibility of its rack."""
 
-    Attributes
-    ----------
-    by_suffix : mapping of str to list of Bush
-        By the suffix of the names of the parts that they connect, as in `HeldAssembly.poses`.
-    rack : float
-        Displacement of the rack along its axis for a unit force [m/N]; zero for a rigid rack.
-    """
-
+    # by the suffix of the names of the parts that they connect, as in `HeldAssembly.poses`
     by_suffix: Mapping[str, list[Bush]]
+    # displacement of the rack along its axis for a unit force [m/N]; zero for a rigid rack
     rack: float
 
     @property
@@ -69,23 +63,13 @@ class Assembly(ABC):
     The parts are in one group, or in several that only an anti-roll bar and a rack join, such as
     the two sides of an axle. The key of a group is the suffix of the names of its parts: ``""``,
     ``"_left"`` or ``"_right"``.
-
-    Attributes
-    ----------
-    wheels : tuple of str
-        The names of the wheels, 'left' and 'right', or the side of a corner; those of the groups
-        in turn.
-    motions : mapping of str to RigMotion
-        Its motions on a rig, the usual one first.
-    subject : Suspension, Axle, WholeAxle or Car
-        The data of its files.
-    model : Model, AxleModel, WholeAxleModel or CarModel
-        Its equations of motion; those of an axle or a car are derived and compiled at first use.
     """
 
+    # names of the wheels, 'left' and 'right', or the side of a corner; those of the groups in turn
     wheels: tuple[str, ...]
-    motions: Mapping[str, RigMotion]
-    subject: Any
+    motions: Mapping[str, RigMotion]  # motions on a rig, the usual one first
+    subject: Any  # data of its files
+    # equations of motion; those of an axle or a car are derived and compiled at first use
     model: Any
 
     NEEDED: ClassVar[str] = (

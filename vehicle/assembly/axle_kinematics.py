@@ -27,49 +27,26 @@ _WEIGHTS = {-2: 1 / 12, -1: -8 / 12, 1: 8 / 12, 2: -1 / 12}
 
 @dataclass(frozen=True)
 class Half:
-    """Half an anti-roll bar over wheel travel.
+    """Half an anti-roll bar over wheel travel."""
 
-    Attributes
-    ----------
-    turn : ndarray
-        Angle from design, right-handed about the axis to the left [rad].
-    slope, curvature : ndarray
-        First and second derivative with respect to wheel travel [rad/m], [rad/m^2].
-    lever : ndarray
-        Lever of the drop link's pull about the bar's axis [m]; signed.
-    """
-
-    turn: Array
+    turn: Array  # angle from design, right-handed about the axis to the left [rad]
+    # first and second derivative with respect to wheel travel [rad/m], [rad/m^2]
     slope: Array
     curvature: Array
-    lever: Array
+    lever: Array  # lever of the drop link's pull about the bar's axis [m]; signed
 
 
 @dataclass(frozen=True)
 class AxleKinematics:
-    """Both wheels of an axle in n positions, the leading dimension of every array.
-
-    Attributes
-    ----------
-    axle : Axle
-    corners : dict of str to Corner
-        By side, the left one first.
-    travel : dict of str to ndarray
-        Wheel travel of each side [m].
-    halves : dict of str to Half
-        By side; empty without an anti-roll bar.
-    rack : ndarray
-        Displacement of the rack [m].
-    per_turn : ndarray or None
-        Signed rack travel for one turn of the steering wheel there [m]; None if no steering wheel
-        turns.
-    """
+    """Both wheels of an axle in n positions, the leading dimension of every array."""
 
     axle: Axle
-    corners: dict[str, Corner]
-    travel: dict[str, Array]
-    halves: dict[str, Half]
-    rack: Array
+    corners: dict[str, Corner]  # by side, the left one first
+    travel: dict[str, Array]  # wheel travel of each side [m]
+    halves: dict[str, Half]  # by side; empty without an anti-roll bar
+    rack: Array  # displacement of the rack [m]
+    # signed rack travel for one turn of the steering wheel there [m]; None if no steering wheel
+    # turns
     per_turn: Array | None = None
 
     @classmethod

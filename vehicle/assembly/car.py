@@ -558,20 +558,11 @@ class CarAssembly(Assembly):
 
 @dataclass(frozen=True)
 class _HeldWheel:
-    """The equations of a wheel on a held body, with the coordinates of a car.
-
-    Attributes
-    ----------
-    model : Model or WholeAxleModel
-    prefix : str
-        Prefix of the names of its signals in the equations.
-    names : dict of str to str
-        The coordinates of the car by those of the equations.
-    """
+    """The equations of a wheel on a held body, with the coordinates of a car."""
 
     model: Any
-    prefix: str
-    names: Mapping[str, str]
+    prefix: str  # prefix of the names of its signals in the equations
+    names: Mapping[str, str]  # coordinates of the car by those of the equations
 
     def _states(self, states: Array, of_car: Sequence[str]) -> Array:
         own = np.broadcast_to(

@@ -14,18 +14,10 @@ from .quantity import Quantity
 
 @dataclass(frozen=True)
 class CarKinematics:
-    """Positions and first derivatives of the wheels of a car.
+    """Positions and first derivatives of the wheels of a car."""
 
-    Attributes
-    ----------
-    axles : mapping of str to AxleKinematics or WholeAxleKinematics
-        By end, the front one first.
-    count : int
-        Number of positions.
-    """
-
-    axles: Mapping[str, Any]
-    count: int
+    axles: Mapping[str, Any]  # by end, the front one first
+    count: int  # number of positions
 
     @property
     def vehicles(self) -> tuple[Any, ...]:

@@ -20,18 +20,10 @@ STILL = np.zeros(3)
 
 @dataclass(frozen=True)
 class BodyPose:
-    """The pose of a part in equilibrium, in n positions.
+    """The pose of a part in equilibrium, in n positions."""
 
-    Attributes
-    ----------
-    center : ndarray, shape (n, 3)
-        The reference point of its moments [m].
-    turned : ndarray, shape (n, 3, 3)
-        Its rotation from design.
-    """
-
-    center: Array
-    turned: Array
+    center: Array  # reference point of its moments, (n, 3) [m]
+    turned: Array  # rotation from design, (n, 3, 3)
 
     @classmethod
     def unturned(cls, center: Array) -> "BodyPose":

@@ -6,24 +6,13 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True)
 class RestConditions:
-    """Constraints and applied forces of an assembly that comes to rest.
+    """Constraints and applied forces of an assembly that comes to rest."""
 
-    Attributes
-    ----------
-    rack : float
-        Displacement of the rack [m].
-    roads : mapping of str to float
-        Height of the road by wheel [m].
-    loads : mapping of str to float
-        Instead of a road, by wheel: the vertical force of the tyre [N].
-    actuators : mapping of str to float
-        Force of the actuator, by wheel [N].
-    inputs : mapping of str to float
-        Further inputs by their names, SI units.
-    """
-
-    rack: float = 0.0
-    roads: Mapping[str, float] = field(default_factory=dict)
+    rack: float = 0.0  # displacement of the rack [m]
+    roads: Mapping[str, float] = field(default_factory=dict)  # height of the road by wheel [m]
+    # instead of a road, by wheel: the vertical force of the tyre [N]
     loads: Mapping[str, float] = field(default_factory=dict)
+    # force of the actuator, by wheel [N]
     actuators: Mapping[str, float] = field(default_factory=dict)
+    # further inputs by their names, SI units
     inputs: Mapping[str, float] = field(default_factory=dict)

@@ -13,22 +13,13 @@ RACK = "rack"
 
 @dataclass(frozen=True)
 class Load:
-    """A force and a moment on a part.
+    """A force and a moment on a part."""
 
-    Attributes
-    ----------
-    part, point : str
-        The loaded part, and the point: a hardpoint, ``contact``, or ``mass`` for its centre of
-        mass.
-    by : str
-        The source: another part, or ``spring``, ``damper``, ``road``, ``gravity``.
-    force, moment, at : ndarray, shape (..., 3)
-        Chassis axes, the moment about the point [N], [N m], [m].
-    """
-
+    # loaded part, and the point: a hardpoint, `contact`, or `mass` for its centre of mass
     part: str
     point: str
-    by: str
+    by: str  # source: another part, or `spring`, `damper`, `road`, `gravity`
+    # chassis axes, the moment about the point, (..., 3) [N], [N m], [m]
     force: Array
     moment: Array
     at: Array

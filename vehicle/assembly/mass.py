@@ -11,21 +11,11 @@ from ...core.physical import ELEMENTS
 
 @dataclass(frozen=True)
 class PartMass:
-    """Mass and inertia of a part.
+    """Mass and inertia of a part."""
 
-    Attributes
-    ----------
-    body : str
-        The name of the part in the equations.
-    mass : float
-        [kg]
-    tensor : ndarray, shape (3, 3)
-        Its inertia about its centre of mass at design, chassis axes [kg m^2].
-    """
-
-    body: str
-    mass: float
-    tensor: Array
+    body: str  # name of the part in the equations
+    mass: float  # [kg]
+    tensor: Array  # inertia about its centre of mass at design, chassis axes, (3, 3) [kg m^2]
 
     @classmethod
     def of(

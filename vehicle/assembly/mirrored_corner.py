@@ -13,20 +13,13 @@ from .wheel import steer, toe
 
 @dataclass(frozen=True)
 class MirroredCorner:
-    """A corner in n positions.
-
-    Attributes
-    ----------
-    corner : Corner
-    mirrored : callable
-        Returns the other wheel over the rack: the mirror image of the corner.
-    straight : callable
-        Returns the corner with the rack in its middle, at the same height; None if that is out of
-        reach.
-    """
+    """A corner in n positions."""
 
     corner: Corner
+    # returns the other wheel over the rack: the mirror image of the corner
     mirrored: Callable[[], Corner]
+    # returns the corner with the rack in its middle, at the same height; None if that is out of
+    # reach
     straight: Callable[[], Corner | None]
 
     @property

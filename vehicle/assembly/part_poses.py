@@ -27,25 +27,15 @@ CONTACT, CENTER = "contact", "wheel_center"
 
 @dataclass(frozen=True)
 class PartPoses(ABC):
-    """The parts of a suspension or of an axle in n positions, and the forces that need no input.
-
-    Attributes
-    ----------
-    model : Model or WholeAxleModel
-        Its equations.
-    states, inputs : ndarray
-        As in the compiled module.
-    points : dict of str to ndarray
-        Hardpoints, and ``contact`` of each wheel if its radius is known, (n, 3) [m].
-    centers, turned : dict of str to ndarray
-        Of each part a point that it carries, its centre of mass if it has one, (n, 3) [m]; and its
-        rotation from design, (n, 3, 3).
-    """
+    """The parts of a suspension or of an axle in n positions, and the forces that need no input."""
 
     model: Any
     states: Array
     inputs: Array
+    # hardpoints, and `contact` of each wheel if its radius is known, (n, 3) [m]
     points: dict[str, Array]
+    # of each part a point that it carries, its centre of mass if it has one, (n, 3) [m]; and its
+    # rotation from design, (n, 3, 3)
     centers: dict[str, Array]
     turned: dict[str, Array]
 
@@ -140,19 +130,10 @@ class PartPoses(ABC):
 
 @dataclass(frozen=True)
 class CornerParts(PartPoses):
-    """The parts of a suspension in n positions.
-
-    Attributes
-    ----------
-    model : Model
-    states, inputs, points, centers, turned
-        As for `PartPoses`.
-    axis : ndarray, shape (n, 3)
-        Spin axis of the wheel, pointing outboard.
-    """
+    """The parts of a suspension in n positions."""
 
     model: Model
-    axis: Array
+    axis: Array  # spin axis of the wheel, pointing outboard, (n, 3)
 
     @classmethod
     def of(cls, model: Model, states: Array, inputs: Array) -> "CornerParts":

@@ -11,26 +11,14 @@ _DEG_PER_MM = display_of({"units": "rad"}).factor * 1e-3
 
 @dataclass(frozen=True)
 class Quantity:
-    """Name, unit, definition and sign of a characteristic.
-
-    Attributes
-    ----------
-    name : str
-        Name of the variable.
-    units : str
-        SI unit; "1" for a pure number.
-    long_name, definition, sign : str
-        Texts of one line.
-    display : Display or None
-        Display unit, if it is not the usual one.
-    """
+    """Name, unit, definition and sign of a characteristic."""
 
     name: str
-    units: str
+    units: str  # SI unit; "1" for a pure number
     long_name: str
     definition: str
     sign: str
-    display: Display | None = None
+    display: Display | None = None  # display unit, if it is not the usual one
 
     def attributes(self) -> dict[str, Any]:
         """Return the attributes of the variable in a dataset."""

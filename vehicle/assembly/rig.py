@@ -9,57 +9,32 @@ from .quantity import Quantity
 
 @dataclass(frozen=True)
 class RigMotion:
-    """A motion of a rig.
+    """A motion of a rig."""
 
-    Attributes
-    ----------
-    along : Quantity
-        The varied quantity: wheel travel, roll angle, steering-wheel angle or rack displacement.
-    words : str
-        A description, 'both wheels rise and fall together'.
-    title : str
-        The abscissa of curves, 'parallel wheel travel'.
-    """
-
+    # varied quantity: wheel travel, roll angle, steering-wheel angle or rack displacement
     along: Quantity
-    words: str
-    title: str
+    words: str  # description, 'both wheels rise and fall together'
+    title: str  # abscissa of curves, 'parallel wheel travel'
 
 
 @dataclass(frozen=True)
 class RigPosition:
-    """Positions of the wheels and the rack on a rig, (n,).
+    """Positions of the wheels and the rack on a rig, (n,)."""
 
-    Attributes
-    ----------
-    travels : mapping of str to ndarray, each of shape (n,)
-        Heights of the wheel centres above design by the names of the wheels [m].
-    rack : ndarray, shape () or (n,)
-        Displacement of the rack [m]; zero without a rack.
-    per_turn : ndarray or None
-        Signed rack travel for one turn of the steering wheel there, if it turns [m].
-    """
-
+    # heights of the wheel centres above design by the names of the wheels, (n,) [m]
     travels: Mapping[str, Array]
-    rack: Array
+    rack: Array  # displacement of the rack [m]; zero without a rack, () or (n,)
+    # signed rack travel for one turn of the steering wheel there, if it turns [m]
     per_turn: Array | None = None
 
 
 @dataclass(frozen=True)
 class WheelReach:
-    """The range of a wheel.
+    """The range of a wheel."""
 
-    Attributes
-    ----------
-    coordinate : tuple of float
-        Its coordinate at the lowest and at the highest position, see
-        `HeldAssembly.at_wheel_coordinates`.
-    height : tuple of float
-        Heights of the wheel centre there [m].
-    """
-
+    # coordinate at the lowest and at the highest position, see `HeldAssembly.at_wheel_coordinates`
     coordinate: tuple[float, float]
-    height: tuple[float, float]
+    height: tuple[float, float]  # heights of the wheel centre there [m]
 
 
 @dataclass(frozen=True)

@@ -13,12 +13,7 @@ from .whole_axle_kinematics import WholeAxleKinematics
 
 @dataclass(frozen=True)
 class RigidAxleKinematics(WholeAxleKinematics):
-    """A rigid axle at rest in many positions, of shape (n,).
-
-    Attributes
-    ----------
-    parts : RigidAxleParts
-    """
+    """A rigid axle at rest in many positions, of shape (n,)."""
 
     @cached_property
     def _relative(self) -> dict[str, Array]:

@@ -23,14 +23,7 @@ _LEFTWARD = np.array([0.0, 1.0, 0.0])
 
 @dataclass(frozen=True)
 class RigidAxleParts(WholeAxleParts):
-    """The parts of a rigid axle in n positions.
-
-    Attributes
-    ----------
-    model : RigidAxleModel
-    states, inputs, points, centers, turned
-        As for `WholeAxleParts`; the centre of a rod is its middle.
-    """
+    """The parts of a rigid axle in n positions; the centre of a rod is its middle."""
 
     model: RigidAxleModel
 

@@ -14,18 +14,12 @@ from .whole_axle_kinematics import WholeAxleKinematics
 
 @dataclass(frozen=True)
 class SoftLines:
-    """Flexibilities of springs and stops along their lines, in n positions.
+    """Flexibilities of springs and stops along their lines, in n positions."""
 
-    Attributes
-    ----------
-    springs : ndarray, shape (n, springs, springs)
-        Compression of each spring for a unit force along each [m/N].
-    stops : ndarray, shape (n, dampers)
-        Compression of the stops beside each damper for a unit force on the damper's line alone
-        [m/N]; infinite if none acts. It has no columns if the file has no stops.
-    """
-
+    # compression of each spring for a unit force along each, (n, springs, springs) [m/N]
     springs: Array
+    # (n, dampers): compression of the stops beside each damper for a unit force on the damper's
+    # line alone [m/N]; infinite if none acts. It has no columns if the file has no stops.
     stops: Array
 
 

@@ -21,17 +21,10 @@ STEERING = ("steer", "rack")
 
 
 class SteerableAssembly(HeldAssembly):
-    """An axle whose wheels may be steered.
+    """An axle whose wheels may be steered."""
 
-    Attributes
-    ----------
-    MEASURES : tuple of Measure
-        Its characteristics over motions of the wheels.
-    OVER_STEERING, OVER_RACK : tuple of Measure
-        Those over angles of the steering wheel, and over displacements of the steering.
-    """
-
-    MEASURES: ClassVar[tuple[Measure, ...]]
+    MEASURES: ClassVar[tuple[Measure, ...]]  # characteristics over motions of the wheels
+    # those over angles of the steering wheel, and over displacements of the steering
     OVER_STEERING: ClassVar[tuple[Measure, ...]] = ()
     OVER_RACK: ClassVar[tuple[Measure, ...]] = ()
     wheels = SIDES

@@ -44,14 +44,7 @@ _KNUCKLES = {knuckle(side): f"{side}_knuckle" for side in SIDES}
 
 @dataclass(frozen=True)
 class SteeredRigidAxleParts(RigidAxleParts):
-    """A steered rigid axle in n positions: beam, rods, knuckles, wheels and steering.
-
-    Attributes
-    ----------
-    model : SteeredRigidAxleModel
-    states, inputs, points, centers, turned
-        See `PartPoses`; the centre of a link without mass is its middle.
-    """
+    """A steered rigid axle in n positions; the centre of a link without mass is its middle."""
 
     model: SteeredRigidAxleModel
 
@@ -131,17 +124,10 @@ _LINKS = {
 
 @dataclass(frozen=True)
 class SteeredWheel(TravellingWheel):
-    """A wheel on a kingpin.
-
-    Attributes
-    ----------
-    steering_axis : SteeringAxis
-        Its kingpin.
-    steering : CarrierMotion
-        Per unit of the steering's displacement, with both wheel centres at constant height [per m].
-    """
+    """A wheel on a kingpin."""
 
     steering_axis: SteeringAxis
+    # per unit of the steering's displacement, with both wheel centres at constant height [per m]
     steering: CarrierMotion
 
 

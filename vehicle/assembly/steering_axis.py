@@ -25,18 +25,13 @@ _WEIGHTS = {-2: 1.0 / 12.0, -1: -8.0 / 12.0, 1: 8.0 / 12.0, 2: -1.0 / 12.0}
 
 @dataclass(frozen=True)
 class AxisOfPoints:
-    """A line through two points.
+    """A line through two points."""
 
-    Attributes
-    ----------
-    lower, upper : ndarray, shape (..., 3)
-        The points, the upper one above the lower [m].
-    rate : ndarray, shape (..., 3)
-        Derivative of the vector from the lower to the upper one with respect to wheel travel [1].
-    """
-
+    # points, the upper one above the lower, (..., 3) [m]
     lower: Array
     upper: Array
+    # derivative of the vector from the lower to the upper one with respect to wheel travel, (...,
+    # 3) [1]
     rate: Array
 
 

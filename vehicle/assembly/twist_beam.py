@@ -34,14 +34,7 @@ _ENDS_OF_ROLL, _CLOSE = 20, 1e-15
 
 @dataclass(frozen=True)
 class TwistBeamParts(WholeAxleParts):
-    """A twist-beam axle in n positions: both arms, each with half the beam, and both wheels.
-
-    Attributes
-    ----------
-    model : TwistBeamModel
-    states, inputs, centers, turned, points
-        As for `WholeAxleParts`.
-    """
+    """A twist-beam axle in n positions: both arms, each with half the beam, and both wheels."""
 
     model: TwistBeamModel
 

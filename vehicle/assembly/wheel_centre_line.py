@@ -21,21 +21,12 @@ _CENTER = "wheel_center"
 
 @dataclass(frozen=True)
 class WheelCentreLine:
-    """The line in n positions of both wheels.
+    """The line in n positions of both wheels."""
 
-    Attributes
-    ----------
-    across : ndarray, shape (n, 3)
-        From the right wheel centre to the left one [m].
-    rate : ndarray, shape (n, 3)
-        Its derivative with respect to opposite travel of the wheels, the right one upward [1].
-    design : ndarray, shape (3,)
-        The line at design [m].
-    """
-
-    across: Array
+    across: Array  # from the right wheel centre to the left one, (n, 3) [m]
+    # derivative with respect to opposite travel of the wheels, the right one upward, (n, 3) [1]
     rate: Array
-    design: Array
+    design: Array  # as `across`, at design, (3,) [m]
 
     @classmethod
     def at(

@@ -5,27 +5,13 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class WheelNames:
-    """Names of one wheel in the equations of motion.
+    """Names of one wheel in the equations of motion."""
 
-    Attributes
-    ----------
-    prefix : str
-        Prefix of its inputs: empty for a corner, ``left_`` for an axle.
-    signals : str
-        Prefix of its signals and events: ``left_front_`` for an axle.
-    spin : str
-        State: the angle of the wheel about its axis.
-    actuator : str
-        Input: the force of the actuator beside its spring.
-    tyre : str
-        The signal of the tyre's load, without this prefix.
-    """
-
-    prefix: str
-    signals: str
-    spin: str
-    actuator: str
-    tyre: str = "tyre_force"
+    prefix: str  # prefix of its inputs: empty for a corner, `left_` for an axle
+    signals: str  # prefix of its signals and events: `left_front_` for an axle
+    spin: str  # state: the angle of the wheel about its axis
+    actuator: str  # input: the force of the actuator beside its spring
+    tyre: str = "tyre_force"  # signal of the tyre's load, without this prefix
 
     @property
     def road(self) -> str:

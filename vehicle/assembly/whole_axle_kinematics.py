@@ -32,29 +32,18 @@ RISES = {"bump": (1.0, 1.0), "roll": (1.0, -1.0), "left": (1.0, 0.0), "right": (
 
 @dataclass(frozen=True)
 class TravellingWheel(RoadWheel):
-    """A wheel, and the motion of its carrier per metre of travel of both wheels.
-
-    Attributes
-    ----------
-    travel : CarrierMotion
-    """
+    """A wheel, and the motion of its carrier per metre of travel of both wheels."""
 
     travel: CarrierMotion
 
 
 @dataclass(frozen=True)
 class WholeAxleKinematics:
-    """An axle without sides at rest in n positions.
-
-    Attributes
-    ----------
-    parts : WholeAxleParts
-    per_turn : ndarray or None
-        Signed displacement of the steering for one turn of the steering wheel there [m]; None if
-        it is not known.
-    """
+    """An axle without sides at rest in n positions."""
 
     parts: WholeAxleParts
+    # signed displacement of the steering for one turn of the steering wheel there [m]; None if it
+    # is not known
     per_turn: Array | None = None
 
     @property

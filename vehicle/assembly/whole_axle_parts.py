@@ -32,25 +32,13 @@ BAR = "bar"
 
 @dataclass(frozen=True)
 class WholeAxleParts(PartPoses):
-    """The parts of an axle without sides in n positions.
-
-    Attributes
-    ----------
-    model : WholeAxleModel
-    states, inputs, points, centers, turned
-        As for `PartPoses`.
-    PARAMETERS : mapping of str to str
-        Prefix of the names of parameters, by part with mass.
-    MASSIVE : mapping of str to str
-        Names of these parts in the equations.
-    RATE : str
-        The parameter with the rate of the bar or beam, per unit of the second coordinate.
-    """
+    """The parts of an axle without sides in n positions."""
 
     model: WholeAxleModel
 
-    PARAMETERS: ClassVar[Mapping[str, str]]
-    MASSIVE: ClassVar[Mapping[str, str]]
+    PARAMETERS: ClassVar[Mapping[str, str]]  # prefix of the names of parameters, by part with mass
+    MASSIVE: ClassVar[Mapping[str, str]]  # names of these parts in the equations
+    # parameter with the rate of the bar or beam, per unit of the second coordinate
     RATE: ClassVar[str]
 
     @classmethod

@@ -144,20 +144,11 @@ def _differing(table: "Dataset") -> list[str]:
 
 
 class _Compared(NamedTuple):
-    """Curves of several data sets.
-
-    Attributes
-    ----------
-    dataset : xarray.Dataset
-    way : str
-        Axis of the curves, such as ``"travel"``.
-    subjects : dict of str to Suspension, Axle, RigidAxle or Car
-        By data set, without the measured one.
-    """
+    """Curves of several data sets."""
 
     dataset: "Dataset"
-    way: str
-    subjects: "Mapping[str, Subject]"
+    way: str  # axis of the curves, such as `"travel"`
+    subjects: "Mapping[str, Subject]"  # by data set, without the measured one
 
 
 def _compared(files: list[str], over: str | None, held: Held | None) -> _Compared:

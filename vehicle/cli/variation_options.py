@@ -95,27 +95,13 @@ _USUAL_OF_AXLES = (
 
 @dataclass(frozen=True)
 class StudyCurves:
-    """The curves of a study.
+    """The curves of a study."""
 
-    Attributes
-    ----------
-    over : str
-        Axis of the curves, or support of the wheels.
-    names : list of str
-        Shown curves.
-    at : float
-        Position of the table [m] or [rad].
-    where : str
-        The position in words: 'at 20 mm of wheel travel'.
-    how : dict
-        Axis and positions as arguments of studies.
-    """
-
-    over: str
-    names: list[str]
-    at: float
-    where: str
-    how: dict[str, Any]
+    over: str  # axis of the curves, or support of the wheels
+    names: list[str]  # shown curves
+    at: float  # position of the table [m] or [rad]
+    where: str  # position in words: 'at 20 mm of wheel travel'
+    how: dict[str, Any]  # axis and positions as arguments of studies
 
     @classmethod
     def of(cls, subject: "Subject", asked: StudyOptions) -> "StudyCurves":

@@ -55,34 +55,21 @@ _LEAST_ANGLE = 1e-3
 
 @dataclass(frozen=True)
 class Bush:
-    """The flexibility of a joint at a hardpoint.
-
-    Attributes
-    ----------
-    point : str
-    axes : ndarray, shape (3, 3)
-        Its own axis and two normal to it, as rows in the chassis axes at design.
-    soft : ndarray, shape (3,)
-        Displacement of the joint's second part along each axis for a unit force on it [m/N].
-    tilt : ndarray, shape (2,)
-        Rotation of a bearing about each of two axes normal to that of the wheel for a unit moment
-        [rad/(N m)].
-    tilts_about : ndarray, shape (2, 3)
-        These axes, as rows in the chassis axes at design.
-    turning : tuple of float
-        Stiffnesses of a joint that turns freely without a bush: against torsion about its axis, and
-        against tilting about each of the other two [N m/rad].
-    curves : tuple of Curve or None
-        The force over the displacement along each axis, if it is not linear; `soft` is then its
-        derivative at zero.
-    """
+    """The flexibility of a joint at a hardpoint."""
 
     point: str
-    axes: Array
+    axes: Array  # own axis and two normal to it, as rows in the chassis axes at design, (3, 3)
+    # displacement of the joint's second part along each axis for a unit force on it, (3,) [m/N]
     soft: Array
+    # rotation of a bearing about each of two axes normal to that of the wheel for a unit moment,
+    # (2,) [rad/(N m)]
     tilt: Array
-    tilts_about: Array
+    tilts_about: Array  # these axes, as rows in the chassis axes at design, (2, 3)
+    # stiffnesses of a joint that turns freely without a bush: against torsion about its axis, and
+    # against tilting about each of the other two [N m/rad]
     turning: tuple[float, float, float]
+    # force over the displacement along each axis, if it is not linear; `soft` is then its
+    # derivative at zero
     curves: tuple[Curve | None, Curve | None, Curve | None]
 
     @property

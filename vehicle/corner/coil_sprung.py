@@ -25,14 +25,9 @@ class CoilDamper(Section):
     It has a rate, or a curve through measured points: velocities are positive in bump, forces if
     they resist bump (see `input.damper.Damper`). Its friction is ``friction v / sqrt(v^2 +
     friction_velocity^2)``.
-
-    Attributes
-    ----------
-    ENDS : tuple of str
-        The hardpoints between which it acts.
     """
 
-    ENDS: ClassVar[Pair] = SEATS
+    ENDS: ClassVar[Pair] = SEATS  # hardpoints between which it acts
 
     rate_N_s_per_m: NonNegative | None = Field(  # noqa: N815 (N is the newton)
         default=None,
@@ -143,18 +138,12 @@ class ApartDamper(CoilDamper):
 
 
 class CoilSprung(Suspension):
-    """A suspension with a coil spring and a damper, each between two hardpoints.
+    """A suspension with a coil spring and a damper, each between two hardpoints."""
 
-    Attributes
-    ----------
-    PLAIN, GENERAL : module
-        Equations with spring and damper alone, and with everything of `beyond_the_plain`.
-    ADDITION : str
-        The element that is beyond plain equations in every file of the kind, which has no others.
-    """
-
+    # equations with spring and damper alone, and with everything of `beyond_the_plain`
     PLAIN: ClassVar[ModuleType]
     GENERAL: ClassVar[ModuleType]
+    # element that is beyond plain equations in every file of the kind, which has no others
     ADDITION: ClassVar[str] = ""
 
     spring: SpringSection = Field(description="the spring")

@@ -18,18 +18,10 @@ UP = np.array([0.0, 0.0, 1.0])
 
 @dataclass(frozen=True)
 class CarrierMotion:
-    """The velocity of the wheel carrier, per unit of the quantity that moves it.
+    """The velocity of the wheel carrier, per unit of the quantity that moves it."""
 
-    Attributes
-    ----------
-    velocity : ndarray, shape (..., 3)
-        Velocity of the wheel centre [m per unit].
-    turning : ndarray, shape (..., 3)
-        Angular velocity [rad per unit].
-    """
-
-    velocity: Array
-    turning: Array
+    velocity: Array  # velocity of the wheel centre, (..., 3) [m per unit]
+    turning: Array  # angular velocity, (..., 3) [rad per unit]
 
     def minus(self, other: "CarrierMotion", times: Array) -> "CarrierMotion":
         """Return this motion less a multiple of another."""
@@ -70,116 +62,61 @@ class SteeringAxis(Protocol):
 
 @dataclass(frozen=True)
 class Plane:
-    """A plane through a point.
+    """A plane through a point."""
 
-    Attributes
-    ----------
-    point, normal : ndarray, shape (..., 3)
-        A point [m], and a vector of any length.
-    """
-
+    # a point [m], and a vector of any length, (..., 3)
     point: Array
     normal: Array
 
 
 @dataclass(frozen=True)
 class Stroke:
-    """The length of a spring, a damper or a stop over wheel travel.
+    """The length of a spring, a damper or a stop over wheel travel."""
 
-    Attributes
-    ----------
-    length : ndarray
-        [m].
-    slope, curvature : ndarray
-        First and second derivative with respect to wheel travel [1], [1/m].
-    """
-
-    length: Array
+    length: Array  # [m]
+    # first and second derivative with respect to wheel travel [1], [1/m]
     slope: Array
     curvature: Array
 
 
 @dataclass(frozen=True)
 class SpringForce:
-    """A force that depends on the position alone.
+    """A force that depends on the position alone."""
 
-    Attributes
-    ----------
-    stroke : Stroke
-        Length between its ends.
-    force : ndarray
-        Positive when it pushes its ends apart [N].
-    force_slope : ndarray
-        Derivative of the force with respect to wheel travel [N/m].
-    """
-
-    stroke: Stroke
-    force: Array
-    force_slope: Array
+    stroke: Stroke  # length between its ends
+    force: Array  # positive when it pushes its ends apart [N]
+    force_slope: Array  # derivative of the force with respect to wheel travel [N/m]
 
 
 @dataclass(frozen=True)
 class Vehicle:
-    """Data of the vehicle for a wheel; None if not known.
+    """Data of the vehicle for a wheel; None if not known."""
 
-    Attributes
-    ----------
-    side : float
-        +1 left, -1 right.
-    tyre_radius : float or None
-        Radius of the wheel as a thin disc [m].
-    tyre_rate : float or None
-        Vertical stiffness of the tyre [N/m].
-    tyre_lateral_rate, tyre_longitudinal_rate : float or None
-        Stiffnesses of the stationary tyre [N/m].
-    wheelbase, center_of_gravity_height : float or None
-        [m].
-    front_brake_share : float or None
-        Part of the braking force at the front wheels.
-    front, rear : bool or None
-        True for the end of the wheel, None for the other one.
-    travel_per_turn : float or None
-        Rack travel for one turn of the steering wheel [m].
-    steered : bool or None
-        True for a steered wheel, None for others.
-    """
-
-    side: float
-    tyre_radius: float | None = None
-    tyre_rate: float | None = None
+    side: float  # +1 left, -1 right
+    tyre_radius: float | None = None  # radius of the wheel as a thin disc [m]
+    tyre_rate: float | None = None  # vertical stiffness of the tyre [N/m]
+    # stiffnesses of the stationary tyre [N/m]
     tyre_lateral_rate: float | None = None
     tyre_longitudinal_rate: float | None = None
-    wheelbase: float | None = None
-    center_of_gravity_height: float | None = None
-    front_brake_share: float | None = None
+    wheelbase: float | None = None  # [m]
+    center_of_gravity_height: float | None = None  # [m]
+    front_brake_share: float | None = None  # part of the braking force at the front wheels
+    # true for the end of the wheel, None for the other one
     front: bool | None = True
     rear: bool | None = None
-    travel_per_turn: float | None = None
-    steered: bool | None = True
+    travel_per_turn: float | None = None  # rack travel for one turn of the steering wheel [m]
+    steered: bool | None = True  # true for a steered wheel, None for others
 
 
 @dataclass(frozen=True)
 class RoadWheel:
-    """A wheel in n positions.
-
-    Attributes
-    ----------
-    vehicle : Vehicle
-    center : ndarray, shape (..., 3)
-        Wheel centre [m].
-    design_center : ndarray, shape (3,)
-        The same at design [m].
-    axis : ndarray, shape (..., 3)
-        Unit vector along the spin axis, pointing outboard.
-    design_axis : ndarray, shape (3,)
-        The same at design.
-    """
+    """A wheel in n positions."""
 
     vehicle: Vehicle
-    center: Array
-    design_center: Array
-    axis: Array
-    design_axis: Array
+    center: Array  # wheel centre, (..., 3) [m]
+    design_center: Array  # at design, (3,) [m]
+    axis: Array  # unit vector along the spin axis, pointing outboard, (..., 3)
+    design_axis: Array  # at design, (3,)
 
 
 @dataclass(frozen=True)

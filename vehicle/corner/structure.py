@@ -25,19 +25,11 @@ FORCES_OF_A_DAMPER = ("damper_force", "friction_force", "bump_stop_force", "rebo
 
 @dataclass(frozen=True)
 class PartJoint(ABC):
-    """A joint of two parts at hardpoints.
-
-    Attributes
-    ----------
-    first, second : str
-        The parts.
-    at : tuple of str
-        The hardpoints.
-    """
+    """A joint of two parts at hardpoints."""
 
     first: str
     second: str
-    at: tuple[str, ...]
+    at: tuple[str, ...]  # hardpoints
 
     RULE: ClassVar[str] = ""
     """The assumption that resolves its statical indeterminacy, if any."""
@@ -87,15 +79,9 @@ class PartJoint(ABC):
 
 @dataclass(frozen=True)
 class SphericalJoint(PartJoint):
-    """A ball joint, with a force.
+    """A ball joint, with a force."""
 
-    Attributes
-    ----------
-    end : str
-        The other end of a rod that ends at the joint, if any.
-    """
-
-    end: str = ""
+    end: str = ""  # other end of a rod that ends at the joint, if any
 
     def axis(self, points: Points) -> Array | None:
         """Return the axis of the rod."""
@@ -130,18 +116,10 @@ class FixedJoint(PartJoint):
 
 @dataclass(frozen=True)
 class UniversalJoint(PartJoint):
-    """A universal joint, with a force, and a moment normal to both of its axes.
+    """A universal joint, with a force, and a moment normal to both of its axes."""
 
-    Attributes
-    ----------
-    shaft : str
-        The other end of the second part.
-    first_axis : tuple of float
-        The axis in the first part, at design.
-    """
-
-    shaft: str
-    first_axis: tuple[float, float, float]
+    shaft: str  # other end of the second part
+    first_axis: tuple[float, float, float]  # axis in the first part, at design
 
     def axis(self, points: Points) -> Array | None:
         """Return the axis of the shaft."""
@@ -199,15 +177,9 @@ class HingeJoint(PartJoint):
 
 @dataclass(frozen=True)
 class TelescopeJoint(PartJoint):
-    """A tube and a rod, with forces and moments normal to their axis, about a point on it.
+    """A tube and a rod, with forces and moments normal to their axis, about a point on it."""
 
-    Attributes
-    ----------
-    end : str
-        Another point on the axis.
-    """
-
-    end: str
+    end: str  # another point on the axis
 
     RULE = "the moment of a telescope is about its lower end"
 
@@ -242,26 +214,15 @@ class TelescopeJoint(PartJoint):
 
 @dataclass(frozen=True)
 class LineForce:
-    """A force on two parts along the line of two hardpoints: of a spring, a damper, a stop.
+    """A force on two parts along the line of two hardpoints: of a spring, a damper, a stop."""
 
-    Attributes
-    ----------
-    name : str
-        'spring' or 'damper', followed by a side if there are two.
-    signals : tuple of str
-        The signals or inputs of the equations whose sum is the force, positive when it pushes;
-        missing ones are zero.
-    first, second : str
-        The parts.
-    at : tuple of str
-        The hardpoints, of the first part and of the second one.
-    """
-
-    name: str
+    name: str  # 'spring' or 'damper', followed by a side if there are two
+    # signals or inputs of the equations whose sum is the force, positive when it pushes; missing
+    # ones are zero
     signals: tuple[str, ...]
     first: str
     second: str
-    at: tuple[str, str]
+    at: tuple[str, str]  # hardpoints, of the first part and of the second one
 
     @property
     def is_spring(self) -> bool:
@@ -275,19 +236,11 @@ class LineForce:
 
 @dataclass(frozen=True)
 class Structure:
-    """The joints and force elements between the parts of a suspension.
-
-    Attributes
-    ----------
-    joints : sequence of PartJoint
-    lines : sequence of LineForce
-        Springs and dampers.
-    mounted : mapping of str to str
-        Points on the chassis that belong to a mount at another point.
-    """
+    """The joints and force elements between the parts of a suspension."""
 
     joints: Sequence[PartJoint]
-    lines: Sequence[LineForce]
+    lines: Sequence[LineForce]  # springs and dampers
+    # points on the chassis that belong to a mount at another point
     mounted: Mapping[str, str] = field(default_factory=dict)
 
     @property

@@ -37,29 +37,15 @@ _UNITS_OF_LOTUS = re.compile(r"\s*\((\w+)\)\s+\(\1\)\s+\(\1\)\s*")
 
 
 class NamedColumns(NamedTuple):
-    """A table with the places of its columns.
-
-    Attributes
-    ----------
-    table : Table
-    name : int
-        The column with the names.
-    coordinates : dict
-        The columns of x, y and z by side; '' if there is only one.
-    above : tuple of str
-        Units above the table.
-    axes : str
-        Directions of x, y and z in files of its program.
-    left_out : tuple of str
-        Unread sheets and columns.
-    """
+    """A table with the places of its columns."""
 
     table: Table
-    name: int
+    name: int  # column with the names
+    # columns of x, y and z by side; '' if there is only one
     coordinates: Mapping[str, tuple[int, int, int]]
-    above: tuple[str, ...] = ()
-    axes: str = ISO
-    left_out: tuple[str, ...] = ()
+    above: tuple[str, ...] = ()  # units above the table
+    axes: str = ISO  # directions of x, y and z in files of its program
+    left_out: tuple[str, ...] = ()  # unread sheets and columns
 
 
 def found_in(file: Path, sheet: str | None) -> NamedColumns:

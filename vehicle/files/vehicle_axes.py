@@ -23,18 +23,10 @@ Point = tuple[float, float, float]
 
 
 class Axes(NamedTuple):
-    """The axes of a table of points.
+    """The axes of a table of points."""
 
-    Attributes
-    ----------
-    words : str
-        The directions of x, y and z: ``rearward right up``.
-    directions : ndarray, shape (3, 3)
-        These directions in axes of ISO 8855, in columns.
-    """
-
-    words: str
-    directions: Array
+    words: str  # directions of x, y and z: `rearward right up`
+    directions: Array  # these directions in axes of ISO 8855, in columns, (3, 3)
 
     def point(self, place: Point) -> Point:
         """Return a point in axes of ISO 8855: x forward, y left, z up."""

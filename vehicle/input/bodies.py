@@ -139,14 +139,9 @@ class WheelBody(Section):
 
 
 class Bodies(Section):
-    """All bodies that may carry mass: those of a suspension are its `RigidBody` attributes.
+    """All bodies that may carry mass: those of a suspension are its `RigidBody` attributes."""
 
-    Attributes
-    ----------
-    MASSLESS : tuple of str
-        Bodies that the equations of the suspension leave without mass.
-    """
-
+    # bodies that the equations of the suspension leave without mass
     MASSLESS: ClassVar[tuple[str, ...]] = ()
 
     wheel: WheelBody = Field(description="the wheel")

@@ -96,15 +96,9 @@ def parts_of(
 
 
 class Described:
-    """An object that a file describes.
+    """An object that a file describes."""
 
-    Attributes
-    ----------
-    whole_car : bool
-        Whether it is a car, of which axles or a corner are parts.
-    """
-
-    whole_car: ClassVar[bool] = False
+    whole_car: ClassVar[bool] = False  # whether it is a car, of which axles or a corner are parts
 
     @property
     def parts_named(self) -> list[str]:
@@ -186,21 +180,11 @@ class Described:
 
 
 class DescribedParts(Described):
-    """An object whose file names the files of its parts.
+    """An object whose file names the files of its parts."""
 
-    Attributes
-    ----------
-    KEY : str
-        The top-level key of such a file.
-    FILE : type
-        The section of the file itself.
-    PACKAGE : str
-        The package of the packaged files.
-    """
-
-    KEY: ClassVar[str]
-    FILE: ClassVar[type[Section]]
-    PACKAGE: ClassVar[str]
+    KEY: ClassVar[str]  # top-level key of such a file
+    FILE: ClassVar[type[Section]]  # section of the file itself
+    PACKAGE: ClassVar[str]  # package of the packaged files
 
     @classmethod
     def packaged(cls) -> Mapping[str, Traversable]:

@@ -38,30 +38,18 @@ class Hardpoints(Section):
 
     Any suspension has ``wheel_center``, a steered one ``tie_rod_outer`` and ``tie_rod_inner``. All
     points are in chassis axes (ISO 8855: x forward, y left, z up), in the unit that `unit` names.
-
-    Attributes
-    ----------
-    STAND_INS : dict
-        The substitutes of points that a file may leave out.
-    CARRIERS : dict
-        The moving body of each point; the others are fixed to the chassis.
-    ARMS : dict
-        The bearings of each arm on the chassis, by its ball joint.
-    JOINTS : tuple of str
-        Moving points of a table of positions, besides the wheel centre.
-    STEERING_AXIS : tuple of str or None
-        The lower and the upper point on the steering axis; None if the axis has no two points and
-        follows from the motion.
-    AXIS_NAME : str
-        The name of this axis in messages.
     """
 
-    STAND_INS: ClassVar[Mapping[str, str]] = {}
+    STAND_INS: ClassVar[Mapping[str, str]] = {}  # substitutes of points that a file may leave out
+    # moving body of each point; the others are fixed to the chassis
     CARRIERS: ClassVar[Mapping[str, str]]
-    ARMS: ClassVar[Mapping[str, Pair]]
+    ARMS: ClassVar[Mapping[str, Pair]]  # bearings of each arm on the chassis, by its ball joint
+    # moving points of a table of positions, besides the wheel centre
     JOINTS: ClassVar[tuple[str, ...]]
+    # lower and the upper point on the steering axis; None if the axis has no two points and follows
+    # from the motion
     STEERING_AXIS: ClassVar[Pair | None]
-    AXIS_NAME: ClassVar[str] = "steering axis"
+    AXIS_NAME: ClassVar[str] = "steering axis"  # name of this axis in messages
 
     unit: LengthUnit = Field(description='the unit of the hardpoints, "mm" or "m"')
 

@@ -16,18 +16,10 @@ from .units import unit_of
 
 @dataclass(frozen=True)
 class AllowedRange:
-    """The range of a value as text, for the error message.
+    """The range of a value as text, for the error message."""
 
-    Attributes
-    ----------
-    allowed : str
-        The range, with ``{unit}`` for the unit.
-    remedy : str
-        A sentence with the remedy for other values.
-    """
-
-    allowed: str
-    remedy: str
+    allowed: str  # range, with `{unit}` for the unit
+    remedy: str  # sentence with the remedy for other values
 
 
 def _plain(value: Any) -> Any:

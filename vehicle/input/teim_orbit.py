@@ -28,21 +28,11 @@ _OF_COMMENTS = ("comments", "comment_string")
 
 @dataclass(frozen=True)
 class FileBlock:
-    """A block of a file with its parts.
+    """A block of a file with its parts."""
 
-    Attributes
-    ----------
-    name : str
-        In lower case.
-    number : int
-        The number of its first line.
-    lines : tuple of (int, str)
-        The following lines up to the next block, with their numbers.
-    """
-
-    name: str
-    number: int
-    lines: tuple[tuple[int, str], ...]
+    name: str  # in lower case
+    number: int  # number of its first line
+    lines: tuple[tuple[int, str], ...]  # following lines up to the next block, with their numbers
 
     def values(self) -> Iterator[tuple[str, str]]:
         """Yield keys, in lower case, and values, without quotes."""

@@ -26,18 +26,10 @@ _PUSH_ROD = ("push_rod_outer", "push_rod_inner")
 
 
 class RockerHardpoints(DoubleWishboneHardpoints):
-    """The points of a double wishbone suspension whose spring a rocker moves.
+    """The points of a double wishbone suspension whose spring a rocker moves."""
 
-    Attributes
-    ----------
-    ROD : tuple of str
-        The ends of the rod that moves the rocker, the outer one first.
-    ROD_WORDS : str
-        Its name in messages.
-    """
-
-    ROD: ClassVar[Pair]
-    ROD_WORDS: ClassVar[str]
+    ROD: ClassVar[Pair]  # ends of the rod that moves the rocker, the outer one first
+    ROD_WORDS: ClassVar[str]  # name in messages
 
     rocker_front: Triple = Field(description="one bearing of the rocker on the chassis")
     rocker_rear: Triple = Field(description="the other bearing of the rocker on the chassis")

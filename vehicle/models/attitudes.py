@@ -18,18 +18,12 @@ from ...systems.system import System
 
 
 class Attitudes(NamedTuple):
-    """Rotation matrices of the bodies at some positions, and their derivatives along a coordinate.
+    """Rotation matrices of bodies at some positions, and their derivatives along a coordinate."""
 
-    Attributes
-    ----------
-    turned : ndarray, shape (..., places, elements)
-        Elements of all matrices, from design; none of equations in closed form.
-    rate : ndarray, shape (..., places, elements)
-        Derivatives along the coordinate.
-    """
-
+    # elements of all matrices, from design; none of equations in closed form, (..., places,
+    # elements)
     turned: Array
-    rate: Array
+    rate: Array  # derivatives along the coordinate, (..., places, elements)
 
 
 def attitudes(

@@ -79,14 +79,9 @@ class WholeVehicle(Protocol):
 
 @dataclass(frozen=True)
 class Plausibility:
-    """The findings of a file.
+    """The findings of a file."""
 
-    Attributes
-    ----------
-    problems, notes : tuple of str
-        Values that are almost certainly mistakes; and unusual values.
-    """
-
+    # values that are almost certainly mistakes; and unusual values
     problems: tuple[str, ...]
     notes: tuple[str, ...]
 

@@ -132,21 +132,12 @@ def _ends(model: Model, racks: bytes) -> tuple[Ends, Ends]:
 
 
 class Branch(NamedTuple):
-    """Table of arm angles and wheel heights over the range, for several rack positions or models.
+    """Table of arm angles and wheel heights over the range, for several racks or models."""
 
-    Attributes
-    ----------
-    angle : ndarray, shape (rows, points)
-        Falling [rad]; the last one is repeated if the range ends earlier.
-    height : ndarray, shape (rows, points)
-        Height of the wheel centre, rising [m].
-    slope : ndarray, shape (rows, points)
-        Its derivative with respect to the angle [m/rad].
-    """
-
+    # falling [rad]; the last one is repeated if the range ends earlier, (rows, points)
     angle: Array
-    height: Array
-    slope: Array
+    height: Array  # height of the wheel centre, rising, (rows, points) [m]
+    slope: Array  # derivative with respect to the angle, (rows, points) [m/rad]
 
     def of(self, rows: NDArray[np.int64]) -> "Branch":
         """Return some of its rows."""

@@ -43,28 +43,15 @@ _MOST_LOOKS = 400
 
 
 class PlacesAlong(NamedTuple):
-    """Values at some positions; the last axis of the first four is along the coordinate.
+    """Values at some positions; the last axis of the first four is along the coordinate."""
 
-    Attributes
-    ----------
-    usable : ndarray of bool
-        Whether the position is within the range.
-    limit : ndarray of int
-        The limit that a position is beyond.
-    height, slope : ndarray
-        A monotonic quantity, and its derivative; without meaning if not usable.
-    margins : ndarray, shape (..., places, margins)
-        Positive if usable.
-    attitudes : Attitudes
-        Attitudes of the bodies, if loops are solved by iteration.
-    """
-
-    usable: NDArray[np.bool_]
-    limit: NDArray[np.int64]
+    usable: NDArray[np.bool_]  # whether the position is within the range
+    limit: NDArray[np.int64]  # limit that a position is beyond
+    # monotonic quantity, and its derivative; without meaning if not usable
     height: Array
     slope: Array
-    margins: Array
-    attitudes: Attitudes
+    margins: Array  # positive if usable, (..., places, margins)
+    attitudes: Attitudes  # attitudes of the bodies, if loops are solved by iteration
 
 
 def resolved(width: Array, seen: PlacesAlong) -> NDArray[np.bool_]:

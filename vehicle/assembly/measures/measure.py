@@ -14,28 +14,16 @@ Scope = Literal["wheel", "axle"]
 
 @dataclass(frozen=True)
 class Measure:
-    """A characteristic of an assembly.
+    """A characteristic of an assembly."""
 
-    Attributes
-    ----------
-    quantity : Quantity
-        Its name, unit, definition and sign.
-    formula : callable
-        Takes the kinematics of the assembly (`MirroredCorner`, `AxleKinematics` or
-        `WholeAxleKinematics`), with scope 'wheel' also the name of a wheel, and returns an array
-        over the positions.
-    scope : {'wheel', 'axle'}
-        Whether it belongs to each wheel or to the axle.
-    needs : tuple of str
-        Attributes of `Vehicle` without which it is not defined.
-    known_to : callable
-        Takes the kinematics, returns whether all further data that it needs are known.
-    """
-
-    quantity: Quantity
+    quantity: Quantity  # name, unit, definition and sign
+    # takes the kinematics of the assembly (`MirroredCorner`, `AxleKinematics` or
+    # `WholeAxleKinematics`), with scope 'wheel' also the name of a wheel, and returns an array over
+    # the positions
     formula: Callable[..., Array]
-    scope: Scope
-    needs: tuple[str, ...] = ()
+    scope: Scope  # whether it belongs to each wheel or to the axle
+    needs: tuple[str, ...] = ()  # attributes of `Vehicle` without which it is not defined
+    # takes the kinematics, returns whether all further data that it needs are known
     known_to: Callable[[Any], bool] = lambda _: True
 
     @property

@@ -15,24 +15,13 @@ from .subsystem import Subsystem
 
 
 class TemplateFile(NamedTuple):
-    """The file with all data besides those of the subsystem.
-
-    Attributes
-    ----------
-    kind : str
-    title : str
-        Its name in messages.
-    text : str
-    suspension : Suspension
-    packaged : bool
-        Whether it is a packaged file, and not one of the user.
-    """
+    """The file with all data besides those of the subsystem."""
 
     kind: str
-    title: str
+    title: str  # name in messages
     text: str
     suspension: Suspension
-    packaged: bool
+    packaged: bool  # whether it is a packaged file, and not one of the user
 
 
 def rest_of(

@@ -28,27 +28,13 @@ _FORCE = ("value_type", "user_value")
 
 
 class AdamsSpring(NamedTuple):
-    """A spring.
+    """A spring."""
 
-    Attributes
-    ----------
-    rate : float or None
-        [N/m]; None for a curve.
-    force : float or None
-        At the design position [N]; None if not known.
-    file : str
-        The name of the property file.
-    curve : tuple of (float, float)
-        Compressions [mm], rising, and forces [N].
-    lost : tuple of (float, float)
-        Surplus points of the curve, which are left out.
-    """
-
-    rate: float | None
-    force: float | None
-    file: str
-    curve: tuple[tuple[float, float], ...] = ()
-    lost: tuple[tuple[float, float], ...] = ()
+    rate: float | None  # [N/m]; None for a curve
+    force: float | None  # at the design position [N]; None if not known
+    file: str  # name of the property file
+    curve: tuple[tuple[float, float], ...] = ()  # compressions [mm], rising, and forces [N]
+    lost: tuple[tuple[float, float], ...] = ()  # surplus points of the curve, which are left out
 
     def words(self) -> str:
         """Return a description."""

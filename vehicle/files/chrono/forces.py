@@ -111,25 +111,13 @@ class Shock(Element):
 
 
 class ChronoSpringLaw(NamedTuple):
-    """A spring: by its rate, or by its curve, which has the stiffer parts of its stops, too.
+    """A spring: by its rate, or by its curve, which has the stiffer parts of its stops, too."""
 
-    Attributes
-    ----------
-    rate : float
-        [N/m]; of a rate with a curve, the rate between its stops.
-    free_length : float
-        Length without force, or without compression of a curve [m].
-    curve : tuple of (float, float)
-        Compressions [m], rising, and forces that push the ends apart [N]; empty with a rate
-        alone.
-    lost : tuple of (float, float)
-        Surplus points of the curve, which are left out.
-    """
-
-    rate: float
-    free_length: float
+    rate: float  # [N/m]; of a rate with a curve, the rate between its stops
+    free_length: float  # length without force, or without compression of a curve [m]
+    # compressions [m], rising, and forces that push the ends apart [N]; empty with a rate alone
     curve: Curve = ()
-    lost: Curve = ()
+    lost: Curve = ()  # surplus points of the curve, which are left out
 
     def section(self) -> dict[str, Any]:
         """Return the section of a hardpoint file."""
@@ -142,17 +130,10 @@ class ChronoSpringLaw(NamedTuple):
 
 
 class DamperLaw(NamedTuple):
-    """A damper: by its rate, or by its curve.
+    """A damper: by its rate, or by its curve."""
 
-    Attributes
-    ----------
-    rate : float
-        [N s/m].
-    curve : tuple of (float, float)
-        Velocities [m/s], positive in bump, and forces that resist bump [N]; empty with a rate.
-    """
-
-    rate: float
+    rate: float  # [N s/m]
+    # velocities [m/s], positive in bump, and forces that resist bump [N]; empty with a rate
     curve: Curve = ()
 
     def scaled(self, ratio: float) -> "DamperLaw":

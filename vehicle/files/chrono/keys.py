@@ -39,18 +39,12 @@ Unread = tuple[Place, Any]
 
 
 class Part(BaseModel):
-    """A part of a file.
-
-    Attributes
-    ----------
-    UNREAD : frozenset of str
-        Further keys of Chrono's templates.
-    """
+    """A part of a file."""
 
     # other keys are listed, or refused: see `others`
     model_config = ConfigDict(extra="ignore")
 
-    UNREAD: ClassVar[frozenset[str]] = frozenset()
+    UNREAD: ClassVar[frozenset[str]] = frozenset()  # further keys of Chrono's templates
 
     @field_validator("*", mode="before")
     @classmethod
@@ -62,20 +56,11 @@ class Part(BaseModel):
 
 
 class Other(NamedTuple):
-    """A key that is not read.
+    """A key that is not read."""
 
-    Attributes
-    ----------
-    place : tuple of str
-        The key, after those that contain it.
-    value : object
-    part : type of Part
-        The part with the key.
-    """
-
-    place: Place
+    place: Place  # key, after those that contain it
     value: Any
-    part: type[Part]
+    part: type[Part]  # part with the key
 
 
 Kind = TypeVar("Kind", bound=Part)

@@ -32,19 +32,12 @@ LONGEST = _CURVE[-1][0]
 
 
 class Stops(NamedTuple):
-    """The stops of a spring.
+    """The stops of a spring."""
 
-    Attributes
-    ----------
-    shortest, longest : float
-        Lengths of the spring at first contact [m].
-    beside_a_curve : bool
-        Whether the spring is a curve.
-    """
-
+    # lengths of the spring at first contact [m]
     shortest: float
     longest: float
-    beside_a_curve: bool = False
+    beside_a_curve: bool = False  # whether the spring is a curve
 
     def sections(self, at_design: float) -> dict[str, Any]:
         """Return the sections of a hardpoint file, from the spring's length at design [m]."""

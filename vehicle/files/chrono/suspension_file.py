@@ -27,22 +27,13 @@ _ALIKE = 0.01  # relative difference of diametral moments of a wheel that is not
 
 
 class PointsFile(Part):
-    """The geometry of a file: its points, camber and toe.
-
-    Attributes
-    ----------
-    TEMPLATE : str
-        The template.
-    KIND : str
-        The kind of suspension.
-    SOURCES : dict of str to str
-        Keys of the file by those of a hardpoint file, for messages.
-    """
+    """The geometry of a file: its points, camber and toe."""
 
     UNREAD: ClassVar[frozenset[str]] = frozenset({"Name", "Output", "Vehicle-Frame Inertia"})
 
     TEMPLATE: ClassVar[str]
-    KIND: ClassVar[str]
+    KIND: ClassVar[str]  # kind of suspension
+    # keys of the file by those of a hardpoint file, for messages
     SOURCES: ClassVar[Mapping[str, str]] = {
         "wheel_center": "Spindle > COM",
         "camber_deg": "Camber Angle (deg)",
@@ -91,13 +82,7 @@ class SteeredPoints(PointsFile):
 
 
 class SuspensionFile(PointsFile):
-    """All data of a file.
-
-    Attributes
-    ----------
-    LINKED : str
-        The part of the kind to which the drop link of an anti-roll bar is joined.
-    """
+    """All data of a file."""
 
     UNREAD: ClassVar[frozenset[str]] = frozenset({"Name", "Output"})
     SOURCES: ClassVar[Mapping[str, str]] = {
@@ -106,7 +91,7 @@ class SuspensionFile(PointsFile):
         "[bodies.wheel]": 'Spindle" with "Axle',
     }
 
-    LINKED: ClassVar[str]
+    LINKED: ClassVar[str]  # part of the kind to which the drop link of an anti-roll bar is joined
 
     vehicle_axes: bool = Field(default=False, strict=True, alias="Vehicle-Frame Inertia")
     spindle: Spindle = Field(alias="Spindle")

@@ -77,29 +77,15 @@ class _Values(Part):
 
 @dataclass(frozen=True)
 class Tire:
-    """A tire.
+    """A tire."""
 
-    Attributes
-    ----------
-    radius : float or None
-        Without load [m]; None if not known.
-    mass : float
-        [kg].
-    inertia : tuple of float
-        Moments about its axes; the second one is the axis of its spin [kg m^2].
-    rate : float or None
-        Vertical rate [N/m]; None if it is not constant or not known.
-    template : str
-        Empty for the default tire.
-    assumed, left_out : tuple of str
-        Assumptions and unread data, a sentence each.
-    """
-
-    radius: float | None
-    mass: float
+    radius: float | None  # without load [m]; None if not known
+    mass: float  # [kg]
+    # moments about its axes; the second one is the axis of its spin [kg m^2]
     inertia: tuple[float, float, float]
-    rate: float | None = None
-    template: str = ""
+    rate: float | None = None  # vertical rate [N/m]; None if it is not constant or not known
+    template: str = ""  # empty for the default tire
+    # assumptions and unread data, a sentence each
     assumed: tuple[str, ...] = ()
     left_out: tuple[str, ...] = ()
 

@@ -108,24 +108,13 @@ def read_vehicle(path: str | Path, *, tire: str | Path | None = None) -> Importe
 
 
 class _Axle(NamedTuple):
-    """An axle in the axes of the chassis.
-
-    Attributes
-    ----------
-    place : AxlePlace
-    suspension : SuspensionFile
-    data : dict
-        The content of its file.
-    file : pathlib.Path
-    tire : Tire
-        With the rim.
-    """
+    """An axle in the axes of the chassis."""
 
     place: AxlePlace
     suspension: SuspensionFile
-    data: dict[str, Any]
+    data: dict[str, Any]  # content of its file
     file: Path
-    tire: Tire
+    tire: Tire  # with the rim
 
     @property
     def center(self) -> Array:

@@ -297,23 +297,14 @@ def mirrored_points(section: Mapping[str, Any]) -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class HalfBar:
-    """Half a bar with its drop link, at design; chassis axes [m].
+    """Half a bar with its drop link, at design; chassis axes [m]."""
 
-    Attributes
-    ----------
-    axis : ndarray, shape (3,)
-        Unit vector along the bar, pointing left.
-    bush, top, foot : ndarray, shape (3,)
-        Bearing, and the two ends of the drop link.
-    body : str
-        The part that carries the foot.
-    """
-
-    axis: Array
+    axis: Array  # unit vector along the bar, pointing left, (3,)
+    # bearing, and the two ends of the drop link, (3,)
     bush: Array
     top: Array
     foot: Array
-    body: str
+    body: str  # part that carries the foot
 
     @property
     def _across(self) -> Array:

@@ -141,28 +141,14 @@ def declared(car: Car) -> "Formulation":
 
 @dataclass(frozen=True)
 class _End:
-    """The structure of an axle on which the equations of a car depend.
+    """The structure of an axle on which the equations of a car depend."""
 
-    Attributes
-    ----------
-    suspension : str
-        The name of its equations.
-    whole : bool
-        Whether it has no sides.
-    pulls : str
-        The part to which the drop links of its anti-roll bar are joined.
-    steered : bool
-    column : bool
-        Whether a compliant steering column moves the rack.
-    contact, relaxing, brakes_on, drive_on
-        Of a driving car, see `generator.mechanisms.car.driving`.
-    """
-
-    suspension: str
-    whole: bool
-    pulls: str = ""
+    suspension: str  # name of its equations
+    whole: bool  # whether it has no sides
+    pulls: str = ""  # part to which the drop links of its anti-roll bar are joined
     steered: bool = False
-    column: bool = False
+    column: bool = False  # whether a compliant steering column moves the rack
+    # of a driving car, see `generator.mechanisms.car.driving`
     contact: ContactTerms | None = None
     relaxing: bool = False
     brakes_on: Any = None
@@ -215,25 +201,13 @@ class _End:
 
 @dataclass(frozen=True)
 class CarStructure:
-    """The structure of a car: everything on which its declaration depends, without values.
-
-    Attributes
-    ----------
-    name, title : str
-        Of the equations.
-    ends : tuple
-        The structures of the axles; empty for a quarter car.
-    coordinates : tuple of str or None
-        Those of the body; None for a driving car.
-    corner : str
-        The equations of the suspension of a quarter car.
-    """
+    """The structure of a car: everything on which its declaration depends, without values."""
 
     name: str
     title: str = ""
-    ends: tuple[_End, ...] = ()
-    coordinates: tuple[str, ...] | None = None
-    corner: str = ""
+    ends: tuple[_End, ...] = ()  # structures of the axles; empty for a quarter car
+    coordinates: tuple[str, ...] | None = None  # those of the body; None for a driving car
+    corner: str = ""  # equations of the suspension of a quarter car
 
     @classmethod
     def of(cls, car: Car) -> "CarStructure":

@@ -15,17 +15,10 @@ class Slope(NamedTuple):
     """The slope of a plane road.
 
     The axes of the equations are those of the road: x along it, y to the left, z along its normal.
-
-    Attributes
-    ----------
-    grade : float
-        Rise over horizontal distance in the direction of x, positive uphill [1].
-    crossfall : float
-        Rise over horizontal distance to the left of it, positive if the road falls to the right
-        [1].
     """
 
-    grade: float = 0.0
+    grade: float = 0.0  # rise over horizontal distance in the direction of x, positive uphill [1]
+    # rise over horizontal distance to the left of it, positive if the road falls to the right [1]
     crossfall: float = 0.0
 
     @classmethod

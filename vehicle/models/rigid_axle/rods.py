@@ -33,17 +33,11 @@ _FREEDOMS = 6
 
 @dataclass(frozen=True)
 class Hold:
-    """The constraints of some rods.
-
-    Attributes
-    ----------
-    names : tuple of str
-    rows : ndarray, shape (rods, 6)
-        Elongation of each rod per displacement of the beam along x, y, z, and per rotation about
-        them, measured by the displacement at half a metre.
-    """
+    """The constraints of some rods."""
 
     names: tuple[str, ...]
+    # elongation of each rod per displacement of the beam along x, y, z, and per rotation about
+    # them, measured by the displacement at half a metre, (rods, 6)
     rows: Array
 
     @classmethod
