@@ -10,7 +10,7 @@ from ..models.axle.bar import HalfBar
 
 @dataclass(frozen=True)
 class _Elastic:
-    rate: float
+    rate: float  # torque, or moment, per twist [N m/rad]
 
     def torque(self, twist: Array) -> Array:
         """Return the torque, or the moment, at a twist [N m]."""
@@ -20,20 +20,10 @@ class _Elastic:
 
 @dataclass(frozen=True)
 class Bar(_Elastic):
-    """An anti-roll bar between two sides.
+    """An anti-roll bar between two sides: its twist is the first half's angle less the second's."""
 
-    Attributes
-    ----------
-    rate : float
-        Torque per twist, the angle of the first half less that of the second one [N m/rad].
-    halves : tuple of HalfBar
-        By side.
-    free_twist : float
-        The twist without a torque [rad].
-    """
-
-    halves: tuple[HalfBar, HalfBar]
-    free_twist: float
+    halves: tuple[HalfBar, HalfBar]  # by side
+    free_twist: float  # the twist without a torque [rad]
 
     def torque(self, twist: Array) -> Array:
         """Return the torque at a twist [N m]."""
@@ -42,39 +32,22 @@ class Bar(_Elastic):
 
 @dataclass(frozen=True)
 class RollBar(_Elastic):
-    """An anti-roll bar between a rigid axle and the body.
+    """An anti-roll bar between a rigid axle and the body, whose twist is the axle's inclination."""
 
-    Attributes
-    ----------
-    rate : float
-        Moment per inclination of the axle's lateral axis [N m/rad].
-    body : str
-        The axle.
-    """
-
-    body: str
+    body: str  # the axle
 
 
 @dataclass(frozen=True)
 class TwistBar(_Elastic):
     """A rotational spring between two parts, such as the beam of a twist-beam axle.
 
-    Attributes
-    ----------
-    rate : float
-        Torque per twist, the rotation of the second part less that of the first one [N m/rad].
-    first, second : str
-        The parts.
-    axis : ndarray, shape (3,)
-        Axis of their relative rotation, chassis axes.
-    twist_of : callable
-        Takes the parts with rigid joints, returns their twist, (n,) [rad].
+    Its twist is the rotation of the second part less that of the first one.
     """
 
     first: str
     second: str
-    axis: Array
-    twist_of: Callable[[Any], Array]
+    axis: Array  # of their relative rotation, chassis axes, (3,)
+    twist_of: Callable[[Any], Array]  # returns the twist of parts with rigid joints, (n,) [rad]
 
 
 AnyBar = Bar | RollBar | TwistBar

@@ -248,12 +248,8 @@ class Assembly(ABC):
     def kinematics(self, position: RigPosition) -> Any:
         """Return positions and first derivatives of the wheels, for the formulas of its measures.
 
-        Raises
-        ------
-        PositionError
-            If a position is out of reach; the message states the range.
-        InputError
-            If it does not move with rigid joints, or a drop link does not reach.
+        Raises `PositionError` if a position is out of reach, with the range; `InputError` if it
+        does not move with rigid joints, or a drop link does not reach.
         """
 
     def values(
@@ -261,18 +257,8 @@ class Assembly(ABC):
     ) -> dict[str, Array]:
         """Return all or some characteristics over a motion, by the names of their columns.
 
-        Parameters
-        ----------
-        motion : str
-        along : ndarray, shape (n,)
-            Values of `RigMotion.along`.
-        names : container of str, optional
-            Names of columns: ``camber``, of an axle ``camber_left``.
-
-        Returns
-        -------
-        dict of str to ndarray, each of shape (n,)
-            SI units.
+        `along` are values of `RigMotion.along`, (n,); `names` are those of columns: ``camber``, of
+        an axle ``camber_left``. Values have the shape (n,), SI units.
         """
         of = self.kinematics(self.position(motion, along))
         return values(self.measures(motion), of, self.wheels, names)
@@ -403,12 +389,8 @@ class HeldAssembly(Assembly):
     def poses(self, position: RigPosition) -> dict[str, PartPoses]:
         """Return the parts with rigid joints, by the suffixes of their names.
 
-        Raises
-        ------
-        PositionError
-            If a position is out of reach; the message states the range.
-        InputError
-            If a drop link does not reach.
+        Raises `PositionError` if a position is out of reach, with the range; `InputError` if a drop
+        link does not reach.
         """
 
     @abstractmethod
@@ -435,20 +417,10 @@ class HeldAssembly(Assembly):
 
     @abstractmethod
     def wheel_coordinates(self, travels: Sequence[float | None], rack: float) -> Array:
-        """Return the coordinates for heights of some wheels above design.
+        """Return the coordinates for heights of the wheels above design, (wheels,).
 
-        Raises `PositionError` if a wheel cannot be there.
-
-        Parameters
-        ----------
-        travels : sequence of float or None
-            By wheel [m]; None for the design position.
-        rack : float
-            Displacement of the rack [m].
-
-        Returns
-        -------
-        ndarray, shape (wheels,)
+        `travels` are by wheel [m], None for the design position; `rack` is the displacement of the
+        rack [m]. Raises `PositionError` if a wheel cannot be there.
         """
 
     @abstractmethod
@@ -501,20 +473,10 @@ class HeldAssembly(Assembly):
     def between(
         self, poses: Mapping[str, PartPoses], loads: Sequence[Load]
     ) -> tuple[list[Load], dict[str, BodyPose]]:
-        """Return the loads on the parts between groups and chassis: rack and anti-roll bar.
+        """Return the loads on the parts between groups and chassis, and poses of these by part.
 
-        Parameters
-        ----------
-        poses : mapping
-            By suffix.
-        loads : sequence of Load
-            All others, with the suffixes in their names.
-
-        Returns
-        -------
-        loads : list of Load
-        places : dict of str to BodyPose
-            By part.
+        The parts are rack and anti-roll bar. `poses` are by suffix; `loads` are all others, with
+        the suffixes in their names.
         """
         del poses, loads
         return [], {}

@@ -47,26 +47,13 @@ def pull_of_bar(axle: Axle, side: str, poses: CornerParts, torque: Array | float
 def on_the_bar(
     axle: Axle, poses: Mapping[str, Any], loads: Sequence[Load]
 ) -> tuple[list[Load], dict[str, BodyPose]]:
-    """Return the loads on the anti-roll bar and its drop links, and on the chassis.
+    """Return the loads on the anti-roll bar and its drop links, and on the chassis; their poses.
 
-    Parameters
-    ----------
-    axle : Axle
-    poses : mapping of str to CornerParts
-        Of both sides, by suffix.
-    loads : sequence of Load
-        All other loads, including those of the drop links on the sides.
-
-    Returns
-    -------
-    loads : list of Load
-    places : dict of str to BodyPose
-
-    Notes
-    -----
-    A drop link carries a force along it. The deflected bar is a body on two bearings at its bushes:
-    forces across the line through them follow from the balance of forces and moments. If the halves
-    turn about other axes than this line, each bearing carries half of the moment about it.
+    `poses` are `CornerParts` of both sides, by suffix; `loads` are all others, including those of
+    the drop links on the sides. A drop link carries a force along it. The deflected bar is a body
+    on two bearings at its bushes: forces across the line through them follow from the balance of
+    forces and moments. If the halves turn about other axes than this line, each bearing carries
+    half of the moment about it.
     """
     found, places = [], {}
     for side in SIDES:

@@ -60,12 +60,8 @@ class AxleKinematics:
     ) -> "AxleKinematics":
         """Return the axle at wheel travels and displacements of the rack [m].
 
-        Raises
-        ------
-        PositionError
-            If a wheel cannot be there; the message states the range.
-        InputError
-            If a drop link does not reach, or is at its dead centre.
+        Raises `PositionError` if a wheel cannot be there, with the range; `InputError` if a drop
+        link does not reach, or is at its dead centre.
         """
         one, two, racks = np.broadcast_arrays(*(np.asarray(v, float) for v in (left, right, rack)))
         travels = {LEFT: np.array(one), RIGHT: np.array(two)}

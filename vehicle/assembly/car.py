@@ -395,17 +395,9 @@ class CarAssembly(Assembly):
     def running(self, speed: float) -> State:
         """Return the state of steady motion straight ahead at a speed, see `running.straight`.
 
-        Parameters
-        ----------
-        speed : float
-            Speed of the body's centre of mass, more than zero [m/s].
-
-        Raises
-        ------
-        InputError
-            If the car does not drive, no axle is driven, or no such state is found.
-        PositionError
-            If it does not rest on its wheels.
+        `speed` is that of the body's centre of mass, more than zero [m/s]. Raises `InputError` if
+        the car does not drive, no axle is driven, or no such state is found; `PositionError` if it
+        does not rest on its wheels.
         """
         from .rest import at  # noqa: PLC0415 (both know assemblies)
 

@@ -40,22 +40,11 @@ def rules_of(suspension: Suspension) -> tuple[str, ...]:
 def on_the_rack(
     axis: Array, loads: Sequence[Load], point: str
 ) -> tuple[list[Load], dict[str, BodyPose]]:
-    """Return the loads on a rack: of the steering along its axis, of its guide otherwise.
+    """Return the loads on a rack and on the chassis, and the pose of the rack.
 
-    Parameters
-    ----------
-    axis : ndarray, shape (3,)
-        A unit vector.
-    loads : sequence of Load
-        All other loads; those of tie rods on the rack define its position.
-    point : str
-        Name of the middle between the tie rods, the reference point of the moments.
-
-    Returns
-    -------
-    loads : list of Load
-        On the rack and on the chassis.
-    places : dict of str to BodyPose
+    The steering acts along the `axis`, a unit vector, the guide otherwise. `loads` are all others;
+    those of tie rods on the rack define its position. `point` is the name of the middle between the
+    tie rods, about which the moments are.
     """
     rods = [o.at for o in loads if o.part == RACK and o.by not in ("gravity", "inertia")]
     middle = np.mean(rods, axis=0)

@@ -112,22 +112,10 @@ def state_at_heights(
 ) -> State:
     """Return the state with wheels at given heights, and zero rates except the wheels' spin.
 
-    Parameters
-    ----------
-    assembly : Assembly
-    heights : mapping of str to float
-        Heights of wheel centres by wheel, chassis axes [m]; by default those at design.
-    rack : float, optional
-        Displacement of the rack [m].
-    spin_rate : float, optional
-        Rate of all wheels relative to their carriers, positive rolling forward [rad/s].
-
-    Raises
-    ------
-    PositionError
-        If a wheel cannot be there.
-    InputError
-        If it moves only on its bushes.
+    `heights` are those of wheel centres by wheel, chassis axes [m], by default those at design;
+    `rack` is the displacement of the rack [m], `spin_rate` the rate of all wheels relative to their
+    carriers, positive rolling forward [rad/s]. Raises `PositionError` if a wheel cannot be there,
+    `InputError` if the assembly moves only on its bushes.
     """
     assembly.require_rigid_motion()
     model, names = assembly.model, {wheel: assembly.names_of(wheel) for wheel in assembly.wheels}

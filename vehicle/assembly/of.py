@@ -144,14 +144,7 @@ def given_assemblies(
 def given_assemblies(given: Validator, name: str, subjects: Any, *, cars: bool = False) -> Any:
     """Return the assemblies of an argument by their names, or refuse other objects.
 
-    Parameters
-    ----------
-    given : Validator
-    name : str
-        Name of the argument.
-    subjects : mapping of str to Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
-    cars : bool, optional
-        Whether they may be cars.
+    `name` is that of the argument; it may contain cars if `cars`.
     """
     by_name = given.mapping(name, subjects, "names and suspensions or axles")
     for known in by_name:
@@ -185,17 +178,7 @@ def given_assembly(
 def given_assembly(
     given: Validator, subject: Any, name: str = "subject", *, cars: bool = False
 ) -> Any:
-    """Return the assembly of an argument, or refuse it.
-
-    Parameters
-    ----------
-    given : Validator
-    subject : Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
-    name : str, optional
-        Name of the argument.
-    cars : bool, optional
-        Whether it may be a car.
-    """
+    """Return the assembly of an argument, or refuse it; `cars` is whether it may be a car."""
     found = _found(subject)
     if found is not None and found.body_moves and not cars:
         given.fail(f"{name}: {NOT_A_CAR}")

@@ -107,14 +107,8 @@ class RigidAxleAssembly(WholeAxleAssembly):
 def pull(found: "xr.Dataset", load: str, along: Array) -> Array:
     """Return the force of a load along a link, positive in tension, (n,) [N].
 
-    Parameters
-    ----------
-    found : xarray.Dataset
-        All loads.
-    load : str
-        The name of the link's load on the axle.
-    along : ndarray, shape (n, 3)
-        Unit vector from this end of the link to its other end.
+    `found` has all loads, with that of the link on the axle; `along` is the unit
+    vector from this end of the link to its other end.
     """
     force: Array = np.einsum("ni,ni->n", found["force"].sel(load=load).values, along)
     return force

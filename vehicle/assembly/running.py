@@ -24,24 +24,10 @@ def straight(
 ) -> State:
     """Return the state of a car in steady motion straight ahead, along x of the world.
 
-    The drive torque keeps the speed, and the rack keeps a car with unequal sides straight; the
-    state contains both as its inputs.
+    The drive torque keeps the speed of the body's centre of mass [m/s], and the rack keeps a car
+    with unequal sides straight; the state contains both as its inputs. `rest` are state and inputs
+    at rest. Raises `InputError` if no such state is found.
 
-    Raises `InputError` if no such state is found.
-
-    Parameters
-    ----------
-    model : CarModel
-        The equations of a driving car.
-    wheels : mapping of str to WheelNames
-        Names of each wheel in the equations.
-    rest : tuple of ndarray
-        State and inputs at rest.
-    speed : float
-        Speed of the body's centre of mass [m/s].
-
-    Notes
-    -----
     Newton's method with the exact Jacobians starts from the car at rest on wheels that roll at its
     speed. Unknown are height and attitude of the body, the coordinates of the suspensions, the
     velocity of the body, the spin of the wheels, the deflections of the tyres, drive torque and

@@ -87,26 +87,13 @@ def on_the_arm(poses: PartPoses, loads: Sequence[Load]) -> tuple[list[Load], dic
 def on_the_linkage(
     poses: PartPoses, loads: Sequence[Load]
 ) -> tuple[list[Load], dict[str, BodyPose]]:
-    """Return the loads on the steering linkage, and on the chassis.
+    """Return the loads on the steering linkage and on the chassis, and the poses of its parts.
 
-    Parameters
-    ----------
-    poses : PartPoses
-        Of a suspension that the linkage steers, in n positions.
-    loads : sequence of Load
-        All others; those of tie rods on the relay rod are among them.
-
-    Returns
-    -------
-    loads : list of Load
-    places : dict of str to BodyPose
-
-    Notes
-    -----
-    The relay rod is in equilibrium under the tie rods, a force and a moment across the axes of its
-    universal joint at the Pitman arm, and a force of the idler arm that has no moment about its
-    axis. The bearing of each arm takes force and moment at its pivot, and the steering the moment
-    of the Pitman arm about its axis.
+    `poses` are those of a suspension that the linkage steers; `loads` are all others, with those of
+    tie rods on the relay rod. The relay rod is in equilibrium under the tie rods, a force and a
+    moment across the axes of its universal joint at the Pitman arm, and a force of the idler arm
+    that has no moment about its axis. The bearing of each arm takes force and moment at its pivot,
+    and the steering the moment of the Pitman arm about its axis.
     """
     gear = poses.steering_gear
     ball, idler_ball = (poses.points[name] for name in ("pitman_ball", "idler_ball"))
@@ -143,18 +130,10 @@ def _on_the_rod(wrench: Array, rod: Array, tangent: Array, across: Array) -> tup
     """Return the force of the idler arm on the relay rod, and the moment of the Pitman arm on it.
 
     With all moments about the joint at the Pitman arm, ``rod x force + moment + applied = 0``,
-    where the moment is along `across` and the force at right angles to `tangent`.
-
-    Parameters
-    ----------
-    wrench : ndarray, shape (n, 6)
-        Applied force [N] and moment about that joint [N m].
-    rod : ndarray, shape (n, 3)
-        From that joint to the joint at the idler arm [m].
-    tangent : ndarray, shape (n, 3)
-        Tangent to the circle of the idler arm's ball.
-    across : ndarray, shape (n, 3)
-        Across both axes of the joint.
+    where the moment is along `across` and the force at right angles to `tangent`. `wrench` is the
+    applied force [N] and moment [N m], (n, 6); `rod` leads from that joint to the one at the idler
+    arm [m], `tangent` is that of the circle of the idler arm's ball, and `across` is across both
+    axes of the joint, (n, 3) each.
     """
 
     def dot(first: Array, second: Array) -> Array:

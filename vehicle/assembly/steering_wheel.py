@@ -21,14 +21,8 @@ _MOST_TURNS = 40.0 * np.pi  # twenty turns of it
 class SteeringWheel:
     """The steering wheel of an axle; displacements are those of the rack, or of a Pitman arm.
 
-    Parameters
-    ----------
-    gear : Steering or PitmanArmSection
-        The section of the file.
-    curve : SteeringCurve or None
-        The displacement over the angle, instead of the ratio of the gear.
-    design : callable
-        Returns the wheels at design by name.
+    `curve` has the displacement over the angle, instead of the ratio of the gear; `design` returns
+    the wheels at design by name.
     """
 
     def __init__(

@@ -43,18 +43,8 @@ _CLEAR = 1.02
 class WholeAxleAssembly(SteerableAssembly):
     """An axle whose two coordinates determine the heights of both wheels.
 
-    Parameters
-    ----------
-    axle : WholeAxle
-    model : WholeAxleModel, optional
-        Its equations, if they exist already.
-
-    Attributes
-    ----------
-    AXLE, MODEL : type
-        Classes of the data of a file, and of their equations.
-    PARTS, KINEMATICS : type
-        Classes of its parts, and of the first derivatives of their motion.
+    Its equations are `model`, if they exist already. The classes are those of the data of a file,
+    of their equations, of its parts, and of the first derivatives of their motion.
     """
 
     AXLE: ClassVar[type[WholeAxle]]

@@ -162,13 +162,8 @@ class WholeAxleParts(PartPoses):
     def velocity_at(self, part: str, place: Array, twist: Array) -> Array:
         """Return the velocity of a point of a part, (n, 3).
 
-        Parameters
-        ----------
-        part : str
-        place : ndarray, shape (n, 3)
-            Position of the point [m].
-        twist : ndarray, shape (n, 6)
-            Angular velocity of the part, and velocity of its centre of mass.
+        `place` is the position of the point, (n, 3) [m]; `twist` is the angular velocity of the
+        part and the velocity of its centre of mass, (n, 6).
         """
         return twist[:, 3:] + cross(twist[:, :3], place - self.centers[part])
 

@@ -10,11 +10,8 @@ from typing import Any, get_type_hints
 def with_groups(command: Callable[..., None]) -> Callable[..., None]:
     """Return a command with one option for each field of its parameters that are dataclasses.
 
-    Parameters
-    ----------
-    command : callable
-        Annotated for Typer. A group is a keyword without default whose type is a dataclass; its
-        fields are annotated for Typer and have defaults.
+    The command is annotated for Typer. A group is a keyword without default whose type is a
+    dataclass; its fields are annotated for Typer and have defaults.
     """
     hints = get_type_hints(command, include_extras=True)
     groups: dict[str, Any] = {name: hint for name, hint in hints.items() if is_dataclass(hint)}

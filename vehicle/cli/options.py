@@ -23,21 +23,10 @@ def by_comma(given: list[str] | None) -> list[str] | None:
 def option(
     words: str, value: str | None = None, *names: str, panel: str | None = None, **how: Any
 ) -> Any:
-    """Return the declaration of an option.
+    """Return the declaration of an option with some help, and names other than its parameter's.
 
-    Parameters
-    ----------
-    words : str
-        Its help.
-    value : str, optional
-        Placeholder of its value: a unit in capitals; ``NAME,...`` for a list, given repeatedly or
-        with commas.
-    *names : str
-        Its names. Default: the name of the parameter.
-    panel : str, optional
-        Panel of the help.
-    **how
-        As in `typer.Option`.
+    `value` is the placeholder of its value: a unit in capitals; ``NAME,...`` for a list, given
+    repeatedly or with commas. `how` is as in `typer.Option`.
     """
     if value is not None and value.endswith(",..."):
         how["callback"] = by_comma
@@ -45,16 +34,9 @@ def option(
 
 
 def argument(words: str, value: str | None = None, **how: Any) -> Any:
-    """Return the declaration of an argument.
+    """Return the declaration of an argument with some help; `how` is as in `typer.Argument`.
 
-    Parameters
-    ----------
-    words : str
-        Its help.
-    value : str, optional
-        Placeholder; FILE for one with completion of names.
-    **how
-        As in `typer.Argument`.
+    `value` is its placeholder; FILE completes the names of files.
     """
     if value is not None and value.startswith("FILE") and not how:
         how["autocompletion"] = complete_file

@@ -79,16 +79,9 @@ class _Files:
     ) -> "Outputs":
         """Return the files to write; those that cannot be written are refused before computing.
 
-        Parameters
-        ----------
-        *inputs : str, pathlib.Path or None
-            Files that the command reads: they are never replaced.
-        suffixes : sequence of str, optional
-            Ends of the names, one for each dataset.
-        drawn : sequence of str, optional
-            Ends of the names of figures. Default: `suffixes`.
-        car : pathlib.Path, optional
-            Hardpoint file to write.
+        `inputs` are files that the command reads: they are never replaced. `suffixes` are the ends
+        of the names, one for each dataset, `drawn` those of figures, by default the same. `car` is
+        a hardpoint file to write.
         """
         from ...core.files import refuse
         from ...datasets import export

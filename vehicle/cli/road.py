@@ -128,13 +128,8 @@ class RoadOptions:
     ) -> "tuple[Road, float]":
         """Return the road, and the duration of the simulation [s].
 
-        Parameters
-        ----------
-        assembly : CarAssembly
-        speed : float
-            [m/s]
-        duration : float, optional
-            [s]. Default: until the last wheel reaches the end of a measured road, else `DURATION`.
+        By default it lasts until the last wheel reaches the end of a measured road, else
+        `DURATION`.
         """
         found = self.for_distance(assembly, speed * (duration or DURATION))
         if duration is None and self.is_measured:

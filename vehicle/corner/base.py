@@ -194,19 +194,8 @@ class Suspension(WheeledSection):
     def given(cls, given: Any, folder: Path, key: str) -> "Suspension":
         """Return the suspension that is the value of a key in the file of an axle or of a car.
 
-        Parameters
-        ----------
-        given : Suspension, mapping, str or Path
-            The suspension, the content of its file, or the name of the file.
-        folder : Path
-            The folder to which paths are relative.
-        key : str
-            The key, for messages.
-
-        Raises
-        ------
-        InputError
-            If it is none of these, or its data are impossible.
+        It is a suspension, the content of its file, or the name of the file; paths are relative to
+        `folder`. Raises `InputError` for other values and impossible data.
         """
         if isinstance(given, Suspension):
             return given
@@ -229,18 +218,7 @@ class Suspension(WheeledSection):
         return bool(cls.NAMES.rack)
 
     def refuse_without_rack(self, what: str) -> None:
-        """Refuse an option that needs a rack if there is none.
-
-        Parameters
-        ----------
-        what : str
-            The option.
-
-        Raises
-        ------
-        InputError
-            If there is no rack.
-        """
+        """Raise an `InputError` for an option that needs a rack if there is none."""
         if not self.steered():
             problem = f"{what}: it has no rack, and nothing steers its wheel. Leave that out."
             raise InputError([problem], self.TITLE)
@@ -274,14 +252,9 @@ class Suspension(WheeledSection):
         return self.hardpoints.CARRIERS["wheel_center"]
 
     def mirrored(self) -> Self:
-        """Return the suspension on the other side of the vehicle.
+        """Return the mirror image in the plane y = 0, for the other side of the vehicle.
 
         The rack keeps its sense: its positive displacements have the same direction.
-
-        Returns
-        -------
-        Suspension
-            The mirror image in the plane y = 0.
         """
         data = self.to_dict()
         data["vehicle"]["side"] = "left" if self.vehicle.side == "right" else "right"
@@ -299,27 +272,13 @@ class Suspension(WheeledSection):
         return self.from_dict(data, "mirrored suspension")
 
     def bushes(self, given: Validator, described: Mapping[str, Any]) -> list[Bush]:
-        """Return the described bushes; see `docs/suspension/compliance.md`.
-
-        Parameters
-        ----------
-        given : Validator
-            Collects problems.
-        described : mapping
-            By hardpoint.
-        """
+        """Return the bushes described by hardpoint; see `docs/suspension/compliance.md`."""
         sign = self.vehicle.sign
         spin = sign * self.wheel.spin_axis(sign)
         return bushes_of(given, described, self.structure(), self.hardpoints.at_design(), spin)
 
     def allowed_lengths(self) -> tuple[LengthLimit, ...]:
-        """Return the limits of the strut's or the damper's length.
-
-        Returns
-        -------
-        tuple of LengthLimit
-            Empty if the file has none.
-        """
+        """Return the limits of the strut's or the damper's length; empty if the file has none."""
         return ()
 
     def problems(self) -> list[str]:
@@ -346,15 +305,8 @@ class Suspension(WheeledSection):
     def equations(self, *, free_rack: bool) -> ModuleType:
         """Return the shortest equations with all elements of this suspension.
 
-        Parameters
-        ----------
-        free_rack : bool
-            Whether the rack is a degree of freedom.
-
-        Raises
-        ------
-        InputError
-            If there are none with a free rack.
+        With `free_rack` the rack is a degree of freedom. Raises `InputError` if there are none with
+        one.
         """
 
     @abstractmethod
@@ -373,12 +325,8 @@ class Suspension(WheeledSection):
     def links_at(self, points: Mapping[str, Array], travel: CarrierMotion) -> tuple[Plane, Plane]:
         """Return the planes of the links of the wheel carrier; see `Corner`.
 
-        Parameters
-        ----------
-        points : mapping
-            The hardpoints by name, each of shape (..., 3) [m].
-        travel : CarrierMotion
-            The motion of the wheel carrier per unit of wheel travel.
+        `points` are the hardpoints by name, (..., 3) [m]; `travel` is the motion of the wheel
+        carrier per unit of wheel travel.
         """
 
     @abstractmethod
@@ -412,47 +360,31 @@ class Suspension(WheeledSection):
         return self
 
     def neglected_masses(self) -> dict[str, float]:
-        """Return the masses that only equations with a free rack have.
-
-        Returns
-        -------
-        dict of str to float
-            Masses by body [kg], more than zero.
-        """
+        """Return the masses by body [kg], above zero, that only equations with a free rack have."""
         return {}
 
     @abstractmethod
     def parameters(self) -> dict[str, float]:
-        """Return the parameters of the equations of motion, in SI units.
+        """Return the parameters of the equations of motion at design, in SI units and chassis axes.
 
-        Returns
-        -------
-        dict of str to float
-            At the design position, in chassis axes; names as in the table ``PARAMETERS`` of the
-            equations.
+        Names are those of the table ``PARAMETERS`` of the equations.
         """
 
     def shared_parameters(self, *, optional_points: bool = False) -> dict[str, float]:
         """Return the parameters of any suspension, in SI units.
 
-        Parameters
-        ----------
-        optional_points : bool, optional
-            Whether the equations have the optional hardpoints.
+        With `optional_points` the equations have the optional hardpoints. The parameters are
 
-        Returns
-        -------
-        dict of str to float
-            - ``wheel_center_x`` and so on for every hardpoint and component, in m;
-            - ``rack_axis_*``, if there is a rack, and ``spin_axis_*``, unit vectors; the spin axis
-              points left at zero camber and toe on both sides, so that rolling forward is a
-              positive rate;
-            - ``tyre_rate`` in N/m and ``tyre_free_height`` in m, ``gravity`` in m/s^2;
-            - ``knuckle_mass`` in kg, ``knuckle_com_*`` in m and ``knuckle_inertia_*`` in kg m^2,
-              the latter the *elements* xx, yy, zz, xy, xz, yz of the tensor about the centre of
-              mass (xy is minus the product of inertia); the same for all bodies but the wheel;
-            - ``wheel_mass`` in kg, ``wheel_inertia_spin`` and ``wheel_inertia_diametral`` in
-              kg m^2 (its centre of mass is the hardpoint wheel_center).
+        - ``wheel_center_x`` and so on for every hardpoint and component, in m;
+        - ``rack_axis_*``, if there is a rack, and ``spin_axis_*``, unit vectors; the spin axis is
+          to the left at zero camber and toe on both sides, so that forward is a positive
+          rate;
+        - ``tyre_rate`` in N/m and ``tyre_free_height`` in m, ``gravity`` in m/s^2;
+        - ``knuckle_mass`` in kg, ``knuckle_com_*`` in m and ``knuckle_inertia_*`` in kg m^2, the
+          latter the *elements* xx, yy, zz, xy, xz, yz of the tensor about the centre of mass (xy is
+          minus the product of inertia); the same for all bodies but the wheel;
+        - ``wheel_mass`` in kg, ``wheel_inertia_spin`` and ``wheel_inertia_diametral`` in kg m^2,
+          the centre of mass at the hardpoint wheel_center.
         """
         return {
             **self.hardpoints.parameters(optional=optional_points),
@@ -475,17 +407,7 @@ class Suspension(WheeledSection):
 
     @classmethod
     def further_problems(cls, sections: Mapping[str, Any]) -> list[str]:
-        """Return the problems of several sections together.
-
-        Parameters
-        ----------
-        sections : mapping
-            The sections that are valid alone, including the hardpoints.
-
-        Returns
-        -------
-        list of str
-        """
+        """Return the problems of several sections together, from those that are valid alone."""
         del sections
         return []
 

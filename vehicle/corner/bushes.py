@@ -213,20 +213,10 @@ def bushes_of(
     design: Points,
     spin: Array,
 ) -> list[Bush]:
-    """Return the described bushes; see `docs/suspension/compliance.md`.
+    """Return the bushes described by hardpoint; see `docs/suspension/compliance.md`.
 
-    Parameters
-    ----------
-    given : Validator
-        Collects problems.
-    described : mapping
-        By hardpoint.
-    structure : Structure
-        The joints of the bushes.
-    design : mapping
-        The hardpoints at design [m].
-    spin : ndarray, shape (3,)
-        The axis of the wheel at design, pointing outboard.
+    `structure` has their joints, `design` the hardpoints at design [m]; `spin` is the axis of the
+    wheel at design, pointing outboard, (3,).
     """
     joints = {point: joint for joint in structure.joints for point in joint.at}
     known = [*joints, *[RACK for joint in structure.joints if joint.first == RACK]]

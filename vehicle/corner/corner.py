@@ -121,35 +121,17 @@ class RoadWheel:
 
 @dataclass(frozen=True)
 class Corner(RoadWheel):
-    """A wheel, its steering axis and its velocities, in n positions.
+    """A wheel, its steering axis and its velocities, in n positions."""
 
-    Attributes
-    ----------
-    vehicle, center, design_center, axis, design_axis
-        Data of the vehicle, wheel centre and spin axis, and both at design; see `RoadWheel`.
-    steering_axis : SteeringAxis or None
-        None if the wheel is not steered.
-    travel : CarrierMotion
-        Per unit of wheel travel (height of the wheel centre) with the steering held [per m].
-    steering : CarrierMotion or None
-        Per unit of rack travel with the wheel centre at constant height [per m]; None if the wheel
-        is not steered.
-    links : tuple of Plane
-        Two planes of the links; their intersection is the instantaneous axis of the carrier. For a
-        wishbone it is the plane of its three joints, for a strut the plane normal to it at its
-        upper mount; for links without a plane any two planes through the instantaneous axis.
-    spring : SpringForce
-    stops : tuple of SpringForce
-    damper : Stroke
-    arm_rotation : ndarray
-        Rotation of the lower link, zero at design, positive with the wheel up [rad].
-    """
-
-    steering_axis: SteeringAxis | None
-    travel: CarrierMotion
+    steering_axis: SteeringAxis | None  # None if the wheel is not steered
+    travel: CarrierMotion  # per unit of wheel travel, with the steering held [per m]
+    # per unit of rack travel with the wheel centre at constant height [per m]; None as above
     steering: CarrierMotion | None
+    # two planes of the links; their intersection is the instantaneous axis of the carrier. For a
+    # wishbone it is the plane of its three joints, for a strut the plane normal to it at its upper
+    # mount; for links without a plane any two planes through the instantaneous axis.
     links: tuple[Plane, Plane]
     spring: SpringForce
     stops: tuple[SpringForce, ...]
     damper: Stroke
-    arm_rotation: Array
+    arm_rotation: Array  # rotation of the lower link from design, positive with the wheel up [rad]

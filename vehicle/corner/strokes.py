@@ -8,20 +8,9 @@ from .corner import SpringForce, Stroke
 
 
 class Strokes:
-    """Lengths and forces of a model's force elements in n positions.
+    """Lengths and forces of a model's force elements in n positions at rest.
 
-    Parameters
-    ----------
-    model : System
-    states, inputs : ndarray
-        Positions at rest, as in the compiled module.
-    arm : str
-        The state of the arm's angle.
-
-    Attributes
-    ----------
-    parameters : mapping
-        The parameters of the model, SI units.
+    `arm` is the state of the arm's angle.
     """
 
     def __init__(self, model: System, states: Array, inputs: Array, arm: str) -> None:

@@ -36,21 +36,11 @@ class PartJoint(ABC):
 
     @abstractmethod
     def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
-        """Return the loads that the joint can carry.
+        """Return the loads that the joint can carry, (..., touching points, 6, unknowns).
 
-        Parameters
-        ----------
-        points : mapping
-            Hardpoints by name, each of shape (..., 3) [m].
-        turned : mapping
-            Rotation of each part from design, each of shape (..., 3, 3).
-        design : mapping
-            Hardpoints at design, each of shape (3,) [m].
-
-        Returns
-        -------
-        ndarray, shape (..., touching points, 6, unknowns)
-            Force and moment on the second part at each point.
+        They are force and moment on the second part at each point. `points` are hardpoints by name,
+        (..., 3) [m], `turned` rotations of the parts from design, (..., 3, 3), `design` hardpoints
+        at design, (3,) [m].
         """
 
     def axis(self, points: Points) -> Array | None:

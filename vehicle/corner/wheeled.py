@@ -50,14 +50,11 @@ class WheeledSection(DescribedSection):
         return None
 
     def tyre_radius(self) -> float | None:
-        """Return the radius of a wheel as a thin disc.
+        """Return the radius of a wheel as a thin disc [m].
 
-        Returns
-        -------
-        float or None
-            ``tyre.radius_mm`` in m, by default the height of the wheel centre at design above
-            z = 0, which is the ground in files that follow the conventions; None if this is less
-            than 100 mm, as no car has such wheels.
+        It is ``tyre.radius_mm``, by default the height of the wheel centre at design above z = 0,
+        which is the ground in files that follow the conventions; None if this is less than 100 mm,
+        as no car has such wheels.
         """
         if self.tyre.radius_mm is not None:
             return in_metres(self.tyre.radius_mm, "mm")
@@ -78,12 +75,8 @@ class WheeledSection(DescribedSection):
     def parameters_of_extras(self, length: float, curve: Damper | None) -> dict[str, float]:
         """Return the further parameters of general equations, except friction, in SI units.
 
-        Parameters
-        ----------
-        length : float
-            The length that the stops limit, at the design position [m].
-        curve : Damper or None
-            The curve of the damper, if any.
+        `length` is the one that the stops limit, at the design position [m]; `curve` is that of the
+        damper, if any.
         """
         values = dict(NO_CURVE) if curve is None else curve.parameters()
         for side, stop in (("bump", self.bump_stop), ("rebound", self.rebound_stop)):

@@ -82,23 +82,11 @@ def _by_force(text: str, suspension: Suspension) -> str:
 
 
 def move_along(document: Any, old: Suspension, points: Mapping[str, Point]) -> list[str]:
-    """Move bodies, tyre and strut of a packaged file along with new hardpoints.
+    """Move bodies, tyre and strut of a packaged file along with new hardpoints, and describe this.
 
-    Bodies and tyre keep their distance from the wheel centre, the strut its stroke.
-
-    Parameters
-    ----------
-    document : tomlkit.TOMLDocument
-        The text of the file, which is changed.
-    old : Suspension
-        Its suspension.
-    points : mapping
-        The new hardpoints, on the same side [mm].
-
-    Returns
-    -------
-    list of str
-        Descriptions of the changes.
+    Bodies and tyre keep their distance from the wheel centre, the strut its stroke. `document` is
+    the TOML document of the file, which is changed, `old` its suspension, `points` are on the same
+    side [mm].
     """
     before = 1000.0 * old.hardpoints.metres("wheel_center")
     shift = [new - was for new, was in zip(points["wheel_center"], before, strict=True)]

@@ -129,18 +129,8 @@ def matched(
 ) -> dict[str, str]:
     """Return the names of hardpoints in a file, by our names; missing ones are left out.
 
-    Raises `InputError` if a name from the user does not exist, or the file has two names for one
-    hardpoint.
-
-    Parameters
-    ----------
-    there : collection of str
-        The names in the file.
-    kind : str
-    given : mapping of str to str
-        Names from the user, see `read_names`, which precede those of templates.
-    source : str
-        The file, for messages.
+    `given` are names from the user, see `read_names`, which precede those of templates. Raises
+    `InputError` if one of them does not exist, or the file has two names for one hardpoint.
     """
     by_key = {key(name): name for name in there}
     problems = [

@@ -36,17 +36,10 @@ class Axes(NamedTuple):
 
 
 def axes_of(words: str, *, left_handed: bool = False) -> Axes:
-    """Return axes from the directions of x, y and z.
+    """Return axes from the directions of x, y and z: forward, rearward, left, right, up or down.
 
-    Raises `InputError` if they are not three axes, or have the other handedness.
-
-    Parameters
-    ----------
-    words : str
-        Three of forward, rearward, left, right, up and down.
-    left_handed : bool, optional
-        Whether they are left-handed, as in some games. By default such axes are refused as a
-        mistake, because they would make a mirror image of the car.
+    Raises `InputError` if they are not three axes. Left-handed axes, as in some games, are refused
+    unless `left_handed`: they would make a mirror image of the car.
 
     Examples
     --------

@@ -71,19 +71,11 @@ def point_problems(
 
 
 class Curve:
-    """A force over a displacement or a velocity, through points.
+    """A force over a displacement or a velocity, through two or more points whose places rise.
 
     Between its points it is a monotone cubic (Fritsch and Carlson), or linear; outside it is
-    linear.
-
-    Parameters
-    ----------
-    places, forces : ndarray, shape (n,)
-        Two or more; the places rise.
-    interpolation : {'cubic', 'linear'}
-    as_secants : bool
-        Whether a cubic continues outside with the slope between its last two points, so that it
-        carries any force; otherwise with the slope at its end.
+    linear. If `as_secants` a cubic continues outside with the slope between its last two points, so
+    that it carries any force; otherwise with the slope at its end.
     """
 
     def __init__(
@@ -143,20 +135,11 @@ class Curve:
         return float(brentq(left, -far, far, xtol=1e-15))
 
     def parameters(self, name: str, knots: Any = None) -> dict[str, Any]:
-        """Return the coefficients by the names in the equations.
+        """Return the coefficients by the names of a table in the equations.
 
-        Parameters
-        ----------
-        name : str
-            The name of the table in the equations.
-        knots : sequence, optional
-            Values of the knots, by default the places.
-
-        Returns
-        -------
-        dict of str to float
-            For each segment knot, inverse width and the three coefficients of a cubic polynomial of
-            the passed part of the segment; unused segments have no force.
+        They are, for each segment, knot, inverse width and the three coefficients of a cubic
+        polynomial of the passed part of the segment; unused segments have no force. The knots are
+        those given, by default the places.
         """
         knots = self._places if knots is None else knots
         rise, none = self._rise, np.zeros_like(self._rise)

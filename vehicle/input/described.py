@@ -65,20 +65,8 @@ def parts_of(
 ) -> dict[str, Any]:
     """Return the parts that are named in a file, by key.
 
-    Parameters
-    ----------
-    described : Section
-        The file.
-    makers : mapping of str to callable
-        By key: the function that returns the part, from value, folder of the file and key.
-    folder : Path
-    source : str
-        The file, for messages.
-
-    Raises
-    ------
-    InputError
-        With the problems of all of them.
+    `makers` return a part from value, folder of the file and key. Raises `InputError` with the
+    problems of all of them.
     """
     found, problems = {}, list[str]()
     for key, make in makers.items():

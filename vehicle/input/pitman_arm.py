@@ -75,11 +75,7 @@ class PitmanArmSection(Section):
     def lever(self, arm: str, rod: Vector) -> float:
         """Return the lever of a force along a rod at the ball of an arm, about its axis [m].
 
-        Parameters
-        ----------
-        arm : str
-        rod : ndarray, shape (3,)
-            A vector along the rod, of any length.
+        `rod` is a vector along the rod, of any length, (3,).
         """
         pivot, ball = self.BODIES[arm]
         across = cross(self.direction_of(arm), self.metres(ball) - self.metres(pivot))

@@ -90,12 +90,8 @@ def cells_of(line: str) -> list[str] | None:
 def read_blocks(path: str | Path) -> list[FileBlock]:
     """Return the blocks of a file in its order; several may have the same name.
 
-    Raises `InputError` if it cannot be read, is not a text or has no blocks.
-
-    Parameters
-    ----------
-    path : str or pathlib.Path
-        In UTF-8 or Latin-1, with line ends of any system.
+    The text is UTF-8 or Latin-1, with line ends of any system. Raises `InputError` if it cannot be
+    read, is not a text or has no blocks.
     """
     with Validator("teim_orbit") as given:
         given.path("path", path)

@@ -23,11 +23,7 @@ class Written(Protocol):
 def toml_text(suspension: Written, head: Sequence[str] = ()) -> str:
     """Return the TOML text of an input file with exactly these data, without default values.
 
-    Parameters
-    ----------
-    suspension : Suspension, Axle or RigidAxle
-    head : sequence of str, optional
-        Lines of the comment at its begin.
+    `head` are lines of the comment at its begin.
 
     Examples
     --------
@@ -56,21 +52,11 @@ def write_toml(
     force: bool = False,
     inputs: Paths = (),
 ) -> Path:
-    """Write an input file.
+    """Write an input file, and return its path.
 
-    Raises `InputError` if the file exists already, or the name cannot be used.
-
-    Parameters
-    ----------
-    suspension : Suspension, Axle or RigidAxle
-    path : str or Path
-        A name that ends in ``.toml``.
-    head : sequence of str, optional
-        Lines of the comment at its begin.
-    force : bool, optional
-        Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
-    inputs : iterable of str or Path, optional
-        Files that are never replaced.
+    `path` ends in ``.toml``; `head` are lines of the comment at its begin; `force` and `inputs` are
+    as in `kintrafo.core.files`. Raises `InputError` if the file exists already, or the name cannot
+    be used.
     """
     write_several({path: (suspension, head)}, force=force, inputs=inputs)
     return Path(path)
@@ -84,14 +70,8 @@ def write_several(
 ) -> list[Path]:
     """Write several input files: all of them, or none.
 
+    `files` are the object and the lines of the comment of each file, by its path; see `write_toml`.
     Raises `InputError` if one of the files cannot be written.
-
-    Parameters
-    ----------
-    files : mapping
-        The object and the lines of the comment of each file, by its path, which ends in ``.toml``.
-    force, inputs
-        Whether a file that kintrafo did not write is replaced; files that are never replaced.
     """
     read = inputs if isinstance(inputs, str) else list(inputs)  # a text is refused below
     rule: dict[str, Any] = {"force": force, "inputs": read}

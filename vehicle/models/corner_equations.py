@@ -8,21 +8,10 @@ from .packaged import equations_named
 
 
 def equations_of(suspension: Suspension, *, free_rack: bool) -> ModuleType:
-    """Return the equations of a suspension.
+    """Return the equations of a suspension, with the rack as a degree of freedom if `free_rack`.
 
     Those of a suspension with a Pitman arm are packaged for some, otherwise derived and compiled at
-    first use.
-
-    Parameters
-    ----------
-    suspension : Suspension
-    free_rack : bool
-        Whether the rack is a degree of freedom.
-
-    Raises
-    ------
-    InputError
-        If there are none.
+    first use. Raises `InputError` if there are none.
     """
     found = suspension.equations(free_rack=free_rack)
     if suspension.pitman_arm is None:

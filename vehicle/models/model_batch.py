@@ -36,25 +36,10 @@ _REVERSED = {
 class ModelBatch(Model):
     """The models of a batch of suspensions as one model, whose arrays have a leading axis for them.
 
-    It is evaluated as a `Model`, with states of shape (count, positions, elements).
-
-    Parameters
-    ----------
-    suspension : Suspension
-        The first suspension.
-    values : mapping of str to ndarray, shape (count,)
-        Values that differ, by place in the file and in its unit; the first one is that of
-        `suspension`.
-    free_rack : bool
-        Whether the rack is a coordinate of the equations.
-
-    Attributes
-    ----------
-    first : Model
-        The model of the first suspension.
-    suspension : Suspension
-        With numbers of a batch as values that differ.
-    constants, design_state : ndarray, shape (count, 1, ...)
+    It is evaluated as a `Model`, with states of shape (count, positions, elements). `values` are
+    those that differ, by place in the file and in its unit, (count,) each; the first ones are those
+    of `suspension`, whose model is `first`. The attribute `suspension` has numbers of a batch as
+    these values; `constants` and `design_state` have the shape (count, 1, ...).
     """
 
     def __init__(

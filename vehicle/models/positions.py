@@ -117,24 +117,13 @@ def arm_angles(model: Model, height: ArrayLike, rack_position: ArrayLike = 0.0) 
 def arm_angles_of_batch(
     batch: ModelBatch, travel: Array, rack: Array
 ) -> tuple[Array, NDArray[np.bool_]]:
-    """Return the arm angles of a batch at given wheel travels.
+    """Return the arm angles of a batch at given wheel travels, (count, positions) [rad].
 
-    The range of each suspension is tabulated from its design position up to the heights of the
-    first one, and to its end if this table does not cover its heights. Suspensions whose heights
-    are out of reach, or not met to rounding, are marked: they are computed one by one.
-
-    Parameters
-    ----------
-    batch : ModelBatch
-    travel, rack : ndarray, shape (positions,)
-        Wheel travel, and displacement of the rack [m].
-
-    Returns
-    -------
-    angles : ndarray, shape (count, positions)
-        [rad]; those at design if they are not found.
-    found : ndarray of bool, shape (count,)
-        Whether a suspension certainly reaches all travels.
+    Travels and displacements of the rack have the shape (positions,) [m]. The range of each
+    suspension is tabulated from its design position up to the heights of the first one, and to its
+    end if this table does not cover its heights. The second result, (count,), is whether a
+    suspension certainly reaches all travels. Others, whose heights are out of reach or not met to
+    rounding, have the angles at design and are computed one by one.
     """
     design = batch.design_state[..., 0]
     wanted = height_and_slope(batch, design)[0] + travel
@@ -309,26 +298,15 @@ def _rounded_inward(ends: Sequence[float]) -> tuple[float, float]:
 
 
 def solve(model: Model, heights: Array, racks: Array, table: Branch) -> tuple[Array, Array, Array]:
-    """Return the arm angles at some heights within a table of the range.
+    """Return arm angles [rad] at heights within a table of the range, with errors and tolerances.
+
+    The results, (rows, positions) as the heights of the wheel centre [m], are the angles, the
+    errors of the heights, and their tolerances by rounding [m]. The model is one, or a batch with a
+    model per row, with a displacement of the rack, (rows,) [m].
 
     Newton's method with the exact slope starts from a cubic between neighbours of the table, and
     falls back on halving the bracket: beside a dead point the height is not a smooth function of
     the angle, and Newton's step may leave the bracket there.
-
-    Parameters
-    ----------
-    model : Model
-        One model, or a batch with a model per row.
-    heights : ndarray, shape (rows, positions)
-        Heights of the wheel centre [m].
-    racks : ndarray, shape (rows,)
-        Displacements of the rack [m].
-    table : Branch
-
-    Returns
-    -------
-    angles, errors, allowed : ndarray, shape (rows, positions)
-        Arm angles [rad], errors of the heights, and their tolerances by rounding [m].
     """
     angle, ends, at_ends, slopes = _brackets(heights, table)
     low, high = ends

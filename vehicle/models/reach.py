@@ -151,21 +151,14 @@ def branch(
     covering: tuple[float, float] | None = None,
     to_the_end: bool = False,
 ) -> Branch:
-    """Return the table of the range for each rack position.
+    """Return the table of the range for each rack position, (racks,) [m].
+
+    `covering` are the lowest and the highest wheel height of interest [m]: tables of many racks end
+    near them, by an estimate from a few of the racks. The heights of the table show its actual
+    ends. With `to_the_end` the ends of the range are located, as by `travel_range`; otherwise the
+    table ends a few degrees before them, where the height gets steep, and is computed much faster.
 
     Raises `PositionError` if the rack cannot be there with the arm in its design position.
-
-    Parameters
-    ----------
-    model : Model
-    rack_positions : array_like, shape (racks,)
-        Displacements of the rack [m].
-    covering : tuple of float, optional
-        Lowest and highest wheel height of interest [m]: tables of many racks end near them, by an
-        estimate from a few of the racks. The heights of the table show its actual ends.
-    to_the_end : bool, optional
-        Whether to locate the ends of the range, as `travel_range` does. Otherwise the table ends a
-        few degrees before them, where the height gets steep, and is computed much faster.
     """
     racks = np.asarray(rack_positions, dtype=np.float64)
     steps = ARM_STEPS, ARM_STEPS
@@ -278,23 +271,10 @@ def ends_of(model: Model, racks: Array) -> tuple[Ends, Ends]:
 
 
 def _ends_towards(model: Model, racks: Array, direction: float) -> Ends:
-    """Return the ends of the range in one direction of the arm.
+    """Return the ends of the range in one direction of the arm, 1 or -1, the sign of its rotation.
 
-    Parameters
-    ----------
-    model : Model
-        One model, or a batch with a model per rack.
-    racks : ndarray, shape (rows,)
-        Displacements of the rack [m].
-    direction : float
-        1 or -1, the sign of the arm's rotation.
-
-    Returns
-    -------
-    angle : ndarray, shape (rows,)
-        The last angle within the range [rad].
-    limits : ndarray of int, shape (rows,)
-        The limits there, as in `_look`.
+    The model is one, or a batch with a model per rack. Results are the last angles within the range
+    [rad], and the limits there, as in `_look`, (rows,) each.
     """
     angles = model.design_state[..., 0] + direction * ARM_STEP * np.arange(ARM_STEPS + 1)
     angles = np.broadcast_to(angles, (racks.size, ARM_STEPS + 1))

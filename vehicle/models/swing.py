@@ -105,24 +105,12 @@ def margins_stay(margins: Array) -> NDArray[np.bool_]:
 def march(
     look: Callable[[Array, NDArray[np.int64]], PlacesAlong], start: Array, goal: Array, step: float
 ) -> tuple[Array, NDArray[np.int64]]:
-    """Return the last usable position from each start towards its goal.
+    """Return the last usable position from each start towards its goal, and the limit there.
 
-    Parameters
-    ----------
-    look : callable
-        Takes positions, shape (rows, places), and the indices of the rows' starts; returns the
-        values there.
-    start, goal : ndarray, shape (starts,)
-        The starts are usable.
-    step : float
-        First and greatest distance of two positions.
-
-    Returns
-    -------
-    reached : ndarray, shape (starts,)
-        The last position up to which everything is usable, to `_SMALLEST`.
-    limit : ndarray of int
-        The limit there: as in `PlacesAlong`, or `GOAL` or `UNRESOLVED`.
+    Everything up to the position is usable, to `_SMALLEST`; the limit is as in `PlacesAlong`, or
+    `GOAL` or `UNRESOLVED`. `look` takes positions, (rows, places), and the indices of the rows'
+    starts, and returns the values there. The starts, (starts,), are usable; `step` is the first and
+    greatest distance of two positions.
     """
     reached = start.copy()
     width = np.full(start.shape, step)

@@ -96,20 +96,7 @@ class TwistBeamBodies(Bodies):
 
 
 class TwistBeamAxle(WholeAxle):
-    """Two trailing arms and a twisting beam between them, at design. Immutable.
-
-    Make one with `load`, `from_dict` or `with_changes`. The attributes are the sections of the
-    file, with the file's keys and units.
-
-    Parameters
-    ----------
-    **data : Any
-        The sections, as in a file.
-
-    Raises
-    ------
-    InputError
-        With all problems, if the data are not valid.
+    """Two trailing arms and a twisting beam between them, at design; see `WholeAxle`.
 
     Examples
     --------
@@ -328,21 +315,8 @@ class BeamJoint(PartJoint):
 class TwistBeamModel(WholeAxleModel):
     """The compiled equations of a twist-beam axle: arms, wheels, springs, dampers, stops and tyres.
 
-    Parameters
-    ----------
-    axle : TwistBeamAxle, str or Path
-        The data, or the name of a packaged data set or path of a TOML file.
-    wheel_loads : bool, optional
-        Whether the equations have loads on the wheels as inputs.
-
-    Attributes
-    ----------
-    axle : TwistBeamAxle
-        The data of the file.
-    parameters, constants, design_state
-        Numbers, constants and state at design of the equations. The states are ``lift`` [rad],
-        positive with the wheels up, ``twist`` [rad], positive with the left wheel up, and the
-        angles of the wheels.
+    The states are ``lift`` [rad], positive with the wheels up, ``twist`` [rad], positive with the
+    left wheel up, and the angles of the wheels; see `WholeAxleModel`.
 
     Examples
     --------

@@ -253,15 +253,7 @@ class WholeAxle(WheeledSection):
 
     @abstractmethod
     def bushes(self, given: Validator, described: Mapping[str, Any]) -> list[Bush]:
-        """Return the bushes that are described by their hardpoints.
-
-        Parameters
-        ----------
-        given : Validator
-            It collects the problems.
-        described : mapping
-            ``[bushings]`` of a file.
-        """
+        """Return the bushes described by hardpoint, as in ``[bushings]`` of a file."""
 
     @property
     @abstractmethod
@@ -279,13 +271,7 @@ class WholeAxle(WheeledSection):
         return of_side(self.parameters(), side)
 
     def length(self, part: str, side: str) -> float:
-        """Return the length of a spring or damper at design [m].
-
-        Parameters
-        ----------
-        part : {'spring', 'damper'}
-        side : {'left', 'right'}
-        """
+        """Return the length of a part, 'spring' or 'damper', of a side at design [m]."""
         points = self.points(side)
         return float(np.linalg.norm(points[f"{part}_top"] - points[f"{part}_seat"]))
 
@@ -348,16 +334,9 @@ class WholeAxle(WheeledSection):
     ) -> Iterator[str]:
         """Yield the almost certain mistakes of any axle without sides.
 
-        Parameters
-        ----------
-        points : mapping of str to ndarray
-            Points besides the hardpoints [m], by their names in messages.
-        bodies : mapping
-            Bodies besides the wheel.
-        reach : float
-            Extent of the bodies beyond the points, from the middle [m].
-        mass : float
-            Unsprung mass at a wheel, without the wheel [kg].
+        `points` are those besides the hardpoints [m], by their names in messages, `bodies` those
+        besides the wheel; `reach` is their extent beyond the points, from the middle [m], `mass`
+        the unsprung mass at a wheel, without the wheel [kg].
         """
         own = self.hardpoints
         given = {own.text(n): own.metres(n) for n in own.given() if n != "wheel_center"}

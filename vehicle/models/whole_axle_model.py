@@ -34,34 +34,15 @@ class WholeAxleModel(System):
     Two states move the wheels up and down; signals and inputs of a side have the prefix ``right_``
     or ``left_``.
 
-    Parameters
-    ----------
-    axle : WholeAxle, str or Path
-        The data, or the name of a packaged data set or path of a TOML file.
-    wheel_loads : bool, optional
-        Whether loads on the wheels are inputs, as in `Model`, with these prefixes. These equations
-        are derived and compiled at first use.
-
-    Attributes
-    ----------
-    axle : WholeAxle
-    parameters, constants, design_state
-        Numbers of the equations by name, the constants that follow from them, and the state at
-        design.
-    AXLE : type of WholeAxle
-        Type of its data.
-    EQUATIONS : module
-        The packaged equations.
-    COORDINATES : tuple of str
-        The states that move the wheels up and down.
-    ENDS : str
-        The reasons for the end of the range, for a sentence.
+    The axle is given by its data, the name of a packaged data set or the path of a TOML file. With
+    `wheel_loads` loads on the wheels are inputs, as in `Model`, with these prefixes; such
+    equations are derived and compiled at first use.
     """
 
     AXLE: ClassVar[type[WholeAxle]]
-    EQUATIONS: ClassVar[ModuleType]
-    COORDINATES: ClassVar[tuple[str, str]]
-    ENDS: ClassVar[str]
+    EQUATIONS: ClassVar[ModuleType]  # packaged
+    COORDINATES: ClassVar[tuple[str, str]]  # the states that move the wheels up and down
+    ENDS: ClassVar[str]  # the reasons for the end of the range, for a sentence
 
     axle: Any
 
@@ -108,14 +89,9 @@ class WholeAxleModel(System):
     # -- positions ------------------------------------------------------------------------------
 
     def inputs_at(self, rack: ArrayLike, velocity: ArrayLike = 0.0) -> Array:
-        """Return inputs with a displacement of the steering and its velocity, (..., inputs).
+        """Return inputs with a displacement [m] and velocity [m/s] of the steering, (..., inputs).
 
         They are zero for wheels that are not steered.
-
-        Parameters
-        ----------
-        rack, velocity : array_like
-            Displacement [m] and velocity [m/s].
         """
         racks, velocities = np.broadcast_arrays(rack, velocity)
         inputs = np.zeros((*racks.shape, len(self.input_names)))
@@ -164,17 +140,8 @@ class WholeAxleModel(System):
     def placed(self, left: Array, right: Array, rack: ArrayLike = 0.0) -> Array:
         """Return the states at rest at wheel travels, reachable or not, (..., states).
 
-        Parameters
-        ----------
-        left, right : ndarray, shape (...)
-            Heights of the wheel centres above design [m].
-        rack : array_like, optional
-            Displacement of the steering [m].
-
-        Returns
-        -------
-        ndarray, shape (..., states)
-            NaN if there is no such position.
+        Heights of the wheel centres above design and displacement of the steering are in m. The
+        states are NaN if there is no such position.
         """
 
     @abstractmethod
@@ -236,12 +203,7 @@ class WholeAxleModel(System):
     def parts_of_ways(self, lefts: Array, rights: Array, racks: ArrayLike = 0.0) -> Array:
         """Return the reachable part of each path from design, (n,), see `farthest`.
 
-        Parameters
-        ----------
-        lefts, rights : ndarray, shape (n,)
-            Travels of the wheels at the ends of the paths [m].
-        racks : array_like, optional
-            Displacements of the steering there [m].
+        Its end has travels of the wheels and a displacement of the steering, (n,) each [m].
         """
         ways = np.stack(np.broadcast_arrays(lefts, rights, racks))
         longest = np.abs(ways).max(axis=0)

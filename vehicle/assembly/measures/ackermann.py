@@ -72,22 +72,9 @@ def ratio_of(of: Steered) -> Array:
 def ackermann_error(left: Array, right: Array, wheelbase: float, track: float | Array) -> Array:
     """Return the outer steer angle less that for rolling without slip [rad].
 
-    With angles positive towards the inside of the turn, the latter is
-    ``atan(L / (L / tan inner + t))``.
-
-    Parameters
-    ----------
-    left, right : ndarray
-        Steer angles [rad].
-    wheelbase : float
-        L [m].
-    track : float or ndarray
-        t [m].
-
-    Returns
-    -------
-    ndarray
-        [rad]; zero for Ackermann steering, positive towards parallel steering.
+    With angles positive towards the inside of the turn, the latter is ``atan(L / (L / tan inner +
+    t))``, with the wheelbase L and the track t [m]. The error is zero for Ackermann steering, and
+    positive towards parallel steering.
     """
     inner, outer = _inner_and_outer(left, right)
     return outer - _ideal_outer(inner, wheelbase, track)

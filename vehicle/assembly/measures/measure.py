@@ -95,20 +95,8 @@ def values(
 ) -> dict[str, Array]:
     """Return all or some measures that are defined, by the names of their columns.
 
-    Parameters
-    ----------
-    measures : iterable of Measure
-    of : MirroredCorner, AxleKinematics or WholeAxleKinematics
-        The kinematics in n positions.
-    wheels : sequence of str
-        Their names.
-    names : container of str, optional
-        Names of columns.
-
-    Returns
-    -------
-    dict of str to ndarray, each of shape (n,)
-        SI units.
+    `of` has the kinematics in n positions, of the `wheels` by name; `names` are those of columns.
+    Values have the shape (n,), SI units.
     """
     return {
         name: measure.at(of, wheel)

@@ -16,21 +16,8 @@ def with_points(
 ) -> tuple[Suspension, list[str]]:
     """Return the packaged suspension of a kind with other hardpoints, camber and toe.
 
-    Parameters
-    ----------
-    kind : str
-    points : mapping
-        Hardpoints of the left side [m].
-    alignment : mapping
-        Camber and toe [deg] by the keys of ``[wheel]``.
-    source : str
-        The file, for messages.
-
-    Returns
-    -------
-    suspension : Suspension
-    assumed : list of str
-        The origin of all other data, one sentence each.
+    Points are those of the left side [m]; `alignment` has camber and toe [deg] by the keys of
+    ``[wheel]``. The second result is the origin of all other data, one sentence each.
     """
     starter, text, old = packaged(kind)
     document = tomlkit.parse(text)

@@ -107,12 +107,8 @@ class SteeringColumn(Section):
     def parameters(self, travel_per_turn: float, center: Vector) -> dict[str, float]:
         """Return the values by their names in the equations, in SI units.
 
-        Parameters
-        ----------
-        travel_per_turn : float
-            Travel of the rack for a turn of the steering wheel [m].
-        center : ndarray, shape (3,)
-            Middle of the axle, where the pinion is drawn [m].
+        `travel_per_turn` is that of the rack for a turn of the steering wheel [m], `center` the
+        middle of the axle, where the pinion is drawn, (3,) [m].
         """
         zero = dict.fromkeys(("pinion_mass", "column_free_twist"), 0.0)
         return (

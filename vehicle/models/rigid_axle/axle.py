@@ -128,13 +128,8 @@ class BeamAxle(WholeAxle):
     def bushes(self, given: Validator, described: Mapping[str, Any]) -> list[Bush]:
         """Return the described bushes; see `docs/suspension/compliance.md`.
 
-        Parameters
-        ----------
-        given : Validator
-            Collects problems.
-        described : mapping
-            By the name of a rod with the ending ``_chassis`` or ``_axle``, or of another point; one
-            of the right side has the bushes of both sides.
+        They are described by the name of a rod with the ending ``_chassis`` or ``_axle``, or of
+        another point; one of the right side has the bushes of both sides.
         """
         spin = -self.wheel.spin_axis(-1.0)
         found = bushes_of(given, described, self._joints_of_a_file(), self._bush_points(), spin)

@@ -52,22 +52,9 @@ class _Key(WholeAxle):
 
 
 class SteeredRigidAxle(BeamAxle, _Key):
-    """A rigid axle with steered wheels, at its design position. Immutable.
+    """A rigid axle with steered wheels, at its design position; see `WholeAxle`.
 
     Its beam is on four rods. A drag link turns one knuckle, and a track rod the other one.
-
-    Make one with `load`, `from_dict` or `with_changes`. The attributes are the sections of the
-    file, with the file's keys and units.
-
-    Parameters
-    ----------
-    **data : Any
-        The sections, as in a file.
-
-    Raises
-    ------
-    InputError
-        With all problems, if the data are not valid.
 
     Examples
     --------

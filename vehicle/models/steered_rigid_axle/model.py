@@ -23,26 +23,9 @@ _CLOSE, _ROUNDING = 1e-14, 1e-12
 class SteeredRigidAxleModel(RigidAxleModel):
     """The compiled equations of a steered rigid axle: beam, knuckles, wheels, springs and tyres.
 
-    Those with the drag link at the right knuckle are derived and compiled at first use.
-
-    Parameters
-    ----------
-    axle : SteeredRigidAxle, str or Path
-        The data, or the name of a packaged data set or path of a TOML file.
-    guided : bool, optional
-        Whether an axle on five rods, which has no motion with rigid rods, has the equations of four
-        of them; otherwise it is refused.
-    wheel_loads : bool, optional
-        Whether the equations have loads on the wheels as inputs.
-
-    Attributes
-    ----------
-    axle : SteeredRigidAxle
-        The data of the file.
-    parameters, constants, design_state
-        Numbers, constants and state at design of the equations. The states are those of
-        `RigidAxleModel`; the input ``rack_position`` is the displacement of the ball of the Pitman
-        arm along its circle [m].
+    Those with the drag link at the right knuckle are derived and compiled at first use. Arguments
+    and states are those of `RigidAxleModel`; the input ``rack_position`` is the displacement of the
+    ball of the Pitman arm along its circle [m].
 
     Examples
     --------
@@ -70,17 +53,8 @@ class SteeredRigidAxleModel(RigidAxleModel):
         """Return the states at rest at wheel travels and displacements of the steering.
 
         A knuckle that turns about an inclined kingpin moves its wheel centre up or down. Newton's
-        method solves for heave and roll of the axle at given heights of both wheel centres.
-
-        Parameters
-        ----------
-        left, right, rack : ndarray, shape (...)
-            Heights of the wheel centres above design, displacement of the steering [m].
-
-        Returns
-        -------
-        ndarray, shape (..., 8)
-            NaN if no such position is found.
+        method solves for heave and roll of the axle at given heights of both wheel centres; NaN if
+        no such position is found.
         """
         left, right, racks = np.broadcast_arrays(left, right, rack)
         wanted = np.stack([left, right], axis=-1).reshape(-1, len(SIDES)) + self.axle.center[2]
@@ -100,16 +74,7 @@ class SteeredRigidAxleModel(RigidAxleModel):
         return states.reshape(*left.shape, -1)
 
     def moved(self, states: Array, left: Array, right: Array, inputs: Array | None = None) -> Array:
-        """Return states with the rates for velocities of the wheels, and of the steering.
-
-        Parameters
-        ----------
-        states : ndarray, shape (..., 8)
-        left, right : ndarray
-            Vertical velocities of the wheel centres [m/s].
-        inputs : ndarray, optional
-            With the position and the velocity of the steering.
-        """
+        """Return states with the rates for velocities of the wheels, and of the steering [m/s]."""
         lead = states.shape[:-1]
         rows = self.with_rates(states.reshape(-1, states.shape[-1]), 0.0)
         acting = self.inputs_at(np.zeros(lead)) if inputs is None else inputs
