@@ -272,7 +272,15 @@ class Suspension(WheeledSection):
         return self.from_dict(data, "mirrored suspension")
 
     def bushes(self, given: Validator, described: Mapping[str, Any]) -> list[Bush]:
-        """Return the bushes described by hardpoint; see `docs/suspension/compliance.md`."""
+        """Return the described bushes; see `docs/suspension/compliance.md`.
+
+        Parameters
+        ----------
+        given : Validator
+            Collects problems.
+        described : mapping
+            By hardpoint.
+        """
         sign = self.vehicle.sign
         spin = sign * self.wheel.spin_axis(sign)
         return bushes_of(given, described, self.structure(), self.hardpoints.at_design(), spin)
@@ -325,8 +333,12 @@ class Suspension(WheeledSection):
     def links_at(self, points: Mapping[str, Array], travel: CarrierMotion) -> tuple[Plane, Plane]:
         """Return the planes of the links of the wheel carrier; see `Corner`.
 
-        `points` are the hardpoints by name, (..., 3) [m]; `travel` is the motion of the wheel
-        carrier per unit of wheel travel.
+        Parameters
+        ----------
+        points : mapping
+            The hardpoints by name, each of shape (..., 3) [m].
+        travel : CarrierMotion
+            The motion of the wheel carrier per unit of wheel travel.
         """
 
     @abstractmethod
@@ -377,8 +389,8 @@ class Suspension(WheeledSection):
 
         - ``wheel_center_x`` and so on for every hardpoint and component, in m;
         - ``rack_axis_*``, if there is a rack, and ``spin_axis_*``, unit vectors; the spin axis is
-          to the left at zero camber and toe on both sides, so that forward is a positive
-          rate;
+          to the left at zero camber and toe on both sides, so that rolling forward is
+          a positive rate;
         - ``tyre_rate`` in N/m and ``tyre_free_height`` in m, ``gravity`` in m/s^2;
         - ``knuckle_mass`` in kg, ``knuckle_com_*`` in m and ``knuckle_inertia_*`` in kg m^2, the
           latter the *elements* xx, yy, zz, xy, xz, yz of the tensor about the centre of mass (xy is

@@ -253,7 +253,15 @@ class WholeAxle(WheeledSection):
 
     @abstractmethod
     def bushes(self, given: Validator, described: Mapping[str, Any]) -> list[Bush]:
-        """Return the bushes described by hardpoint, as in ``[bushings]`` of a file."""
+        """Return the bushes that are described by their hardpoints.
+
+        Parameters
+        ----------
+        given : Validator
+            It collects the problems.
+        described : mapping
+            ``[bushings]`` of a file.
+        """
 
     @property
     @abstractmethod
@@ -271,7 +279,13 @@ class WholeAxle(WheeledSection):
         return of_side(self.parameters(), side)
 
     def length(self, part: str, side: str) -> float:
-        """Return the length of a part, 'spring' or 'damper', of a side at design [m]."""
+        """Return the length of a spring or damper at design [m].
+
+        Parameters
+        ----------
+        part : {'spring', 'damper'}
+        side : {'left', 'right'}
+        """
         points = self.points(side)
         return float(np.linalg.norm(points[f"{part}_top"] - points[f"{part}_seat"]))
 
