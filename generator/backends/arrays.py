@@ -47,12 +47,7 @@ def exported(derivation: Derivation, dialect: Dialect) -> str:
 
 @dataclass(frozen=True)
 class ArrayFunctions:
-    """Prints the functions of one model.
-
-    Attributes
-    ----------
-    derivation, dialect
-    """
+    """Prints the functions of one model."""
 
     derivation: Derivation
     dialect: Dialect

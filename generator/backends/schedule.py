@@ -45,47 +45,28 @@ _DEEPEST = 64
 # not frozen: there are millions, which are then built in half of the time
 @dataclass(eq=False, slots=True)
 class Operation:
-    """An operation and its operands.
+    """An operation and its operands."""
 
-    Attributes
-    ----------
-    kind
-        ``add``, ``subtract``, ``negate``, ``multiply``, ``divide``, ``root``; ``function`` and
-        ``selection`` (a call); ``iterate`` (the call of a block) and ``component`` (one of its
-        results); ``symbol`` and ``number``.
-    operands
-        Its operands.
-    of
-        Specification of the kind: the symbol, the number, the class of the function, the name of
-        the block, the index of the component.
-    ready
-        Time at which the result is known, in cycles from the start of the function.
-    depth
-        Number of nested operations.
-    """
-
+    # `add`, `subtract`, `negate`, `multiply`, `divide`, `root`; `function` and `selection` (a
+    # call); `iterate` (the call of a block) and `component` (one of its results); `symbol` and
+    # `number`
     kind: str
     operands: tuple[Operation, ...] = ()
+    # specification of the kind: the symbol, the number, the class of the function, the name of the
+    # block, the index of the component
     of: Any = None
-    ready: int = 0
-    depth: int = 0
+    ready: int = 0  # time at which the result is known, in cycles from the start of the function
+    depth: int = 0  # number of nested operations
 
 
 @dataclass(frozen=True, slots=True)
 class Assignment:
-    """A value with a name, and its section of the derivation.
-
-    Attributes
-    ----------
-    name, value, section
-    within
-        The step whose value this is a part of; empty for a step itself.
-    """
+    """A value with a name, and its section of the derivation."""
 
     name: str
     value: Operation
     section: str
-    within: str = ""
+    within: str = ""  # step whose value this is a part of; empty for a step itself
 
 
 @dataclass(frozen=True)
@@ -154,20 +135,12 @@ def schedule(expression: sp.Expr, ready: Mapping[sp.Symbol, int] | None = None) 
 
 @dataclass(frozen=True)
 class _Scheduler:
-    """Orders expressions by the times at which their symbols are known.
-
-    Attributes
-    ----------
-    ready
-    names
-        Names for parts that would be nested too deeply; None: they stay nested.
-    parts
-        Those, by name.
-    """
+    """Orders expressions by the times at which their symbols are known."""
 
     ready: Mapping[sp.Symbol, int] = field(default_factory=dict)
+    # names for parts that would be nested too deeply; None: they stay nested
     names: Iterator[str] | None = None
-    parts: list[tuple[str, Operation]] = field(default_factory=list)
+    parts: list[tuple[str, Operation]] = field(default_factory=list)  # those, by name
 
     def operation(self, expression: sp.Expr) -> Operation:
         if expression.is_Symbol:

@@ -57,43 +57,21 @@ def _scheduled(emitted: Function | Stage) -> tuple[Schedule, dict[str, str]]:
 
 @dataclass(frozen=True)
 class OwnSteps:
-    """Steps of one of several functions beside the common ones.
+    """Steps of one of several functions beside the common ones."""
 
-    Attributes
-    ----------
-    reads
-        Names of arguments that only some functions have, and this one reads.
-    steps
-        Those that depend on them.
-    results
-        Its results.
-    names
-        Names here of the steps of its own program.
-    """
-
-    reads: frozenset[str]
-    steps: tuple[Assignment, ...]
+    reads: frozenset[str]  # names of arguments that only some functions have, and this one reads
+    steps: tuple[Assignment, ...]  # those that depend on them
     results: tuple[Operation, ...]
-    names: Mapping[str, str]
+    names: Mapping[str, str]  # names here of the steps of its own program
 
 
 @dataclass(frozen=True)
 class Together:
-    """Several functions with every step once.
+    """Several functions with every step once."""
 
-    Attributes
-    ----------
-    reads
-        Names of arguments that all functions have, and one of them reads.
-    steps
-        The steps of all functions.
-    parts
-        The further steps of each function.
-    """
-
-    reads: frozenset[str]
-    steps: tuple[Assignment, ...]
-    parts: tuple[OwnSteps, ...]
+    reads: frozenset[str]  # names of arguments that all functions have, and one of them reads
+    steps: tuple[Assignment, ...]  # steps of all functions
+    parts: tuple[OwnSteps, ...]  # further steps of each function
 
     @property
     def names(self) -> set[str]:
@@ -192,30 +170,18 @@ def _short_formula(kind: str, parts: Sequence[Operation], of: Any) -> str:
 
 @dataclass
 class _Values:
-    """The values of several functions, each with a number.
+    """The values of several functions, each with a number."""
 
-    Attributes
-    ----------
-    taken
-        Names that no value may have.
-    found
-        Numbers, by operation and the numbers of its operands.
-    operations
-        Each with the numbers of its operands, in the order of numbers.
-    named
-        The names of values that have one.
-    steps
-        The numbers of the steps of each function, by their names.
-    schedule
-        The steps of all, and the results of one behind those of the other.
-    """
-
-    taken: set[str]
+    taken: set[str]  # names that no value may have
+    # numbers, by operation and the numbers of its operands
     found: dict[Hashable, int] = field(default_factory=dict)
+    # each with the numbers of its operands, in the order of numbers
     operations: list[tuple[Operation, tuple[int, ...]]] = field(default_factory=list)
-    named: dict[int, str] = field(default_factory=dict)
+    named: dict[int, str] = field(default_factory=dict)  # names of values that have one
+    # numbers of the steps of each function, by their names
     steps: dict[Function, dict[str, int]] = field(default_factory=dict)
     parts: dict[str, Iterator[int]] = field(default_factory=dict)
+    # steps of all, and the results of one behind those of the other
     schedule: Schedule = field(init=False)
 
     @classmethod

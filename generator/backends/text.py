@@ -23,28 +23,16 @@ _SUM, _NEGATIVE, _PRODUCT, _ATOM = range(4)
 
 @dataclass(frozen=True)
 class Dialect:
-    """Syntax of a target language, where languages differ.
+    """Syntax of a target language, where languages differ."""
 
-    Attributes
-    ----------
-    functions
-        By class of SymPy, with a brace for each argument.
-    root, component
-        The square root, and one of several results.
-    argument
-        A number as an argument of a block that iterates.
-    element
-        Of an array of states, inputs, constants or parameters, by its index.
-    negation
-        A comparison that must not hold.
-    """
-
-    functions: Mapping[type, str]
+    functions: Mapping[type, str]  # by class of SymPy, with a brace for each argument
+    # square root, and one of several results
     root: str
     component: str
-    argument: str = "{}"
+    argument: str = "{}"  # number as an argument of a block that iterates
+    # of an array of states, inputs, constants or parameters, by its index
     element: str = "{}[..., {}]"
-    negation: str = "not {}"
+    negation: str = "not {}"  # comparison that must not hold
 
 
 def text_of(

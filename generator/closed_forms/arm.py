@@ -47,21 +47,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Arm:
-    """The arm that turns about the line, at the design position (constants).
+    """The arm that turns about the line, at the design position (constants)."""
 
-    Attributes
-    ----------
-    local
-        Position of the point D relative to the base, in body axes.
-    design_axes
-        Line, direction to D across it, normal to both; in work axes.
-    base
-        The point of the line that is the origin of the arm, at the design position.
-    """
-
-    local: Vector
-    design_axes: Axes
-    base: Vector
+    local: Vector  # position of the point D relative to the base, in body axes
+    design_axes: Axes  # line, direction to D across it, normal to both; in work axes
+    base: Vector  # point of the line that is the origin of the arm, at the design position
 
     @classmethod
     def of(

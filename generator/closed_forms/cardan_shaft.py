@@ -44,21 +44,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class CardanShaft(ClosedForm):
-    """A placed body turns another one on its hinge, through two crosses and a sliding shaft.
+    """A placed body turns another one on its hinge, through two crosses and a sliding shaft."""
 
-    Attributes
-    ----------
-    shaft
-        Its two links, from the cross on the driving body to that on the driven one.
-    driving, driven
-        The two crosses; the shaft is the second body of each.
-    hinge, parent
-        That of the driven body, and the placed body at the other side of it.
-    """
-
-    shaft: GuidedPair
+    shaft: GuidedPair  # two links, from the cross on the driving body to that on the driven one
+    # two crosses; the shaft is the second body of each
     driving: Universal
     driven: Universal
+    # that of the driven body, and the placed body at the other side of it
     hinge: Revolute
     parent: str
 

@@ -53,17 +53,12 @@ _RODS_WITHOUT_A_POINT = 6
 
 @dataclass(frozen=True)
 class CarrierOnRods(Iteration):
-    """A body that several rods hold together: its pose follows by iteration.
-
-    Attributes
-    ----------
-    pin
-        A ball joint at a placed body, and that body: then three rods hold the orientation. Without
-        it six rods hold position and orientation.
-    """
+    """A body that several rods hold together: its pose follows by iteration."""
 
     body: str
     rods: tuple[Leg, ...]
+    # ball joint at a placed body, and that body: then three rods hold the orientation. Without it
+    # six rods hold position and orientation.
     pin: tuple[Point, str] | None = None
 
     rank: ClassVar[int] = 1
@@ -187,25 +182,15 @@ def _beyond(known: Known, joint: Joint, link: str) -> Joint | None:
 
 @dataclass(frozen=True)
 class _BodyOnRods:
-    """The body and its rods.
-
-    Attributes
-    ----------
-    base
-        Motion of the known point; None if there is none.
-    origin
-        Origin of the body axes at design: the known point, or else the end of the first rod.
-    size
-        The length c of the equations: root mean square distance of the rods' ends from there.
-    rods
-        In the order of the step.
-    """
+    """The body and its rods."""
 
     step: CarrierOnRods
-    base: PointMotion | None
+    base: PointMotion | None  # motion of the known point; None if there is none
+    # origin of the body axes at design: the known point, or else the end of the first rod
     origin: Vector
+    # length c of the equations: root mean square distance of the rods' ends from there
     size: sp.Expr
-    rods: list[_RodAtBody]
+    rods: list[_RodAtBody]  # in the order of the step
 
     @classmethod
     def of(cls, kin: Kinematics, step: CarrierOnRods) -> _BodyOnRods:

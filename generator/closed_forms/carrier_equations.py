@@ -50,26 +50,16 @@ class Pose:
 
 @dataclass(frozen=True)
 class RodEquation:
-    """The equation of one rod.
+    """The equation of one rod."""
 
-    Attributes
-    ----------
-    anchor
-        A_i, relative to the base: the known point or, without one, the origin of the body axes
-        at the design position (work axes).
-    end
-        r_i (body axes).
-    squared, scale
-        l_i^2 and s_i.
-    size
-        c, where the body has no known point: the equation then has six unknowns.
-    """
-
+    # A_i, relative to the base: the known point or, without one, the origin of the body axes at the
+    # design position (work axes)
     anchor: Vector
-    end: Vector
+    end: Vector  # r_i (body axes)
+    # l_i^2 and s_i
     squared: sp.Expr
     scale: sp.Expr
-    size: sp.Expr | None
+    size: sp.Expr | None  # c, where the body has no known point: the equation then has six unknowns
 
     @property
     def moving(self) -> list[sp.Expr]:

@@ -45,17 +45,10 @@ A scalar is the first component.
 
 @dataclass(frozen=True)
 class Frame:
-    """The displacement of a body from its design position, in work axes.
+    """The displacement of a body from its design position, in work axes."""
 
-    Attributes
-    ----------
-    axes
-        The work axes as turned with the body.
-    origin, start
-        A point of the body, now and at the design position.
-    """
-
-    axes: Axes = IDENTITY
+    axes: Axes = IDENTITY  # work axes as turned with the body
+    # point of the body, now and at the design position
     origin: Vector = ZERO
     start: Vector = ZERO
 
@@ -110,22 +103,12 @@ class Closure:
 
 @dataclass(frozen=True)
 class Position:
-    """Position of the tree for some values of the unknowns.
-
-    Attributes
-    ----------
-    frames
-        Of every body of the tree, and of the placed ones that it touches.
-    screws
-        Of every joint of the tree, in its order.
-    equations
-        In the order of the cuts and rods.
-    """
+    """Position of the tree for some values of the unknowns."""
 
     tree: Tree
-    frames: dict[str, Frame]
-    screws: list[Screw]
-    equations: list[Closure]
+    frames: dict[str, Frame]  # of every body of the tree, and of the placed ones that it touches
+    screws: list[Screw]  # of every joint of the tree, in its order
+    equations: list[Closure]  # in the order of the cuts and rods
 
     def jacobian(self) -> Matrix:
         """Return the derivatives of the residuals with respect to the unknowns."""

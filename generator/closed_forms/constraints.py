@@ -100,14 +100,10 @@ class Guided(Coincident):
     """A point stays on the guide of another body, along a direction of that body across it.
 
     The direction turns with the first body, relative to which the second one slides.
-
-    Attributes
-    ----------
-    guide
-        The direction of the guide where that is one of the axes: the formula is shorter by the
-        zeros of the others.
     """
 
+    # direction of the guide where that is one of the axes: the formula is shorter by the zeros of
+    # the others
     guide: Vector | None = None
 
     def rate(self, one: Moving, two: Moving) -> sp.Expr:

@@ -54,22 +54,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class TwoLinks:
-    """The two links, from the end of the first one to that of the second one.
+    """The two links, from the end of the first one to that of the second one."""
 
-    Attributes
-    ----------
-    joint
-        The hinge between them.
-    hinge, base, start
-        Of the end of the first link: the hinge, the body at the other side of it, and the point.
-    far_hinge, target, end
-        The same of the second link.
-    """
-
-    joint: Revolute
+    joint: Revolute  # hinge between them
+    # of the end of the first link: the hinge, the body at the other side of it, and the point
     hinge: Revolute
     base: str
     start: Point
+    # same of the second link
     far_hinge: Revolute
     target: str
     end: Point
@@ -208,23 +200,14 @@ class PlaceElbow(PlannedStep):
 
 @dataclass(frozen=True)
 class _Bend:
-    """The bend of two links (work axes, constants but for sine and cosine).
+    """The bend of two links (work axes, constants but for sine and cosine)."""
 
-    Attributes
-    ----------
-    axis
-        About which the known angle is positive, at design.
-    u, v
-        From the end of the first link to the hinge, and from there to the end of the second one,
-        at design.
-    skew
-        S.
-    """
-
-    axis: Vector
+    axis: Vector  # about which the known angle is positive, at design
+    # from the end of the first link to the hinge, and from there to the end of the second one, at
+    # design
     u: Vector
     v: Vector
-    skew: sp.Expr
+    skew: sp.Expr  # S
     cosine: sp.Expr
     sine: sp.Expr
 
@@ -255,17 +238,10 @@ class _Bend:
 
 @dataclass(frozen=True)
 class _Reach:
-    """The end of the second link relative to the first one, in the axes of that.
+    """The end of the second link relative to the first one, in the axes of that."""
 
-    Attributes
-    ----------
-    end
-        s.
-    swing, curl
-        Its first and second derivative with respect to the angle: n x R v, and -R v across n.
-    """
-
-    end: Vector
+    end: Vector  # s
+    # first and second derivative with respect to the angle: n x R v, and -R v across n
     swing: Vector
     curl: Vector
 
@@ -291,14 +267,9 @@ class _BentEnd(TargetPoint):
     """The target of the second link relative to the first one, without the motion of the bend.
 
     It is the target's motion if the second link did not turn on the first one.
-
-    Attributes
-    ----------
-    bend
-        The hinge between the links.
     """
 
-    bend: Revolute
+    bend: Revolute  # hinge between the links
     reach: _Reach
 
     @property

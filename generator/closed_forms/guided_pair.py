@@ -17,22 +17,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class GuidedPair:
-    """Two links on a guide, each of them held by another body at a point.
+    """Two links on a guide, each of them held by another body at a point."""
 
-    Attributes
-    ----------
-    joint
-        The guide between the two links.
-    near, anchor, anchor_body
-        The link at the anchor; that point, and the body at the other side of it.
-    far, end, end_body
-        The same of the link at the end.
-    """
-
-    joint: Prismatic
+    joint: Prismatic  # guide between the two links
+    # link at the anchor; that point, and the body at the other side of it
     near: str
     anchor: Point
     anchor_body: str
+    # same of the link at the end
     far: str
     end: Point
     end_body: str

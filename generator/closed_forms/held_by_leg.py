@@ -62,21 +62,14 @@ class HeldByLeg(ClosedForm):
 
 @dataclass(frozen=True)
 class HeldOnJoint(HeldByLeg):
-    """A body on a joint of a placed body is held by a leg: the joint's coordinate follows.
+    """A body on a joint of a placed body is held by a leg: the joint's coordinate follows."""
 
-    Attributes
-    ----------
-    joint, parent
-        The joint, and the placed body that carries it.
-    kind
-        The class of the joint.
-    """
-
+    # joint, and the placed body that carries it
     joint: Joint
     parent: str
     leg: Leg
 
-    kind: ClassVar[type[Joint]]
+    kind: ClassVar[type[Joint]]  # class of the joint
 
     @classmethod
     def match(cls, known: Known, cut: CutLoop) -> Self | None:

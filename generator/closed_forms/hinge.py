@@ -21,22 +21,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Hinge:
-    """A hinge of a body on a placed parent, with the arm to a point that defines its angle.
-
-    Attributes
-    ----------
-    axis, axis_on_parent
-        Unit vector of the axis: in work axes now, and in the parent's axes.
-    origin
-        Motion of the hinge's point.
-    """
+    """A hinge of a body on a placed parent, with the arm to a point that defines its angle."""
 
     joint: Revolute
     parent: BodyMotion
     body: str
+    # unit vector of the axis: in work axes now, and in the parent's axes
     axis: Vector
     axis_on_parent: Vector
-    origin: PointMotion
+    origin: PointMotion  # motion of the hinge's point
     through: Point
     point: Point
     arm: Arm

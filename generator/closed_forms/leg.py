@@ -34,28 +34,17 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class RodLeg:
-    """A leg as a rod between two points, from the anchor to the end.
+    """A leg as a rod between two points, from the anchor to the end."""
 
-    Attributes
-    ----------
-    name
-        Its kind and its name, for messages.
-    design
-        The vector from the anchor to the end at the design position (work axes).
-    length, squared
-        Length and its square.
-    stretch
-        Length times its rate, per unit rate of each coordinate that changes it.
-    stretch_bias
-        Second derivative of half the squared length, without accelerations of the independent
-        coordinates.
-    """
-
-    name: str
-    design: Vector
+    name: str  # kind and its name, for messages
+    design: Vector  # vector from the anchor to the end at the design position (work axes)
+    # length and its square
     length: sp.Expr
     squared: sp.Expr
+    # length times its rate, per unit rate of each coordinate that changes it
     stretch: dict[str, sp.Expr] = field(default_factory=dict)
+    # second derivative of half the squared length, without accelerations of the independent
+    # coordinates
     stretch_bias: sp.Expr = sp.S.Zero
 
     def driven(
@@ -80,18 +69,11 @@ class RodLeg:
 
 @dataclass(frozen=True)
 class Leg(ABC):
-    """Links from an anchor on a placed body to a point of a body that they hold.
+    """Links from an anchor on a placed body to a point of a body that they hold."""
 
-    Attributes
-    ----------
-    body, end
-        The body that is held, and the point of it.
-    rod
-        The link at the anchor.
-    """
-
+    # body that is held, and the point of it
     body: str
-    rod: str
+    rod: str  # link at the anchor
     end: Point
     anchor: Point
     anchor_body: str

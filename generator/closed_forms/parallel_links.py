@@ -66,18 +66,13 @@ class _Link:
 
 @dataclass(frozen=True)
 class ParallelLinks(ClosedForm):
-    """Links carry a body without turning it, of which one is placed; the others follow.
-
-    Attributes
-    ----------
-    on_its_pins
-        Whether the body may turn, so that the link must have the pins of the leader.
-    """
+    """Links carry a body without turning it, of which one is placed; the others follow."""
 
     base: str
     body: str
     leader: _Link
     link: _Link
+    # whether the body may turn, so that the link must have the pins of the leader
     on_its_pins: bool
 
     rank: ClassVar[int] = 0

@@ -25,14 +25,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class RigidRod(Leg):
-    """A link between two points.
+    """A link between two points."""
 
-    Attributes
-    ----------
-    hinge
-        In a plane, the hinge of the link at its anchor, by which it is placed.
-    """
-
+    # in a plane, the hinge of the link at its anchor, by which it is placed
     hinge: Revolute | None = None
 
     rigid: ClassVar[bool] = True

@@ -207,22 +207,12 @@ def _pinned(known: Known, cut: CutLoop) -> GuidedPair | None:
 
 @dataclass(frozen=True)
 class _Guide:
-    """The guide of a telescope in a plane, from the design position (constants).
-
-    Attributes
-    ----------
-    axes
-        Axes of both links: hinge n, guide d, and n x d; in work axes.
-    start
-        The vector from pin to pin along these axes, (h, c, e).
-    branch
-        Sign of c.
-    """
+    """The guide of a telescope in a plane, from the design position (constants)."""
 
     telescope: GuidedPair
-    axes: Axes
-    start: Vector
-    branch: sp.Expr
+    axes: Axes  # axes of both links: hinge n, guide d, and n x d; in work axes
+    start: Vector  # vector from pin to pin along these axes, (h, c, e)
+    branch: sp.Expr  # sign of c
 
     @classmethod
     def of(cls, kin: Kinematics, telescope: GuidedPair, extent: sp.Expr) -> _Guide:
@@ -276,22 +266,14 @@ class _Guide:
 
 @dataclass(frozen=True)
 class _Pins:
-    """The pins of a telescope and the vector between them.
-
-    Attributes
-    ----------
-    axis
-        Direction of the hinges, in work axes.
-    across
-        From pin to pin, across the hinges.
-    """
+    """The pins of a telescope and the vector between them."""
 
     telescope: GuidedPair
     guide: _Guide
     anchor: PointMotion
     end: PointMotion
-    axis: Vector
-    across: Vector
+    axis: Vector  # direction of the hinges, in work axes
+    across: Vector  # from pin to pin, across the hinges
 
     @classmethod
     def of(cls, kin: Kinematics, step: Spanning, telescope: GuidedPair) -> _Pins:

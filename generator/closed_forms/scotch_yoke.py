@@ -44,18 +44,12 @@ _NONE = sp.Integer(0)
 
 @dataclass(frozen=True)
 class ScotchYoke(ClosedForm):
-    """A pin of a placed body moves a block in the slot of a body on a guide: both slides follow.
+    """A pin of a placed body moves a block in the slot of a body on a guide: both slides follow."""
 
-    Attributes
-    ----------
-    hinge, pin_body
-        Of the block: its hinge, and the placed body at the other side of that.
-    slot, block, guide, yoke, base
-        The guide between block and yoke, that of the yoke, and the placed body that has it.
-    """
-
+    # of the block: its hinge, and the placed body at the other side of that
     hinge: Revolute
     pin_body: str
+    # guide between block and yoke, that of the yoke, and the placed body that has it
     slot: Prismatic
     block: str
     guide: Prismatic

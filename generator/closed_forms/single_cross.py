@@ -30,16 +30,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class SingleCross(ClosedForm):
-    """A placed body turns another one on its hinge, through a cross between the two.
-
-    Attributes
-    ----------
-    others
-        The other hinges of the loop; their axes go through the centre, too.
-    """
+    """A placed body turns another one on its hinge, through a cross between the two."""
 
     yoke: DrivenYoke
-    others: tuple[Revolute, ...]
+    others: tuple[Revolute, ...]  # other hinges of the loop; their axes go through the centre, too
 
     rank: ClassVar[int] = 8
     equations: ClassVar[tuple[int, ...]] = (0,)

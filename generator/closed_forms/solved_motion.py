@@ -38,22 +38,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class PlacedBody(ABC):
-    """A placed body, in the axes of another one.
-
-    Attributes
-    ----------
-    placed
-        The body whose axes are used.
-    of
-        Its motion.
-    label
-        Begins the names of the steps, behind that of the body.
-    """
+    """A placed body, in the axes of another one."""
 
     kin: Kinematics
-    placed: BodyMotion
-    of: PointMotion | BodyMotion
-    label: str = "target"
+    placed: BodyMotion  # body whose axes are used
+    of: PointMotion | BodyMotion  # motion
+    label: str = "target"  # begins the names of the steps, behind that of the body
 
     @property
     def coordinates(self) -> Iterable[str]:
@@ -300,27 +290,13 @@ class SlideOnGuide(Unsolved):
 
 @dataclass(frozen=True)
 class ClosureCondition:
-    """A condition that determines an unknown.
+    """A condition that determines an unknown."""
 
-    Attributes
-    ----------
-    constraint
-        With the target as its first body, and the moving one as its second.
-    target
-        The point or body that it relates the moving body to.
-    at
-        The point of the moving body.
-    rod
-        The leg whose length a `FixedDistance` has, if that varies.
-    is_first
-        Whether the moving body is the first one of the constraint.
-    """
-
-    constraint: Constraint
-    target: PlacedBody
-    at: Vector = ZERO
-    rod: RodLeg | None = None
-    is_first: bool = False
+    constraint: Constraint  # with the target as its first body, and the moving one as its second
+    target: PlacedBody  # point or body that it relates the moving body to
+    at: Vector = ZERO  # point of the moving body
+    rod: RodLeg | None = None  # leg whose length a `FixedDistance` has, if that varies
+    is_first: bool = False  # whether the moving body is the first one of the constraint
 
     @property
     def coordinates(self) -> Iterable[str]:

@@ -14,18 +14,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class JointOfTree:
-    """A hinge or guide, from the body nearer to the placed ones.
-
-    Attributes
-    ----------
-    driven
-        Whether its coordinate is given; otherwise it is an unknown.
-    """
+    """A hinge or guide, from the body nearer to the placed ones."""
 
     joint: Revolute | Prismatic
     parent: str
     child: str
-    driven: bool = False
+    driven: bool = False  # whether its coordinate is given; otherwise it is an unknown
 
     @property
     def sense(self) -> int:
@@ -35,16 +29,11 @@ class JointOfTree:
 
 @dataclass(frozen=True)
 class CutJoint:
-    """A joint at which a loop is cut: its constraint is the closure equations.
-
-    Attributes
-    ----------
-    normal
-        Direction of the hinges of a planar loop, which closes with three equations less the joint's
-        degrees of freedom; None for a spatial loop, which has six.
-    """
+    """A joint at which a loop is cut: its constraint is the closure equations."""
 
     joint: Joint
+    # direction of the hinges of a planar loop, which closes with three equations less the joint's
+    # degrees of freedom; None for a spatial loop, which has six
     normal: Direction | None = None
 
     @property
@@ -78,21 +67,13 @@ class CutJoint:
 
 @dataclass(frozen=True)
 class Tree:
-    """Loops of hinges and guides that close together.
+    """Loops of hinges and guides that close together."""
 
-    Attributes
-    ----------
-    body
-        The first body to place.
-    tree
-        Joints that carry the bodies, from placed ones outward; their coordinates are the unknowns,
-        but for the driven ones.
-    cuts, rods
-        Joints and rods that close a loop each. A rod is one equation.
-    """
-
-    body: str
+    body: str  # first body to place
+    # joints that carry the bodies, from placed ones outward; their coordinates are the unknowns,
+    # but for the driven ones
     tree: tuple[JointOfTree, ...]
+    # joints and rods that close a loop each. A rod is one equation.
     cuts: tuple[CutJoint, ...]
     rods: tuple[RigidRod, ...]
 

@@ -41,25 +41,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class DrivenYoke:
-    """A body on a hinge that a cross turns.
+    """A body on a hinge that a cross turns."""
 
-    Attributes
-    ----------
-    cross, hinge
-        The hinge goes through the centre of the cross.
-    parent
-        The placed body at the other side of the hinge.
-    driving
-        The placed body at the other side of the cross.
-    named
-        The driving part, for messages.
-    """
-
+    # hinge goes through the centre of the cross
     cross: Universal
     hinge: Revolute
-    parent: str
-    driving: str
-    named: str
+    parent: str  # placed body at the other side of the hinge
+    driving: str  # placed body at the other side of the cross
+    named: str  # driving part, for messages
 
     @property
     def body(self) -> str:

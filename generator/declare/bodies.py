@@ -20,18 +20,11 @@ _MIRRORED = ("xy", "yz")  # products with y change their sign in the mirror
 @declared
 @dataclass(frozen=True)
 class Inertia(Owner):
-    """The inertia of a body about its centre of mass: named numbers of it.
+    """The inertia of a body about its centre of mass: named numbers of it."""
 
-    Attributes
-    ----------
-    body
-        Name of the body.
-    given
-        Elements (`ELEMENTS` of the tensor; ``spin`` and ``diametral`` of a rotor), with defaults
-        [kg m^2] and meanings.
-    """
-
-    body: Name
+    body: Name  # name of the body
+    # elements (`ELEMENTS` of the tensor; `spin` and `diametral` of a rotor), with defaults [kg m^2]
+    # and meanings
     given: tuple[tuple[str, Number, str], ...]
 
     @cached_property

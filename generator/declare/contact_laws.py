@@ -30,33 +30,19 @@ _SMALL_DEFLECTION = sp.Rational(1, 10**9)  # added to a radicand [m]
 
 @dataclass(frozen=True)
 class RollingState:
-    """Rolling motion of a tyre at an instant.
+    """Rolling motion of a tyre at an instant."""
 
-    Attributes
-    ----------
-    load
-        Force of the road along its normal [N].
-    longitudinal, lateral
-        -Vsx and Vcy over the smoothed speed, a tangent.
-    inclination
-        Sine of the inclination about the forward axis.
-    direction, rolling
-        Vcx over the speed of the contact, and over its own absolute value; both smoothed near
-        standstill.
-    speed
-        Vcx [m/s].
-    size
-        Absolute value of Vcx, smoothed near standstill [m/s].
-    """
-
-    load: sp.Expr
+    load: sp.Expr  # force of the road along its normal [N]
+    # -Vsx and Vcy over the smoothed speed, a tangent
     longitudinal: sp.Expr
     lateral: sp.Expr
-    inclination: sp.Expr
+    inclination: sp.Expr  # sine of the inclination about the forward axis
+    # Vcx over the speed of the contact, and over its own absolute value; both smoothed near
+    # standstill
     direction: sp.Expr
     rolling: sp.Expr
-    speed: sp.Expr
-    size: sp.Expr
+    speed: sp.Expr  # Vcx [m/s]
+    size: sp.Expr  # absolute value of Vcx, smoothed near standstill [m/s]
 
     def contact(self, **others: sp.Expr) -> Contact:
         """Return the inputs of formulas, with some of them replaced."""

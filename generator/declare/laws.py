@@ -55,22 +55,15 @@ def _of_either_sign(length: Parameter | None, path: AnyPath) -> list[str]:
 
 @dataclass(frozen=True)
 class Stretch:
-    """The state of a force element.
+    """The state of a force element."""
 
-    Attributes
-    ----------
-    program, name
-        Receives the steps of laws; beginning of their names.
-    length, velocity
-        Distance of the two ends [m] and its rate, positive in rebound [m/s].
-    slide
-        Coordinate of a telescope, positive in compression [m]; None for other elements.
-    """
-
+    # receives the steps of laws; beginning of their names
     program: Program
     name: str
+    # distance of the two ends [m] and its rate, positive in rebound [m/s]
     length: sp.Expr
     velocity: sp.Expr
+    # coordinate of a telescope, positive in compression [m]; None for other elements
     slide: sp.Expr | None = None
 
 

@@ -27,34 +27,19 @@ def next_order() -> int:
 
 @dataclass(frozen=True)
 class Image:
-    """The original of an owner in a copy.
+    """The original of an owner in a copy."""
 
-    Attributes
-    ----------
-    original
-        The owner whose parameters represent those of the copy.
-    signs
-        Of every number: -1 where a mirror reverses it.
-    """
-
-    original: Owner
-    signs: tuple[int, ...]
+    original: Owner  # owner whose parameters represent those of the copy
+    signs: tuple[int, ...]  # of every number: -1 where a mirror reverses it
 
 
 @dataclass(frozen=True, kw_only=True)
 class Owner:
-    """An owner of parameters.
+    """An owner of parameters."""
 
-    Attributes
-    ----------
-    order
-        Its place in lists: that of its creation, which `dataclasses.replace` keeps.
-    image
-        In a copy: its original, which owns the numbers.
-    """
-
+    # place in lists: that of its creation, which `dataclasses.replace` keeps
     order: int = field(default_factory=next_order, repr=False, compare=False)
-    image: Any = field(default=None, repr=False)
+    image: Any = field(default=None, repr=False)  # in a copy: its original, which owns the numbers
 
     @property
     def numbers(self) -> tuple[Parameter, ...]:

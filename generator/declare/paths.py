@@ -25,36 +25,21 @@ if TYPE_CHECKING:
 
 
 class PathLength(NamedTuple):
-    """Length of a path at an instant, and its rate.
+    """Length of a path at an instant, and its rate."""
 
-    Attributes
-    ----------
-    length
-        [m], or an angle [rad].
-    motion
-        Its rate per unit rate of each coordinate that changes it.
-    slide
-        Coordinate of a telescope, positive in compression [m]; None for other paths.
-    """
-
-    length: sp.Expr
-    motion: dict[str, sp.Expr]
+    length: sp.Expr  # [m], or an angle [rad]
+    motion: dict[str, sp.Expr]  # rate per unit rate of each coordinate that changes it
+    # coordinate of a telescope, positive in compression [m]; None for other paths
     slide: sp.Expr | None = None
 
 
 class Words(NamedTuple):
-    """Names of the signals of an element on a path, with units and meanings.
+    """Names of the signals of an element on a path, with units and meanings."""
 
-    Attributes
-    ----------
-    length, rate
-        End of the name, unit, and meaning with ``{}`` for the element's name.
-    force, unit, sense
-        Kind of the force, its unit, and the sense in which it is positive.
-    """
-
+    # end of the name, unit, and meaning with `{}` for the element's name
     length: tuple[str, str, str]
     rate: tuple[str, str, str]
+    # kind of the force, its unit, and the sense in which it is positive
     force: str
     unit: str
     sense: str

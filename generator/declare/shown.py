@@ -21,54 +21,28 @@ def words_of(name: str) -> str:
 
 @dataclass(frozen=True)
 class Range:
-    """Valid range of the values of a signal; with ``least >= most`` there is no limit.
+    """Valid range of the values of a signal; with ``least >= most`` there is no limit."""
 
-    Attributes
-    ----------
-    least, most
-        Its ends, None for none.
-    below, above
-        The situation beyond either end, as a clause.
-    possible
-        Whether values beyond are possible, and only the data end.
-    unless
-        Where this parameter is not zero, there is no range.
-    """
-
+    # ends, None for none
     least: Level | None = None
     most: Level | None = None
+    # situation beyond either end, as a clause
     below: str = ""
     above: str = ""
-    possible: bool = False
-    unless: Parameter | None = None
+    possible: bool = False  # whether values beyond are possible, and only the data end
+    unless: Parameter | None = None  # where this parameter is not zero, there is no range
 
 
 @dataclass(frozen=True)
 class Event:
-    """A signal passes a level.
+    """A signal passes a level."""
 
-    Attributes
-    ----------
-    name
-        By which a simulation watches for it.
-    level
-        Value of the signal.
-    rising
-        Whether upwards; else downwards.
-    meaning
-        The event, as a clause.
-    terminal
-        Whether a simulation ends there.
-    needs
-        Where this parameter is zero, there is no such event.
-    """
-
-    name: str
-    level: Level
-    rising: bool
-    meaning: str
-    terminal: bool = False
-    needs: Parameter | None = None
+    name: str  # by which a simulation watches for it
+    level: Level  # value of the signal
+    rising: bool  # whether upwards; else downwards
+    meaning: str  # event, as a clause
+    terminal: bool = False  # whether a simulation ends there
+    needs: Parameter | None = None  # where this parameter is zero, there is no such event
 
 
 @dataclass(frozen=True)

@@ -35,26 +35,17 @@ class Entry:
 
 @dataclass(frozen=True)
 class JointStates:
-    """The part of the state that belongs to an independent joint.
-
-    Attributes
-    ----------
-    joint
-        The joint.
-    positions, speeds
-        Elements of q and of v.
-    coordinates
-        The names under which velocities per unit of each speed are stored: the coordinate of a
-        hinge or a guide; of a free body, which has no such coordinates, the speeds themselves.
-    partners
-        For each position, the index of the speed that changes it most directly; None for the scalar
-        part of a quaternion.
-    """
+    """The part of the state that belongs to an independent joint."""
 
     joint: Joint
+    # elements of q and of v
     positions: tuple[Entry, ...]
     speeds: tuple[Entry, ...]
+    # names under which velocities per unit of each speed are stored: the coordinate of a hinge or a
+    # guide; of a free body, which has no such coordinates, the speeds themselves
     coordinates: tuple[str, ...]
+    # for each position, the index of the speed that changes it most directly; None for the scalar
+    # part of a quaternion
     partners: tuple[int | None, ...]
 
     @property
@@ -65,20 +56,11 @@ class JointStates:
 
 @dataclass(frozen=True)
 class DeclaredStates:
-    """The state x = [q, v, z] of a formulation.
+    """The state x = [q, v, z] of a formulation."""
 
-    Attributes
-    ----------
-    joints
-        The part of each independent joint, in their order.
-    internal
-        Those of forces.
-    eliminated
-        Names of speeds that constraints determine, and that are not states.
-    """
-
-    joints: tuple[JointStates, ...]
-    internal: tuple[Entry, ...] = ()
+    joints: tuple[JointStates, ...]  # part of each independent joint, in their order
+    internal: tuple[Entry, ...] = ()  # those of forces
+    # names of speeds that constraints determine, and that are not states
     eliminated: tuple[str, ...] = ()
 
     @classmethod

@@ -24,23 +24,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class WheelAttitude:
-    """Position and attitude of a wheel on the ground, in the axes of its carrier.
+    """Position and attitude of a wheel on the ground, in the axes of its carrier."""
 
-    Attributes
-    ----------
-    up, axis
-        Unit vectors up and along the spin axis.
-    pull
-        Part of the upward direction in the plane of the wheel; its length is the cosine of the
-        camber.
-    squared
-        The square of that length, guarded.
-    """
-
+    # unit vectors up and along the spin axis
     up: Vector
     axis: Vector
+    # part of the upward direction in the plane of the wheel; its length is the cosine of the camber
     pull: Vector
-    squared: sp.Expr
+    squared: sp.Expr  # square of that length, guarded
 
 
 @declared

@@ -37,20 +37,12 @@ Rows = dict[str, dict[str, sp.Expr]]
 
 @dataclass(frozen=True)
 class Admissible:
-    """The admissible speeds.
-
-    Attributes
-    ----------
-    shares
-        P, by eliminated coordinate, then by independent coordinate.
-    leftover
-        g, by eliminated coordinate.
-    """
+    """The admissible speeds."""
 
     program: Program
     independent: tuple[str, ...]
-    shares: Rows
-    leftover: Mapping[str, sp.Expr]
+    shares: Rows  # P, by eliminated coordinate, then by independent coordinate
+    leftover: Mapping[str, sp.Expr]  # g, by eliminated coordinate
 
     @classmethod
     def of(cls, moving: InMotion) -> Admissible | None:

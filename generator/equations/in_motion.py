@@ -38,31 +38,17 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class InMotion:
-    """The bodies of a model in motion, part by part.
+    """The bodies of a model in motion, part by part."""
 
-    Attributes
-    ----------
-    program
-        Has the steps.
-    coordinates
-        The driven ones.
-    bases
-        The bodies that move and carry others: those that move freely, and one on joints.
-    parts
-        The kinematics of each part.
-    placed, part_of
-        Every body with its motion in the world, and its part; for common bodies, the first part.
-    carried
-        The bodies on a moving base, and the base itself, by name.
-    """
-
-    program: Program
-    coordinates: Coordinates
+    program: Program  # has the steps
+    coordinates: Coordinates  # driven ones
+    # bodies that move and carry others: those that move freely, and one on joints
     bases: tuple[Base, ...]
-    parts: tuple[Kinematics, ...]
+    parts: tuple[Kinematics, ...]  # kinematics of each part
+    # every body with its motion in the world, and its part; for common bodies, the first part
     placed: dict[str, BodyMotion]
     part_of: dict[str, Kinematics]
-    carried: dict[str, Carried]
+    carried: dict[str, Carried]  # bodies on a moving base, and the base itself, by name
 
     @classmethod
     def of(cls, program: Program, plan: Plan, held: Iterable[str] = ()) -> InMotion:
@@ -196,17 +182,10 @@ def _moved(
 
 @dataclass(frozen=True)
 class Group:
-    """Bodies that are solved together, and their base.
+    """Bodies that are solved together, and their base."""
 
-    Attributes
-    ----------
-    base
-        The ground, or a moving body.
-    bodies
-        The bodies that prescribed joints tie to the base, itself included, and the others.
-    """
-
-    base: str
+    base: str  # ground, or a moving body
+    # bodies that prescribed joints tie to the base, itself included, and the others
     bodies: set[str]
 
 

@@ -88,54 +88,34 @@ def _cited(doc: str, place: str | None) -> str:
 
 @dataclass(eq=False)
 class Derivation:
-    """All inputs of the emitters.
-
-    Attributes
-    ----------
-    states, inputs, parameters
-        The arguments of the functions, in order.
-    relative
-        The relative coordinates, in order.
-    functions
-        All functions by name; `prepare` computes the constants that the others read.
-    emitted
-        Compiled code: functions, and stages of several.
-    design
-        From the parameters to the state at the design position.
-    guards
-        All guards of the model; the bit of a guard in a status word is its position here.
-    assumptions, conditions
-        Constants of a parameter set that must be zero, or must not.
-    moving_bodies, massive_bodies
-        Names in the order of the arrays of poses and of Jacobians.
-    signals
-        The elements of the ``signals`` function, with their ranges and events.
-    held_inputs
-        By variants in which joints are held: their rates, which are zero in these.
-    order
-        Positions of all steps in the derivation, by their names.
-    by_parameters
-        Derivatives with respect to parameters, on request.
-    """
+    """All inputs of the emitters."""
 
     formulation: Formulation
     plan: CataloguePlan
+    # arguments of the functions, in order
     states: DeclaredStates
     inputs: tuple[Input, ...]
     parameters: tuple[Entry, ...]
-    relative: tuple[Entry, ...]
+    relative: tuple[Entry, ...]  # relative coordinates, in order
+    # all functions by name; `prepare` computes the constants that the others read
     functions: dict[str, Function]
-    emitted: dict[str, Function | Stage]
+    emitted: dict[str, Function | Stage]  # compiled code: functions, and stages of several
     prepare: Function
-    design: Function
+    design: Function  # from the parameters to the state at the design position
+    # all guards of the model; the bit of a guard in a status word is its position here
     guards: tuple[Guard, ...]
+    # constants of a parameter set that must be zero, or must not
     assumptions: tuple[Assumption, ...]
     conditions: tuple[Condition, ...]
+    # names in the order of the arrays of poses and of Jacobians
     moving_bodies: tuple[str, ...]
     massive_bodies: tuple[str, ...]
-    signals: tuple[Shown, ...]
+    signals: tuple[Shown, ...]  # elements of the `signals` function, with their ranges and events
+    # by variants in which joints are held: their rates, which are zero in these
     held_inputs: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    # positions of all steps in the derivation, by their names
     order: dict[str, int] = field(default_factory=dict)
+    # derivatives with respect to parameters, on request
     by_parameters: ParameterDerivatives = field(default_factory=ParameterDerivatives)
 
     @property

@@ -33,37 +33,20 @@ OF = ("rhs", "signals", "relative_coordinates", "positions", "orientations", "ve
 
 @dataclass(frozen=True)
 class Behind:
-    """Names behind the values in an array that a function reads.
+    """Names behind the values in an array that a function reads."""
 
-    Attributes
-    ----------
-    directions
-        Names of the derivatives of all values along a direction, in their order: for tangents.
-    weights
-        Names of the weights of results, in their order: for adjoints.
-    """
-
+    # names of the derivatives of all values along a direction, in their order: for tangents
     directions: tuple[str, ...]
-    weights: tuple[str, ...] = ()
+    weights: tuple[str, ...] = ()  # names of the weights of results, in their order: for adjoints
 
 
 @dataclass(frozen=True)
 class ParameterDerivatives:
-    """The functions, and the names of their arguments.
+    """The functions, and the names of their arguments."""
 
-    Attributes
-    ----------
-    of_parameters
-        Functions that read parameters.
-    functions
-        Those that read constants, state and inputs.
-    behind
-        The names behind the values, by array.
-    """
-
-    of_parameters: tuple[Function, ...] = ()
-    functions: tuple[Function, ...] = ()
-    behind: Mapping[str, Behind] = field(default_factory=dict)
+    of_parameters: tuple[Function, ...] = ()  # functions that read parameters
+    functions: tuple[Function, ...] = ()  # those that read constants, state and inputs
+    behind: Mapping[str, Behind] = field(default_factory=dict)  # names behind the values, by array
 
     def weights(self, array: str) -> tuple[str, ...]:
         """Return the names of the weights in an array; their number depends on the call."""

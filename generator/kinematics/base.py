@@ -42,18 +42,10 @@ NONE = sp.Integer(0)
 
 
 class Base(ABC):
-    """A body that moves in the world and carries others.
+    """A body that moves in the world and carries others."""
 
-    Attributes
-    ----------
-    program
-        Has the steps.
-    axes
-        Its axes in the world; at design those of the world.
-    """
-
-    program: Program
-    axes: Axes
+    program: Program  # has the steps
+    axes: Axes  # axes in the world; at design those of the world
 
     @property
     @abstractmethod
@@ -127,22 +119,12 @@ class Base(ABC):
 
 @dataclass(frozen=True)
 class FreeBase(Base):
-    """A body that moves freely, in the world.
-
-    Attributes
-    ----------
-    joint
-        Its free joint.
-    axes
-        Its axes.
-    speed_of
-        Returns the speed of one of its coordinates.
-    """
+    """A body that moves freely, in the world."""
 
     program: Program
-    joint: Free
+    joint: Free  # free joint
     axes: Axes
-    speed_of: Callable[[str], sp.Expr]
+    speed_of: Callable[[str], sp.Expr]  # returns the speed of one of its coordinates
 
     @classmethod
     def of(cls, program: Program, joint: Free, speed_of: Callable[[str], sp.Expr]) -> FreeBase:

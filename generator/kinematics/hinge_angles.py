@@ -21,21 +21,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class HingeDesign:
-    """A hinge whose angle counts to a point, at the design position (constants, work axes).
+    """A hinge whose angle counts to a point, at the design position (constants, work axes)."""
 
-    Attributes
-    ----------
-    axis
-        Unit vector, in the sense in which the angle is positive.
-    zero, mark
-        Unit vectors across it that include the angle: on the first body and on the second.
-    along, radius
-        Position of the point relative to that of the hinge: along the axis, and across it.
-    """
-
-    axis: Vector
+    axis: Vector  # unit vector, in the sense in which the angle is positive
+    # unit vectors across it that include the angle: on the first body and on the second
     zero: Vector
     mark: Vector
+    # position of the point relative to that of the hinge: along the axis, and across it
     along: sp.Expr
     radius: sp.Expr
 
@@ -105,23 +97,15 @@ def is_first_axis(kin: Kinematics, joint: Revolute) -> bool:
 
 @dataclass(frozen=True)
 class DrivenCoordinate:
-    """A driven coordinate, along the path from the design position.
+    """A driven coordinate, along the path from the design position."""
 
-    Attributes
-    ----------
-    symbol, start
-        Its value, and that at design.
-    turns
-        Whether it is an angle alone, of which a full turn changes nothing: not so where others
-        follow it through gears.
-    moves
-        The joints that it moves, its own first: displacement per unit of it, and whether they
-        slide.
-    """
-
+    # value, and that at design
     symbol: sp.Symbol
     start: sp.Expr
+    # whether it is an angle alone, of which a full turn changes nothing: not so where others follow
+    # it through gears
     turns: bool
+    # joints that it moves, its own first: displacement per unit of it, and whether they slide
     moves: tuple[tuple[sp.Expr, bool], ...]
 
     def unit(self, size: sp.Expr) -> sp.Expr:

@@ -23,44 +23,30 @@ if TYPE_CHECKING:
 
 @dataclass
 class BodyMotion:
-    """A body whose pose is known.
-
-    Attributes
-    ----------
-    origin, axes
-        Origin of the body axes and their directions.
-    design_origin, design_axes
-        The same at the design position (constants).
-    local
-        Body coordinates of points that are known by construction, with their exact zeros.
-    motion
-        Twist per unit rate of each coordinate that moves the body.
-    carrier
-        Neighbour that shares the origin, with its own coordinates of that point: a point mass
-        there may be counted with either body.
-    hinge
-        The hinge whose axis is the first of the body axes, if one placed the body.
-    total
-        The twist at the true rates, of a body on a moving base; None: the sum of `motion`.
-    at
-        Motion of the origin, in work axes, where it is known as that of a point of the carrier.
-    turn
-        Its angle on the hinge that placed it, where it is known.
-    """
+    """A body whose pose is known."""
 
     body: str
+    # origin of the body axes and their directions
     origin: Vector = ZERO
     axes: Axes = IDENTITY
+    # same at the design position (constants)
     design_origin: Vector = ZERO
     design_axes: Axes = IDENTITY
+    # body coordinates of points that are known by construction, with their exact zeros
     local: dict[Point, Vector] = field(default_factory=dict)
+    # twist per unit rate of each coordinate that moves the body
     motion: dict[str, Twist] = field(default_factory=dict)
+    # neighbour that shares the origin, with its own coordinates of that point: a point mass there
+    # may be counted with either body
     carrier: tuple[str, Vector] | None = None
+    # hinge whose axis is the first of the body axes, if one placed the body
     hinge: str | None = None
     bias: Callable[[], Twist] = lambda: NO_TWIST
+    # twist at the true rates, of a body on a moving base; None: the sum of `motion`
     total: Callable[[], Twist] | None = None
+    # motion of the origin, in work axes, where it is known as that of a point of the carrier
     at: PointMotion | None = None
-    turn: Turn | None = None
+    turn: Turn | None = None  # angle on the hinge that placed it, where it is known
 
 
 @dataclass(frozen=True)
@@ -92,35 +78,22 @@ class PointMotion:
 
 @dataclass(frozen=True)
 class OnLine:
-    """A body (or a telescope of two) with a known line, free to turn about it.
+    """A body (or a telescope of two) with a known line, free to turn about it."""
 
-    Attributes
-    ----------
-    anchor, end
-        The two points of the line, which runs from anchor to end.
-    direction
-        Unit vector along it.
-    length, inverse_length
-        Distance of the points.
-    relative
-        Motion of the end relative to the anchor.
-    length_motion
-        Rate of the length per unit rate of each coordinate.
-    span, inverse_squared
-        From anchor to end, and the inverse of its square.
-    """
-
+    # two points of the line, which runs from anchor to end
     anchor: Point
     end: Point
     anchor_motion: PointMotion
     end_motion: PointMotion
     anchor_body: str
     end_body: str
-    direction: Vector
+    direction: Vector  # unit vector along it
+    # distance of the points
     length: sp.Expr
     inverse_length: sp.Expr
-    relative: PointMotion
-    length_motion: dict[str, sp.Expr]
+    relative: PointMotion  # motion of the end relative to the anchor
+    length_motion: dict[str, sp.Expr]  # rate of the length per unit rate of each coordinate
+    # from anchor to end, and the inverse of its square
     span: Vector
     inverse_squared: sp.Expr
 
@@ -177,60 +150,37 @@ class TelescopeEnds:
 
 @dataclass(frozen=True)
 class Meeting:
-    """The condition for which the coordinate of a hinge or guide was solved.
+    """The condition for which the coordinate of a hinge or guide was solved."""
 
-    Attributes
-    ----------
-    parent, body
-        The placed body, and the one that the joint carries.
-    point, target, target_body
-        A point of the body, and the point of a placed body that it meets, or that a rod connects it
-        with.
-    rod
-        That rod; None: the points meet.
-    """
-
+    # placed body, and the one that the joint carries
     parent: str
     body: str
+    # point of the body, and the point of a placed body that it meets, or that a rod connects it
+    # with
     point: Point
     target: Point
     target_body: str
-    rod: str | None = None
+    rod: str | None = None  # that rod; None: the points meet
 
 
 @dataclass(frozen=True)
 class OffLine:
-    """A link of a telescope whose axis misses the link's known point; its turn is not known yet.
+    """A link of a telescope whose axis misses the link's known point; its turn is not known yet."""
 
-    Attributes
-    ----------
-    ends
-        The telescope with the names of its points and bodies.
-    axis, offset
-        At the design position: unit vector of the axis from anchor to end, and the vector from
-        the axis to the end, across it (constants, work axes).
-    span, span_squared
-        From anchor to end, and the square of that distance.
-    reach, inverse_reach
-        Part of the span along the axis.
-    length
-        Length of the telescope: the reach and the constant `lead`.
-    relative
-        Motion of the end relative to the anchor.
-    length_motion
-        Rate of the length per unit rate of each coordinate.
-    """
-
-    ends: TelescopeEnds
+    ends: TelescopeEnds  # telescope with the names of its points and bodies
     anchor_motion: PointMotion
     end_motion: PointMotion
+    # at the design position: unit vector of the axis from anchor to end, and the vector from the
+    # axis to the end, across it (constants, work axes)
     axis: Vector
     offset: Vector
+    # from anchor to end, and the square of that distance
     span: Vector
     span_squared: sp.Expr
+    # part of the span along the axis
     reach: sp.Expr
     inverse_reach: sp.Expr
-    length: sp.Expr
+    length: sp.Expr  # length of the telescope: the reach and the constant `lead`
     lead: sp.Expr
-    relative: PointMotion
-    length_motion: dict[str, sp.Expr]
+    relative: PointMotion  # motion of the end relative to the anchor
+    length_motion: dict[str, sp.Expr]  # rate of the length per unit rate of each coordinate

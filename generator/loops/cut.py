@@ -16,20 +16,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class PairCandidate:
-    """A pair of joints at which a loop could be cut.
-
-    Attributes
-    ----------
-    eliminated
-        Number of unknown coordinates of the two joints.
-    equations
-        Number of closure equations that remain, of the six of a spatial loop or the three of a
-        planar one or one about a point. The turn of a link about the line through two ball joints
-        is in none of them.
-    """
+    """A pair of joints at which a loop could be cut."""
 
     joints: tuple[Joint, Joint]
-    eliminated: int
+    eliminated: int  # number of unknown coordinates of the two joints
+    # number of closure equations that remain, of the six of a spatial loop or the three of a planar
+    # one or one about a point. The turn of a link about the line through two ball joints is in none
+    # of them.
     equations: int
 
 

@@ -27,13 +27,7 @@ class PlannedStep(KinematicStep):
 
 
 class Placement(PlannedStep):
-    """A step that places one body, whose joints are known, without further results.
-
-    Attributes
-    ----------
-    body
-        The body.
-    """
+    """A step that places one body, whose joints are known, without further results."""
 
     body: str
 
@@ -72,17 +66,10 @@ class Solution(PlannedStep):
 
 
 class ClosedForm(Solution):
-    """A solution of one loop in closed form.
+    """A solution of one loop in closed form."""
 
-    Attributes
-    ----------
-    rank
-        The form of the lowest rank is taken among those that fit.
-    equations
-        Numbers of remaining closure equations with which it is tried.
-    """
-
-    rank: ClassVar[int]
+    rank: ClassVar[int]  # form of the lowest rank is taken among those that fit
+    # numbers of remaining closure equations with which it is tried
     equations: ClassVar[tuple[int, ...]] = (1,)
 
     @classmethod
@@ -141,20 +128,12 @@ class Iteration(Solution):
 
 @dataclass(frozen=True)
 class Attempt:
-    """Loops that could be solved together.
-
-    Attributes
-    ----------
-    problem
-        Numbers of equations and unknowns, in words.
-    obstacle
-        Reason against a solution; empty: there is none.
-    """
+    """Loops that could be solved together."""
 
     action: Iteration
     cycles: tuple[Cycle, ...]
-    problem: str
-    obstacle: str = ""
+    problem: str  # numbers of equations and unknowns, in words
+    obstacle: str = ""  # reason against a solution; empty: there is none
 
 
 @dataclass(frozen=True)

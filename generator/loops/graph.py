@@ -28,27 +28,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Cycle:
-    """A simple cycle of the joint graph.
+    """A simple cycle of the joint graph."""
 
-    Attributes
-    ----------
-    joints
-        The joints, in the order in which the cycle passes them.
-    bodies
-        ``bodies[i]`` lies between ``joints[i - 1]`` and ``joints[i]``.
-    length
-        Sum of the degrees of freedom of the joints.
-    normal
-        Direction of the hinges of a planar loop; none for others.
-    center
-        The point about which a loop of a cross and hinges turns; none for others.
-    """
-
-    joints: tuple[Joint, ...]
-    bodies: tuple[str, ...]
-    length: int
-    normal: Direction | None
-    center: Point | None
+    joints: tuple[Joint, ...]  # joints, in the order in which the cycle passes them
+    bodies: tuple[str, ...]  # `bodies[i]` lies between `joints[i - 1]` and `joints[i]`
+    length: int  # sum of the degrees of freedom of the joints
+    normal: Direction | None  # direction of the hinges of a planar loop; none for others
+    center: Point | None  # point about which a loop of a cross and hinges turns; none for others
 
     @property
     def planar(self) -> bool:

@@ -19,31 +19,19 @@ Coordinate = tuple[str, str]
 
 @dataclass
 class Known:
-    """Bodies whose poses are known, and relative coordinates that are given or solved.
-
-    Attributes
-    ----------
-    placed
-        Bodies whose pose is known.
-    on_line
-        Bodies of which a line is known, free to turn about it.
-    coordinates
-        Relative coordinates that are given or solved.
-    steps
-        The steps so far, in order.
-    guided
-        By the name of a joint, the step that alone may place a body by it.
-    alike
-        Pairs of bodies that parallel links keep from turning relative to each other.
-    """
+    """Bodies whose poses are known, and relative coordinates that are given or solved."""
 
     mechanism: Mechanism
     topology: JointGraph
-    placed: set[str] = field(default_factory=set)
+    placed: set[str] = field(default_factory=set)  # bodies whose pose is known
+    # bodies of which a line is known, free to turn about it
     on_line: set[str] = field(default_factory=set)
+    # relative coordinates that are given or solved
     coordinates: set[Coordinate] = field(default_factory=set)
-    steps: list[KinematicStep] = field(default_factory=list)
+    steps: list[KinematicStep] = field(default_factory=list)  # steps so far, in order
+    # by the name of a joint, the step that alone may place a body by it
     guided: dict[str, KinematicStep] = field(default_factory=dict)
+    # pairs of bodies that parallel links keep from turning relative to each other
     alike: set[frozenset[str]] = field(default_factory=set)
 
     @property

@@ -41,34 +41,23 @@ _Offer = tuple[Cycle, list[Cycle]]
 
 @dataclass(frozen=True)
 class Transformer:
-    """A loop with its characteristic pair, its equation and its place in the order of solution.
-
-    Attributes
-    ----------
-    unknowns
-        Number of relative coordinates of the loop that were unknown before it was solved.
-    candidates
-        All pairs with a common isotropic element (the distance of two points), best first.
-    inputs, outputs
-        Names of coordinates, ``joint.coordinate``.
-    pair
-        The characteristic pair; none where a single joint closes a loop that is solved by
-        iteration.
-    rivals
-        Other cycles of the same length that could have been taken, with their unknowns.
-    closing
-        The joint or the rod that closes the loop, if it is solved by iteration.
-    """
+    """A loop with its characteristic pair, its equation and its place in the order of solution."""
 
     number: int
     cycle: Cycle
+    # number of relative coordinates of the loop that were unknown before it was solved
     unknowns: int
+    # all pairs with a common isotropic element (the distance of two points), best first
     candidates: tuple[PairCandidate, ...]
+    # characteristic pair; none where a single joint closes a loop that is solved by iteration
     pair: PairCandidate | None
     step: Solution
+    # names of coordinates, `joint.coordinate`
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
+    # other cycles of the same length that could have been taken, with their unknowns
     rivals: tuple[tuple[Cycle, int], ...]
+    # joint or the rod that closes the loop, if it is solved by iteration
     closing: Closing | None = None
 
 
@@ -91,20 +80,13 @@ def _pair_at(closing: Closing, candidates: Sequence[PairCandidate]) -> PairCandi
 
 @dataclass
 class Plan:
-    """The order of solution of a model.
+    """The order of solution of a model."""
 
-    Attributes
-    ----------
-    catalogue
-        The forms that it tries, of a class of plans.
-    transformers
-        The loops in the order in which they are solved.
-    """
-
-    catalogue: ClassVar[Catalogue]
+    catalogue: ClassVar[Catalogue]  # forms that it tries, of a class of plans
 
     formulation: Formulation
     topology: JointGraph
+    # loops in the order in which they are solved
     transformers: list[Transformer] = field(default_factory=list)
     _known: Known = field(init=False, repr=False)
 

@@ -22,26 +22,18 @@ from .suspension import (
 
 @dataclass(frozen=True)
 class Rocker:
-    """A rocker and its rod, with their points.
+    """A rocker and its rod, with their points."""
 
-    Attributes
-    ----------
-    outer, inner
-        Ends of the rod: at the arm, and at the rocker.
-    front, rear
-        Bearings of the rocker.
-    top, seat
-        Ends of the spring: on the chassis, and on the rocker.
-    rocker, rod
-        The bodies.
-    """
-
+    # ends of the rod: at the arm, and at the rocker
     outer: d.Point
     inner: d.Point
+    # bearings of the rocker
     front: d.Point
     rear: d.Point
+    # ends of the spring: on the chassis, and on the rocker
     top: d.Point
     seat: d.Point
+    # bodies
     rocker: d.Body
     rod: d.Body
 

@@ -34,17 +34,10 @@ _CHOICES_SHOWN = 3
 
 @dataclass(frozen=True)
 class Proposal:
-    """Joints whose coordinates can be independent.
+    """Joints whose coordinates can be independent."""
 
-    Attributes
-    ----------
-    independent
-        Names of the joints.
-    iterates
-        Whether a loop is solved by iteration, which `Formulation.allow_iteration` must permit.
-    """
-
-    independent: tuple[str, ...]
+    independent: tuple[str, ...]  # names of the joints
+    # whether a loop is solved by iteration, which `Formulation.allow_iteration` must permit
     iterates: bool = False
 
 

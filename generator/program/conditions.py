@@ -11,45 +11,26 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Assumption:
-    """A quantity that must be zero.
+    """A quantity that must be zero."""
 
-    Attributes
-    ----------
-    name
-        Of the constant.
-    quantity
-        The sine of an angle (unit ``1``), or a distance (``m``).
-    scale
-        Length with which a distance is compared; 1 for an angle.
-    meaning, remedy
-        Cause of a quantity that is not zero, and its remedy, for the message.
-    """
-
-    name: str
-    quantity: sp.Expr
-    scale: sp.Expr
+    name: str  # of the constant
+    quantity: sp.Expr  # sine of an angle (unit `1`), or a distance (`m`)
+    scale: sp.Expr  # length with which a distance is compared; 1 for an angle
     unit: str
+    # cause of a quantity that is not zero, and its remedy, for the message
     meaning: str
     remedy: str
 
 
 @dataclass(frozen=True)
 class Condition:
-    """A constant that must not vanish.
+    """A constant that must not vanish."""
 
-    Attributes
-    ----------
-    quantity
-        A distance (unit ``m``), the sine of an angle (``1``), or the rest of a mass after
-        elimination; its sign does not matter.
-    least
-        Lower bound of its absolute value.
-    meaning, remedy
-        Cause of a smaller value, and its remedy, for the message.
-    """
-
+    # distance (unit `m`), the sine of an angle (`1`), or the rest of a mass after elimination; its
+    # sign does not matter
     quantity: sp.Expr
-    least: sp.Expr
+    least: sp.Expr  # lower bound of its absolute value
     unit: str
+    # cause of a smaller value, and its remedy, for the message
     meaning: str
     remedy: str

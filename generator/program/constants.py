@@ -21,29 +21,16 @@ if TYPE_CHECKING:
 
 @dataclass
 class ConstantStage:
-    """Steps that depend on parameters only, shared by all programs of a model.
+    """Steps that depend on parameters only, shared by all programs of a model."""
 
-    Attributes
-    ----------
-    parameters
-        Symbols that are fixed for one parameter set.
-    reserved
-        Names of states and inputs, which no step may have.
-    derived
-        Expressions in parameters, by the symbols that represent them in equations.
-    steps
-        The steps, in order.
-    blocks
-        The iterations of all programs, by their names.
-    conditions
-        Constants that must not vanish.
-    """
-
-    parameters: tuple[sp.Symbol, ...]
-    reserved: frozenset[str] = frozenset()
+    parameters: tuple[sp.Symbol, ...]  # symbols that are fixed for one parameter set
+    reserved: frozenset[str] = frozenset()  # names of states and inputs, which no step may have
+    # expressions in parameters, by the symbols that represent them in equations
     derived: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
-    steps: dict[sp.Symbol, Step] = field(default_factory=dict)
+    steps: dict[sp.Symbol, Step] = field(default_factory=dict)  # steps, in order
+    # iterations of all programs, by their names
     blocks: dict[str, IterationBlock] = field(default_factory=dict)
+    # constants that must not vanish
     conditions: dict[sp.Expr, Condition] = field(default_factory=dict)
     _known: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
     _varying: set[str] = field(default_factory=set)  # names of steps of the programs

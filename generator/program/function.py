@@ -21,36 +21,18 @@ LOST = "lost"
 
 @dataclass(frozen=True, eq=False)
 class Function:
-    """An emitted function: the pruned program of some results, in no language.
+    """An emitted function: the pruned program of some results, in no language."""
 
-    Attributes
-    ----------
-    name, doc
-        C name without the model's prefix, and docstring of one line.
-    steps
-        The assignments, in order.
-    results
-        Expressions of the outputs in the names of the steps, row-major.
-    labels
-        One label for each output.
-    shape
-        Shape of the output array.
-    guards
-        The guards that act in this function.
-    part
-        End of the name of its file, behind the model's name.
-    blocks
-        The iterations that it calls; none in a model whose loops all have a closed form.
-    """
-
+    # C name without the model's prefix, and docstring of one line
     name: str
     doc: str
-    steps: tuple[Step, ...]
-    results: tuple[sp.Expr, ...]
-    labels: tuple[str, ...]
-    shape: tuple[int, ...]
-    guards: tuple[Guard, ...]
-    part: str = ""
+    steps: tuple[Step, ...]  # assignments, in order
+    results: tuple[sp.Expr, ...]  # expressions of the outputs in the names of the steps, row-major
+    labels: tuple[str, ...]  # one label for each output
+    shape: tuple[int, ...]  # shape of the output array
+    guards: tuple[Guard, ...]  # guards that act in this function
+    part: str = ""  # end of the name of its file, behind the model's name
+    # iterations that it calls; none in a model whose loops all have a closed form
     blocks: tuple[IterationBlock, ...] = ()
 
     @property
@@ -77,18 +59,12 @@ class Stage:
 
     Each has the program that it has alone, so that its results are the same to the last bit; the
     printer of a stage emits equal operations once.
-
-    Attributes
-    ----------
-    name, doc
-        As of a function.
-    members
-        The functions; their results are concatenated.
     """
 
+    # as of a function
     name: str
     doc: str
-    members: tuple[Function, ...]
+    members: tuple[Function, ...]  # functions; their results are concatenated
 
     @property
     def part(self) -> str:
@@ -118,77 +94,42 @@ class Stage:
 
 @dataclass(frozen=True)
 class Driven:
-    """A driven coordinate along the path of a block.
+    """A driven coordinate along the path of a block."""
 
-    Attributes
-    ----------
-    now
-        Its symbol in the block, at a stage of the path.
-    way
-        Symbol of its change within the stage.
-    start, end
-        Its values at the design position, and in a call.
-    unit
-        Change of it that counts like a radian.
-    turns
-        Whether it is an angle: a full turn changes nothing.
-    """
-
-    now: sp.Symbol
-    way: sp.Symbol
+    now: sp.Symbol  # symbol in the block, at a stage of the path
+    way: sp.Symbol  # symbol of its change within the stage
+    # values at the design position, and in a call
     start: sp.Expr
     end: sp.Symbol
-    unit: sp.Expr
-    turns: bool
+    unit: sp.Expr  # change of it that counts like a radian
+    turns: bool  # whether it is an angle: a full turn changes nothing
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """Symbols of the start of one iteration.
+    """Symbols of the start of one iteration."""
 
-    Attributes
-    ----------
-    base, step
-        The estimate is the sum of both.
-    held
-        The inverse of J of the stage before: a row for each unknown.
-    """
-
+    # estimate is the sum of both
     base: tuple[sp.Symbol, ...]
     step: tuple[sp.Symbol, ...]
+    # inverse of J of the stage before: a row for each unknown
     held: tuple[tuple[sp.Symbol, ...], ...]
 
 
 @dataclass(frozen=True)
 class IterationBlock:
-    """An iteration with a name.
+    """An iteration with a name."""
 
-    Attributes
-    ----------
-    name, doc
-        Name of the function in C, and its result (behind a verb, without a full stop).
-    unknowns
-        Names of the unknowns; at the design position they are zero.
-    equations
-        Number of residuals.
-    constants
-        Constants of one parameter set that it reads.
-    driven
-        The coordinates on which it depends.
-    estimate
-        Inputs of `once` beside constants and coordinates.
-    once
-        One iteration. Its outputs are those of the block but for `LOST`, the squared distance from
-        the design position, the correction, and the square of the relative change of J.
-    """
-
+    # name of the function in C, and its result (behind a verb, without a full stop)
     name: str
     doc: str
-    unknowns: tuple[str, ...]
-    equations: int
-    constants: tuple[sp.Symbol, ...]
-    driven: tuple[Driven, ...]
-    estimate: Estimate
+    unknowns: tuple[str, ...]  # names of the unknowns; at the design position they are zero
+    equations: int  # number of residuals
+    constants: tuple[sp.Symbol, ...]  # constants of one parameter set that it reads
+    driven: tuple[Driven, ...]  # coordinates on which it depends
+    estimate: Estimate  # inputs of `once` beside constants and coordinates
+    # one iteration. Its outputs are those of the block but for `LOST`, the squared distance from
+    # the design position, the correction, and the square of the relative change of J.
     once: Function
 
     @cached_property

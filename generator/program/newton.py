@@ -57,26 +57,13 @@ Matrix = list[list[sp.Expr]]
 
 @dataclass(frozen=True)
 class IterationResult:
-    """Equations of one iteration at an estimate.
+    """Equations of one iteration at an estimate."""
 
-    Attributes
-    ----------
-    unknowns
-        The estimate.
-    misfits
-        The residuals of the equations.
-    rows
-        J.
-    apart
-        The squared distance of the estimate from the design position, without whole turns.
-    given, by_given
-        Frozen quantities of the equations, and the derivatives of the misfits with respect to each.
-    """
-
-    unknowns: Sequence[sp.Expr]
-    misfits: Sequence[sp.Expr]
-    rows: Matrix
-    apart: sp.Expr
+    unknowns: Sequence[sp.Expr]  # estimate
+    misfits: Sequence[sp.Expr]  # residuals of the equations
+    rows: Matrix  # J
+    apart: sp.Expr  # squared distance of the estimate from the design position, without whole turns
+    # frozen quantities of the equations, and the derivatives of the misfits with respect to each
     given: Sequence[sp.Expr] = ()
     by_given: Matrix = field(default_factory=list)
 

@@ -17,18 +17,10 @@ if TYPE_CHECKING:
 
 
 class Display(NamedTuple):
-    """A unit for display, such as mm for a length.
+    """A unit for display, such as mm for a length."""
 
-    Attributes
-    ----------
-    units : str
-        As it is printed.
-    factor : float
-        Value in this unit divided by the value in SI units.
-    """
-
-    units: str
-    factor: float
+    units: str  # as it is printed
+    factor: float  # value in this unit divided by the value in SI units
 
 
 _DEGREES = 180.0 / math.pi

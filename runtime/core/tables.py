@@ -79,47 +79,24 @@ class ColumnHeading(NamedTuple):
 
 
 class Column(NamedTuple):
-    """A column of a known name.
-
-    Attributes
-    ----------
-    name : str
-    at : int
-        Index of the column.
-    unit : str or None
-        As it is in the table; None where there is none.
-    """
+    """A column of a known name."""
 
     name: str
-    at: int
-    unit: str | None
+    at: int  # index of the column
+    unit: str | None  # as it is in the table; None where there is none
 
 
 @dataclass(frozen=True)
 class Table:
-    """Rows below the names of columns.
+    """Rows below the names of columns."""
 
-    Attributes
-    ----------
-    source : str
-        Origin, for messages.
-    headings : tuple of ColumnHeading
-    rows : list of (int, list)
-        The cells of each row, with the number of its line.
-    units : tuple of (str or None)
-        Units in the row of units, one for each column; None where it has none.
-    stated : tuple of str
-        Units that comment lines state for all columns.
-    commas : bool
-        Whether numbers may have decimal commas.
-    """
-
-    source: str
+    source: str  # origin, for messages
     headings: tuple[ColumnHeading, ...]
-    rows: list[Row]
+    rows: list[Row]  # cells of each row, with the number of its line
+    # units in the row of units, one for each column; None where it has none
     units: tuple[str | None, ...]
-    stated: tuple[str, ...]
-    commas: bool
+    stated: tuple[str, ...]  # units that comment lines state for all columns
+    commas: bool  # whether numbers may have decimal commas
 
     @classmethod
     def of(

@@ -60,18 +60,11 @@ def dataset_of(model: System, result: Simulation) -> xr.Dataset:
 
 @dataclass(frozen=True)
 class Statistics:
-    """Statistics of a signal over a simulation, in its SI unit.
-
-    Attributes
-    ----------
-    smallest, largest : float
-    mean, rms : float
-        Over time, by the trapezoidal rule; rms is about the mean.
-    last : float
-    """
+    """Statistics of a signal over a simulation, in its SI unit."""
 
     smallest: float
     largest: float
+    # over time, by the trapezoidal rule; rms is about the mean
     mean: float
     rms: float
     last: float

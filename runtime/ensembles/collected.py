@@ -15,26 +15,19 @@ from .stiff_fallback import StiffFallback
 
 @dataclass
 class Collected:
-    """Series and reductions of an ensemble; called with some systems when they are done.
-
-    Attributes
-    ----------
-    samples : ndarray, shape (count, number of signals, number of times)
-        Signals kept at all times; NaN after the last time that a system reached.
-    of_series : dict
-        Reductions of whole series, shape (count,) or (count, number of frequencies).
-    solvers : ndarray of str
-        The method that found the results of each system; empty for a system that never began.
-    reasons : dict
-        Why the second simulation of a system failed; empty if it succeeded.
-    """
+    """Series and reductions of an ensemble; called with some systems when they are done."""
 
     problem: Problem
     asked: OutputSpec
     again: StiffFallback | None
+    # signals kept at all times; NaN after the last time that a system reached, (count, number of
+    # signals, number of times)
     samples: Array = field(init=False)
+    # reductions of whole series, shape (count,) or (count, number of frequencies)
     of_series: dict[Reduced, Array] = field(init=False)
+    # method that found the results of each system; empty for a system that never began
     solvers: NDArray[np.object_] = field(init=False)
+    # why the second simulation of a system failed; empty if it succeeded
     reasons: dict[int, str] = field(init=False, default_factory=dict)
 
     def __post_init__(self) -> None:

@@ -16,21 +16,11 @@ from .variants import Variants, numbered
 
 @dataclass(frozen=True)
 class InputSets:
-    """Inputs over time, and which of them each system has.
+    """Inputs over time, and which of them each system has."""
 
-    Attributes
-    ----------
-    different : tuple of TimeInputs
-        The same inputs vary in all of them.
-    of : ndarray, shape (count,)
-        Index into `different` for each system.
-    constant : ndarray, shape (count or 1, number of inputs)
-        Values of the inputs that do not vary.
-    """
-
-    different: tuple[TimeInputs, ...]
-    of: NDArray[np.int32]
-    constant: Array
+    different: tuple[TimeInputs, ...]  # same inputs vary in all of them
+    of: NDArray[np.int32]  # index into `different` for each system, (count,)
+    constant: Array  # values of the inputs that do not vary, (count or 1, number of inputs)
 
 
 def input_sets_of(

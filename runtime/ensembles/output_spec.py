@@ -21,19 +21,11 @@ REDUCTIONS = (*ON_THE_WAY, *OF_SERIES)
 
 @dataclass(frozen=True)
 class Reduced:
-    """A reduction of a signal: a number, or for 'psd' one for each frequency.
-
-    Attributes
-    ----------
-    signal : str
-    kind : str
-        One of `REDUCTIONS`.
-    level : float
-        The level of 'above', the percentage of 'percentile', the outputs in a segment of 'psd'.
-    """
+    """A reduction of a signal: a number, or for 'psd' one for each frequency."""
 
     signal: str
-    kind: str
+    kind: str  # one of `REDUCTIONS`
+    # level of 'above', the percentage of 'percentile', the outputs in a segment of 'psd'
     level: float = 0.0
 
     @property
@@ -72,23 +64,12 @@ class Reduced:
 
 @dataclass(frozen=True)
 class OutputSpec:
-    """The requested results, and the bounds that are checked.
+    """The requested results, and the bounds that are checked."""
 
-    Attributes
-    ----------
-    times : ndarray
-        Of the outputs [s].
-    signals : tuple of str
-        Kept at all times.
-    reduced : tuple of Reduced
-    bounds : tuple of Bound
-        Bounds of the model on signals.
-    """
-
-    times: Array
-    signals: tuple[str, ...]
+    times: Array  # of the outputs [s]
+    signals: tuple[str, ...]  # kept at all times
     reduced: tuple[Reduced, ...]
-    bounds: tuple[Bound, ...]
+    bounds: tuple[Bound, ...]  # bounds of the model on signals
 
     @property
     def items(self) -> tuple[str, ...]:

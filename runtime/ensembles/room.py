@@ -17,21 +17,12 @@ _OTHERS, _OF_COLUMN, _OF_STATE = 12, 4, 2
 
 @dataclass(frozen=True)
 class Room:
-    """The memory of results, in addition to that of the variants.
-
-    Attributes
-    ----------
-    model : System
-    asked : OutputSpec
-    threads : int
-    width : int
-        Number of systems in a vector, whose series are in memory together.
-    """
+    """The memory of results, in addition to that of the variants."""
 
     model: System
     asked: OutputSpec
     threads: int
-    width: int
+    width: int  # number of systems in a vector, whose series are in memory together
 
     def refuse_beyond(self, given: Validator, count: int, columns: int) -> None:
         """Refuse a number of systems, with columns of their own, that needs too much memory."""

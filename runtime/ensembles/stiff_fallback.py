@@ -15,18 +15,10 @@ from ..systems.system import System
 
 @dataclass(frozen=True)
 class StiffFallback:
-    """Simulation of single systems of a problem by an implicit method.
+    """Simulation of single systems of a problem by an implicit method."""
 
-    Attributes
-    ----------
-    problem : Problem
-        Its outcome is overwritten where the simulation succeeds.
-    method : str
-        Of `kintrafo.simulate`.
-    """
-
-    problem: Problem
-    method: Literal["BDF"] = "BDF"
+    problem: Problem  # outcome is overwritten where the simulation succeeds
+    method: Literal["BDF"] = "BDF"  # of `kintrafo.simulate`
 
     def do(self, place: int, samples: Array, stopped: Callable[[], bool]) -> str:
         """Simulate one system with the same inputs, times and tolerances.

@@ -32,25 +32,17 @@ _OF_MASS = ("_mass", "_com_x", "_com_y", "_com_z", "_inertia_")
 
 @dataclass(frozen=True)
 class Variants:
-    """The values that differ between systems.
+    """The values that differ between systems."""
 
-    Attributes
-    ----------
-    shape : dict
-        Dimensions and their lengths; the systems are all combinations, the last dimension fastest.
-    coordinates : dict
-        Coordinates of the given dataset.
-    parameters, states, inputs : dict
-        By name, each of shape (count,).
-    labels : dict
-        By input: the label of its time series for each system.
-    """
-
+    # dimensions and their lengths; the systems are all combinations, the last dimension fastest
     shape: dict[Hashable, int]
+    # coordinates of the given dataset
     coordinates: dict[Hashable, Any] = field(default_factory=dict)
+    # by name, each of shape (count,)
     parameters: dict[str, Array] = field(default_factory=dict)
     states: dict[str, Array] = field(default_factory=dict)
     inputs: dict[str, Array] = field(default_factory=dict)
+    # by input: the label of its time series for each system
     labels: dict[str, NDArray[Any]] = field(default_factory=dict)
 
     @property

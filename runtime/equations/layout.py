@@ -19,24 +19,17 @@ class StateLayout:
     Most coordinates are positions whose rates are speeds. A body that moves freely in the world has
     seven positions, of which the last four are a quaternion, and six speeds in its own axes.
     Internal states of forces follow the speeds.
-
-    Attributes
-    ----------
-    positions, speeds : int
-        Their numbers; they come in this order.
-    speed_of : tuple of int or None
-        For each position the index of the speed that changes it most directly: the rate of a
-        coordinate, the velocity of a free body along the same axis, its angular velocity about it
-        for a component of the quaternion. None for the scalar part, and where constraints determine
-        the rate.
-    free : tuple of int
-        Index of the first of the seven positions of each free body.
     """
 
+    # their numbers; they come in this order
     positions: int
     speeds: int
+    # for each position the index of the speed that changes it most directly: the rate of a
+    # coordinate, the velocity of a free body along the same axis, its angular velocity about it for
+    # a component of the quaternion. None for the scalar part, and where constraints determine the
+    # rate.
     speed_of: tuple[int | None, ...]
-    free: tuple[int, ...]
+    free: tuple[int, ...]  # index of the first of the seven positions of each free body
 
     @classmethod
     def of(cls, described: Mapping[str, Any]) -> "StateLayout":

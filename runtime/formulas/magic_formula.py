@@ -30,86 +30,51 @@ Coefficients = Mapping[str, Any]
 
 @dataclass(frozen=True)
 class Contact:
-    """The state of a contact in its axes (ISO 8855): x forward, y left, z up.
+    """The state of a contact in its axes (ISO 8855): x forward, y left, z up."""
 
-    Attributes
-    ----------
-    load
-        Force of the road on the tyre along its normal [N], zero or more.
-    longitudinal
-        kappa = -Vsx / |Vcx| (4.E5): positive in driving.
-    lateral
-        Vcy / |Vcx|, or its angle [rad] (see `Form`): positive where the contact moves to the left.
-        It is alpha* of (4.E3), whose y axis points to the right.
-    inclination
-        Sine of the inclination about x (4.E4): positive with the top of the wheel to the right.
-    direction
-        cos'(alpha) = Vcx / |Vc| (4.E6): negative rolling backward.
-    rolling
-        Sign of Vcx; near standstill a smooth value between -1 and 1.
-    speed
-        Vcx / V0 with its sign.
-    pressure
-        (p - p0) / p0 (4.E2b).
-    """
-
-    load: Any
-    longitudinal: Any
+    load: Any  # force of the road on the tyre along its normal [N], zero or more
+    longitudinal: Any  # kappa = -Vsx / |Vcx| (4.E5): positive in driving
+    # Vcy / |Vcx|, or its angle [rad] (see `Form`): positive where the contact moves to the left. It
+    # is alpha* of (4.E3), whose y axis points to the right.
     lateral: Any
+    # sine of the inclination about x (4.E4): positive with the top of the wheel to the right
     inclination: Any
-    direction: Any
-    rolling: Any
-    speed: Any
-    pressure: Any
+    direction: Any  # cos'(alpha) = Vcx / |Vc| (4.E6): negative rolling backward
+    rolling: Any  # sign of Vcx; near standstill a smooth value between -1 and 1
+    speed: Any  # Vcx / V0 with its sign
+    pressure: Any  # (p - p0) / p0 (4.E2b)
 
 
 @dataclass(frozen=True)
 class Form:
-    """The variant of the formulas for a property file.
+    """The variant of the formulas for a property file."""
 
-    Attributes
-    ----------
-    newer : bool
-        MF 6.1 and 6.2: camber shifts the lateral slip by its own stiffness (4.E27), and the
-        aligning moment has the lateral force of an upright wheel (4.E74). Else PAC2002: the shift
-        is PHY3 times inclination, and the moment has the lateral force without the part that slip
-        induces.
-    weighted : bool
-        Combined slip by weighting functions (4.E50 to 4.E67), else by the friction ellipse of
-        Adams/Tire, for files without their coefficients.
-    angle : bool
-        Lateral slip is the angle, as in PAC2002 of Adams/Tire; else its tangent (4.E3).
-    """
-
+    # MF 6.1 and 6.2: camber shifts the lateral slip by its own stiffness (4.E27), and the aligning
+    # moment has the lateral force of an upright wheel (4.E74). Else PAC2002: the shift is PHY3
+    # times inclination, and the moment has the lateral force without the part that slip induces.
     newer: bool = True
+    # combined slip by weighting functions (4.E50 to 4.E67), else by the friction ellipse of
+    # Adams/Tire, for files without their coefficients
     weighted: bool = True
+    # lateral slip is the angle, as in PAC2002 of Adams/Tire; else its tangent (4.E3)
     angle: bool = False
 
 
 @dataclass(frozen=True)
 class Forces:
-    """Forces and moments of the road on the tyre at the contact, and stiffnesses at zero slip.
+    """Forces and moments of the road on the tyre at the contact, and stiffnesses at zero slip."""
 
-    Attributes
-    ----------
-    fx, fy
-        Forces along x and y [N].
-    mx, my, mz
-        Overturning, rolling-resistance and aligning moment [N m].
-    slip_stiffness, cornering_stiffness
-        dFx/dkappa and dFy/dalpha at zero slip [N]; the latter is negative.
-    trail
-        Pneumatic trail: distance of the lateral force behind the contact [m].
-    """
-
+    # forces along x and y [N]
     fx: Any
     fy: Any
+    # overturning, rolling-resistance and aligning moment [N m]
     mx: Any
     my: Any
     mz: Any
+    # dFx/dkappa and dFy/dalpha at zero slip [N]; the latter is negative
     slip_stiffness: Any
     cornering_stiffness: Any
-    trail: Any
+    trail: Any  # pneumatic trail: distance of the lateral force behind the contact [m]
 
 
 def forces(a: Arithmetic, p: Coefficients, c: Contact, form: Form) -> Forces:
@@ -152,25 +117,16 @@ def stiffnesses(a: Arithmetic, p: Coefficients, c: Contact) -> tuple[Any, Any]:
 
 @dataclass(frozen=True)
 class _Side:
-    """A force at pure slip along one axis; forces are per load.
+    """A force at pure slip along one axis; forces are per load."""
 
-    Attributes
-    ----------
-    stiffness, peak
-        K / Fz and mu.
-    bend
-        B C: the slope of the argument of the sine, as stiffness over peak.
-    slip, shift
-        Slip with its horizontal shift, and that shift.
-    friction, vertical
-        The sine term and the vertical shift; the force is their sum.
-    """
-
+    # K / Fz and mu
     stiffness: Any
     peak: Any
-    bend: Any
+    bend: Any  # B C: the slope of the argument of the sine, as stiffness over peak
+    # slip with its horizontal shift, and that shift
     slip: Any
     shift: Any
+    # sine term and the vertical shift; the force is their sum
     friction: Any
     vertical: Any
 

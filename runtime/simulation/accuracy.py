@@ -19,24 +19,12 @@ _SMALLEST_RTOL = 100.0 * np.finfo(float).eps  # the limit of double precision
 
 @dataclass(frozen=True, kw_only=True)
 class Accuracy:
-    """Tolerances and steps of an integration; the names are those of SciPy.
-
-    Attributes
-    ----------
-    rtol : float
-    atol : ndarray
-        Of each element of the state, in its SI unit.
-    max_step : float
-        [s], may be infinite.
-    first_step : float or None
-        [s]; None: chosen by the method.
-    max_steps : int
-    """
+    """Tolerances and steps of an integration; the names are those of SciPy."""
 
     rtol: float
-    atol: Array
-    max_step: float
-    first_step: float | None
+    atol: Array  # of each element of the state, in its SI unit
+    max_step: float  # [s], may be infinite
+    first_step: float | None  # [s]; None: chosen by the method
     max_steps: int
 
 

@@ -48,21 +48,13 @@ _MOST_CROSSINGS = 2**31 - 1
 
 @dataclass(frozen=True)
 class Events:
-    """The events of a simulation: `signal` ones first, then the caller's functions.
-
-    Attributes
-    ----------
-    signal : tuple of SignalEvent
-    functions : tuple of callable
-        Of time and state, with SciPy's attributes ``terminal`` and ``direction``. They return
-        finite numbers or raise an `InputError`: for a solver NaN means "no crossing".
-    order : tuple of int
-        Index of each of them in the caller's list.
-    """
+    """The events of a simulation: `signal` ones first, then the caller's functions."""
 
     signal: tuple[SignalEvent, ...]
+    # of time and state, with SciPy's attributes `terminal` and `direction`. They return finite
+    # numbers or raise an `InputError`: for a solver NaN means "no crossing".
     functions: tuple["_CheckedFunction", ...]
-    order: tuple[int, ...]
+    order: tuple[int, ...]  # index of each of them in the caller's list
 
     @cached_property
     def directions(self) -> NDArray[np.int32]:

@@ -112,21 +112,13 @@ def _eased(times: Array, values: Array) -> Eased:
 
 @dataclass(frozen=True)
 class _Parts:
-    """Three cubics in each of n intervals, all of shape (3, n).
+    """Three cubics in each of n intervals, all of shape (3, n)."""
 
-    Attributes
-    ----------
-    width : ndarray
-        [s]
-    slope, value : ndarray
-        At the begin of each part; values are relative to the begin of the interval.
-    begin, end : ndarray
-        Second derivative at the ends of each part.
-    """
-
-    width: Array
+    width: Array  # [s]
+    # at the begin of each part; values are relative to the begin of the interval
     slope: Array
     value: Array
+    # second derivative at the ends of each part
     begin: Array
     end: Array
 

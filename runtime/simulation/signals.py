@@ -35,39 +35,22 @@ _JUMP = 1e-6
 
 @dataclass(frozen=True)
 class Spline:
-    """One varying input.
+    """One varying input."""
 
-    Attributes
-    ----------
-    curve : PPoly
-        Piecewise cubic, of time [s].
-    targets : tuple of int
-        Indices in the array of inputs of the value and its two derivatives; -1 for none.
-    """
-
-    curve: PPoly
+    curve: PPoly  # piecewise cubic, of time [s]
+    # indices in the array of inputs of the value and its two derivatives; -1 for none
     targets: tuple[int, int, int]
 
 
 @dataclass(frozen=True)
 class Segment:
-    """A time span in which no input jumps, nor a derivative that the model reads.
+    """A time span in which no input jumps, nor a derivative that the model reads."""
 
-    Attributes
-    ----------
-    start, end : float
-        [s]
-    splines : tuple of Spline
-    kinks : ndarray
-        Times inside that no step passes over, from start to end [s].
-    turns : tuple of ndarray, shape (2, n)
-        Extrema of each input, see `turning_points`, also from start to end.
-    """
-
-    start: float
-    end: float
+    start: float  # [s]
+    end: float  # [s]
     splines: tuple[Spline, ...]
-    kinks: Array
+    kinks: Array  # times inside that no step passes over, from start to end [s]
+    # extrema of each input, see `turning_points`, also from start to end, (2, n)
     turns: tuple[Array, ...] = ()
 
     @cached_property
@@ -95,21 +78,11 @@ class Segment:
 
 @dataclass(frozen=True)
 class TimeInputs:
-    """The inputs of a model over time.
+    """The inputs of a model over time."""
 
-    Attributes
-    ----------
-    constant : ndarray
-        Values of the inputs that do not vary.
-    segments : tuple of Segment
-        In the order of time; at their borders an input may jump.
-    variant : str
-        Suffix of the names of functions that leave out coordinates at rest; empty if none is at
-        rest.
-    """
-
-    constant: Array
-    segments: tuple[Segment, ...]
+    constant: Array  # values of the inputs that do not vary
+    segments: tuple[Segment, ...]  # in the order of time; at their borders an input may jump
+    # suffix of the names of functions that leave out coordinates at rest; empty if none is at rest
     variant: str
 
     def at(self, time: float, segment: Segment) -> Array:

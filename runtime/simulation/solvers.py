@@ -64,43 +64,26 @@ class Options(Accuracy):
 
 @dataclass
 class SolvedSegment:
-    """The integration of one segment.
+    """The integration of one segment."""
 
-    Attributes
-    ----------
-    t, y
-        Output times [s], and states with one row each.
-    reached_time, reached_state
-        The end of the last step, which need not be an output.
-    events
-        (index of the event, time, state), in the order of time.
-    outcome
-        'done', 'event', or the name of an error.
-    counts
-        Statistics by name.
-    interpolants
-        (first time, last time, function of time) of every step, if requested.
-    refused_time, refused_state
-        Time and state that the model refused.
-    refused_guard
-        The guard at whose dead point the motion ends; None if a state was refused for another
-        reason.
-    longest_step
-        The longest stable step, if fixed steps are not stable [s].
-    """
-
+    # output times [s], and states with one row each
     t: Array
     y: Array
-    outcome: str
-    counts: dict[str, int]
+    outcome: str  # 'done', 'event', or the name of an error
+    counts: dict[str, int]  # statistics by name
+    # end of the last step, which need not be an output
     reached_time: float
     reached_state: Array
+    # (index of the event, time, state), in the order of time
     events: list[tuple[int, float, Array]] = field(default_factory=list)
+    # (first time, last time, function of time) of every step, if requested
     interpolants: list[tuple[float, float, Callable[[Array], Array]]] = field(default_factory=list)
+    # time and state that the model refused
     refused_time: float = 0.0
     refused_state: Array | None = None
+    # guard at whose dead point the motion ends; None if a state was refused for another reason
     refused_guard: int | None = None
-    longest_step: float = 0.0
+    longest_step: float = 0.0  # longest stable step, if fixed steps are not stable [s]
     detail: str = ""
 
 

@@ -18,26 +18,13 @@ from .levels import Values, value_of
 
 @dataclass(frozen=True)
 class Bound:
-    """A bound of the model on a signal.
-
-    Attributes
-    ----------
-    signal : str
-    limit : float or ndarray
-        Of one system, or of each of many, SI units; infinite without a bound.
-    above : bool
-        Whether it is an upper bound; else a lower one.
-    words : str
-        Description of the state beyond, for a sentence.
-    possible : bool
-        Whether the mechanism can pass it, where only the data end.
-    """
+    """A bound of the model on a signal."""
 
     signal: str
-    limit: Values
-    above: bool
-    words: str
-    possible: bool
+    limit: Values  # of one system, or of each of many, SI units; infinite without a bound
+    above: bool  # whether it is an upper bound; else a lower one
+    words: str  # description of the state beyond, for a sentence
+    possible: bool  # whether the mechanism can pass it, where only the data end
 
 
 def bounds_of(model: System, varied: Mapping[str, Array] | None = None) -> Iterator[Bound]:
@@ -81,26 +68,14 @@ def _ends(
 
 @dataclass(frozen=True)
 class Excursion:
-    """A bound that a motion passed.
-
-    Attributes
-    ----------
-    bound : Bound
-    unit : str
-        SI unit of the signal.
-    spans : tuple of (float, float)
-        First and last output of each time span beyond the bound [s].
-    worst : float
-        The value farthest beyond, SI units.
-    time : float
-        Time of that value [s].
-    """
+    """A bound that a motion passed."""
 
     bound: Bound
-    unit: str
+    unit: str  # SI unit of the signal
+    # first and last output of each time span beyond the bound [s]
     spans: tuple[tuple[float, float], ...]
-    worst: float
-    time: float
+    worst: float  # value farthest beyond, SI units
+    time: float  # time of that value [s]
 
     def __str__(self) -> str:
         shown = display_of(attributes(self.bound.signal, self.unit))

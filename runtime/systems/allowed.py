@@ -9,20 +9,11 @@ from ..core.named_types import Array
 
 
 class LengthLimit(NamedTuple):
-    """A limit of a length.
+    """A limit of a length."""
 
-    Attributes
-    ----------
-    signal : str
-        The signal of the equations that is the length.
-    limit : float
-        The least length; or minus the greatest length [m].
-    part, end : str
-        The part with this length, and the name of the limit.
-    """
-
-    signal: str
-    limit: float
+    signal: str  # signal of the equations that is the length
+    limit: float  # least length; or minus the greatest length [m]
+    # part with this length, and the name of the limit
     part: str
     end: str
 

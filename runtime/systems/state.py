@@ -9,14 +9,9 @@ from ..core.named_types import Array, ArrayLike
 
 
 class StateNames(NamedTuple):
-    """Names of the elements of a state and of its inputs.
+    """Names of the elements of a state and of its inputs."""
 
-    Attributes
-    ----------
-    state, inputs : tuple of str
-        As ``model.state_names`` and ``model.input_names``.
-    """
-
+    # as `model.state_names` and `model.input_names`
     state: tuple[str, ...]
     inputs: tuple[str, ...]
 

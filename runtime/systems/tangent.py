@@ -22,17 +22,10 @@ from ..equations.layout import StateLayout
 
 @dataclass(frozen=True)
 class Tangent:
-    """Linear equations of the motions near a state.
+    """Linear equations of the motions near a state."""
 
-    Attributes
-    ----------
-    A : ndarray
-        Their matrix.
-    lift : ndarray, shape (states, len(A)), or None
-        Matrix from their coordinates to changes of the state; None for the identity.
-    """
-
-    A: Array
+    A: Array  # their matrix
+    # matrix from their coordinates to changes of the state; None for the identity, (states, len(A))
     lift: Array | None
 
     @classmethod

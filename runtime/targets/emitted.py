@@ -14,36 +14,21 @@ from ..systems.system import System
 
 
 class Result(NamedTuple):
-    """A result of a C function.
+    """A result of a C function."""
 
-    Attributes
-    ----------
-    function : str
-        The C function.
-    size : int
-        Number of elements that it computes.
-    start, length : int
-        First element of the result, and number of its elements.
-    """
-
-    function: str
-    size: int
+    function: str  # C function
+    size: int  # number of elements that it computes
+    # first element of the result, and number of its elements
     start: int
     length: int
 
 
 @dataclass(frozen=True)
 class Emitted:
-    """The emitted C of a system, with its numbers.
-
-    Attributes
-    ----------
-    system : System
-    state, inputs : ndarray
-        At the start.
-    """
+    """The emitted C of a system, with its numbers."""
 
     system: System
+    # at the start
     state: Array
     inputs: Array
 

@@ -20,15 +20,9 @@ _FEW = 3  # most commands that a message about an option names
 
 
 class Command(TyperCommand):
-    """A command with help without markup in brackets, and explained mistakes.
+    """A command with help without markup in brackets, and explained mistakes."""
 
-    Attributes
-    ----------
-    examples : sequence of str
-        Lines that can be run; a message shows one of them.
-    """
-
-    examples: ClassVar[Sequence[str]] = ()
+    examples: ClassVar[Sequence[str]] = ()  # lines that can be run; a message shows one of them
 
     def __init__(self, *args: Any, **options: Any) -> None:
         super().__init__(*args, **options)
@@ -54,15 +48,9 @@ class Command(TyperCommand):
 
 
 class CommandGroup(TyperGroup):
-    """Commands by name; an unknown one has a message with the nearest known one.
+    """Commands by name; an unknown one has a message with the nearest known one."""
 
-    Attributes
-    ----------
-    instead : mapping of str to str
-        Commands for other names that users may try.
-    """
-
-    instead: ClassVar[Mapping[str, str]] = {}
+    instead: ClassVar[Mapping[str, str]] = {}  # commands for other names that users may try
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
         """Return name, command and arguments."""

@@ -31,38 +31,21 @@ PIECE = 800
 
 @dataclass(frozen=True)
 class Piece:
-    """A piece of a function.
-
-    Attributes
-    ----------
-    steps
-    results
-        Indices of the results that can be returned behind these steps, and not earlier.
-    reads
-        All names that are read and not defined here.
-    """
+    """A piece of a function."""
 
     steps: tuple[Assignment, ...]
+    # indices of the results that can be returned behind these steps, and not earlier
     results: tuple[int, ...]
-    reads: frozenset[str]
+    reads: frozenset[str]  # all names that are read and not defined here
 
 
 @dataclass(frozen=True)
 class Cut:
-    """A function in pieces.
-
-    Attributes
-    ----------
-    pieces
-    kept
-        The index of each value that one piece leaves for others.
-    size
-        Number of indices.
-    """
+    """A function in pieces."""
 
     pieces: tuple[Piece, ...]
-    kept: Mapping[str, int]
-    size: int
+    kept: Mapping[str, int]  # index of each value that one piece leaves for others
+    size: int  # number of indices
 
 
 def length_of(whole: Together) -> int:

@@ -53,21 +53,11 @@ class Equation:
 
 @dataclass(frozen=True)
 class Picture:
-    """One of the figures of a mechanism, see `figures`; or a diagram, where text draws it.
+    """One of the figures of a mechanism, see `figures`; or a diagram, where text draws it."""
 
-    Attributes
-    ----------
-    name
-        Name of the figure.
-    caption
-        Its caption.
-    mermaid
-        The diagram as text, if there is one.
-    """
-
-    name: str
+    name: str  # name of the figure
     caption: str
-    mermaid: str = ""
+    mermaid: str = ""  # diagram as text, if there is one
 
 
 @dataclass(frozen=True)

@@ -28,18 +28,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ScrewFormula:
-    """Motion of the rest of a chain per unit rate of a relative coordinate.
+    """Motion of the rest of a chain per unit rate of a relative coordinate."""
 
-    Attributes
-    ----------
-    axis
-        Unit vector along or about which it moves, as LaTeX.
-    point
-        A point on the axis, with its body; None of a slide.
-    """
-
-    axis: str
-    point: tuple[Point, str] | None
+    axis: str  # unit vector along or about which it moves, as LaTeX
+    point: tuple[Point, str] | None  # point on the axis, with its body; None of a slide
 
 
 class EquationNumbers:

@@ -47,21 +47,11 @@ class Action:
 
 @dataclass(frozen=True)
 class Description:
-    """Description of a force in reports.
-
-    Attributes
-    ----------
-    name
-        Its name.
-    acts
-        Its action, with names of parameters and inputs.
-    share
-        Its share of Q, by the paper's Eqs. 23 and 24: words, or LaTeX between ``$`` and ``$``.
-    """
+    """Description of a force in reports."""
 
     name: str
-    acts: str
-    share: str
+    acts: str  # action, with names of parameters and inputs
+    share: str  # share of Q, by the paper's Eqs. 23 and 24: words, or LaTeX between `$` and `$`.
 
 
 class Force(ABC):

@@ -18,19 +18,12 @@ HALF = sp.Rational(1, 2)
 
 @dataclass(frozen=True)
 class Flow:
-    """Flow of mass with a coordinate, or at all rates.
+    """Flow of mass with a coordinate, or at all rates."""
 
-    Attributes
-    ----------
-    momentum, angular
-        ``∫ r' dm`` and ``∫ r x r' dm``.
-    second
-        The rate of ``∫ r r^T dm``.
-    """
-
+    # `∫ r' dm` and `∫ r x r' dm`
     momentum: Vector = ZERO
     angular: Vector = ZERO
-    second: SymmetricTensor = field(default_factory=SymmetricTensor.zero)
+    second: SymmetricTensor = field(default_factory=SymmetricTensor.zero)  # rate of `∫ r r^T dm`
 
     def __add__(self, other: Flow) -> Flow:
         momentum, angular = self.momentum + other.momentum, self.angular + other.angular

@@ -19,22 +19,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class PartialMotion:
-    """Motion of a body on its base with a coordinate, or at all rates.
+    """Motion of a body on its base with a coordinate, or at all rates."""
 
-    Attributes
-    ----------
-    velocity, omega
-        Of its centre of mass, and its angular velocity.
-    spin
-        Angular momentum about the centre of mass.
-    flow
-        About O.
-    """
-
+    # of its centre of mass, and its angular velocity
     velocity: Vector
     omega: Vector
-    spin: Vector
-    flow: Flow
+    spin: Vector  # angular momentum about the centre of mass
+    flow: Flow  # about O
 
     def __mul__(self, rate: sp.Expr) -> PartialMotion:
         velocity, omega = self.velocity * rate, self.omega * rate
@@ -43,18 +34,10 @@ class PartialMotion:
 
 @dataclass(frozen=True)
 class InertiaWrench:
-    """Inertia forces of a body's own motion, without accelerations of the coordinates.
+    """Inertia forces of a body's own motion, without accelerations of the coordinates."""
 
-    Attributes
-    ----------
-    turn
-        The couple about its centre of mass that does work.
-    wrench
-        Couple about O, and force.
-    """
-
-    turn: Vector
-    wrench: Twist
+    turn: Vector  # couple about its centre of mass that does work
+    wrench: Twist  # couple about O, and force
 
 
 class MovingBody:

@@ -29,26 +29,17 @@ def kind_of(carried: Carried) -> type[Shifted | Hinged | MovingBody]:
 
 @dataclass
 class Sums:
-    """Sums over the bodies of one part, about O and in the axes of the base.
+    """Sums over the bodies of one part, about O and in the axes of the base."""
 
-    Attributes
-    ----------
-    mass, first, second
-        M, C and S.
-    flows, now
-        Those of each coordinate, and of all rates.
-    own
-        h'' and P''.
-    matrix, bias, across
-        ``∫ r_k' . r_l' dm``, b_k and X_k.
-    """
-
+    # M, C and S
     mass: sp.Expr = NONE
     first: Vector = ZERO
     second: SymmetricTensor = field(default_factory=SymmetricTensor.zero)
+    # those of each coordinate, and of all rates
     flows: dict[str, Flow] = field(default_factory=dict)
     now: Flow = field(default_factory=Flow)
-    own: Twist = NO_TWIST
+    own: Twist = NO_TWIST  # h'' and P''
+    # `∫ r_k' . r_l' dm`, b_k and X_k.
     matrix: dict[tuple[str, str], sp.Expr] = field(default_factory=dict)
     bias: dict[str, sp.Expr] = field(default_factory=dict)
     across: dict[str, Vector] = field(default_factory=dict)

@@ -32,20 +32,11 @@ Arrays = dict[str, NDArray[Any]]
 
 @dataclass(frozen=True)
 class Checkpoint:
-    """A folder of one ensemble.
-
-    Attributes
-    ----------
-    folder : Path
-    ensemble : str
-        A digest of its identity.
-    collected : Collected
-        The whole, of which every file has a part.
-    """
+    """A folder of one ensemble."""
 
     folder: Path
-    ensemble: str
-    collected: Collected
+    ensemble: str  # digest of its identity
+    collected: Collected  # whole, of which every file has a part
 
     def found(self) -> Iterator[ChunkResult]:
         """Yield the results in the folder; damaged files are left out with a warning.

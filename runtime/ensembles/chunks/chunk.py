@@ -29,82 +29,42 @@ Report = Callable[[int], None]
 
 @dataclass(frozen=True)
 class Common:
-    """The data that all chunks share.
-
-    Attributes
-    ----------
-    equations : SerializedModel
-    parameters : dict
-        Of the model.
-    drives : tuple of TimeInputs
-    wanted : LaneOutputs
-        Without the limits, which differ between systems.
-    asked : OutputSpec
-    accuracy : Accuracy
-    width, stiff_after : int
-        Number of lanes; steps after which a stiff system ends, 0 if it does not.
-    again : bool
-        Whether systems that lanes do not finish are simulated again.
-    versions : dict
-        Of the process that distributes the chunks.
-    """
+    """The data that all chunks share."""
 
     equations: SerializedModel
-    parameters: Mapping[str, float]
+    parameters: Mapping[str, float]  # of the model
     drives: tuple[TimeInputs, ...]
-    wanted: LaneOutputs
+    wanted: LaneOutputs  # without the limits, which differ between systems
     asked: OutputSpec
     accuracy: Accuracy
+    # number of lanes; steps after which a stiff system ends, 0 if it does not
     width: int
     stiff_after: int
-    again: bool
-    versions: Mapping[str, str]
+    again: bool  # whether systems that lanes do not finish are simulated again
+    versions: Mapping[str, str]  # of the process that distributes the chunks
 
 
 @dataclass(frozen=True)
 class Chunk:
-    """Some of the systems.
+    """Some of the systems."""
 
-    Attributes
-    ----------
-    first : int
-        Index of the first of them in the ensemble.
-    systems : Systems
-        Without the drives, which are in `Common`.
-    limits : ndarray
-        Limits of the bounds.
-    """
-
-    first: int
-    systems: Systems
-    limits: Array
+    first: int  # index of the first of them in the ensemble
+    systems: Systems  # without the drives, which are in `Common`
+    limits: Array  # limits of the bounds
 
 
 @dataclass(frozen=True)
 class ChunkResult:
-    """The results of some systems.
+    """The results of some systems."""
 
-    Attributes
-    ----------
-    first, last : int
-        The first of them, and the one after the last.
-    outcome : dict
-        The arrays of `Outcome` by name.
-    samples : ndarray
-    of_series : tuple of ndarray
-        In the order of the requested reductions.
-    solvers : ndarray of str
-    reasons : dict
-        By the index in the ensemble.
-    """
-
+    # first of them, and the one after the last
     first: int
     last: int
-    outcome: Mapping[str, NDArray[Any]]
+    outcome: Mapping[str, NDArray[Any]]  # arrays of `Outcome` by name
     samples: Array
-    of_series: tuple[Array, ...]
+    of_series: tuple[Array, ...]  # in the order of the requested reductions
     solvers: NDArray[np.str_]
-    reasons: Mapping[int, str]
+    reasons: Mapping[int, str]  # by the index in the ensemble
 
 
 def common_of(collected: Collected) -> Common:

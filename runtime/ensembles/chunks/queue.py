@@ -61,28 +61,14 @@ def by_workers(
 
 @dataclass
 class _Queue:
-    """Submitted chunks.
-
-    Attributes
-    ----------
-    client : distributed.Client
-    problem : Problem
-    shared : Future
-        Of the data that all chunks share.
-    left : iterator
-        Chunks that are not submitted yet.
-    waiting : dict
-        Submitted chunks by their futures.
-    done : SimpleQueue
-        Finished futures.
-    """
+    """Submitted chunks."""
 
     client: Any
     problem: Problem
-    shared: Any
-    left: Iterator[Span]
-    waiting: dict[Any, Span] = field(default_factory=dict)
-    done: SimpleQueue[Any] = field(default_factory=SimpleQueue)
+    shared: Any  # of the data that all chunks share
+    left: Iterator[Span]  # chunks that are not submitted yet
+    waiting: dict[Any, Span] = field(default_factory=dict)  # submitted chunks by their futures
+    done: SimpleQueue[Any] = field(default_factory=SimpleQueue)  # finished futures
 
     def fill(self) -> None:
         """Submit chunks for all threads of the workers, whose number may change."""

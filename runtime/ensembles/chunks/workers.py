@@ -32,18 +32,10 @@ _ANSWERED = 5.0
 
 @dataclass(frozen=True)
 class Workers:
-    """The workers of an ensemble.
+    """The workers of an ensemble."""
 
-    Attributes
-    ----------
-    of : int, str or Client
-        Number of processes that are started here, the address of a scheduler, or its client.
-    threads : int
-        Of each process that is started here.
-    """
-
-    of: Any
-    threads: int = 1
+    of: Any  # number of processes that are started here, the address of a scheduler, or its client
+    threads: int = 1  # of each process that is started here
 
     @contextmanager
     def client(self) -> Iterator[Any]:

@@ -22,31 +22,18 @@ _MOVES = 1e-9
 
 @dataclass(frozen=True)
 class Scene:
-    """Positions over a coordinate, an input or time.
+    """Positions over a coordinate, an input or time."""
 
-    Attributes
-    ----------
-    name, unit, meaning : str
-        Of the variable; SI unit.
-    values : ndarray, shape (n,)
-        Of the variable.
-    places : dict
-        Points of each body, shape (n, points, 3) [m].
-    states : ndarray, shape (n, elements)
-    signals : dict
-        Arrays of shape (n,), SI units; NaN where the model has no value.
-    remark : str
-        A sentence for the reader.
-    """
-
+    # of the variable; SI unit
     name: str
     unit: str
     meaning: str
-    values: Array
-    places: dict[str, Array]
-    states: Array
+    values: Array  # of the variable, (n,)
+    places: dict[str, Array]  # points of each body, shape (n, points, 3) [m]
+    states: Array  # (n, elements)
+    # arrays of shape (n,), SI units; NaN where the model has no value
     signals: dict[str, Array] = field(default_factory=dict)
-    remark: str = ""
+    remark: str = ""  # sentence for the reader
 
 
 def of_motion(skeleton: Skeleton, result: Simulation, remark: str = "") -> Scene:

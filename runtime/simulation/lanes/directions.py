@@ -49,14 +49,9 @@ class _Motion(ctypes.Structure):
 
 @dataclass(frozen=True)
 class Along:
-    """Directions: changes of everything on which a motion depends.
+    """Directions: changes of everything on which a motion depends."""
 
-    Attributes
-    ----------
-    constants, start, inputs : ndarray, shape (directions, elements)
-        Of the equations; of the initial state; of inputs that do not vary.
-    """
-
+    # of the equations; of the initial state; of inputs that do not vary, (directions, elements)
     constants: Array
     start: Array
     inputs: Array

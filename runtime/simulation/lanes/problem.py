@@ -45,91 +45,46 @@ class Kind(IntEnum):
 
 
 class Reduction(NamedTuple):
-    """A number that C accumulates of one signal.
+    """A number that C accumulates of one signal."""
 
-    Attributes
-    ----------
-    item : int
-        Index among the items.
-    kind : Kind
-    origin : int
-        For a sum: index of the reduction with the first value, which is before it; for
-        `Kind.ABOVE`: that with the last value, which is after it.
-    level : float
-        Of `Kind.ABOVE`.
-    """
-
-    item: int
+    item: int  # index among the items
     kind: Kind
+    # for a sum: index of the reduction with the first value, which is before it; for `Kind.ABOVE`:
+    # that with the last value, which is after it
     origin: int = 0
-    level: float = 0.0
+    level: float = 0.0  # of `Kind.ABOVE`
 
 
 @dataclass(frozen=True)
 class Systems:
-    """The values of the systems.
-
-    Attributes
-    ----------
-    count : int
-    parameters : ndarray
-        Common values, in the order of the model's parameters.
-    varied : ndarray
-        Indices of the parameters that differ between systems.
-    variants : ndarray, shape (count, number of varied)
-    states : ndarray, shape (count or 1, number of state elements)
-        Initial states; NaN for elements of the design position.
-    inputs : ndarray, shape (count or 1, number of inputs)
-        Values of the inputs that do not vary with time.
-    drives : sequence of TimeInputs
-        Inputs over time; the same inputs vary in all.
-    drive_of : ndarray, shape (count,)
-        Index into the drives for each system.
-    left_out : ndarray of bool, shape (count,)
-        Systems with parameters out of their ranges, which are not integrated.
-    """
+    """The values of the systems."""
 
     count: int
-    parameters: Array
-    varied: Numbers
-    variants: Array
+    parameters: Array  # common values, in the order of the model's parameters
+    varied: Numbers  # indices of the parameters that differ between systems
+    variants: Array  # (count, number of varied)
+    # initial states; NaN for elements of the design position, (count or 1, number of state
+    # elements)
     states: Array
-    inputs: Array
-    drives: Sequence[TimeInputs]
-    drive_of: Numbers
+    inputs: Array  # values of the inputs that do not vary with time, (count or 1, number of inputs)
+    drives: Sequence[TimeInputs]  # inputs over time; the same inputs vary in all
+    drive_of: Numbers  # index into the drives for each system, (count,)
+    # systems with parameters out of their ranges, which are not integrated, (count,)
     left_out: NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
 class LaneOutputs:
-    """The results of each motion.
+    """The results of each motion."""
 
-    Attributes
-    ----------
-    times : ndarray
-        Of the outputs, increasing [s].
-    items : ndarray
-        Indices of signals, followed by those of elements of the state.
-    sample_count : int
-        Number of items, from the first, that are kept at all times.
-    reductions : sequence of Reduction
-    weights : ndarray
-        Weight of each output in time [s].
-    bound_items : ndarray
-        Indices of signals that have a bound.
-    above : ndarray
-        1 for an upper bound, else 0.
-    limits : ndarray, shape (count or 1, number of bounds)
-    """
-
-    times: Array
-    items: Numbers
-    sample_count: int
+    times: Array  # of the outputs, increasing [s]
+    items: Numbers  # indices of signals, followed by those of elements of the state
+    sample_count: int  # number of items, from the first, that are kept at all times
     reductions: Sequence[Reduction]
-    weights: Array
-    bound_items: Numbers
-    above: Numbers
-    limits: Array
+    weights: Array  # weight of each output in time [s]
+    bound_items: Numbers  # indices of signals that have a bound
+    above: Numbers  # 1 for an upper bound, else 0
+    limits: Array  # (count or 1, number of bounds)
 
 
 class Outcome:
@@ -445,20 +400,11 @@ class Problem:
 
 @dataclass(frozen=True)
 class _Shown:
-    """Signals that are evaluated at outputs: all, or those with ranges if no other is requested.
+    """Signals that are evaluated at outputs: all, or those with ranges if no other is requested."""
 
-    Attributes
-    ----------
-    bounded : bool
-        Whether only those with ranges are evaluated.
-    signal_count : int
-    places : ndarray
-        Indices of all signals, followed by those of elements of the state, among the evaluated
-        ones.
-    """
-
-    bounded: bool
+    bounded: bool  # whether only those with ranges are evaluated
     signal_count: int
+    # indices of all signals, followed by those of elements of the state, among the evaluated ones
     places: Numbers
 
     @classmethod

@@ -39,20 +39,11 @@ class CompilerError(KintrafoError, RuntimeError):
 
 @dataclass(frozen=True)
 class Compiler:
-    """A C compiler with the options of GCC.
+    """A C compiler with the options of GCC."""
 
-    Attributes
-    ----------
-    command : tuple of str
-        Program and options.
-    version : str
-        First line of its version message.
-    linking : tuple of str
-        Options of a shared library; by default those of this system.
-    """
-
-    command: tuple[str, ...]
-    version: str
+    command: tuple[str, ...]  # program and options
+    version: str  # first line of its version message
+    # options of a shared library; by default those of this system
     linking: tuple[str, ...] = _LINK_FLAGS
 
     def build(
@@ -118,20 +109,12 @@ class Compiler:
 
 @dataclass(frozen=True)
 class _Running:
-    """A running compiler.
-
-    Attributes
-    ----------
-    command : list of str
-    process : Popen
-        The first of a process group of its own, which includes its children.
-    output : file
-        Its messages.
-    """
+    """A running compiler."""
 
     command: list[str]
+    # first of a process group of its own, which includes its children
     process: "subprocess.Popen[str]"
-    output: IO[str]
+    output: IO[str]  # messages
 
     @classmethod
     def of(cls, command: list[str], folder: str) -> "_Running":

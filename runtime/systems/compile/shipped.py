@@ -17,18 +17,12 @@ _OF_PROJECT = "kintrafo."
 
 @dataclass(frozen=True)
 class SerializedModel:
-    """Equations in a form that another process can load.
+    """Equations in a form that another process can load."""
 
-    Attributes
-    ----------
-    name, file : str
-        ``__name__`` and ``__file__`` of the module in this process.
-    files : tuple
-        Names and contents of the compiled files; empty for equations that come with the project.
-    """
-
+    # `__name__` and `__file__` of the module in this process
     name: str
     file: str
+    # names and contents of the compiled files; empty for equations that come with the project
     files: tuple[tuple[str, bytes], ...] = ()
 
     def module(self) -> ModuleType:

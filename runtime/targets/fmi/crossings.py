@@ -11,30 +11,17 @@ class Crossing:
 
     The crossing quantity is a signal minus `level`, minus `sign` times a parameter; or the margin
     of a guard.
-
-    Attributes
-    ----------
-    name, meaning : str
-    signal, guard : int
-        Index of the signal, or -1 and that of the guard.
-    level : float
-        In the SI unit of the signal.
-    parameter : int
-        Index of the parameter; -1 for none.
-    sign : float
-        1 or -1.
-    needs : int
-        Index of a parameter without which it cannot occur; -1 for none.
     """
 
     name: str
     meaning: str
+    # index of the signal, or -1 and that of the guard
     signal: int
     guard: int
-    level: float = 0.0
-    parameter: int = -1
-    sign: float = 1.0
-    needs: int = -1
+    level: float = 0.0  # in the SI unit of the signal
+    parameter: int = -1  # index of the parameter; -1 for none
+    sign: float = 1.0  # 1 or -1
+    needs: int = -1  # index of a parameter without which it cannot occur; -1 for none
 
 
 def crossings(manifest: Mapping[str, Any]) -> tuple[Crossing, ...]:

@@ -34,43 +34,26 @@ _SOLVER = {
 
 @dataclass(frozen=True)
 class Variable:
-    """One variable.
+    """One variable."""
 
-    Attributes
-    ----------
-    reference : int
-        Its value reference; they count from zero, in order.
-    name, meaning, unit : str
-    causality, variability, initial : str
-        Attributes of FMI; `initial` is empty for none.
-    start : float or None
-    derivative_of : int or None
-        Reference of the variable of which this is the derivative.
-    least, most : float
-        Infinite without a bound.
-    """
-
-    reference: int
+    reference: int  # value reference; they count from zero, in order
     name: str
     meaning: str
     unit: str
+    # attributes of FMI; `initial` is empty for none
     causality: str
     variability: str = "continuous"
     initial: str = ""
     start: float | None = None
-    derivative_of: int | None = None
+    derivative_of: int | None = None  # reference of the variable of which this is the derivative
+    # infinite without a bound
     least: float = -math.inf
     most: float = math.inf
 
 
 @dataclass(frozen=True)
 class ModelDescription:
-    """The description of an FMU.
-
-    Attributes
-    ----------
-    emitted : Emitted
-    """
+    """The description of an FMU."""
 
     emitted: Emitted
 
