@@ -6,4 +6,8 @@ the acceleration level again. Everything is written in the axes that the solutio
 the body (line, steering arm, normal), in which most components vanish.
 
 A file that is added to this folder is in the catalogue (`catalogue`).
+
+The method of kinematic transformers: A. Kecskeméthy, M. Hiller and T. Krupp, Symbolic processing of
+multiloop mechanism dynamics using closed-form kinematics solutions, Multibody System Dynamics 1
+(1997), pp. 23-45.
 """

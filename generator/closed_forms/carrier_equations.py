@@ -19,6 +19,12 @@ these are the rows of J. The same matrix gives velocities and accelerations (`ca
 The attitude is given by Rodrigues' parameters u, relative to the design position and rational: ``R
 = 1 + 2 (u~ + u~ u~) / (1 + u^2)``. A turn theta in body axes is composed with it by ``(u + w + u x
 w) / (1 - u . w)``, where w = theta / 2 for the small ones of an iteration.
+
+Sources: the degrees of both polynomials are those of M. Raghavan, The Stewart platform of general
+geometry has 40 configurations, Journal of Mechanical Design 115 (1993), and of C. Innocenti and V.
+Parenti-Castelli, Echelon form solution of direct kinematics for the general fully-parallel
+spherical wrist, Mechanism and Machine Theory 28 (1993); Rodrigues' parameters are those of O.
+Bottema and B. Roth, Theoretical Kinematics, North-Holland, 1979.
 """
 
 from __future__ import annotations

@@ -11,6 +11,9 @@ Both bodies are described in the same axes, which may be any. The rate of an equ
 the motions of its two bodies: with a unit rate of an unknown as that motion it is an element of the
 Jacobian, with the other motions it is the right side. A factor like 1 / c is named ``scale``; it is
 one where equations keep their units.
+
+Source: the basic constraints of P. E. Nikravesh, Computer-Aided Analysis of Mechanical Systems,
+Prentice Hall, 1988.
 """
 
 from __future__ import annotations

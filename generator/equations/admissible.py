@@ -9,6 +9,9 @@ by the normal equations of A_d, which need no choice of pivots: ``S = A_d^T A_d`
 definite wherever the eliminated speeds follow from the others. Admissible motions are
 ``T = [1; P]``, and d'Alembert's principle leaves ``T^T M T v_i' = T^T (Q - B - M g)``, without
 multipliers.
+
+Source: T. R. Kane and D. A. Levinson, Dynamics: Theory and Applications, McGraw-Hill, 1985 (motion
+constraints of nonholonomic systems).
 """
 
 from __future__ import annotations

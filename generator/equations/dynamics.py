@@ -12,6 +12,9 @@ The bodies on a base are summed, about its centre of mass and in its axes (`on_b
 matrix of the base is the inertia of all bodies on it, each other coordinate couples with it by six
 numbers, and the whole mass matrix is an arrow: parts that do not move each other couple in the rows
 of the base alone, which are eliminated last.
+
+Sources: sections 3 and 4.4 of the paper; mass matrices with zeros between branches, eliminated from
+their ends: R. Featherstone, Rigid Body Dynamics Algorithms, Springer, 2008, chapter 6.
 """
 
 from __future__ import annotations

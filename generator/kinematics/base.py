@@ -10,6 +10,9 @@ The unit quaternion e = (e0, e1, e2, e3), scalar first, turns the body from desi
 |e|, so that its columns are orthonormal for any norm, and the motion does not depend on the norm.
 The second term is along e: it keeps the norm near one, against the drift of numerical integration,
 and does not change the rotation.
+
+Source: P. E. Nikravesh, Computer-Aided Analysis of Mechanical Systems, Prentice Hall, 1988 (Euler
+parameters and their rates); the second term is a choice of this project.
 """
 
 from __future__ import annotations

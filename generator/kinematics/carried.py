@@ -5,6 +5,9 @@ with the velocity r' relative to the body has
 
     velocity      v + omega x r + r',
     acceleration  v' + omega' x r + omega x (v + omega x r) + 2 omega x r' + r''.
+
+Source: relative motion, T. R. Kane and D. A. Levinson, Dynamics: Theory and Applications,
+McGraw-Hill, 1985.
 """
 
 from __future__ import annotations

@@ -7,6 +7,8 @@ A *tangent* (forward mode) reads a direction, the rate of each symbol that the f
 returns the rates of its results. An *adjoint* (reverse mode) reads a weight for each result, and
 returns the derivatives of the weighted sum with respect to all symbols that the function reads. It
 passes the steps once, from the last to the first, and costs a few evaluations of the function.
+
+Source: A. Griewank and A. Walther, Evaluating Derivatives, second edition, SIAM, 2008.
 """
 
 from __future__ import annotations

@@ -1,4 +1,8 @@
-"""Solution of a symmetric system by its factors ``L D L^T``, unrolled."""
+"""Solution of a symmetric system by its factors ``L D L^T``, unrolled.
+
+Source: G. H. Golub and C. F. Van Loan, Matrix Computations, fourth edition, Johns Hopkins, 2013,
+section 4.1.
+"""
 
 from __future__ import annotations
 

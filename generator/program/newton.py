@@ -33,6 +33,9 @@ Derivatives: a block returns the adjugate and the determinant of its Jacobian J,
 more correction ``x - J^-1 g(x, v)`` is written out, in which only g depends on the arguments v. It
 changes nothing but the last digits, and its derivative is ``-J^-1 g_v``: that of the implicit
 function theorem. So derivatives of the results of a block are zero by definition (`Iterated`).
+
+Sources: E. L. Allgower and K. Georg, Introduction to Numerical Continuation Methods, SIAM, 2003;
+bounds without scales: P. Deuflhard, Newton Methods for Nonlinear Problems, Springer, 2004.
 """
 
 from __future__ import annotations

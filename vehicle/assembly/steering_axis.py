@@ -4,6 +4,10 @@ If the knuckle turns about two points (a wishbone's ball joints, a strut's mount
 line through them. Links of which no two meet have no such points: the axis is then the screw axis
 of the knuckle's velocity when the rack moves and the spring keeps its length. For links that meet
 in ball joints this is the line through them, if the spring acts on one of the links.
+
+Sources: W. Matschinsky, Road Vehicle Suspensions, Professional Engineering Publishing, 2000
+(steering axes of multi-link suspensions); screw axes: O. Bottema and B. Roth, Theoretical
+Kinematics, North-Holland, 1979.
 """
 
 from collections.abc import Callable

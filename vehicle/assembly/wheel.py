@@ -3,6 +3,10 @@
 Each function takes a `Corner`, or a `RoadWheel` if that is sufficient, and returns an array over
 its positions, SI units. Signs are those of docs/suspension/characteristics.md. Unbounded quantities
 (the length of a swing arm about an instant centre at infinity) are infinite.
+
+Sources: definitions of ISO 8855:2011; roll centres, swing arms and anti-dive as in W. F. Milliken
+and D. L. Milliken, Race Car Vehicle Dynamics, SAE, 1995, chapter 17; instant axes and the steering
+axis as in W. Matschinsky, Road Vehicle Suspensions, Professional Engineering Publishing, 2000.
 """
 
 import numpy as np

@@ -1,4 +1,8 @@
-"""Generations of candidates by the genetic algorithm NSGA-II of pymoo."""
+"""Generations of candidates by the genetic algorithm NSGA-II of pymoo.
+
+Source: K. Deb, A. Pratap, S. Agarwal and T. Meyarivan, A fast and elitist multiobjective genetic
+algorithm: NSGA-II, IEEE Transactions on Evolutionary Computation 6 (2002), pp. 182-197.
+"""
 
 from collections.abc import Callable
 

@@ -21,4 +21,8 @@ and along a coordinate
 is needed, with ``X_k = ∫ r' x r_k' dm`` and ``b_k = ∫ r_k' . r'' dm``. So the motion of the base
 enters here, and in no body of the corner; and the motion of the corner enters the base by these
 sums.
+
+The sums follow from Newton's and Euler's equations of all mass points in accelerated axes; for the
+inertia of several bodies as that of one, see R. Featherstone, Rigid Body Dynamics Algorithms,
+Springer, 2008, chapter 6.
 """

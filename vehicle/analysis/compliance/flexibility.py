@@ -3,6 +3,9 @@
 All forces are linear in unit loads: forces and moments at the contact of each wheel, the torque of
 an anti-roll bar, and statically indeterminate tensions. The energy is a quadratic form of these;
 the indeterminate tensions have the values of least energy.
+
+Source: S. P. Timoshenko and D. H. Young, Theory of Structures, second edition, McGraw-Hill, 1965
+(unit loads, least work).
 """
 
 from collections.abc import Mapping, Sequence

@@ -5,6 +5,9 @@ between two bodies have first and second derivatives in the twelve of both: disp
 rotation of the first body, then of the second one; second derivatives are those along screw
 motions, ``exp(rotation)``. Body 0 is the ground, which is fixed. Arrays have a leading dimension
 for the positions of a suspension.
+
+Source: R. M. Murray, Z. Li and S. S. Sastry, A Mathematical Introduction to Robotic Manipulation,
+CRC Press, 1994, chapter 2.
 """
 
 from collections.abc import Sequence

@@ -134,6 +134,9 @@ class PathFollower:
     The arms follow this angle as a critically damped filter of second order, whose acceleration is
     constant between samples: position and rate of the rack are continuous.
 
+    Source: the pure pursuit of R. C. Coulter, Implementation of the Pure Pursuit Path Tracking
+    Algorithm, CMU-RI-TR-92-01, Carnegie Mellon University, 1992; the delay is added.
+
     Parameters
     ----------
     path : Path

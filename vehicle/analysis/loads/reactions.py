@@ -1,4 +1,8 @@
-"""Loads on the joints: Newton's and Euler's equations of all parts, linear in these loads."""
+"""Loads on the joints: Newton's and Euler's equations of all parts, linear in these loads.
+
+Source: P. E. Nikravesh, Computer-Aided Analysis of Mechanical Systems, Prentice Hall, 1988
+(equations of motion of constrained bodies).
+"""
 
 from collections.abc import Iterator, Sequence
 

@@ -2,6 +2,8 @@
 
 Steer angles are positive to the left [rad], as arrays over the positions of the rack. They are
 relative to those with the rack in its middle position: static toe is left out.
+
+Source: J. C. Dixon, Suspension Geometry and Computation, Wiley, 2009 (steering).
 """
 
 from typing import Protocol

@@ -1,6 +1,9 @@
 """Formulas of roll centre, jacking and anti-roll bar of an axle of two corners.
 
 Each takes an `AxleKinematics` and returns an array over its positions, SI units, chassis axes.
+
+Sources: J. C. Dixon, Suspension Geometry and Computation, Wiley, 2009 (roll centres); W. F.
+Milliken and D. L. Milliken, Race Car Vehicle Dynamics, SAE, 1995, chapter 17.
 """
 
 import numpy as np

@@ -4,6 +4,9 @@ They are the part of the load transfer by a longitudinal acceleration, m a h / L
 wheel, or of a rigid axle, carries without the springs. A force F along the road at a point with
 velocity (v_x, v_z) lifts the body by F v_x / v_z. The point is the contact, fixed to the carrier,
 if the carrier reacts the torque; it is the wheel centre if a shaft leads the torque to the body.
+
+Sources: W. F. Milliken and D. L. Milliken, Race Car Vehicle Dynamics, SAE, 1995, chapter 17; J. C.
+Dixon, Suspension Geometry and Computation, Wiley, 2009 (pitch geometry).
 """
 
 from collections.abc import Sequence

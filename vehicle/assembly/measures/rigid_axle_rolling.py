@@ -1,6 +1,8 @@
 """Formulas of roll centre and jacking of a rigid axle.
 
 Each takes a `RigidAxleKinematics` and returns an array over its positions, SI units, chassis axes.
+
+Source: J. C. Dixon, Suspension Geometry and Computation, Wiley, 2009 (rigid axles).
 """
 
 import numpy as np

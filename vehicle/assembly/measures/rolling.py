@@ -6,6 +6,9 @@ left out. The stiffness of both wheels is a 2 x 2 matrix K, the left wheel first
 the wheels' forces with respect to their travels. A roll of the body by phi (positive about the x
 axis: right side down) moves the wheels by -y phi, with y the lateral position of each contact, so
 that the stiffness in roll is y' K y.
+
+Source: W. F. Milliken and D. L. Milliken, Race Car Vehicle Dynamics, SAE, 1995, chapter 16, for any
+stiffness of the two wheels together.
 """
 
 from collections.abc import Sequence
