@@ -185,5 +185,4 @@ def _composed(program: Program, u: Vector, turn: Vector) -> Vector:
     """Return the parameters of a rotation, followed by a turn in its own axes."""
     w = program.vector("half_turn", turn * sp.Rational(1, 2), "123")
     below = program.define("composed", 1 / (1 - u.dot(w)))
-    composed: Vector = (u + w + u.cross(w)) * below
-    return composed
+    return (u + w + u.cross(w)) * below

@@ -194,8 +194,7 @@ class _Oblique:
 
     def along(self, slide: sp.Expr, lift: sp.Expr) -> Vector:
         """Return the displacement by two slides."""
-        way: Vector = self.slot * slide + self.guide * lift
-        return way
+        return self.slot * slide + self.guide * lift
 
     def parts(self, kin: Kinematics, name: str, way: Vector) -> tuple[sp.Expr, sp.Expr]:
         """Append the parts of a vector along slot and guide."""

@@ -104,7 +104,7 @@ class Copy:
 
     def of(self, thing: Thing) -> Thing:
         """Return the object of the copy that belongs to an object of the original mechanism."""
-        return self._copied(thing)  # type: ignore[no-any-return] # of the same type
+        return self._copied(thing)
 
     def _copied(self, thing: Any, *, turns: bool = False) -> Any:  # noqa: PLR0911 (of types)
         """Return the image of a thing in the copy, which may be an axis of rotation (`turns`)."""
@@ -201,8 +201,7 @@ class Copy:
             through, towards = self._copied(line.through), self._copied(line.towards)
             back = Direction(self._new(f"{hinge.name}_axis"), between=(towards, through))
             return Line(through, back)
-        copied: Line = self._copied(line, turns=True)
-        return copied
+        return self._copied(line, turns=True)
 
 
 def _signs(owner: Owner, *, turns: bool) -> tuple[int, ...]:
@@ -232,7 +231,7 @@ def replaced(thing: Thing, bodies: Mapping[Body, Body]) -> Thing:
     bodies
         The new bodies, by the replaced ones.
     """
-    return _replaced(thing, bodies)  # type: ignore[no-any-return] # of the same type
+    return _replaced(thing, bodies)
 
 
 def _replaced(thing: Any, bodies: Mapping[Body, Body]) -> Any:

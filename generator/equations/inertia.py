@@ -42,8 +42,7 @@ class SpatialInertia:
 
     def linear_momentum(self, twist: Twist) -> Vector:
         """Return ``m v + omega x mc``."""
-        momentum: Vector = twist.linear * self.mass + twist.angular.cross(self.moment)
-        return momentum
+        return twist.linear * self.mass + twist.angular.cross(self.moment)
 
     @property
     def is_none(self) -> bool:
@@ -62,5 +61,4 @@ class SpatialInertia:
 
     def spin_momentum(self, twist: Twist) -> Vector:
         """Return ``I omega + mc x v``."""
-        momentum: Vector = self.tensor @ twist.angular + self.moment.cross(twist.linear)
-        return momentum
+        return self.tensor @ twist.angular + self.moment.cross(twist.linear)

@@ -393,16 +393,14 @@ class _Closure:
     ) -> Vector:
         """Return the position of a point that a joint's coordinate moves, in parent axes."""
         if isinstance(joint, Prismatic):
-            slid: Vector = local + self.kin.local_direction(parent, joint.direction) * given
-            return slid
+            return local + self.kin.local_direction(parent, joint.direction) * given
         through = self.kin.local(parent, joint.axis.through)
         axis = self.kin.unit(f"{joint.name}_axis_design", self.kin.to_work(joint.axis.vector))
         n = to_axes(parent.design_axes, axis)
         arm = local - through
         along = n * n.dot(arm)
         across = (arm - along) * sp.cos(given) + n.cross(arm) * sp.sin(given)
-        turned: Vector = through + along + across
-        return turned
+        return through + along + across
 
     def _shaft_residual(self, joint: Universal, kind: str, given: sp.Symbol) -> sp.Expr:
         """Return Eqs. 7 and 8: the angles of a shaft against its direction."""

@@ -116,8 +116,7 @@ class Base(ABC):
 
     def place(self, at: Vector) -> Vector:
         """Return the position in the world of a point, given by its design position."""
-        place: Vector = self.position + self.to_world(at - self.center)
-        return place
+        return self.position + self.to_world(at - self.center)
 
 
 @dataclass(frozen=True)
@@ -194,8 +193,7 @@ class FreeBase(Base):
     def position(self) -> Vector:
         """Position of its centre of mass in the world."""
         x, y, z = self._positions[:3]
-        place: Vector = self.center + Vector(x, y, z)
-        return place
+        return self.center + Vector(x, y, z)
 
     @property
     def velocity(self) -> Vector:

@@ -61,8 +61,7 @@ class Carried:
 
     def _from_center(self, work: Vector) -> Vector:
         """Return the vector from the centre of mass of the base to a position in work axes."""
-        place: Vector = self.part.to_ground(work) + self.part.work_origin - self.base.center
-        return place
+        return self.part.to_ground(work) + self.part.work_origin - self.base.center
 
     def _columns(self) -> dict[str, Twist]:
         """Return the twist per unit of each speed of the base, in the axes of the body."""

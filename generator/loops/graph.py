@@ -76,8 +76,7 @@ class JointGraph:
 
     def joint_between(self, first: str, second: str) -> Joint:
         """Return the joint that connects two bodies."""
-        joint: Joint = self.graph.edges[first, second]["joint"]
-        return joint
+        return self.graph.edges[first, second]["joint"]
 
     # -- counting -------------------------------------------------------------------------------
 

@@ -96,8 +96,7 @@ def to_axes(axes: Axes, v: Vector) -> Vector:
 def from_axes(axes: Axes, v: Vector) -> Vector:
     """Return a vector from its components along three axes, in the axes that these are given in."""
     x, y, z = axes
-    total: Vector = x * v.x + y * v.y + z * v.z
-    return total
+    return x * v.x + y * v.y + z * v.z
 
 
 @dataclass(frozen=True)

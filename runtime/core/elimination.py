@@ -126,5 +126,4 @@ def _fulfilled(entries: Entries, right: Array, found: Array) -> Flags:
         np.multiply(values, found[column], out=term)
         left[row] += term
         terms[row] += np.abs(term, out=term)
-    fulfilled: Flags = (np.abs(left).max(axis=0) <= _LEFT * terms.max(axis=0)).all(axis=0)
-    return fulfilled
+    return (np.abs(left).max(axis=0) <= _LEFT * terms.max(axis=0)).all(axis=0)

@@ -121,14 +121,12 @@ def _moments(elements: list[Any]) -> Array:
     """Return the principal moments in ascending order along the last dimension."""
     xx, yy, zz, xy, xz, yz = np.broadcast_arrays(*elements)
     tensors = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    moments: Array = np.linalg.eigvalsh(np.moveaxis(tensors, (0, 1), (-2, -1)))
-    return moments
+    return np.linalg.eigvalsh(np.moveaxis(tensors, (0, 1), (-2, -1)))
 
 
 def _of_no_body(moments: Array) -> NDArray[np.bool_]:
     small, middle, large = np.moveaxis(moments, -1, 0)
-    found: NDArray[np.bool_] = np.minimum(small, small + middle - large) < -_ROUNDING * large
-    return found
+    return np.minimum(small, small + middle - large) < -_ROUNDING * large
 
 
 def _rotors(values: Mapping[str, float]) -> Iterator[tuple[str, float, float]]:

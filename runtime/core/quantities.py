@@ -94,8 +94,7 @@ def unit_or_stroke(attrs: Mapping[str, Any]) -> str:
 
 def displayed(data: "xr.DataArray") -> Array:
     """Return the values of a variable in the display unit."""
-    values: Array = np.asarray(data.values, dtype=np.float64) * display_of(data.attrs).factor
-    return values
+    return np.asarray(data.values, dtype=np.float64) * display_of(data.attrs).factor
 
 
 def bracketed(name: str, attrs: Mapping[str, Any]) -> str:

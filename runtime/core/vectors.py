@@ -33,8 +33,7 @@ def turned(rotations: Vector, vector: Vector) -> Vector:
     """Return a vector (3,), or one for each rotation (..., 3), turned by rotations (..., 3, 3)."""
     if vector.ndim == 1:
         return rotations @ vector
-    found: Vector = (rotations @ vector[..., None])[..., 0]
-    return found
+    return (rotations @ vector[..., None])[..., 0]
 
 
 def unit_vector(vector: Sequence[float] | Vector) -> Vector:
@@ -49,8 +48,7 @@ def unit_vector(vector: Sequence[float] | Vector) -> Vector:
     array = np.asarray(vector)
     if array.dtype != object:  # of batch numbers
         array = array.astype(np.float64, copy=False)
-    unit: Vector = array / hypot(*vector)
-    return unit
+    return array / hypot(*vector)
 
 
 def angle_between_lines(first: Vector, second: Vector) -> float:
@@ -64,8 +62,7 @@ def angle_between_lines(first: Vector, second: Vector) -> float:
     # near 0 degrees the arc tangent is accurate, and the arc cosine is not
     across = hypot(*cross(first, second))
     along = abs(number(first @ second))
-    angle: float = degrees(atan2(across, along))
-    return angle
+    return degrees(atan2(across, along))
 
 
 def distance_from_line(point: Vector, start: Vector, end: Vector) -> float:
@@ -76,8 +73,7 @@ def distance_from_line(point: Vector, start: Vector, end: Vector) -> float:
     >>> distance_from_line(np.array([3.0, 4.0, 5.0]), np.zeros(3), np.array([0.0, 0.0, 2.0]))
     5.0
     """
-    distance: float = hypot(*cross(point - start, unit_vector(end - start)))
-    return distance
+    return hypot(*cross(point - start, unit_vector(end - start)))
 
 
 def components(name: str, vector: Vector) -> dict[str, float]:

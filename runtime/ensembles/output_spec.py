@@ -97,8 +97,7 @@ class OutputSpec:
     def weights(self) -> Array:
         """Weights of the outputs in an integral over time by the trapezoidal rule [s]."""
         steps = np.diff(self.times, prepend=self.times[0], append=self.times[-1])
-        weights: Array = (steps[:-1] + steps[1:]) / 2.0
-        return weights
+        return (steps[:-1] + steps[1:]) / 2.0
 
     def places(self) -> dict[tuple[str, Kind, float], int]:
         """Return the numbers that C accumulates during integration, each with its place."""
@@ -132,8 +131,7 @@ class OutputSpec:
         places, total = self.places(), float(self.times[-1] - self.times[0])
 
         def kept(reduced: Reduced, kind: Kind) -> Array:
-            column: Array = outcome.reduced[:, places[reduced.signal, kind, reduced.level]]
-            return column
+            return outcome.reduced[:, places[reduced.signal, kind, reduced.level]]
 
         for reduced in self.reduced:
             if reduced.kind in OF_SERIES:

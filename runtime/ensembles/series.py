@@ -69,5 +69,4 @@ def spectra(series: Array, times: Array, segment: int) -> Array:
 
 def percentile(series: Array, percent: float) -> Array:
     """Return a percentile of each series, linearly interpolated; the series are reordered."""
-    values: Array = np.percentile(series, percent, axis=-1, overwrite_input=True)
-    return values
+    return np.percentile(series, percent, axis=-1, overwrite_input=True)

@@ -94,8 +94,7 @@ class StiffFallback:
 
 def _row(rows: Array, place: int) -> Array:
     """Return the row of a system, or the only row, which all systems share."""
-    row: Array = rows[place if len(rows) > 1 else 0]
-    return row
+    return rows[place if len(rows) > 1 else 0]
 
 
 def _time_above(series: Array, _weights: Array, times: Array, level: float) -> float:

@@ -107,8 +107,7 @@ class Directions:
             Constants, state and inputs, and their changes; leading dimensions are broadcast.
         """
         constants, state, inputs = map(_joined, values, directions)
-        found: Array = self._calls[f"{function}_tangent"](state, inputs, constants)
-        return found
+        return self._calls[f"{function}_tangent"](state, inputs, constants)
 
     def adjoint(self, function: str, values: tuple[Array, ...], weights: Array) -> list[Array]:
         """Return derivatives of a weighted sum of results by constants, state and inputs.

@@ -248,8 +248,7 @@ class Equations:
 
     def call_of_parameters(self, function: str, given: Array, found: Array) -> int:
         """Fill the result of a function of parameters; return 0 or the number of an error."""
-        failed: int = self._calls.call_prepare(self._code[function], given, found)
-        return failed
+        return self._calls.call_prepare(self._code[function], given, found)
 
     def design_state(self, parameters: Mapping[str, float]) -> Array:
         """Return the state at rest in the design position of parameters by name (SI units)."""
@@ -363,10 +362,9 @@ class Equations:
         self, constants: Array, state: Array, inputs: Array, given: Array, out: Array
     ) -> int:
         """Fill the closure residuals of one state and return the status word."""
-        status: int = self._calls.call_residuals(
+        return self._calls.call_residuals(
             self._code["residuals"], constants, state, inputs, given, out
         )
-        return status
 
     # -- errors -----------------------------------------------------------------------------------
 
@@ -426,8 +424,7 @@ def labels_of(described: Mapping[str, Any]) -> list[str]:
     """Return one label for each element of a result, row-major."""
     if "by" in described:
         return [f"{row} by {column}" for row in described["labels"] for column in described["by"]]
-    labels: list[str] = described.get("labels", [])
-    return labels
+    return described.get("labels", [])
 
 
 def _amount_off(value: float, unit: str) -> str:

@@ -52,7 +52,6 @@ def _page(module: str, name: str) -> Callable[[Any], str]:
     """Return a function that writes a page; its module is loaded for the first page."""
 
     def write(shown: Any) -> str:
-        page: str = getattr(import_module(module), name)(shown)
-        return page
+        return getattr(import_module(module), name)(shown)
 
     return write

@@ -153,8 +153,7 @@ class _Drawer:
 
         def end(which: tuple[str, str]) -> Array:
             body, point = which
-            found: Array = at[body][skeleton.bodies[body].index(point)]
-            return found
+            return at[body][skeleton.bodies[body].index(point)]
 
         for a, b in skeleton.springs:
             axes.plot(*_coil(end(a), end(b), 0.012 * self._size).T, color=_GREY, lw=1.2, zorder=1)

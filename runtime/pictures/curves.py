@@ -502,5 +502,4 @@ def _width(values: Array) -> float:
     steps = np.diff(np.round(_LEVELS * (finite - finite.min()) / np.ptp(finite)))
     steps = steps[steps != 0.0]
     turns = np.count_nonzero(steps[1:] * steps[:-1] < 0.0)
-    width: float = _THIN if turns > _MANY_TURNS else rcParams["lines.linewidth"]
-    return width
+    return _THIN if turns > _MANY_TURNS else rcParams["lines.linewidth"]

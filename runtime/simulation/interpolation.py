@@ -152,8 +152,7 @@ class _Parts:
         depth = 0.5 * self.width * begin**2 / np.where(dips, end - begin, 1.0)
         lowest = slope - np.where(dips, depth, 0.0)
         rounding = 1e-14 * np.abs(slope).max(axis=0)
-        found: NDArray[np.bool_] = (lowest < -rounding).any(axis=0)
-        return found
+        return (lowest < -rounding).any(axis=0)
 
     def joined(self, times: Array, values: Array) -> Eased:
         """Return all parts as one curve."""

@@ -135,8 +135,7 @@ class DenseOutput:
         for index in np.unique(which):
             chosen = which == index
             values[chosen] = self._parts[index][2](times[chosen])
-        result: Array = values[0] if np.ndim(t) == 0 else values.T
-        return result
+        return values[0] if np.ndim(t) == 0 else values.T
 
     def _refuse_outside(self, given: Validator, times: Array) -> None:
         slack = _ROUNDINGS * np.spacing(max(abs(self.t_min), abs(self.t_max)))

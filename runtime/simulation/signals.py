@@ -287,8 +287,7 @@ def _breaks(curve: PPoly, order: int) -> Array:
         ends = ends * width + row
     begins = derivative.c[-1]
     largest = max(np.abs(begins).max(), np.abs(ends).max(initial=0.0))
-    times: Array = curve.x[1:-1][np.abs(begins[1:] - ends) > _JUMP * largest]
-    return times
+    return curve.x[1:-1][np.abs(begins[1:] - ends) > _JUMP * largest]
 
 
 def _split(curve: PPoly, times: Array) -> list[PPoly]:

@@ -389,8 +389,7 @@ def _among(some: Array, times: Array) -> NDArray[np.bool_]:
     """Return which of some times are among those of the outputs, which are in order."""
     known = times if times[-1] >= times[0] else times[::-1]
     place = np.minimum(np.searchsorted(known, some), known.size - 1)
-    found: NDArray[np.bool_] = known[place] == some
-    return found
+    return known[place] == some
 
 
 # -- running ------------------------------------------------------------------------------------

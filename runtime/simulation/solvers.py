@@ -243,8 +243,7 @@ class _Taylor:
 
     def __call__(self, times: Array) -> Array:
         powers = (times[:, None] - self.end) ** np.arange(len(self.terms))
-        values: Array = powers @ self.terms
-        return values
+        return powers @ self.terms
 
 
 def _taylor(row: Array, size: int) -> tuple[float, float, Callable[[Array], Array]]:
@@ -276,15 +275,13 @@ class _RightHandSide:
         if self.evaluations > self._most:
             raise TooManySteps
         given = self._inputs.at(time, self._segment)
-        result: Array = self._function(state, given, self._model.constants)
-        return result
+        return self._function(state, given, self._model.constants)
 
     def jacobian(self, time: float, state: Array) -> Array:
         """Return the exact derivative with respect to the state."""
         self.time, self.state = time, state.copy()
         given = self._inputs.at(time, self._segment)
-        result: Array = self._derivative(state, given, self._model.constants)
-        return result
+        return self._derivative(state, given, self._model.constants)
 
     def event(self, signal: str, level: float) -> Callable[[float, Array], float]:
         """Return a signal's distance from a level as a function of time and state."""

@@ -175,8 +175,7 @@ class Stepper:
     @property
     def time(self) -> float:
         """Present time [s]: the initial time and the number of steps times their length."""
-        now: float = self._motion.time
-        return now
+        return self._motion.time
 
     def step(self, inputs: ArrayLike | None = None) -> Array:
         """Advance by one step, and return the state.

@@ -120,8 +120,7 @@ def _extrema(curve: PPoly) -> Array:
         half = -0.5 * (b + np.copysign(np.sqrt(b**2 - 4.0 * a * d), b))
         offsets = np.stack([half / a, d / half])
     times = curve.x[:-1] + offsets
-    inside: Array = times[(times > curve.x[:-1]) & (times < curve.x[1:])]
-    return inside
+    return times[(times > curve.x[:-1]) & (times < curve.x[1:])]
 
 
 def _swings(values: Array, least: float) -> list[int]:

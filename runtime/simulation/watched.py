@@ -72,8 +72,7 @@ def watched(
     """
     base: Any = _METHODS[name]
     watch = _Watch(approach, last_tried, milestones, failed)
-    made: type[OdeSolver] = type(f"Watched{name}", (_Steps, base), {"watch": watch})
-    return made
+    return type(f"Watched{name}", (_Steps, base), {"watch": watch})
 
 
 class _Steps(OdeSolver):

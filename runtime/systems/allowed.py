@@ -19,8 +19,7 @@ class LengthLimit(NamedTuple):
 
     def left(self, signals: Mapping[str, Array]) -> Array:
         """Return the distance of the length from its limit, negative beyond it [m]."""
-        found: Array = np.sign(self.limit) * signals[self.signal] - self.limit
-        return found
+        return np.sign(self.limit) * signals[self.signal] - self.limit
 
     @property
     def meaning(self) -> str:

@@ -75,10 +75,9 @@ def derivative(
     of_constants = directions.of_parameters(
         "prepare_tangent", parameters, direction, system.constants.size
     )
-    found: Array = directions.tangent(
+    return directions.tangent(
         function, (system.constants, *values), (of_constants, of_state, of_inputs)
     )
-    return found
 
 
 def gradient(

@@ -76,16 +76,14 @@ class System:
     def usual_margins(self) -> Array:
         """Sizes of the margins of the guards: their magnitudes at the design position."""
         margins = self.evaluate("margins", self.design_state)
-        usual: Array = np.where(np.isfinite(margins), np.abs(margins), 0.0)
-        return usual
+        return np.where(np.isfinite(margins), np.abs(margins), 0.0)
 
     # -- names ----------------------------------------------------------------------------------
 
     @property
     def layout(self) -> StateLayout:
         """Positions, speeds and internal states in the state."""
-        layout: StateLayout = self.equations.LAYOUT
-        return layout
+        return self.equations.LAYOUT
 
     @property
     def state_names(self) -> tuple[str, ...]:
@@ -170,8 +168,7 @@ class System:
             rows, columns = checked_point(given, self, state, inputs)
             if not given.failed:
                 given.broadcast("state and inputs", [rows.shape[:-1], columns.shape[:-1]])
-        result: Array = getattr(self.equations, function)(rows, columns, self.constants)
-        return result
+        return getattr(self.equations, function)(rows, columns, self.constants)
 
     def signals(self, state: ArrayLike, inputs: ArrayLike | None = None) -> dict[str, Array]:
         """Return all physical signals by name, in SI units.

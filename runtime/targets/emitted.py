@@ -45,8 +45,7 @@ class Emitted:
     @property
     def manifest(self) -> dict[str, Any]:
         """Manifest of the equations: names, units, meanings, guards, functions."""
-        found: dict[str, Any] = self.system.equations.equations.manifest
-        return found
+        return self.system.equations.equations.manifest
 
     @cached_property
     def sources(self) -> dict[str, str]:

@@ -14,8 +14,7 @@ class _Elastic:
 
     def torque(self, twist: Array) -> Array:
         """Return the torque, or the moment, at a twist [N m]."""
-        found: Array = self.rate * twist
-        return found
+        return self.rate * twist
 
 
 @dataclass(frozen=True)

@@ -321,8 +321,7 @@ class CarAssembly(Assembly):
         kept = ["body_w", "body_p", "body_q"] if self.car.drives else []
         kept += [f"{name}_rate" for name in self.coordinates if name not in _FREE]
         places = [names.index(name) for name in kept]
-        found: Array = slopes[np.ix_(places, places)]
-        return found
+        return slopes[np.ix_(places, places)]
 
     def _on_its_tyres(self, held: RestConditions) -> Array:
         """Return the state at design, lowered until all tyres are deflected."""

@@ -66,5 +66,4 @@ def on_both(one: str, other: str, load: Load) -> list[Load]:
 def sum_of(loads: Sequence[Load], part: str, about: Array) -> Array:
     """Return force and moment of the loads on a part about a point, (n, 6)."""
     own = [wrench_about(about, o.at, o.force, o.moment) for o in loads if o.part == part]
-    total: Array = np.sum(np.broadcast_arrays(*own, np.zeros((len(about), 6))), axis=0)
-    return total
+    return np.sum(np.broadcast_arrays(*own, np.zeros((len(about), 6))), axis=0)

@@ -41,5 +41,4 @@ def _tensor(parameters: Mapping[str, float], name: str) -> Array:
 
 def _of_wheel(parameters: Mapping[str, float], name: str, axis: Array) -> Array:
     spin, across = (parameters[f"{name}_inertia_{part}"] for part in ("spin", "diametral"))
-    tensor: Array = across * np.eye(3) + (spin - across) * np.outer(axis, axis)
-    return tensor
+    return across * np.eye(3) + (spin - across) * np.outer(axis, axis)

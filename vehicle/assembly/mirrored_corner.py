@@ -57,8 +57,7 @@ class MirroredCorner:
     @property
     def design_track(self) -> Array:
         """The distance of the wheel centres at design [m]."""
-        track: Array = 2.0 * abs(self.corner.design_center[..., 1])
-        return track
+        return 2.0 * abs(self.corner.design_center[..., 1])
 
     @property
     def per_turn(self) -> float | None:

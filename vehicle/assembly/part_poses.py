@@ -80,8 +80,7 @@ class PartPoses(ABC):
 
     def signals(self) -> dict[str, Array]:
         """Return the signals of the equations, (n,)."""
-        found: dict[str, Array] = self.model.signals(self.states, self.inputs)
-        return found
+        return self.model.signals(self.states, self.inputs)
 
     @abstractmethod
     def parameters_of(self, line: LineForce) -> Mapping[str, float]:
@@ -290,8 +289,7 @@ def rotated(matrix: Array, rotation: Array) -> Array:
     """Return a matrix of forces and moments, (..., 6, 6), in rotated axes."""
     both = np.zeros((*rotation.shape[:-2], 6, 6))
     both[..., :3, :3] = both[..., 3:, 3:] = rotation
-    result: Array = both @ matrix @ both.mT
-    return result
+    return both @ matrix @ both.mT
 
 
 def wrench_about(point: Array, at: Array, force: Array, moment: Array | float = 0.0) -> Array:

@@ -58,8 +58,7 @@ def forces_of(assembly: Assembly, held: RestConditions) -> Forces:
     rows = [model.state_names.index(name) for name in assembly.coordinates]
 
     def forces(coordinates: ArrayLike) -> Array:
-        found: Array = model.evaluate("forces", *at(assembly, held, coordinates))[..., rows]
-        return found
+        return model.evaluate("forces", *at(assembly, held, coordinates))[..., rows]
 
     return forces
 

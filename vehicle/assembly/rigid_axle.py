@@ -110,8 +110,7 @@ def pull(found: "xr.Dataset", load: str, along: Array) -> Array:
     `found` has all loads, with that of the link on the axle; `along` is the unit
     vector from this end of the link to its other end.
     """
-    force: Array = np.einsum("ni,ni->n", found["force"].sel(load=load).values, along)
-    return force
+    return np.einsum("ni,ni->n", found["force"].sel(load=load).values, along)
 
 
 def lengths_of(links: Mapping[str, Ends]) -> str:

@@ -32,5 +32,4 @@ class RigidAxleKinematics(WholeAxleKinematics):
 
     def slope(self, name: str, by: str) -> Array:
         """Return the derivative of such a coordinate with respect to heave or roll."""
-        found: Array = self._slopes[name][:, self.model.COORDINATES.index(by)]
-        return found
+        return self._slopes[name][:, self.model.COORDINATES.index(by)]

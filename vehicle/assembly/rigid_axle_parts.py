@@ -108,8 +108,7 @@ class RigidAxleParts(WholeAxleParts):
     def along(self, first: str, last: str) -> Array:
         """Return the unit vector from the last to the first point of a link, (n, 3)."""
         way = self.points[first] - self.points[last]
-        along: Array = way / np.linalg.norm(way, axis=-1, keepdims=True)
-        return along
+        return way / np.linalg.norm(way, axis=-1, keepdims=True)
 
     # -- its loads ------------------------------------------------------------------------------
 

@@ -122,8 +122,7 @@ def _across_the_joint(gear: PitmanLinkage, poses: PartPoses) -> Array:
     first = poses.turned[ARM] @ UP
     second = poses.turned[RELAY_ROD] @ cross(rod, UP)
     direction = cross(first, second)
-    unit: Array = direction / np.linalg.norm(direction, axis=-1, keepdims=True)
-    return unit
+    return direction / np.linalg.norm(direction, axis=-1, keepdims=True)
 
 
 def _on_the_rod(wrench: Array, rod: Array, tangent: Array, across: Array) -> tuple[Array, Array]:
@@ -137,8 +136,7 @@ def _on_the_rod(wrench: Array, rod: Array, tangent: Array, across: Array) -> tup
     """
 
     def dot(first: Array, second: Array) -> Array:
-        product: Array = np.sum(first * second, axis=-1, keepdims=True)
-        return product
+        return np.sum(first * second, axis=-1, keepdims=True)
 
     moment: Array = -dot(wrench[:, 3:], rod) / dot(across, rod) * across
     aside = cross(rod, wrench[:, 3:] + moment) / dot(rod, rod)

@@ -126,14 +126,12 @@ def contact_rate(corner: Corner) -> Array:
 def half_track_change(corner: RoadWheel) -> Array:
     """Return the displacement of the contact from design [m], positive outboard."""
     design = lowest_point(corner.design_center, corner.design_axis, _radius(corner))
-    change: Array = corner.vehicle.side * (contact(corner)[..., 1] - design[..., 1])
-    return change
+    return corner.vehicle.side * (contact(corner)[..., 1] - design[..., 1])
 
 
 def wheelbase_change(corner: RoadWheel) -> Array:
     """Return the displacement of the wheel centre from design [m], positive forward."""
-    change: Array = corner.center[..., 0] - corner.design_center[..., 0]
-    return change
+    return corner.center[..., 0] - corner.design_center[..., 0]
 
 
 def roll_center_height_kinematic(corner: Corner) -> Array:
@@ -167,8 +165,7 @@ def swing_arm_length_geometric(corner: Corner) -> Array:
 def side_view_swing_arm_angle(corner: Corner) -> Array:
     """Return the slope of the contact's path in side view, wheel locked [rad]."""
     velocity = contact_velocity(corner)
-    angle: Array = np.arctan2(velocity[..., 0], velocity[..., 2])
-    return angle
+    return np.arctan2(velocity[..., 0], velocity[..., 2])
 
 
 def side_view_hub_angle(corner: Corner) -> Array:
@@ -283,8 +280,7 @@ def lowest_point(center: Array, axis: Array, radius: float) -> Array:
 def upward_across(axis: Array) -> Array:
     """Return the steepest upward unit vector perpendicular to an axis, in the plane of a wheel."""
     across = axis[..., 2:]
-    upward: Array = (UP - axis * across) / np.sqrt(1.0 - across**2)
-    return upward
+    return (UP - axis * across) / np.sqrt(1.0 - across**2)
 
 
 def lowest_point_rate(velocity: Array, axis: Array, turning: Array, radius: float) -> Array:

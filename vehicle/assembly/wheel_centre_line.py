@@ -46,8 +46,7 @@ class WheelCentreLine:
     @property
     def roll(self) -> Array:
         """The roll angle of the body, positive with its right side down, (n,) [rad]."""
-        roll: Array = _inclination(self.design) - _inclination(self.across)
-        return roll
+        return _inclination(self.design) - _inclination(self.across)
 
     @property
     def roll_rate(self) -> Array:
@@ -59,8 +58,7 @@ def inclination_rate(along: Array, rate: Array) -> Array:
     """Return the rate of a vector's inclination to the x-y plane, from the vector's rate [rad]."""
     level = np.hypot(along[..., 0], along[..., 1])
     spread = (along[..., :2] * rate[..., :2]).sum(-1) / level
-    fast: Array = (level * rate[..., 2] - along[..., 2] * spread) / (level**2 + along[..., 2] ** 2)
-    return fast
+    return (level * rate[..., 2] - along[..., 2] * spread) / (level**2 + along[..., 2] ** 2)
 
 
 def _inclination(along: Array) -> Array:

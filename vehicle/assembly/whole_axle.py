@@ -137,8 +137,7 @@ class WholeAxleAssembly(SteerableAssembly):
     @property
     def coordinates(self) -> tuple[str, ...]:
         """The two coordinates that move the wheels up and down."""
-        found: tuple[str, ...] = self.model.COORDINATES
-        return found
+        return self.model.COORDINATES
 
     def coordinates_at_rest(self, held: RestConditions) -> Array:
         """Return the coordinates of the state of rest near the design position, (2,)."""
@@ -170,8 +169,7 @@ class WholeAxleAssembly(SteerableAssembly):
     def joints(self, suffix: str) -> tuple[str, ...]:
         """Return the moving points."""
         del suffix
-        found: tuple[str, ...] = self.axle.joint_names
-        return found
+        return self.axle.joint_names
 
     def kinematics(self, position: RigPosition) -> WholeAxleKinematics:
         """Return positions and first derivatives of the axle."""
@@ -240,8 +238,7 @@ class WholeAxleAssembly(SteerableAssembly):
     @property
     def rules(self) -> tuple[str, ...]:
         """The assumptions that resolve statical indeterminacy."""
-        found: tuple[str, ...] = self.axle.structure().rules
-        return found
+        return self.axle.structure().rules
 
     def acting(self, poses: Mapping[str, Any]) -> dict[str, list[Load]]:
         """Return the applied loads on its parts, with those of the bar or beam."""
@@ -273,8 +270,7 @@ class WholeAxleAssembly(SteerableAssembly):
 
     def plausibility(self) -> Plausibility:
         """Return the unlikely values of its file."""
-        found: Plausibility = self.axle.plausibility()
-        return found
+        return self.axle.plausibility()
 
     def reach(self) -> dict[str, tuple[float, bool]]:
         """Return the travel of both wheels down and up [m], and whether it is limited."""
@@ -293,5 +289,4 @@ class WholeAxleAssembly(SteerableAssembly):
 def whole_axle_assembly(key: str) -> type[WholeAxleAssembly]:
     """Return the class of an axle without sides, from the module with its key."""
     module = import_module(f".{key}", __package__)
-    found: type[WholeAxleAssembly] = class_in(module, WholeAxleAssembly)
-    return found
+    return class_in(module, WholeAxleAssembly)

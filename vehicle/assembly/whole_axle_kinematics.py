@@ -59,8 +59,7 @@ class WholeAxleKinematics:
     @property
     def end(self) -> str:
         """The end of the vehicle, 'front' or 'rear'."""
-        found: str = self.axle.end
-        return found
+        return self.axle.end
 
     @property
     def vehicles(self) -> tuple[Vehicle, ...]:
@@ -87,8 +86,7 @@ class WholeAxleKinematics:
     def heave(self) -> Array:
         """The height of the middle between the wheels above design [m], (n,)."""
         heights = [self.wheel_center(side)[:, 2] for side in SIDES]
-        height: Array = 0.5 * sum(heights) - self.axle.center[2]
-        return height
+        return 0.5 * sum(heights) - self.axle.center[2]
 
     # -- derivatives with respect to its coordinates ---------------------------------------------
 
@@ -148,8 +146,7 @@ class WholeAxleKinematics:
             rate[:, None] * part
             for rate, part in zip(self._of_motions[how].T, by_coordinate, strict=True)
         )
-        found: Array = first + second
-        return found
+        return first + second
 
     def motion(self, side: str, how: str) -> CarrierMotion:
         """Return the motion of the carrier of a wheel per metre of a motion of both wheels."""
@@ -170,8 +167,7 @@ class WholeAxleKinematics:
         `place` is its position, (n, 3) [m]; `how` is 'heave', 'roll', 'left' or 'right'.
         """
         motion = self.motion(side, how)
-        velocity: Array = motion.velocity + cross(motion.turning, place - self.wheel_center(side))
-        return velocity
+        return motion.velocity + cross(motion.turning, place - self.wheel_center(side))
 
     @cached_property
     def inclination_rate(self) -> Array:
@@ -199,8 +195,7 @@ class WholeAxleKinematics:
         place = self.wheel_center if torque_on == "body" else self.contact
         sides = (side,) if side else SIDES
         velocity = np.mean([self.carried_in(one, place(one), "bump") for one in sides], axis=0)
-        slope: Array = velocity[:, 0] / velocity[:, 2]
-        return slope
+        return velocity[:, 0] / velocity[:, 2]
 
     # -- its springs ----------------------------------------------------------------------------
 
@@ -226,8 +221,7 @@ class WholeAxleKinematics:
 
     def compression_in(self, part: str, how: str) -> Array:
         """Return the compression of a spring or a damper per metre of a motion [1]."""
-        compressed: Array = -(self.growth(part) * self._of_motions[how]).sum(-1)
-        return compressed
+        return -(self.growth(part) * self._of_motions[how]).sum(-1)
 
     @cached_property
     def of_springs(self) -> tuple[Array, Array]:
@@ -278,8 +272,7 @@ class WholeAxleKinematics:
                 sum(force[:, None] * own for force, own in zip(forces.T, bend, strict=True))
             )
         inverse = np.linalg.inv(self.heights)
-        stiffness: Array = -inverse.mT @ (slopes + np.stack(rows, -2)) @ inverse
-        return stiffness
+        return -inverse.mT @ (slopes + np.stack(rows, -2)) @ inverse
 
     def growth(self, path: str) -> Array:
         """Return the derivatives of a spring's or damper's length by both coordinates, (n, 2)."""
@@ -291,8 +284,7 @@ class WholeAxleKinematics:
         path = f"{side}_damper"
         growth, slopes = self.growth(path), self._at_unit_rate[self.model.COORDINATES[0]][1]
         changes = slopes[f"{path}_bump_stop_force"] + slopes[f"{path}_rebound_stop_force"]
-        rate: Array = -(changes * growth).sum(-1) / (growth * growth).sum(-1)
-        return rate
+        return -(changes * growth).sum(-1) / (growth * growth).sum(-1)
 
     def rate_of_spring(self, side: str) -> Array:
         """Return the rate of a spring, along it, (n,) [N/m]."""

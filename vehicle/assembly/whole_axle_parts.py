@@ -99,8 +99,7 @@ class WholeAxleParts(PartPoses):
     @property
     def structure(self) -> Structure:
         """The joints and force elements between the parts."""
-        found: Structure = self.axle.structure()
-        return found
+        return self.axle.structure()
 
     @cached_property
     def design(self) -> dict[str, Array]:
@@ -147,8 +146,7 @@ class WholeAxleParts(PartPoses):
 
     def wheel_axis(self, side: str) -> Array:
         """Return the spin axis of a wheel, which points left, (n, 3)."""
-        axis: Array = self.turned[self.carrier(side)] @ self.axle.wheel.spin_axis(SENSE[side])
-        return axis
+        return self.turned[self.carrier(side)] @ self.axle.wheel.spin_axis(SENSE[side])
 
     def twists(self) -> dict[str, Array]:
         """Return the velocities of the parts for a unit rate of each coordinate, (n, 2, 6)."""

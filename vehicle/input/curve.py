@@ -111,16 +111,14 @@ class Curve:
     def force(self, place: Array) -> Array:
         """Return the force."""
         inside = np.clip(place, *self._places[[0, -1]])
-        found: Array = self._force(inside) + self._slope(inside) * (place - inside)
-        return found
+        return self._force(inside) + self._slope(inside) * (place - inside)
 
     def rate(self, place: Array) -> Array:
         """Return the derivative of the force; at a corner that of the preceding line."""
         inside = np.clip(place, *self._places[[0, -1]])
         if self._is_straight:
             inside = np.nextafter(inside, -np.inf)
-        found: Array = self._slope(inside)
-        return found
+        return self._slope(inside)
 
     def place(self, force: float) -> float:
         """Return the place of a force, for a curve that rises everywhere."""

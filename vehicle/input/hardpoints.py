@@ -94,8 +94,7 @@ class Hardpoints(Section):
 
     def distance(self, first: str, second: str) -> float:
         """Return the distance of two hardpoints [m]."""
-        distance: float = length(self.metres(second) - self.metres(first))
-        return distance
+        return length(self.metres(second) - self.metres(first))
 
     def text(self, *names: str) -> str:
         """Return hardpoints as in the file, with their unit, for error messages."""

@@ -79,8 +79,7 @@ class PitmanArmSection(Section):
         """
         pivot, ball = self.BODIES[arm]
         across = cross(self.direction_of(arm), self.metres(ball) - self.metres(pivot))
-        lever: float = abs(number(across @ unit_vector(rod)))
-        return lever
+        return abs(number(across @ unit_vector(rod)))
 
     # -- interface of a steering, as that of a rack -----------------------------------------------
 

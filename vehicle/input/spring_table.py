@@ -41,8 +41,7 @@ def force_and_rate(parameters: Mapping[str, float], length: Array) -> tuple[Arra
 def rate_at(parameters: Mapping[str, float], length: Array) -> Array:
     """Return the rate of a spring at some lengths [N/m]."""
     _, of_curve = force_and_rate(parameters, length)
-    rate: Array = parameters["spring_rate"] + of_curve
-    return rate
+    return parameters["spring_rate"] + of_curve
 
 
 def ends_of_table(parameters: Mapping[str, float]) -> tuple[float, float] | None:

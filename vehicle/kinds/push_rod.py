@@ -66,8 +66,7 @@ class RockerHardpoints(DoubleWishboneHardpoints):
         if self.distance(place, end) < SMALLEST_DISTANCE:
             return 0.0
         arm = at - self.metres("rocker_rear")
-        lever: float = abs(number(cross(arm, unit_vector(to - at)) @ axis))
-        return lever
+        return abs(number(cross(arm, unit_vector(to - at)) @ axis))
 
 
 class PushRodHardpoints(RockerHardpoints):

@@ -98,8 +98,7 @@ def carried_velocity(
     which = model.equations.BODIES.index(body)
     twist = model.evaluate("velocities", states, inputs)[..., which, :]
     arm = place - model.evaluate("positions", states, inputs)[..., which, :]
-    velocity: Array = twist[..., 3:] + cross(twist[..., :3], arm)
-    return velocity
+    return twist[..., 3:] + cross(twist[..., :3], arm)
 
 
 def _centers_of_mass(model: Model) -> dict[str, Array]:

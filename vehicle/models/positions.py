@@ -258,8 +258,7 @@ def road_below(height: Array, tyre: TyreSection, load: float) -> Array:
             "[tyre] rate_N_per_m = 0 N/m: a tyre without stiffness carries no load. Enter its rate."
         )
         raise InputError([problem], "wheel load")
-    road: Array = height + load / values["tyre_rate"] - values["tyre_free_height"]
-    return road
+    return height + load / values["tyre_rate"] - values["tyre_free_height"]
 
 
 def _beyond(heights: Array, table: Branch, index: NDArray[np.int64]) -> NDArray[np.bool_]:

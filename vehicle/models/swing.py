@@ -67,8 +67,7 @@ def resolved(width: Array, seen: PlacesAlong) -> NDArray[np.bool_]:
     missed = np.abs(np.diff(seen.height, axis=-1) - mean * width)
     smooth = missed <= _SMOOTH * np.minimum(low, high) * np.abs(width) + _ROUNDING
     together = smooth & margins_stay(seen.margins) & _on_one_branch(width, seen.attitudes)
-    fine: NDArray[np.bool_] = both & together
-    return fine
+    return both & together
 
 
 def _on_one_branch(width: Array, attitudes: Attitudes) -> NDArray[np.bool_]:
@@ -83,8 +82,7 @@ def _on_one_branch(width: Array, attitudes: Attitudes) -> NDArray[np.bool_]:
     missed = np.abs(np.diff(turned, axis=-2) - 0.5 * (low + high) * width).max(axis=-1)
     turns = missed <= _SMOOTH * most * np.abs(width[..., 0])
     alike = np.abs(high - low).max(axis=-1) <= _ALIKE * most
-    found: NDArray[np.bool_] = alike & turns
-    return found
+    return alike & turns
 
 
 def margins_stay(margins: Array) -> NDArray[np.bool_]:
@@ -98,8 +96,7 @@ def margins_stay(margins: Array) -> NDArray[np.bool_]:
         np.concatenate([first, bend], axis=-2), np.concatenate([bend, last], axis=-2)
     )
     lower = np.minimum(margins[..., :-1, :], margins[..., 1:, :])
-    stay: NDArray[np.bool_] = (lower - _DIP * around > 0.0).all(axis=-1)
-    return stay
+    return (lower - _DIP * around > 0.0).all(axis=-1)
 
 
 def march(

@@ -159,8 +159,7 @@ class WholeAxle(WheeledSection):
     @property
     def end(self) -> "End":
         """The end of the vehicle, 'front' or 'rear'."""
-        found: End = getattr(self, self.KEY)
-        return found
+        return getattr(self, self.KEY)
 
     @property
     def overheld(self) -> bool:
@@ -219,8 +218,7 @@ class WholeAxle(WheeledSection):
     @property
     def center(self) -> Array:
         """The middle between the wheels at design [m]."""
-        center: Array = self.hardpoints.metres("wheel_center") * [1.0, 0.0, 1.0]
-        return center
+        return self.hardpoints.metres("wheel_center") * [1.0, 0.0, 1.0]
 
     @property
     def half_track(self) -> float:
@@ -439,8 +437,7 @@ def on_both_sides(bush: Bush) -> list[Bush]:
 
 def whole_axle_class(key: str) -> type[WholeAxle]:
     """Return the class of an axle without sides, from the module with its key."""
-    found: type[WholeAxle] = class_in(import_module(f".{key}", __package__), WholeAxle)
-    return found
+    return class_in(import_module(f".{key}", __package__), WholeAxle)
 
 
 def class_in(module: ModuleType, base: type) -> Any:

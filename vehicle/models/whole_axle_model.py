@@ -83,8 +83,7 @@ class WholeAxleModel(System):
 
     def allowed_lengths(self) -> tuple[LengthLimit, ...]:
         """Return the lengths of the dampers that the file allows."""
-        found: tuple[LengthLimit, ...] = self.axle.allowed_lengths()
-        return found
+        return self.axle.allowed_lengths()
 
     # -- positions ------------------------------------------------------------------------------
 
@@ -245,5 +244,4 @@ def solved_for_two(slopes: Array, right: Array) -> Array:
     (a, b), (c, d) = np.moveaxis(slopes, (-2, -1), (0, 1))
     first, second = np.moveaxis(right, -1, 0)
     whole = (a * d - b * c)[..., None]
-    found: Array = np.stack([d * first - b * second, a * second - c * first], axis=-1) / whole
-    return found
+    return np.stack([d * first - b * second, a * second - c * first], axis=-1) / whole

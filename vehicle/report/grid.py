@@ -98,8 +98,7 @@ class GridAxis:
         """Return samples of shape (count, ...) interpolated at coordinates (n,), (n, ...)."""
         first, weights = self.weights(where)
         near = samples[first[:, None] + np.arange(ORDER)]
-        result: Array = np.einsum("nk,nk...->n...", weights, near)
-        return result
+        return np.einsum("nk,nk...->n...", weights, near)
 
 
 @dataclass(frozen=True)

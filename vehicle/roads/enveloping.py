@@ -154,5 +154,4 @@ def _effective(heights: Array, spacing: float, radius: float, contact_length: fl
     lifted = np.concatenate([np.max(part - rise, axis=1) for part in parts])
     away = 0.5 * SHIFT * contact_length / spacing
     first, second = (shift(lifted, s, order=1, mode="nearest") for s in (away, -away))
-    mean: Array = 0.5 * (first + second)
-    return mean
+    return 0.5 * (first + second)

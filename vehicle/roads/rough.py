@@ -115,8 +115,7 @@ def iso8608(
 def _grown(x: NDArray[Any], fade: float) -> Array:
     """Return the factor of the heights at a distance, from 0 to 1 over the fade."""
     part = np.ones_like(x) if fade == 0.0 else np.clip(x / fade, 0.0, 1.0)
-    grown: Array = part * part * (3.0 - 2.0 * part)
-    return grown
+    return part * part * (3.0 - 2.0 * part)
 
 
 def roughness_of(given: Validator, roughness: str | float) -> float:

@@ -80,5 +80,4 @@ def compromise(costs: Array) -> int:
 def in_parts(costs: Array) -> Array:
     """Return costs scaled from 0, the best of a front, to 1, the worst."""
     extent = np.ptp(costs, axis=0)
-    parts: Array = (costs - costs.min(axis=0)) / np.where(extent > 0.0, extent, 1.0)
-    return parts
+    return (costs - costs.min(axis=0)) / np.where(extent > 0.0, extent, 1.0)

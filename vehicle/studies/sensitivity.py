@@ -220,8 +220,7 @@ def _difference(
     rounding = ROUNDING * np.maximum(_greatest(at[1]), 1.0) / abs(step)
     tolerated = _KINK * np.abs(fourth) + _KINK_OF_GREATEST * _greatest(fourth) + rounding
     fourth[np.abs(fourth) <= rounding] = 0.0
-    smooth: Array = np.where(np.abs(second - fourth) <= tolerated, fourth, np.nan)
-    return smooth
+    return np.where(np.abs(second - fourth) <= tolerated, fourth, np.nan)
 
 
 def _neighbours(
@@ -243,8 +242,7 @@ def _neighbours(
 def _greatest(values: Array) -> Array:
     """Return the greatest finite absolute value of each row, (rows, 1)."""
     sizes = np.where(np.isfinite(values), np.abs(values), 0.0)
-    greatest: Array = sizes.max(axis=1, initial=0.0, keepdims=True)
-    return greatest
+    return sizes.max(axis=1, initial=0.0, keepdims=True)
 
 
 def step_of(place: DesignVariable) -> float:

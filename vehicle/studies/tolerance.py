@@ -149,8 +149,7 @@ def _root_of(given: Validator, correlation: Any, size: int, distribution: str) -
     if given.failed:
         return np.eye(size)
     sizes, vectors = np.linalg.eigh(matrix)
-    root: Array = vectors * np.sqrt(np.maximum(sizes, 0.0))
-    return root
+    return vectors * np.sqrt(np.maximum(sizes, 0.0))
 
 
 def _drawn(distribution: str, root: Array, count: int, seed: int) -> Array:
@@ -158,8 +157,7 @@ def _drawn(distribution: str, root: Array, count: int, seed: int) -> Array:
     random = np.random.default_rng(seed)
     if distribution == "uniform":
         return random.uniform(-1.0, 1.0, (count, len(root)))
-    drawn: Array = random.standard_normal((count, len(root))) @ root.T / SIGMAS
-    return drawn
+    return random.standard_normal((count, len(root))) @ root.T / SIGMAS
 
 
 class _Cars:
@@ -208,8 +206,7 @@ def _parts(
     """
     sigma = np.array([*spread.values()]) / (np.sqrt(3.0) if distribution == "uniform" else SIGMAS)
     moved = sigma[:, None, None] * slopes(suspension, [*spread], curves)
-    parts: Array = moved * np.einsum("ij,jnp->inp", root @ root.T, moved)
-    return parts
+    return moved * np.einsum("ij,jnp->inp", root @ root.T, moved)
 
 
 def _dataset(cars: _Cars, parts: Array) -> xr.Dataset:

@@ -115,8 +115,7 @@ class ContactTerms:
         """Return the law with this prefix of its parameters."""
         from ... import generator  # noqa: PLC0415 (an extra)
 
-        law: ContactLaw = getattr(generator, self.name)(name=name, **dict(self.options))
-        return law
+        return getattr(generator, self.name)(name=name, **dict(self.options))
 
 
 class Tyre(ABC):

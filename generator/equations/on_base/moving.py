@@ -122,8 +122,7 @@ class MovingBody:
     def across(self, now: PartialMotion, column: PartialMotion) -> Vector:
         """Return ``∫ r' x r_k' dm``."""
         swept = self._vector("swept", now.omega.cross(column.omega))
-        across: Vector = now.velocity.cross(column.flow.momentum) + self._own @ swept
-        return across
+        return now.velocity.cross(column.flow.momentum) + self._own @ swept
 
 
 def turned(program: Program, name: str, tensor: SymmetricTensor, axes: Axes) -> SymmetricTensor:

@@ -28,8 +28,7 @@ def solver(what: str, width: int) -> Callable[..., int]:
 
     It is called without the interpreter's lock.
     """
-    function: Callable[..., int] = getattr(_library(_SOLVER), f"kt_{what}_{width}")
-    return function
+    return getattr(_library(_SOLVER), f"kt_{what}_{width}")
 
 
 def functions(equations: ModuleType, width: int, variant: str) -> Mapping[str, int]:

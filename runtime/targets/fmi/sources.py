@@ -38,5 +38,4 @@ def library_files(emitted: Emitted) -> dict[str, str]:
 
 
 def _text(file: Any) -> str:
-    text: str = file.read_text(encoding="utf-8")
-    return text
+    return file.read_text(encoding="utf-8")

@@ -344,8 +344,7 @@ class _Side:
 
     def _arm(self, body: str, point: str) -> Array:
         """Return the vector from the centre of a body to a hardpoint, (n, 3) [m]."""
-        arm: Array = self.poses.carried_by(body, point) - self.centers[:, self.index(body)]
-        return arm
+        return self.poses.carried_by(body, point) - self.centers[:, self.index(body)]
 
     def _indices(self, first: str, second: str) -> Pair:
         return self.index(first), self.index(second)

@@ -133,8 +133,7 @@ class ElasticEquilibrium:
         """Return the centre of a wheel, (n, 3) [m]."""
         wheel = self._connections.wheels[side]
         spoke = places.of(np.array([wheel]), self._spokes[side][:, None])[:, 0]
-        center: Array = places.centers[:, wheel] + spoke
-        return center
+        return places.centers[:, wheel] + spoke
 
     def contact(self, places: RigidDisplacements, side: int = 0) -> Array:
         """Return the lowest point of a wheel, (n, 3) [m]."""
@@ -156,8 +155,7 @@ class ElasticEquilibrium:
         wheel = self._connections.wheels[side]
         turned = places.turned[:, wheel] @ since.turned[:, wheel].mT
         arm = np.einsum("nij,nj->ni", turned, point - since.centers[:, wheel])
-        shift: Array = places.centers[:, wheel] + arm - point
-        return shift
+        return places.centers[:, wheel] + arm - point
 
     def beyond(self, state: ElasticState) -> list[str]:
         """Return messages for lengths beyond the limits of the files."""
@@ -387,8 +385,7 @@ class ElasticEquilibrium:
         free = right[:, conditions.shape[1] :]
         reduced = free @ np.where(fine[:, None, None], stiffness, 0.0) @ free.mT
         least = np.linalg.eigvalsh(0.5 * (reduced + reduced.mT))
-        lasts: NDArray[np.bool_] = fine & (least > 0.0).all(axis=1)
-        return lasts
+        return fine & (least > 0.0).all(axis=1)
 
 
 def _independent(slopes: Array, wanted: Sequence[int]) -> list[int]:

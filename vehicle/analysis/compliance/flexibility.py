@@ -216,8 +216,7 @@ def _of_least_energy(on_bushes: Sequence[tuple[Bush, Array]], count: int) -> Arr
     search: Any = root  # its stubs do not allow a function that also returns its derivative
     found: Array = search(reduced, np.zeros(free.shape[1]), jac=True, options={"xtol": 1e-14}).x
     first, second = reduced(found)
-    parts: Array = free @ (found - np.linalg.solve(second, first))
-    return parts
+    return free @ (found - np.linalg.solve(second, first))
 
 
 def _of_joint(
@@ -279,8 +278,7 @@ class _Forces:
 def _energy(forces: Array, soft: Array | float) -> Array:
     """Return the work of forces on the displacements by each other, (n, forces, forces)."""
     scaled = forces * soft if np.ndim(soft) == 0 else soft @ forces
-    result: Array = forces.mT @ scaled
-    return result
+    return forces.mT @ scaled
 
 
 def _released(

@@ -140,8 +140,7 @@ def where_of(test: RigLoad, on_road: RoadWheel) -> Array:
 def sense_of(test: RigLoad, on_road: RoadWheel) -> Array:
     """Return the positive direction of displacements under a load, (n, 3)."""
     sense = _mirror(on_road.vehicle.side) * test.sense
-    along: Array = np.einsum("nij,i->nj", wheel_axes(on_road), sense)
-    return along
+    return np.einsum("nij,i->nj", wheel_axes(on_road), sense)
 
 
 def give_of_tyre(test: RigLoad, on_road: RoadWheel) -> float | None:

@@ -57,8 +57,7 @@ class RigidDisplacements:
 
     def of(self, bodies: Indices, vectors: Array) -> Array:
         """Return body-fixed vectors after the rotations, (n, measures, 3)."""
-        rotated: Array = np.einsum("nfij,nfj->nfi", self.turned[:, bodies], vectors)
-        return rotated
+        return np.einsum("nfij,nfj->nfi", self.turned[:, bodies], vectors)
 
 
 @dataclass(frozen=True)
@@ -305,8 +304,7 @@ def second_by_rotation(turning: Array, other: Array) -> Array:
     """Return the second derivative, in the rotation, of a rotated vector times another one."""
     outer = turning[..., :, None] * other[..., None, :]
     product = np.einsum("...i,...i->...", turning, other)[..., None, None]
-    result: Array = 0.5 * (outer + outer.mT) - product * np.eye(3)
-    return result
+    return 0.5 * (outer + outer.mT) - product * np.eye(3)
 
 
 def _turning(direction: Array, end: int) -> Array:
@@ -324,10 +322,8 @@ def _parting(start: Array, end: Array) -> Array:
 
 
 def _squared(slope: Array) -> Array:
-    result: Array = slope[..., :, None] * slope[..., None, :]
-    return result
+    return slope[..., :, None] * slope[..., None, :]
 
 
 def _times(derivative: Array, vector: Array) -> Array:
-    result: Array = np.einsum("...ij,...i->...j", derivative, vector)
-    return result
+    return np.einsum("...ij,...i->...j", derivative, vector)

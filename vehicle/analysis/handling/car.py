@@ -176,8 +176,7 @@ class DrivingCar:
 
     def _travel(self, angles: Array) -> Array:
         """Return the travel of the rack per angle of the steering wheel at its angles [m/rad]."""
-        found: Array = self.controls.rack(angles, np.ones_like(angles))["rack_velocity"]
-        return found
+        return self.controls.rack(angles, np.ones_like(angles))["rack_velocity"]
 
     @cached_property
     def _drive(self) -> Array:

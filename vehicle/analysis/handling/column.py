@@ -21,8 +21,7 @@ def column_twist(model: System, states: Array, inputs: Array, sense: Array) -> A
     sense : ndarray
         1 where the rack moves in its positive direction as the steering wheel turns left, else -1.
     """
-    found: Array = -sense * model.signal("front_column_angle", states, inputs)
-    return found
+    return -sense * model.signal("front_column_angle", states, inputs)
 
 
 def column_torque(
@@ -38,5 +37,4 @@ def column_torque(
     )
     velocity = inputs[:, model.input_names.index("rack_velocity")]
     smoothed = velocity / np.hypot(velocity, column.friction_velocity_m_per_s)
-    found: Array = sense * (twisting + column.friction_Nm * smoothed)
-    return found
+    return sense * (twisting + column.friction_Nm * smoothed)

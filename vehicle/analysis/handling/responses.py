@@ -106,5 +106,4 @@ def frequency_response(time: Array, cause: Array, effect: Array, frequency: Arra
         np.asarray(np.trapezoid(turning * values, time, axis=-1), dtype=np.complex128)
         for values in (effect, cause)
     )
-    found: Complex = above / below
-    return found
+    return above / below

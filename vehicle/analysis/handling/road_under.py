@@ -76,5 +76,4 @@ class RoadUnder:
 
     def _at(self, spline: CubicSpline, back: Array, ahead: float) -> Array:
         """Return the heights under the wheels of a side after a further distance [m]."""
-        found: Array = spline(np.clip(self._travelled + ahead - back, *spline.x[[0, -1]]))
-        return found
+        return spline(np.clip(self._travelled + ahead - back, *spline.x[[0, -1]]))

@@ -58,8 +58,7 @@ class CarInMotion:
     def body(self) -> Array:
         """The rotation of the body from design, (n, 3, 3)."""
         place = self.model.equations.BODIES.index("body")
-        found: Array = self.model.evaluate("orientations", self.states, self.inputs)[:, place]
-        return found
+        return self.model.evaluate("orientations", self.states, self.inputs)[:, place]
 
     @cached_property
     def up(self) -> Array:
@@ -70,8 +69,7 @@ class CarInMotion:
     def upward(self) -> Array:
         """The direction opposite to gravity in the axes of the body, (n, 3)."""
         along = unit_vector([self.model.parameters[f"upward_{axis}"] for axis in "xyz"])
-        found: Array = np.einsum("nji,j->ni", self.body, along)
-        return found
+        return np.einsum("nji,j->ni", self.body, along)
 
     @cached_property
     def signals(self) -> dict[str, Array]:

@@ -307,8 +307,7 @@ class _Search:
             self.reasons[row] = _UNSTABLE
         last = still & stable  # a last step, down to rounding
         self.coordinates[rows[last]] += _steps(missing[last], slopes[last])
-        ended: Booleans = lost | still
-        return ended
+        return lost | still
 
     def _within(self, rows: Rows, steps: Array) -> tuple[Array, Booleans]:
         """Return steps, halfway to a bound instead of beyond it, and where that is too short."""
@@ -392,8 +391,7 @@ def _changes_sign(values: Array, axes: NDArray[np.int64]) -> Booleans:
         ends = [np.arange(count), np.arange(1, count + 1)]
         least = np.minimum(*(np.take(least, end, axis) for end in ends))
         most = np.maximum(*(np.take(most, end, axis) for end in ends))
-    found: Booleans = (least <= 0.0) & (most >= 0.0)
-    return found
+    return (least <= 0.0) & (most >= 0.0)
 
 
 def _on_mesh(values: Array, shape: tuple[int, ...]) -> Array:
@@ -410,5 +408,4 @@ def _steps(missing: Array, slopes: Array) -> Array:
     followed = np.where(stable[:, None, None], slopes, downhill)
     steps = np.asarray(-np.linalg.solve(followed, missing[..., None])[..., 0], dtype=float)
     longest = np.abs(steps).max(axis=-1, keepdims=True)
-    bounded: Array = steps * np.minimum(1.0, _LONGEST / np.maximum(longest, _SHORTEST))
-    return bounded
+    return steps * np.minimum(1.0, _LONGEST / np.maximum(longest, _SHORTEST))

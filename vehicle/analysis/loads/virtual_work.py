@@ -78,8 +78,7 @@ class VirtualWork:
 def _velocity(group: PartPoses, twists: Mapping[str, Array], part: str, at: Array) -> Array:
     """Return the velocity of a point of a part in each motion, (n, motions, 3)."""
     arm = (at - group.centers[part])[:, None]
-    moved: Array = twists[part][..., 3:] + cross(twists[part][..., :3], arm)
-    return moved
+    return twists[part][..., 3:] + cross(twists[part][..., :3], arm)
 
 
 def _power(group: PartPoses, twists: Mapping[str, Array], loads: Sequence[Load]) -> Array:

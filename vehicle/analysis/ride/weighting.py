@@ -59,8 +59,7 @@ def weighting(frequency: ArrayLike) -> Complex:
         frequencies = given.array("frequency", frequency, "Hz", empty=True)
     numerator, denominator = _polynomials()
     s = 2j * np.pi * frequencies
-    found: Complex = np.polyval(numerator, s) / np.polyval(denominator, s)
-    return found
+    return np.polyval(numerator, s) / np.polyval(denominator, s)
 
 
 def weighted(acceleration: ArrayLike, step: float) -> Array:

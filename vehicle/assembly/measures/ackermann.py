@@ -131,5 +131,4 @@ def _inner_and_outer(left: Array, right: Array) -> tuple[Array, Array]:
 def _ideal_outer(inner: Array, wheelbase: float, track: float | Array) -> Array:
     # atan(L / (L / tan d + t)) without its pole straight ahead
     across, along = np.sin(inner), np.cos(inner)
-    outer: Array = np.arctan2(wheelbase * across, wheelbase * along + track * across)
-    return outer
+    return np.arctan2(wheelbase * across, wheelbase * along + track * across)

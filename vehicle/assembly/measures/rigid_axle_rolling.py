@@ -30,8 +30,7 @@ def roll_center_height(beam: RigidAxleKinematics) -> Array:
     times = -dot(across, roll) / dot(across, heave)
     velocity = roll + times[:, None] * heave
     turning = beam.turning_of(BEAM, ROLL)[:, 0] + times * beam.turning_of(BEAM, HEAVE)[:, 0]
-    height: Array = dot(line, velocity) / turning
-    return height
+    return dot(line, velocity) / turning
 
 
 def jacking(beam: RigidAxleKinematics) -> Array:
@@ -42,5 +41,4 @@ def jacking(beam: RigidAxleKinematics) -> Array:
     """
     middle = 0.5 * (beam.contact(LEFT) + beam.contact(RIGHT))
     velocity = beam.velocity_of(BEAM, middle, HEAVE)
-    lift: Array = -velocity[:, 1] / velocity[:, 2]
-    return lift
+    return -velocity[:, 1] / velocity[:, 2]

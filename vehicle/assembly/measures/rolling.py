@@ -55,8 +55,7 @@ def track(of: TwoWheels) -> Array:
 def moment(of: TwoWheels) -> Array:
     """Return the moment of the wheels' forces against a roll of the body [N m]."""
     levers, forces = _levers(of), _forces(of)
-    total: Array = -(levers * forces).sum(-1)
-    return total
+    return -(levers * forces).sum(-1)
 
 
 def moment_gradient(of: TwoWheels) -> Array:
@@ -66,8 +65,7 @@ def moment_gradient(of: TwoWheels) -> Array:
     """
     travels, moved = of.rolled
     changes = np.einsum("...ij,...j->...i", of.springs + of.bar, travels)
-    gradient: Array = -(moved * _forces(of) + _levers(of) * changes).sum(-1)
-    return gradient
+    return -(moved * _forces(of) + _levers(of) * changes).sum(-1)
 
 
 def stiffness(of: TwoWheels) -> Array:
@@ -108,8 +106,7 @@ def with_tyres(of: TwoWheels) -> Array:
 def in_roll(of: TwoWheels, rates: Array) -> Array:
     """Return the roll stiffness y' K y for a stiffness K of both wheels [N m/rad]."""
     levers = _levers(of)
-    by_roll: Array = np.einsum("...i,...ij,...j->...", levers, rates, levers)
-    return by_roll
+    return np.einsum("...i,...ij,...j->...", levers, rates, levers)
 
 
 def _levers(of: TwoWheels) -> Array:

@@ -45,8 +45,7 @@ def roll_center_height(of: WholeAxleKinematics) -> Array:
     times = -dot(across, roll.mean(axis=0)) / dot(across, heave.mean(axis=0))
     moved = roll + times[:, None] * heave
     turning = dot(across, moved[0] - moved[1]) / length[:, 0]
-    height: Array = dot(line, moved.mean(axis=0)) / turning
-    return height
+    return dot(line, moved.mean(axis=0)) / turning
 
 
 def jacking(of: WholeAxleKinematics, side: str) -> Array:
@@ -63,8 +62,7 @@ def in_roll(of: WholeAxleKinematics, side: str, rate: Callable[..., Array]) -> A
     `rate` takes a wheel and the motion of its carrier, and returns the rate of the quantity.
     """
     # roll is positive with the right side of the body down, that is, with the right wheel up
-    found: Array = -rate(of.corners[side], of.motion(side, "roll")) / of.inclination_rate
-    return found
+    return -rate(of.corners[side], of.motion(side, "roll")) / of.inclination_rate
 
 
 def _steer_rate(corner: RoadWheel, motion: CarrierMotion) -> Array:

@@ -18,8 +18,7 @@ def is_at(end: str, *, driven: bool = False) -> Callable[[WholeAxleKinematics], 
 
 def dot(one: Array, other: Array) -> Array:
     """Return the scalar products of vectors, (n,)."""
-    product: Array = (one * other).sum(-1)
-    return product
+    return (one * other).sum(-1)
 
 
 def signal(name: str) -> Callable[[WholeAxleKinematics, str], Array]:
@@ -35,15 +34,13 @@ def _ratio(part: str, how: str, of: WholeAxleKinematics, side: str) -> Array:
 
 def wheel_rate(of: WholeAxleKinematics, side: str) -> Array:
     """Return the derivative of a wheel's force with respect to the travel of both wheels [N/m]."""
-    rates: Array = (of.springs + of.bar)[:, SIDES.index(side), :].sum(-1)
-    return rates
+    return (of.springs + of.bar)[:, SIDES.index(side), :].sum(-1)
 
 
 def wheel_rate_alone(of: WholeAxleKinematics, side: str) -> Array:
     """Return the derivative of a wheel's force with respect to its own travel alone [N/m]."""
     place = SIDES.index(side)
-    rates: Array = (of.springs + of.bar)[:, place, place]
-    return rates
+    return (of.springs + of.bar)[:, place, place]
 
 
 SPRINGS = (

@@ -289,8 +289,7 @@ def rotation(quaternion: _Quaternion) -> Array:
     """Return the matrix of a rotation from its quaternion, scalar first."""
     w, *v = np.array(quaternion) / np.linalg.norm(quaternion)
     skew = np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
-    turned: Array = np.eye(3) + 2.0 * w * skew + 2.0 * skew @ skew
-    return turned
+    return np.eye(3) + 2.0 * w * skew + 2.0 * skew @ skew
 
 
 def is_rotation(quaternion: _Quaternion) -> bool:

@@ -226,8 +226,7 @@ class AntiRollBar(Section):
         """Return the force of a drop link on the bar for a unit torque, at design [1/m]."""
         half = self.half()
         direction, lever = half.lever(half.foot, np.zeros(()))
-        force: Array = -direction / lever
-        return force
+        return -direction / lever
 
     def _radial_force(self) -> Array:
         """Return the radial force of a bush for a unit torque, at design [1/m].
@@ -240,8 +239,7 @@ class AntiRollBar(Section):
         half, pull = self.half(), self._pull()
         arm = half.top - half.bush * (1.0, 0.0, 1.0)
         held = (pull[1] * arm - arm[1] * pull) / half.bush[1] - pull[1] * np.array([0.0, 1.0, 0.0])
-        radial: Array = held - (held @ half.axis) * half.axis
-        return radial
+        return held - (held @ half.axis) * half.axis
 
     def rate_of_bar(self) -> float:
         """Return the torque per twist between the bar's arms, on rigid bearings [N m/rad].
@@ -310,8 +308,7 @@ class HalfBar:
     def _across(self) -> Array:
         """The lever across the axis."""
         lever = self.top - self.bush
-        across: Array = lever - (lever @ self.axis) * self.axis
-        return across
+        return lever - (lever @ self.axis) * self.axis
 
     def _equation(self, foot: Array) -> tuple[Array, Array, Array]:
         """Return A, B and C of the loop's equation."""
@@ -335,16 +332,14 @@ class HalfBar:
         # at design the angle is zero: cos(0) A = C, and the sign of B selects the solution
         _, at_design, _ = self._equation(self.foot)
         angle = np.arctan2(sine, cosine) - np.copysign(1.0, at_design) * opening
-        turned: Array = np.arctan2(np.sin(angle), np.cos(angle))
-        return turned
+        return np.arctan2(np.sin(angle), np.cos(angle))
 
     def top_at(self, turn: Array) -> Array:
         """Return the position of the upper end of the drop link, (..., 3) [m]."""
         across = self._across
         cosine, sine = np.cos(turn)[..., None], np.sin(turn)[..., None]
         fixed = self.top - across
-        place: Array = fixed + cosine * across + sine * cross(self.axis, across)
-        return place
+        return fixed + cosine * across + sine * cross(self.axis, across)
 
     def lever(self, foot: Array, turn: Array) -> tuple[Array, Array]:
         """Return direction and lever of the drop link.
@@ -361,5 +356,4 @@ class HalfBar:
     def rate_of_turn(self, foot: Array, turn: Array, velocity: Array) -> Array:
         """Return the rate of the angle for a velocity of the foot, with the link's length fixed."""
         direction, lever = self.lever(foot, turn)
-        rate: Array = np.einsum("...i,...i->...", velocity, direction) / lever
-        return rate
+        return np.einsum("...i,...i->...", velocity, direction) / lever

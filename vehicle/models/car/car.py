@@ -550,5 +550,4 @@ def center_of_gravity(car: Car) -> Array:
     """Return the centre of gravity of a whole car at design, axes of the car [m]."""
     found = masses(car)
     total = sum(mass for mass, _ in found)
-    center: Array = np.sum([mass * place for mass, place in found], axis=0) / total
-    return center
+    return np.sum([mass * place for mass, place in found], axis=0) / total

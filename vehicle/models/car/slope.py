@@ -42,8 +42,7 @@ class Slope(NamedTuple):
         axes = [
             each / np.linalg.norm(each) for each in (forward, np.cross(normal, forward), normal)
         ]
-        found: Array = np.array(axes)[:, 2]
-        return found
+        return np.array(axes)[:, 2]
 
     @property
     def words(self) -> str:

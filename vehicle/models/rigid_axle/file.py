@@ -56,8 +56,7 @@ class Beam(RigidBody):
 
     def default_centre_of_mass(self, points: Hardpoints) -> Vector:
         """Return the middle between the wheels, in m."""
-        middle: Vector = points.metres("wheel_center") * [1.0, 0.0, 1.0]
-        return middle
+        return points.metres("wheel_center") * [1.0, 0.0, 1.0]
 
 
 class RigidAxleBodies(Bodies):

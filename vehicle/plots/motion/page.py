@@ -99,5 +99,4 @@ def _track(points: Array) -> dict[str, Any]:
 
 def _whole(values: Array) -> list[Any]:
     """Return values as whole numbers."""
-    found: list[Any] = np.round(values).astype(int).tolist()
-    return found
+    return np.round(values).astype(int).tolist()

@@ -103,8 +103,7 @@ class Drawer:
         axes.text(0.02, 0.91, words, transform=axes.transAxes, va="top", size=9.5)
 
     def _on(self, points: Array) -> Array:
-        found: Array = (np.asarray(points) - self._from) @ self._view.T
-        return found
+        return (np.asarray(points) - self._from) @ self._view.T
 
     def _depth(self, points: Array) -> float:
         return float((points.reshape(-1, 3).mean(axis=0) - self._from) @ self._towards)
@@ -232,5 +231,4 @@ class Drawer:
 
 def _hull(points: Array) -> Array:
     """Return the convex hull of points in a plane, shape (corners, 2)."""
-    found: Array = points[ConvexHull(points).vertices]
-    return found
+    return points[ConvexHull(points).vertices]

@@ -124,8 +124,7 @@ def scene_of(run: Run, rows: NDArray[np.intp], *, cones: xr.Dataset | None = Non
 
     def end(which: tuple[str, str]) -> Array:
         owner, point = which
-        found: Array = places[owner][:, skeleton.bodies[owner].index(point)]
-        return found
+        return places[owner][:, skeleton.bodies[owner].index(point)]
 
     pairs = [*skeleton.springs, *skeleton.guides]
     return CarScene(
@@ -151,8 +150,7 @@ def _beside(run: Run, cones: xr.Dataset | None) -> Array:
     if cones is None:
         return np.zeros((0, 2))
     named = np.array([run.motion[name].values[0] for name in ("x", "y")])
-    found: Array = np.stack([cones["x"], cones["y"]], axis=-1) - (named - run.places[0])
-    return found
+    return np.stack([cones["x"], cones["y"]], axis=-1) - (named - run.places[0])
 
 
 def _tracks(run: Run, centers: Array, rows: NDArray[np.intp]) -> list[Array]:
@@ -218,8 +216,7 @@ def _wheels(
 def _rolled(axes: Array, spokes: Array, angles: Array) -> Array:
     """Return spokes turned forward about the axes of their wheels, by (n, w) angles [rad]."""
     angles = angles[..., None]
-    found: Array = np.cos(angles) * spokes + np.sin(angles) * cross(axes, spokes)
-    return found
+    return np.cos(angles) * spokes + np.sin(angles) * cross(axes, spokes)
 
 
 def _forces(car: MovingCar, motion: xr.Dataset, centers: Array, axes: Array) -> tuple[Array, Array]:
@@ -268,8 +265,7 @@ def _outline(car: MovingCar, spinning: list[int], states: Array, inputs: Array) 
     arms = np.array([np.stack([x, y, z], axis=-1) for y in widths]) - design[row]
     turned = model.evaluate("orientations", states, inputs)[:, row]
     centers = model.evaluate("positions", states, inputs)[:, row]
-    found: Array = centers[:, None, None] + np.einsum("nij,skj->nski", turned, arms)
-    return found
+    return centers[:, None, None] + np.einsum("nij,skj->nski", turned, arms)
 
 
 _ENDS = ("front", "rear")

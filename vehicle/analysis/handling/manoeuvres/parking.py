@@ -188,8 +188,7 @@ class Parking(Manoeuvre):
         for i in range(turned.shape[-1]):
             towards = np.sign(turned[:, i])
             share[:, i + 1] = towards + (share[:, i] - towards) * kept[:, i]
-        found: Array = share * sliding
-        return found
+        return share * sliding
 
     def _at_rest(
         self, car: DrivingCar, angles: Array, progress: Progress

@@ -90,8 +90,7 @@ class SineSweep(SteeredManoeuvre):
 
         def moved(name: str) -> Array:
             values: Array = motion[name].values
-            found: Array = values - values[0]
-            return found
+            return values - values[0]
 
         over = ("source", "frequency")
         found: dict[str, Any] = {}
