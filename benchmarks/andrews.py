@@ -83,7 +83,7 @@ class Solver:
 
 @dataclass(frozen=True)
 class Point:
-    """What one program needed at one tolerance."""
+    """Cost of one program at one tolerance."""
 
     solver: str
     tolerance: float

@@ -27,7 +27,7 @@ ROAD = (np.linspace(*SPAN, 101), 0.01 * np.sin(np.linspace(0.0, 25.0, 101)))
 
 @dataclass(frozen=True)
 class Time:
-    """What an ensemble takes.
+    """The cost of an ensemble.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What the arithmetic of a function in lanes takes at the least, whatever waits for what.
+"""Least time of the arithmetic of a function in lanes, without waiting for operands.
 
 The instructions that the compiler made of it are counted. As many products, sums, quotients and
 roots, none of which waits for one just before it, are then timed on the same processor.

@@ -50,7 +50,7 @@ CONTENDERS = (
 
 @dataclass(frozen=True)
 class Case:
-    """What is integrated: one second from 0.325 m, the wheel spinning at 14.8 rev/s.
+    """The motion of the paper: one second from 0.325 m, the wheel spinning at 14.8 rev/s.
 
     Attributes
     ----------

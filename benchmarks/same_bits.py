@@ -1,4 +1,4 @@
-"""Which results are the same bits elsewhere: ``python -m benchmarks.same_bits``.
+"""Results with the same bits on other processors: ``python -m benchmarks.same_bits``.
 
 The emitted arithmetic is compiled without contraction, and its sines, cosines and inverses are made
 of it. So its results should have the same bits with every compiler and on every machine. This

@@ -219,7 +219,7 @@ def stiffness(case: Case) -> Stiffness:
 
 @dataclass(frozen=True)
 class Cost:
-    """What one method needs for an error of `ERROR_OF_COMPARISON`, between two tolerances."""
+    """Cost of one method at an error of `ERROR_OF_COMPARISON`, between two tolerances."""
 
     library: str
     method: str

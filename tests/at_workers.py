@@ -1,4 +1,4 @@
-"""What workers do, for tests: in a file that they can import."""
+"""Work of workers in tests, in a file that they can import."""
 
 import os
 import signal

@@ -39,7 +39,7 @@ def running(driver, *arguments):
 
 
 class Watched:
-    """A page, what went wrong on it, and what it asked for."""
+    """A page, its errors, and its requests."""
 
     def __init__(self, browser, report, **context):
         self.context = browser.new_context(**{"viewport": DESKTOP, **context})

@@ -24,7 +24,7 @@ def remove(path):
 
 
 def no_folder_inside(path):
-    """What should be a file leads nowhere."""
+    """A link in the place of a file has no target."""
     path.unlink()
     path.symlink_to("nowhere")
 

@@ -1,4 +1,4 @@
-"""What another process does, for tests: in a file that imports little, since each one does so."""
+"""Work of another process in tests, in a file with few imports, since each process repeats them."""
 
 import kintrafo
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
@@ -12,7 +12,7 @@ def simulated_end(start: float) -> list[float]:
 
 
 def what_is_needed() -> None:
-    """Import what deriving, compiling and simulating import when they are first asked for."""
+    """Import the modules that derivation, compilation and simulation import at first use."""
     import kintrafo.generator.backends.files
     import kintrafo.generator.equations.outputs
     import kintrafo.simulation.simulate  # noqa: F401

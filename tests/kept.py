@@ -11,7 +11,7 @@ UNOPTIMISED = ("-O0", "-Dalways_inline=unused")
 not expanded into their callers. Without contraction the bits are the same. A call of a block that
 iterates takes a third of a millisecond either way."""
 FORGOTTEN_S = 7 * 24 * 3600.0
-"""What was not used for so long is removed: the generator has changed since."""
+"""Age of unused files that are removed, since the generator has changed."""
 
 
 def forget() -> None:

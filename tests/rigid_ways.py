@@ -28,7 +28,7 @@ FARTHEST = 0.5
 
 @dataclass
 class Judged:
-    """What came of many ways: those judged, what contradicts the continuation, what is refused."""
+    """Counts of many paths: compared ones, contradictions of the continuation, refused ones."""
 
     ways: int = 0
     positions: int = 0

@@ -89,7 +89,7 @@ X, Z = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
 
 
 class Stiffness:
-    """A suspension as bodies on springs, held where its joints do not give way."""
+    """A suspension as bodies on springs, held where its joints do not deflect."""
 
     def __init__(
         self, car: Suspension, travel: float, rack: float, like: Suspension | None = None
@@ -200,7 +200,7 @@ class Stiffness:
         return self.index(self.carrier), self.index("wheel"), spin, across, other
 
     def parts(self, bushes: dict[str, Any]) -> tuple[list[Any], list[np.ndarray], Any, Any]:
-        """Return the points that hold or give way, what else holds, and the ends of the lines."""
+        """Return rigid and elastic points, other constraints, and the ends of the lines."""
         rigid = []
         knuckle, wheel, _, across, other = self.bearing()
         joints = [*POINTS[self.like], ("wheel_center", self.carrier, "wheel")]

@@ -38,7 +38,7 @@ OTHER_ENDS = ("right angle", "lies along", "coincide", "flat", "mass matrix")
 
 @dataclass
 class Judged:
-    """What came of many suspensions.
+    """Counts of outcomes for many suspensions.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What all peers model: the reference car, the standard start and the reference trajectory."""
+"""The common case: the reference car, the standard start and the reference trajectory."""
 
 from dataclasses import dataclass
 from functools import cache

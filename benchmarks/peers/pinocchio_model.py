@@ -30,7 +30,7 @@ _DEFINITIONS = (
     "BOOST_MPL_CFG_NO_PREPROCESSED_HEADERS",
     "BOOST_FUSION_INVOKE_MAX_ARITY=12",
 )
-"""What Pinocchio's own build files define for a release."""
+"""Definitions of Pinocchio's own build files for a release."""
 
 _CODE = """
 #include <pinocchio/multibody.hpp>

@@ -1,6 +1,6 @@
 """Outcomes of one attempt at a door, and their words.
 
-A door is a module of `fuzz.doors` with a docstring whose first line says what is tried,
+A door is a module of `fuzz.doors` with a docstring whose first line describes the input,
 and with a function ``attempt(random)`` that tries it once with what it draws from a
 `numpy.random.Generator`. What it may do:
 
@@ -10,7 +10,7 @@ and with a function ``attempt(random)`` that tries it once with what it draws fr
   that name what is wrong (clear). A door that can judge the words does so, and raises `RawError`;
 - raise `WrongError`: a result that contradicts what shares no code with it;
 - raise anything else, or end the interpreter: raw;
-- not return within ``SECONDS`` (20 if the door does not say): hung.
+- not return within ``SECONDS`` (20 by default): hung.
 
 A door may set ``SHORT``, the number of attempts in a test run (40 if it does not), to a number that
 stands there as it is.
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from types import ModuleType
 
 OUTCOMES = ("clean", "unjudged", "clear", "wrong", "raw", "hung")
-"""What may come of an attempt; the last three are defects."""
+"""Outcomes of an attempt; the last three are defects."""
 
 DEFECTS = OUTCOMES[3:]
 
@@ -44,7 +44,7 @@ class WrongError(AssertionError):
 
 
 class UnjudgedError(Exception):
-    """An attempt of which the oracle cannot say what should come of it."""
+    """An attempt whose correct outcome the oracle does not know."""
 
 
 class RawError(AssertionError):

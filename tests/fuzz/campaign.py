@@ -36,7 +36,7 @@ _PROCESSES.set_forkserver_preload(
 
 @dataclass
 class Campaign:
-    """What came of many attempts at a door.
+    """Counts of outcomes for many attempts at a door.
 
     Attributes
     ----------

@@ -59,7 +59,7 @@ class Poses:
 
 @dataclass(frozen=True)
 class Rods:
-    """What holds many bodies.
+    """The constraints of many bodies.
 
     Attributes
     ----------

@@ -45,7 +45,7 @@ CAUSES = (
     "tyre",
     "rack",
 )
-"""What does work on the moving bodies."""
+"""Forces that do work on the moving bodies."""
 
 RackMotion = Callable[[float], tuple[float, float, float]]
 

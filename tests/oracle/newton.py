@@ -224,7 +224,7 @@ class Mechanism:
 
 @dataclass(frozen=True)
 class Observables:
-    """What can be measured on a pose.
+    """Quantities that follow from a pose.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What makes a car drive, as forces and moments on bodies: tyres that roll, torques, air.
+"""Forces and moments on the bodies of a driving car: rolling tyres, torques, air.
 
 Everything is in the axes of the world. A wheel is a body of its own here, on which the road acts; a
 torque acts on the wheel and, reversed, on what has the reaction. A tyre is the linear one, written

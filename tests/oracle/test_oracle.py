@@ -424,7 +424,7 @@ def test_absent_parts_are_the_papers_suspension() -> None:
 
 @pytest.mark.parametrize("count", [2, 3, 8, 11])
 def test_damper_curve(count: int) -> None:
-    """What the coefficients say is SciPy's curve, with straight lines outside."""
+    """The coefficients are those of SciPy's curve, with straight lines outside."""
     rng = np.random.default_rng(count)
     knots = np.cumsum(rng.uniform(0.05, 0.6, count)) - 1.0
     curve = PchipInterpolator(knots, np.cumsum(rng.uniform(-100.0, 500.0, count)))

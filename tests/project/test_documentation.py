@@ -113,7 +113,7 @@ def test_functions_of_two_arguments_say_what_these_are(name):
 
 @pytest.mark.parametrize("name", sorted(kintrafo.__all__))
 def test_signatures_call_types_by_their_names(name):
-    """What NumPy takes for an array is a word, and not the union of twelve classes that it is."""
+    """Signatures show `array_like`, not the union of twelve classes for which it stands."""
     shown = getattr(kintrafo, name)
     if inspect.isfunction(shown):
         assert "_NestedSequence" not in str(inspect.signature(shown))

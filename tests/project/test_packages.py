@@ -1,4 +1,4 @@
-"""What a wheel has: every folder with modules is one of the packages that are named."""
+"""Contents of a wheel: every folder with modules is one of the listed packages."""
 
 import tomllib
 

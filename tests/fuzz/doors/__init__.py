@@ -1,1 +1,1 @@
-"""One module for each door; `fuzz.attempts` says what is in it."""
+"""One module for each door; `fuzz.attempts` describes its contents."""

@@ -64,7 +64,7 @@ _ACCELERATIONS = 1e-7
 
 @dataclass
 class Drawn:
-    """What moves.
+    """The model that moves.
 
     Attributes
     ----------

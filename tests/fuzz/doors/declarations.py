@@ -182,7 +182,7 @@ def _texts(value):
 
 
 def _judge(error):
-    """See that a refusal says what of, and in a sentence."""
+    """Check that an error is a sentence and names its part."""
     text = str(error)
     if len(text) < 30 or "Traceback" in text or "object at 0x" in text:
         raise RawError(text) from error

@@ -2,7 +2,7 @@
 
 The reference integrates the bare right-hand side of each car alone, at tight tolerances and with
 steps short enough for its road, whose height and slope are evaluated apart from kintrafo; it shares
-no step with the lanes. What the ensemble says of one car must not depend on those beside it.
+no step with the lanes. The result of one car must not depend on the other cars.
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ def attempt(random: Generator) -> None:
 def _judge(
     model: Model, values: dict[str, float], start: Array, end: float, road: Sine, found: Any
 ) -> bool:
-    """Hold one car against the reference; tell whether it has one."""
+    """Compare one car with the reference; return whether there is one."""
     success, name = bool(found["success"]), model.equations.NAME
     try:
         expected = _alone(model, values, start, end, road)

@@ -70,7 +70,7 @@ def systems() -> tuple[System, ...]:
 
 @dataclass(frozen=True)
 class Motion:
-    """What is tried.
+    """The motion of an attempt.
 
     Attributes
     ----------

@@ -138,7 +138,7 @@ def _answered(function: Callable[..., Any], state: np.ndarray) -> float | None:
 
 
 def _evaluated(parts: dict[str, str], q: float, v: float) -> tuple[float, float] | None:
-    """Return what the text says, and how much of it a rounding of q may change; None: nothing."""
+    """Return the value in the text, and its change by a rounding of q; None without a value."""
     found = []
     for nudge in (0.0, 1e-13, -1e-13):
         names = _NAMES | {"q": q + nudge, "v": v * (1.0 + nudge), "k": 1.5}

@@ -57,7 +57,7 @@ def read(path: Path) -> Suspension:
 
 
 def check(suspension: Suspension, text: bytes) -> None:
-    """What was read is what stands in the file, and the model is in that position."""
+    """The values are those of the file, and the model is in their position."""
     given = tomlkit.parse(text.decode("utf-8-sig").replace("\r\n", "\n")).unwrap()
     compare(given, suspension.to_dict(), "file")
     for name, value in suspension.parameters().items():

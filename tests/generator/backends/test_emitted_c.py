@@ -112,7 +112,7 @@ def test_constants_against_the_symbolic_program(
 
 
 def run(command: list[str]) -> None:
-    """Run a compiler, which must have nothing to say."""
+    """Run a compiler, which must not print a message."""
     if shutil.which(command[0]) is None:
         pytest.skip(f"{command[0]} is not installed")
     done = subprocess.run(command, capture_output=True, text=True, check=False)

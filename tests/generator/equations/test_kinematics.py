@@ -252,7 +252,7 @@ def test_wheel_angles_of_general_cars(travel: list[Placed]) -> None:
 
 @each_model
 def test_bodies_in_order(model) -> None:
-    """At design every body is where its parameters say, in the order of `BODIES`."""
+    """At design every body has the position of its parameters, in the order of `BODIES`."""
     parameters = car_parameters(1, model)
     state = Instant(Mechanism(parameters).beta1_design).state(model)
     positions = model.positions(state, None, model.prepare(parameters))

@@ -1,4 +1,4 @@
-"""Signs taken out of steps: the same bits with fewer operations, and names that say the sign."""
+"""Signs taken out of steps: the same bits with fewer operations, and names with the sign."""
 
 import random
 

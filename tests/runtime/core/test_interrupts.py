@@ -79,7 +79,7 @@ def test_none_is_lost(tmp_path, where):
 
 
 def test_after_the_end_a_command_is_not_interrupted():
-    """What the interpreter does at its end is not the command, which was done."""
+    """Ctrl-C at the end of the interpreter does not interrupt the command, which is complete."""
     late = "import atexit, signal; atexit.register(signal.raise_signal, signal.SIGINT)"
     late += "; from kintrafo.__main__ import run; run()"
     done = subprocess.run(

@@ -1,4 +1,4 @@
-"""What does not fit into memory is refused before it is begun, and the estimates are right."""
+"""Results that do not fit into memory are an error at the start, and the estimates are right."""
 
 import re
 import resource

@@ -37,7 +37,7 @@ def test_an_error_leaves_no_limit():
 
 
 def test_calls_that_overlap_leave_no_limit():
-    """Only one of them has a say; as threadpoolctl has it, that is the first to come."""
+    """Of calls that overlap, the first one sets and removes the limit, as in threadpoolctl."""
     both = Barrier(2, timeout=30.0)
 
     @in_one_thread

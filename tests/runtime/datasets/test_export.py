@@ -52,7 +52,7 @@ def test_positions_fulfil_the_joints(dataset):
 
 
 def heights(dataset):
-    """Return the wheel heights that were asked for: travel goes down a grid."""
+    """Return the requested wheel heights, in the shape of the results."""
     (height, _) = xr.broadcast(0.3 + dataset["wheel_travel"], dataset["camber"])
     return height.values
 

@@ -1,4 +1,4 @@
-"""What was kept of an ensemble is read back as it was written, or not at all."""
+"""Checkpoints of an ensemble are read unchanged, or not at all."""
 
 import io
 import warnings
@@ -108,7 +108,7 @@ SOUND = {
 
 @pytest.mark.parametrize("name", SOUND)
 def test_names_types_and_shapes_are_exact(folder, path, name):
-    """What has a right digest, but lacks an array, or has another one in its place."""
+    """Files with a correct digest that lack an array, or have another one in its place."""
     sound = checkpoint._arrays_in(path.read_bytes())
     values = sound[name]
     others = [

@@ -114,7 +114,7 @@ def test_each_has_its_road(car: Model, start: Any) -> None:
 
 
 def fixed(car: Model, start: Any, step: float) -> xr.Dataset:
-    """Integrate by steps of one length, whose error is not asked for."""
+    """Integrate with a fixed step, without an estimate of the error."""
     return ensemble(
         car, None, (0.0, 0.2), start, signals=car.state_names, t_eval=[0.0333, 0.0777, 0.1999, 0.2],
         rtol=0.5, atol=1e3, first_step=step, max_step=step,
@@ -269,7 +269,7 @@ def test_the_same_bits_beside_what_fails(car: Model, start: Any, mixed: xr.Datas
 
 
 def test_an_error_that_no_step_keeps(car: Model, start: Any, monkeypatch: Any) -> None:
-    """What the arguments would refuse: no relative tolerance, and next to no absolute one."""
+    """Tolerances that the arguments would refuse: no relative one, and nearly no absolute one."""
     module = import_module("kintrafo.simulation.accuracy")
     monkeypatch.setattr(module, "_SMALLEST_RTOL", 0.0)
     found = ensemble(car, None, SPAN, start, rtol=0.0, atol=1e-300)

@@ -142,7 +142,7 @@ def test_equations_that_were_compiled_here(client: Any, tmp_path: Path, monkeypa
 
 @pytest.mark.usefixtures("small")
 def test_what_stiff_cars_report(client: Any, car: Model, start: Any, monkeypatch: Any) -> None:
-    """What both methods cannot do has both reasons, with the right car."""
+    """A car that both methods fail to simulate has both reasons."""
     monkeypatch.setattr(ensembles, "_STIFF_AFTER", 50)
     cars = {"damper_rate": np.where(np.arange(20) == 15, 1e9, 1.5e3)}
     options = {"max_steps": 60, "rtol": 1e-3, "atol": 1e-5}

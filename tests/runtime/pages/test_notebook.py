@@ -1,4 +1,4 @@
-"""What a notebook shows: pages that are HTML, with pictures, of what IPython hands over."""
+"""Displays of a notebook: HTML with pictures, as IPython requests them."""
 
 import re
 import subprocess

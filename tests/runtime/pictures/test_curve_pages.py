@@ -36,7 +36,7 @@ def test_little_is_drawn_as_little(amount, widened):
 
 
 def test_names_stand_beside_their_curves():
-    """What is drawn, measured: in the colour of a line, nearest to it, and crossed by none."""
+    """Labels as they are drawn: in the colour of a line, nearest to it, and crossed by none."""
     lines = 0.02 + TRAVEL**2, -0.02 - TRAVEL**2, 0.001 * np.sin(40.0 * TRAVEL)
     shown = curves(*lines, names=("upper", "lower", "middle")).rename(wheel_travel="rack_position")
     drawn = figure(shown, ["one"])

@@ -122,7 +122,7 @@ def test_a_little_faster_ends(turning, method):
 
 @pytest.mark.parametrize("method", METHODS)
 def test_an_input_that_moves_the_dead_point(method):
-    """A rack that is pushed out of reach, with a model that stands still otherwise."""
+    """A rack that is pushed out of reach, with a model that is at rest otherwise."""
     model = Model("reference_car")
     times = np.linspace(0.0, 1.0, 50)
     rack = {"rack_position": (times, 0.4 * times**2)}

@@ -92,7 +92,7 @@ def test_exponential_and_logarithm(drivers: dict[int, ctypes.CDLL]) -> None:
 
 
 def test_powers_of_two(drivers: dict[int, ctypes.CDLL]) -> None:
-    """What a step size is chosen with; the bounds are those of the polynomials' degrees."""
+    """Functions for the choice of a step size; bounds follow from the degrees of polynomials."""
     values = 10.0 ** np.random.default_rng(3).uniform(-60, 60, 200)
     for value in values.tolist():
         assert abs(drivers[2].lane_log2(value) - np.log2(value)) < 1.2e-4

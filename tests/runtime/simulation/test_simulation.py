@@ -1,4 +1,4 @@
-"""`simulate`: results, inputs, and errors that say when and where."""
+"""`simulate`: results, inputs, and errors with their time and place."""
 
 import pickle
 from concurrent.futures import ThreadPoolExecutor

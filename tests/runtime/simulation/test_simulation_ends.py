@@ -228,7 +228,7 @@ def test_defaults_of_the_methods():
 
 @pytest.mark.parametrize("method", [*native_methods(), "RK45", "LSODA"])
 def test_an_error_reports_the_last_step_and_not_the_last_output(method):
-    """However few outputs are asked for."""
+    """For any number of outputs."""
     with pytest.raises(SimulationError) as error:
         simulate(CRANK, (0.0, 1.0), TURNING, method=method, t_eval=[0.0, 1.0], max_steps=30)
     assert 0.0 < error.value.time < 1.0

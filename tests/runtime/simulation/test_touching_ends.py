@@ -119,7 +119,7 @@ def test_an_ensemble_ends_like_each_of_its_systems() -> None:
 
 
 def test_all_but_pivots_is_watched() -> None:
-    """What positions and forces are divided by is, as a wheel that comes to lie flat."""
+    """Divisors of positions and forces are checked, for example of a wheel that lies flat."""
     from kintrafo.generated import macpherson_free_rack
 
     watched = meanings(macpherson_free_rack) & SINGULAR

@@ -29,7 +29,7 @@ needs_compiler = pytest.mark.skipif(find_compiler() is None, reason="no C compil
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
-    """What was derived of a mechanism, its folder, and what its right-hand side gives."""
+    """The equations of a mechanism, their folder, and results of the right-hand side."""
     folder, derived = tmp_path_factory.mktemp("made"), outputs.generate(model_of(FOUR_BAR))
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr(outputs, "generate", lambda _, **__: derived)
@@ -125,7 +125,7 @@ class TestHealing:
         np.testing.assert_array_equal(module.rhs(STATES), made[2])
 
     def test_what_cannot_be_healed_is_reported(self, cache):
-        """A folder stands where a file should: nothing in it is removed."""
+        """A folder has the name of a file of the cache: nothing in it is removed."""
         (target,) = cache.iterdir()
         (target / "four_bar.py").unlink()
         (target / "four_bar.py").mkdir()
@@ -145,7 +145,7 @@ class TestHealing:
         assert target.read_text() == "mine"
 
     def test_damage_after_it_was_loaded(self, cache, made):
-        """What runs goes on; another process gets a sound one."""
+        """The loaded module remains in use; another process compiles it again."""
         module = kintrafo.compile(FOUR_BAR, folder=cache)
         (target,) = cache.iterdir()
         cache_damage.cut(target / "four_bar.py")

@@ -372,7 +372,7 @@ def test_unknown_source_and_resonance_of_the_spin_are_refused():
 
 
 def test_instants_and_models_name_the_same_states():
-    """What the oracle's order of coordinates relies on."""
+    """The order of coordinates that the oracle assumes."""
     for name, model in (("macpherson", HELD), ("macpherson_free_rack", FREE)):
         instant = Instant(beta1=1.0, spin=2.0, rack=3.0)
         assert instant.state(MODELS[name])[: len(model.state_names) // 2].tolist() == (

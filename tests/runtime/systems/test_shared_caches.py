@@ -1,4 +1,4 @@
-"""What is kept is run: nothing is taken from where somebody else can write."""
+"""Files of the cache are executed: none is used from a folder in which others can write."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is compiled follows every edit of a declaration: of its code, and of what that reads."""
+"""Compiled equations follow every edit of a declaration, of its code and of files that it reads."""
 
 from __future__ import annotations
 

@@ -852,7 +852,7 @@ def test_tables_of_shipped_models_are_committed():
 
 @pytest.mark.parametrize("name", sorted(EMITTED))
 def test_a_shipped_library_is_used_for_its_sources_only(name):
-    """Where this fails, run ``make build``: what was built is not what the sources say."""
+    """If this fails, run ``make build``: the built files are not those of the sources."""
     system = kintrafo.System(EMITTED[name])
     sources = library_files(Emitted(system, system.design_state, system.inputs()))
     library = binaries.shipped(sources, name, "linux")

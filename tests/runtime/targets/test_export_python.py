@@ -191,7 +191,7 @@ def test_casadi_calls_the_compiled_c(tmp_path):
 
 
 def test_the_example_does_better_than_a_passive_strut(monkeypatch, capsys):
-    """What it finds is compared with a simulation, whose steps and method are others."""
+    """The result is compared with a simulation by another method, with other steps."""
     pytest.importorskip("casadi")
     example = loaded(ROOT / "examples/active_suspension.py")
     monkeypatch.setattr(example, "STEPS", 20)
@@ -220,7 +220,7 @@ def jax():
 
 
 def library_for_jax(jax, folder, library, *flags):
-    """Return the compiled functions of a folder of C, with lanes if they are asked for."""
+    """Return the compiled functions of a folder of C, with lanes on request."""
     ends = ["", "_derivatives", "_values", "_ffi", *(["_lanes"] if flags else [])]
     files = [str(folder / f"four_bar{end}.c") for end in ends]
     headers = ["-isystem", jax.ffi.include_dir()]

@@ -192,7 +192,7 @@ def test_the_top_of_a_strut_has_the_spring_in_its_total(kintrafo: Any, tmp_path:
     "car", [CAR, WISHBONES, OFFSET, PUSHED, PULLED, LINKED, TRAILING], ids=lambda car: car.TITLE
 )
 def test_joints_do_no_work(car: Suspension) -> None:
-    """Whatever moves, what a joint exerts on its two parts has no power together."""
+    """In any motion, the forces of a joint on its two parts have no power in sum."""
     model = Model(car)
     random = np.random.default_rng(3)
     states = np.tile(model.design_state, (6, 1)) + random.uniform(-0.1, 0.1, (6, 4))

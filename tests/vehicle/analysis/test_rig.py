@@ -285,7 +285,7 @@ def test_compliance_that_there_is_not(models: Any, changes: Any, refused: Any) -
 
 
 def test_an_axle_of_two_corners_is_compared_with_a_rigid_one() -> None:
-    """What both have is told; a suspension has no motion in common with them."""
+    """Common characteristics are compared; a suspension has no motion in common with them."""
     found = compare.compare({"two corners": AXLE, "rigid": RIGID_AXLE}, over="roll")
     assert {"camber", "roll_stiffness", "roll_center_height"} <= {*found}
     assert found["camber"].dims == ("data_set", "wheel", "roll_angle")

@@ -229,7 +229,7 @@ def test_a_stop_carries_what_the_spring_does_not() -> None:
 @pytest.mark.parametrize("pressed", [-1e-7, 0.0, 1e-8, 1e-6, 1e-3])
 @pytest.mark.parametrize("rate", [1e5, 1e8])
 def test_a_stop_that_is_hardly_touched_is_found(pressed: float, rate: float) -> None:
-    """What the road gives where it holds both wheels is a case that ends there."""
+    """The forces of a held road, given as a load case, lead to the same position."""
     travel = 0.05
     model = RigidAxleModel(LEVEL)
     lengths = [

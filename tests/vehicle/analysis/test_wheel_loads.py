@@ -56,7 +56,7 @@ def test_rest_is_that_of_a_load_case(car: Suspension) -> None:
 
 @pytest.mark.parametrize("car", CARS, ids=lambda car: car.TITLE)
 def test_every_part_is_in_balance(car: Suspension) -> None:
-    """What Newton and Euler leave over, for any loads in any motion; what the bearing carries."""
+    """Residual of the Newton-Euler equations in any motion, and the loads of the bearing."""
     model = Model(car, wheel_loads=True)
     random = np.random.default_rng(1)
     size = len(model.state_names) // 2
@@ -266,7 +266,7 @@ def test_power_on_an_axle_is_that_at_the_places_of_the_root_finder() -> None:
 
 
 def test_every_part_of_an_axle_is_in_balance_along_a_motion() -> None:
-    """What Newton and Euler leave over, and what bearings carry about their axes."""
+    """Residual of the Newton-Euler equations, and moments of bearings about their axes."""
     time = [0.0, 0.02, 0.05]
     inputs = {
         "left_contact_force_x": (time, [0.0, 0.0, -3000.0]),

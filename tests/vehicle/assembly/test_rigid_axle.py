@@ -320,7 +320,7 @@ def test_the_mirror_image_is_the_mirror_image() -> None:
 
 @pytest.mark.parametrize("road", [0.0, 0.06])
 def test_it_stands_on_its_wheels(road: float) -> None:
-    """What springs and weight ask for is what the tyres do, in the planes of their wheels."""
+    """The tyre forces, in the planes of their wheels, balance springs and weight."""
     rest = equilibrium(MODEL, road_height={"left": road})
     at, found, up = rest[:2], Found(AXLE), np.array([0.0, 0.0, 1.0])
     turn = found.pose(*at)[1]

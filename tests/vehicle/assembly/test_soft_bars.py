@@ -115,7 +115,7 @@ def test_an_axle_rolls_as_much_more() -> None:
 
 
 def test_the_matrix_of_both_contacts_has_the_bar() -> None:
-    """What vertical forces take to move both wheels alone: with the bar its rate times slopes."""
+    """Stiffness of both wheels under vertical forces: with the bar, its rate times slopes."""
     assert YIELDING.bar is not None
     bushes, vertical = {"rack": {"axial_N_per_mm": 5000.0}}, [2, 8]
     without = Axle.from_dict({"axle": "front", "side": STIFF.right})

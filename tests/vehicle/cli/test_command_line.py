@@ -161,7 +161,7 @@ def test_topology_command_prints_tables_and_draws_the_graph(tmp_path):
 
 @pytest.mark.parametrize("name", cli.COMMANDS)
 def test_help_says_all_that_the_function_does(name, monkeypatch):
-    """What is in brackets is not taken for mark-up, and lines break where the terminal ends."""
+    """Text in brackets is not markup, and lines break at the width of the terminal."""
     monkeypatch.setenv("COLUMNS", "600")
     words = [*name.split(), "--help"]
     shown = CliRunner().invoke(cli.app, words, env={"COLUMNS": "600"}).output

@@ -1,4 +1,4 @@
-"""What commands say of a double wishbone, and what runs behind them."""
+"""Output of commands for a double wishbone, and the functions that they call."""
 
 import json
 import re

@@ -540,7 +540,7 @@ class TestGeometry:
         as_stored(problem)
 
     def test_a_strut_as_long_as_at_design_is_allowed(self):
-        """What the message of a shorter one promises."""
+        """The shortest length that the message of a shorter one allows."""
         CAR.with_changes({"strut.length_max_mm": 653.0})
 
 

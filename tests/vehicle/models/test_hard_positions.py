@@ -66,7 +66,7 @@ def test_a_fold_within_a_step_ends_the_reach(name):
 
 
 def test_heights_are_met_or_refused():
-    """What is allowed for is a rounding of the angle, which moves the wheel by its slope."""
+    """The tolerance is a rounding of the angle, which moves the wheel by its slope."""
     for seed, model in hard_models(range(25)):
         low, high = travel_range(model).height
         wanted = low + (high - low) * np.random.default_rng(seed).uniform(size=20)

@@ -64,7 +64,7 @@ EXTRAS = {
     },
     "double_wishbone_car": STOPS | TYRE | KNUCKLE | {"damper.friction_N": 30.0},
 }
-"""What packaged files leave out."""
+"""Keys that packaged files do not have."""
 
 
 @pytest.mark.parametrize("name", [*ALL, *(f"{name}, with extras" for name in EXTRAS)])

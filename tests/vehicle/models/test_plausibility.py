@@ -1,4 +1,4 @@
-"""What people get wrong in hardpoint files, one mistake at a time: told, and told as what it is."""
+"""Common mistakes in hardpoint files, one at a time: each is reported by its name."""
 
 import pytest
 from kintrafo import Model, Suspension

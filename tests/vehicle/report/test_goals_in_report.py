@@ -162,7 +162,7 @@ def test_wheels_with_one_curve_have_one_page(left: Any, right: Any, shown: Any) 
 
 
 def test_a_wheel_of_an_axle_moves_as_by_itself() -> None:
-    """What is wanted of a wheel in parallel travel is about the curve that its page has."""
+    """Goals of a wheel in parallel travel are those of the curve on its page."""
     axle = Axle.load("reference_axle")
     travels = np.linspace(-0.06, 0.06, 5)
     together = flat(characteristics.over(axle, "bump", travels))

@@ -531,7 +531,7 @@ def test_commands_refuse_and_end_as_others_do(kintrafo: Any, tmp_path: Path) -> 
 @pytest.mark.parametrize("name", [*packaged(), "rigid_axle"])
 @pytest.mark.filterwarnings("ignore:damper.force_N, damper.velocity_m_per_s:RuntimeWarning")
 def test_every_value_of_a_starter_file_may_be_meant(name: str) -> None:
-    """What cannot move, or moves nothing, does not stop the study of all the others."""
+    """Values that cannot change, or have no effect, do not stop the study of all others."""
     of = RigidAxle.load(name) if name == "rigid_axle" else Suspension.load(name)
     if "arm_rear" in of.to_dict()["hardpoints"]:
         of = of.with_changes({"bushings": {"arm_rear": {"axial_N_per_mm": 400.0}}})
