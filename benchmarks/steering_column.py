@@ -53,7 +53,7 @@ def main() -> None:
         {"steering_column": {"stiffness_Nm_per_deg": given.stiffness, **COLUMN}}
     )
     columns = [of_car(car) for car in (rigid, soft)]
-    print(f"| | rack on the steering wheel | column of {given.stiffness:g} N m/deg |")
+    print(f"| | rigid column | column of {given.stiffness:g} N m/deg |")
     print("|---|---:|---:|")
     for name in columns[0]:
         print(f"| {name} | " + " | ".join(f"{one[name]:.3f}" for one in columns) + " |")

@@ -199,7 +199,7 @@ class LinearContact(AnyContactLaw):
 
     def describe(self) -> str:
         """Return its description in reports."""
-        return "linear in slip, up to the friction"
+        return "linear at small slip, limited by friction"
 
 
 @declared

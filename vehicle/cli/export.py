@@ -30,8 +30,9 @@ def command(
     file: Annotated[
         str,
         argument(
-            "Hardpoint file, file of an axle, Python file with a mechanism of your own, or a name "
-            "that comes with kintrafo: reference_car, rigid_axle, four_bar.",
+            "File of a suspension, an axle or a car, Python file with a mechanism of your own, or "
+            "the name of a packaged file or model: reference_car, rigid_axle, driving_car, "
+            "four_bar.",
             "FILE",
         ),
     ],
@@ -53,7 +54,8 @@ def command(
     platform: Annotated[
         list[str] | None,
         option(
-            "Systems of the library: linux, windows, or none for sources only. Default: this one.",
+            "Systems of the library: linux, windows, or none for sources only. Default: this "
+            "system.",
             "NAME,...",
         ),
     ] = None,

@@ -45,9 +45,9 @@ def command(
     over: Over = None,
     output: CarOptions,
 ) -> None:
-    """Find the errors of values of the file that explain measured curves.
+    """Find deviations from the values of the file that explain measured curves.
 
-    Each error stays within its tolerance. Of several explanations the most probable one is
+    Each deviation stays within its tolerance. Of several explanations the most probable one is
     printed, with its uncertainty. The exit code is 1 if a curve is not explained.
     """
     from .. import studies as variation

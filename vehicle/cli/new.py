@@ -31,7 +31,8 @@ def command(
     *,
     suspension: Annotated[Kind, option("Type of suspension or axle.")] = DEFAULT,
     template: Annotated[
-        str | None, option("Packaged data set to copy. Default: by --suspension.", "NAME")
+        str | None,
+        option("Packaged file to copy, also a manoeuvre. Default: by --suspension.", "NAME"),
     ] = None,
     axle: Annotated[
         bool, option("Write the file of an axle, which names its sides.", None, "--axle")

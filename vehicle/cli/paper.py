@@ -17,7 +17,7 @@ EXAMPLES = ("kintrafo paper out", "kintrafo paper out --data my_car.toml")
 
 
 def command(
-    folder: Annotated[Path, argument("Where the figures go.")] = Path("out"),
+    folder: Annotated[Path, argument("Folder of the figures.")] = Path("out"),
     data: Annotated[str, option("Data set, by name, or a TOML file.")] = "reference_car",
     *,
     force: Force = False,

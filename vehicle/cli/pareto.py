@@ -57,10 +57,10 @@ def command(
     ] = None,
     output: SingleFigureOptions,
 ) -> None:
-    """Find suspensions of which none is better than another in every objective.
+    """Find the Pareto front of several objectives: the best compromises between them.
 
-    They are the Pareto front of conflicting objectives. The exit code is 1 if no suspension keeps
-    the limits.
+    No suspension of the front can be improved in one objective without loss in another one. The
+    exit code is 1 if no suspension keeps the limits.
     """
     from ...datasets import export
     from .. import studies as variation

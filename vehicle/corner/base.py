@@ -119,7 +119,7 @@ class Suspension(WheeledSection):
     wheel: WheelSection = Field(description="alignment of the wheel")
     tyre: TyreSection = Field(description="the tyre")
     rack: Steering | None = Field(
-        description="the steering rack, where the wheel is steered; or [pitman_arm]"
+        description="the steering rack of a steered wheel, or [pitman_arm] instead"
     )
     pitman_arm: PitmanLinkage | None = Field(
         default=None, description="a Pitman arm with relay rod and idler arm, instead of a rack"
@@ -220,7 +220,7 @@ class Suspension(WheeledSection):
     def refuse_without_rack(self, what: str) -> None:
         """Raise an `InputError` for an option that needs a rack if there is none."""
         if not self.steered():
-            problem = f"{what}: it has no rack, and nothing steers its wheel. Leave that out."
+            problem = f"{what}: this suspension is not steered. Leave it out."
             raise InputError([problem], self.TITLE)
 
     @property

@@ -38,8 +38,8 @@ _HEAD = """\
 A suspension is a TOML file. `kintrafo new FILE` writes an annotated starter file. The name of
 a key ends in its unit; `[hardpoints]` has one `unit` for all of its points. Points are `[x, y, z]`
 in chassis axes of ISO 8855 (x forward, y left, z up), at the design position. The line
-`suspension = "..."` above the first section names the type of the suspension; the keys of one type
-only are in a part of their own below.
+`suspension = "..."` above the first section names the type of the suspension; keys that
+only one type has are in the part of that type below.
 
 The file is checked as a whole. Every problem is reported at once, with the value, the unit, the
 allowed range and what to do:
@@ -131,8 +131,8 @@ A file of its own, which names the files of its axles, or of the corner of a qua
 _A_LINEAR_TYRE = """\
 ### A linear tyre
 
-`[tyres.front]` and `[tyres.rear]`, instead of the file of a tyre. The forces are linear in slip and
-approach the friction limit.
+`[tyres.front]` and `[tyres.rear]`, instead of the file of a tyre. The forces are linear at small
+slip and approach the limit of friction.
 """
 
 _A_MANOEUVRE = """\

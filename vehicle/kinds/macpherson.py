@@ -99,14 +99,14 @@ class MacPhersonHardpoints(Hardpoints):
     wheel_center: Triple = Field(description="centre of the wheel")
     strut_lower: Triple | None = Field(
         default=None,
-        description="a point of the knuckle on the strut's axis; left out: the axis passes through "
-        "ball_joint",
+        description="a point of the knuckle on the strut's axis; by default the axis passes "
+        "through ball_joint",
     )
     spring_top: Triple | None = Field(
-        default=None, description="upper seat of the spring, on the chassis; left out: strut_top"
+        default=None, description="upper seat of the spring, on the chassis; by default strut_top"
     )
     spring_seat: Triple | None = Field(
-        default=None, description="lower seat of the spring, on the knuckle; left out: strut_lower"
+        default=None, description="lower seat of the spring, on the knuckle; by default strut_lower"
     )
 
     def has_spring_seats(self) -> bool:
@@ -167,7 +167,8 @@ class Knuckle(RigidBody):
     """The knuckle with the lower tube of the strut."""
 
     com_along_strut_mm: Number | None = Field(
-        default=None, description="distance of the centre of mass from ball_joint to strut_top"
+        default=None,
+        description="distance of the centre of mass from ball_joint, in the direction of strut_top",
     )
 
     def default_centre_of_mass(self, points: Hardpoints) -> Vector:

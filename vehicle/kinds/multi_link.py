@@ -82,7 +82,7 @@ class MultiLinkHardpoints(Hardpoints):
     rear_lower_link_inner: Triple = Field(description="rear lower link on the chassis")
     rear_lower_link_outer: Triple = Field(description="rear lower link at the knuckle")
     tie_rod_outer: Triple = Field(description="toe link at the knuckle")
-    tie_rod_inner: Triple = Field(description="toe link at the rack, or where it is held")
+    tie_rod_inner: Triple = Field(description="toe link at the rack, or on the chassis")
     spring_top: Triple = Field(description="upper end of the spring, on the chassis")
     spring_seat: Triple = Field(description="lower end of the spring, on the rear lower link")
     damper_top: Triple = Field(description="upper end of the damper, on the chassis")

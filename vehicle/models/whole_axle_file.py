@@ -57,6 +57,7 @@ class AxleDrive(Drive):
 
     torque_on: TorqueReaction = Field(
         default="carrier",
-        description='"carrier": the final drive is in the axle, which holds the torque; "body": it '
-        "is on the chassis, and shafts lead to the wheels (de Dion)",
+        description='"carrier": the axle reacts the torque, with a final drive in it or motors at '
+        'the wheels; "body": the final drive is on the chassis, and shafts lead to the wheels (de '
+        "Dion)",
     )

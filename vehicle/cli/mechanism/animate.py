@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from ....terminal.console import problems, say
 from ..loading import model_of, system_of
-from ..options import File, Force, Which, argument, option, refuse_which
+from ..options import Force, Which, argument, option, refuse_which
 
 if TYPE_CHECKING:
     from ....simulation.result import Simulation
@@ -18,7 +18,14 @@ EXAMPLES = (
 
 
 def command(
-    file: File,
+    file: Annotated[
+        str,
+        argument(
+            "File of a suspension, an axle or a car, Python file with a mechanism of your own, or "
+            "the name of a packaged file.",
+            "FILE",
+        ),
+    ],
     path: Annotated[Path, argument("Ends in .gif or .html.", "PATH")],
     *,
     start: Annotated[

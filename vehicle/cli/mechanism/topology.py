@@ -31,7 +31,8 @@ def command(
     file: Annotated[
         str | None,
         argument(
-            "File of a suspension, an axle or a car, or Python file with a mechanism of your own.",
+            "File of a suspension, an axle or a car, or Python file with a mechanism of your own. "
+            "Default: the suspension of the paper.",
             "FILE",
         ),
     ] = None,
@@ -80,9 +81,9 @@ def _show_paths(found: "Topology") -> None:
     console.print(paths)
     tried = found.candidates
     say(
-        f"{tried['pairs']} pairs of a body and a joint that do not touch; {tried['closing']} "
-        f"close, to {tried['cycles']} cycles where equally short ways are counted each, "
-        f"{len(found.cycles)} of them distinct."
+        f"{tried['pairs']} pairs of a body and a joint that do not touch; {tried['closing']} of "
+        f"them close, to {tried['cycles']} cycles if paths of equal length are counted separately, "
+        f"of which {len(found.cycles)} are distinct."
     )
 
 

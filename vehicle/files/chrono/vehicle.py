@@ -371,7 +371,7 @@ class _Reader:
             return {}
         self.assumed.append(
             f"brakes: {torques[0]:g} N m at a front wheel and {torques[1]:g} N m at a rear one "
-            "with the pedal down"
+            "with the pedal fully down"
         )
         return {"front_brake_share": round(torques[0] / total, 9)}
 

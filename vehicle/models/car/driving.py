@@ -130,7 +130,7 @@ class CarBrakes(Section):
     """The brakes."""
 
     torque_Nm: NonNegative = Field(  # noqa: N815 (N m is the unit)
-        description="torque of the brakes of all wheels together with the pedal down"
+        description="torque of the brakes of all wheels together, with the pedal fully down"
     )
     front_share: Share | None = Field(
         default=None,
@@ -161,7 +161,7 @@ class Air(Section):
 
 
 class LinearTyreSection(Section):
-    """A tyre whose forces are linear in slip, up to the friction."""
+    """A tyre whose forces are linear at small slip and approach the limit of friction."""
 
     radius_mm: Positive = Field(description="radius without load")
     effective_radius_mm: Positive = Field(

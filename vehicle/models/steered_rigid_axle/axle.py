@@ -15,6 +15,7 @@ from ...input.bodies import RigidBody
 from ...input.hardpoints import LARGEST_COORDINATE, SMALLEST_CROSS_ANGLE, SMALLEST_DISTANCE
 from ...input.pitman_arm import PitmanArmSection
 from ...input.units import point_in_metres
+from ..axle.file import Brakes
 from ..mirror import MIRROR
 from ..rigid_axle.axle import BeamAxle
 from ..rigid_axle.structure import CENTER
@@ -82,7 +83,12 @@ ends of the drag link, `pitman_ball` and `drag_link_knuckle`.
     hardpoints: SteeredHardpoints = Field(description="the points of the right side")
     pitman_arm: PitmanArmSection = Field(description="the Pitman arm of the steering gear")
     drag_link: DragLinkSection = Field(description="the drag link from Pitman arm to knuckle")
-    drive: AxleDrive | None = Field(default=None, description="refused: it is not driven")
+    brakes: Brakes = Field(
+        default=Brakes(), description="reaction of the brake torque, here always on the carrier"
+    )
+    drive: AxleDrive | None = Field(
+        default=None, description="not allowed: this axle is not driven"
+    )
     bodies: SteeredRigidAxleBodies = Field(description="masses and inertia")
 
     PARTS: ClassVar[tuple[str, ...]] = (

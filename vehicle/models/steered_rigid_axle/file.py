@@ -40,7 +40,7 @@ class DragLinkSection(Section):
     """The drag link: a rod from the ball of the Pitman arm to one knuckle."""
 
     side: Literal["left", "right"] = Field(
-        description='the knuckle that it is joined to, "left" or "right"'
+        description='the knuckle to which it is joined, "left" or "right"'
     )
     knuckle: Triple = Field(description="its end on this knuckle, in the unit of [hardpoints]")
 

@@ -16,11 +16,11 @@ class BrakingManoeuvre(SimulatedManoeuvre):
     """A manoeuvre with braking."""
 
     pedal: Positive | None = Field(
-        default=None, description="position of the pedal, 1 with all torque of the brakes"
+        default=None, description="position of the pedal; 1: the whole torque of the brakes"
     )
     deceleration_m_per_s2: Positive | None = Field(
         default=None,
-        description="deceleration instead of a pedal position, at which no wheel locks",
+        description="deceleration with unlocked wheels, instead of a pedal position",
     )
     rise_s: NonNegative = Field(default=0.2, description="time in which the torque rises")
     duration_s: Positive = Field(default=20.0, description="longest duration of the simulation")
@@ -31,7 +31,7 @@ class BrakingManoeuvre(SimulatedManoeuvre):
         if (self.pedal is None) == (self.deceleration_m_per_s2 is None):
             found.append("pedal, deceleration_m_per_s2: give one of the two.")
         if (self.pedal or 0.0) > 1.0:
-            found.append(f"pedal = {self.pedal:g}: 1 at most is allowed.")
+            found.append(f"pedal = {self.pedal:g}: at most 1 is allowed.")
         return found
 
     def check(self, car: Car) -> None:

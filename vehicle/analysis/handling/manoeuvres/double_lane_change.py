@@ -38,8 +38,8 @@ class LaneSection(Section):
 
     start_m: NonNegative = Field(description="distance of its beginning from the first cones")
     length_m: Positive = Field(description="length")
-    width_of_car: Positive = Field(description="width, in widths of the car")
-    width_more_m: NonNegative = Field(description="addition to this width")
+    width_of_car: Positive = Field(description="width, as a multiple of the width of the car")
+    width_more_m: NonNegative = Field(description="addition to this product")
     least_width_m: NonNegative = Field(default=0.0, description="least width")
     beside_m: Number | None = Field(
         default=None,
@@ -107,7 +107,7 @@ class DoubleLaneChange(TurningManoeuvre):
     before_m: Positive = Field(default=30.0, description="straight road before the first cones")
     after_m: Positive = Field(default=30.0, description="straight road behind the last cones")
     holds_speed: Flag = Field(
-        default=True, description="whether the speed is held; else the car coasts from the start"
+        default=True, description="true: the speed is held; false: the car coasts from the start"
     )
 
     @property

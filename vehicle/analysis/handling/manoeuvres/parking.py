@@ -110,14 +110,15 @@ class Parking(Manoeuvre):
     )
     step_deg: Positive = Field(default=5.0, description="step of the steering wheel angle")
     friction: _Friction = Field(
-        default=0.8, description="friction of a tyre that turns on the road; 0: none"
+        default=0.8,
+        description="friction coefficient of a tyre that turns on the road; 0: no friction",
     )
     pressure_kPa: _Pressure = Field(  # noqa: N815 (Pa is the pascal)
         default=230.0, description="inflation pressure of the steered tyres"
     )
     twist_deg: Positive = Field(
         default=4.0,
-        description="turn of a wheel with 63 % of the moment in sliding",
+        description="rotation of a wheel after which its moment is 63 % of that in sliding",
     )
 
     def problems(self) -> list[str]:

@@ -36,12 +36,13 @@ class SineSweep(SteeredManoeuvre):
     highest_Hz: Positive = Field(  # noqa: N815 (Hz is the hertz)
         default=4.0, description="last frequency"
     )
-    duration_s: Positive = Field(default=30.0, description="duration of the swinging")
+    duration_s: Positive = Field(default=30.0, description="duration of the steering")
     settle_s: Positive = Field(
-        default=4.0, description="time after the swinging, in which the car comes to rest"
+        default=4.0, description="time after the steering, in which the motion of the car decays"
     )
     ease_ms: Positive = Field(
-        default=100.0, description="time in which the swinging begins, and in which it ends"
+        default=100.0,
+        description="time in which the rate of steering rises at first, and falls at the end",
     )
     frequency_step_Hz: Positive = Field(  # noqa: N815 (Hz is the hertz)
         default=0.05, description="step of the curves"
@@ -57,8 +58,8 @@ class SineSweep(SteeredManoeuvre):
             )
         if self.output_step_ms * self.highest_Hz > _COARSE:
             found.append(
-                f"output_step_ms = {self.output_step_ms:g} ms: {_COARSE / self.highest_Hz:.3g} ms "
-                "at most is allowed, 20 outputs in a period."
+                f"output_step_ms = {self.output_step_ms:g} ms: at most "
+                f"{_COARSE / self.highest_Hz:.3g} ms is allowed, 20 outputs in a period."
             )
         return found
 

@@ -48,7 +48,7 @@ class SineWithDwell(TurningManoeuvre):
     )
     reference_deg: Positive | None = Field(
         default=None,
-        description="reference angle A; left out, it is found by slowly increasing steer",
+        description="reference angle A; by default that of slowly increasing steer",
     )
     amplitudes_deg: tuple[Positive, ...] | None = Field(
         default=None, description="amplitudes, in place of those of the standard, 1.5 A and more"

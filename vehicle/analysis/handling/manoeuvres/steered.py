@@ -14,7 +14,7 @@ class SteeredManoeuvre(TurningManoeuvre):
 
     lateral_acceleration_m_per_s2: Positive | None = Field(
         default=None,
-        description="lateral acceleration of the steady turn with the steering wheel angle",
+        description="lateral acceleration of the steady turn whose steering wheel angle is used",
     )
     steering_wheel_deg: Positive | None = Field(
         default=None, description="steering wheel angle, in place of a lateral acceleration"

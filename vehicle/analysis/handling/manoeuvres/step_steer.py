@@ -36,7 +36,7 @@ class StepSteer(SteeredManoeuvre):
         description="length of the last part of the simulation, whose mean is the steady value",
     )
     holds_speed: Flag = Field(
-        default=False, description="whether the speed is held, and not the torque of the drive"
+        default=False, description="true: the speed is held; false: the torque of the drive"
     )
 
     def problems(self) -> list[str]:
