@@ -149,8 +149,8 @@ def _driven_problems(formulation: Formulation) -> list[str]:
     both = [j.name for j in formulation.independent if j in formulation.prescribed]
     problems += [f"joint {name!r} is both independent and prescribed" for name in both]
     problems += [
-        f"joint {joint.name!r} is free, and nothing else says where {joint.second.name!r} is; make "
-        "it independent"
+        f"joint {joint.name!r} is free, and nothing else places {joint.second.name!r}; make it "
+        "independent"
         for joint in joints
         if isinstance(joint, Free) and joint not in formulation.driven
     ]

@@ -86,7 +86,7 @@ def _varied(model: System, variants: Variants, wide: Any) -> Data:
 def _message(done: NDArray[np.bool_], passed: NDArray[np.bool_]) -> str:
     failed, beyond = int((~done).sum()), int((done & passed).sum())
     text = f"{done.size - failed} of {done.size} reached the end of the time"
-    text += ", `reason` says why the others did not." if failed else "."
+    text += ", `reason` has the cause for the others." if failed else "."
     if beyond:
         text += f" {beyond} passed a bound of what the model describes on the way, see `beyond`."
     return text

@@ -214,7 +214,9 @@ def _check_coordinates(
     if isinstance(given, xr.Dataset):
         _check_dimensions(arguments, model, given, columns)
     for name in {str(n) for a in labelled for n in (*a.dims, *a.coords)} & taken:
-        arguments.fail(f"variants have a dimension or coordinate {name!r}: results have it.")
+        arguments.fail(
+            f"variants have a dimension or coordinate {name!r}, a name of the results. Rename it."
+        )
 
 
 def _check_dimensions(
@@ -274,7 +276,9 @@ def _coordinates(
     found: dict[Hashable, Any] = {}
     for name, labels in (item for array in labelled for item in array.coords.items()):
         if labels.dims and not found.setdefault(name, labels.variable).equals(labels.variable):
-            arguments.fail(f"variants: coordinates {name!r} of several differ.")
+            arguments.fail(
+                f"variants: coordinates {name!r} differ between variants. Make them equal."
+            )
     for name, values in found.items():
         if name not in _described(model):
             continue

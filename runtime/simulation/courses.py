@@ -109,7 +109,8 @@ def _sampled(name: str, samples: Samples, t_span: tuple[float, float], rates: in
     if broken is not None:
         time = broken.x[int(np.argmin(np.isfinite(broken.c).all(axis=0)))]
         problem = (
-            f"{name!r}: values near t = {time:.6g} s change faster than double precision can say. "
+            f"{name!r}: values near t = {time:.6g} s change faster than double precision can "
+            "represent. "
             "Check times and values there."
         )
         raise InputError([problem], "inputs")

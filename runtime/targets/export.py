@@ -35,7 +35,7 @@ def export_model(
 
     Parameters
     ----------
-    system : System, Model, AxleModel or RigidAxleModel
+    system : System, Model, AxleModel, RigidAxleModel or CarModel
         The model, with its compiled equations.
     path : str or pathlib.Path
         Path to write: a folder for 'c', a file that ends in ``.fmu`` for 'fmu', in ``.py`` for

@@ -111,7 +111,7 @@ def measured_curves(path: str | Path) -> xr.Dataset:
     if not data:
         names = [quantity.name for quantity in curves.values()]
         others = [over for over, known in _KNOWN.items() if {*names} & {*known}]
-        problem = f"{', '.join(names)}: known over {' and '.join(others)} only."
+        problem = f"{', '.join(names)}: computed over {' and '.join(others)} only."
         raise InputError([problem], sheet.source)
     coordinates = {varying: xr.Variable(varying, table[varying], along.attributes())}
     coordinates |= {name: xr.Variable((), at, _ALONG[name].attributes()) for name, at in held}
@@ -140,7 +140,7 @@ def _separated(sheet: Table, places: Mapping[str, Array]) -> tuple[str, list[tup
     varying = [name for name in places if spread[name] > least]
     if len(varying) != 1:
         problem = (
-            f"one of {' and '.join(places)} must vary along the curves, and the other be held; "
+            f"exactly one of the positions must vary along the curves; of {' and '.join(places)} "
             f"{len(varying)} vary."
         )
         raise InputError([problem], sheet.source)

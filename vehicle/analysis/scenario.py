@@ -217,7 +217,7 @@ def _refuse_unusable(given: Validator, assembly: Assembly, scenario: Scenario) -
     scenario.checked(given)
     inputs = given.mapping("inputs", scenario.inputs, "input names and their values")
     if _RACK in inputs and not assembly.steered:
-        given.fail(f"{_RACK}: it has no rack, and nothing steers its wheels. Leave that out.")
+        given.fail(f"{_RACK}: its wheels are not steered. Leave it out.")
     refuse_missing_loads(given, assembly, inputs)
 
 

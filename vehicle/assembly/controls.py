@@ -58,7 +58,7 @@ class Controls:
                 )
             ]
         if not self.car.steered():
-            problem = "the front axle has no rack: nothing steers the car. Leave the angle out."
+            problem = "the front axle is not steered. Leave the angle out."
             raise InputError([problem], self.car.heading())
         if not self._steering_wheel.known:
             problem = (
@@ -81,7 +81,7 @@ class Controls:
         with Validator("brakes") as given:
             pressed = given.array("pedal", pedal, empty=True)
             if np.any((pressed < 0.0) | (pressed > 1.0)):
-                given.fail("pedal: 0 to 1 is needed, 1 with the pedal down.")
+                given.fail("pedal: 0 to 1 is needed, 1 with the pedal fully down.")
             brakes, front = self.car.described.brakes, self.car.front_brake_share
             if brakes is None:
                 given.fail(

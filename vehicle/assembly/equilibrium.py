@@ -135,10 +135,7 @@ def state_at_heights(
 def _rack(given: Validator, assembly: Assembly | None, position: Any) -> float:
     rack = given.number("rack_position", position, "m")
     if rack and assembly is not None and not assembly.steered:
-        given.fail(
-            f"rack_position = {1e3 * rack:g} mm: it has no rack, and nothing steers its wheels. "
-            "Leave that out."
-        )
+        given.fail(f"rack_position = {1e3 * rack:g} mm: its wheels are not steered. Leave it out.")
     return rack
 
 

@@ -130,7 +130,7 @@ class WholeAxleAssembly(SteerableAssembly):
             super().refuse_holding(given, motion, travel, rack)
             return
         if rack:
-            given.fail(f"rack_position: {words_of(self.axle.KEY)} has no rack. Leave it out.")
+            given.fail(f"rack_position: {words_of(self.axle.KEY)} is not steered. Leave it out.")
         if travel:
             given.fail(f"travel: the motion {motion!r} moves the wheels by along. Leave it out.")
 

@@ -355,7 +355,7 @@ def _axes(
     along = _direction(given, title, table, "axis", usual_axis)
     if isinstance(joint, TelescopeJoint):
         for key in (key for key in ("axial_N_per_mm", "axial_curve") if key in table):
-            given.fail(f"{title} {key}: a telescope carries nothing along its axis.")
+            given.fail(f"{title} {key}: a telescope carries no force along its axis.")
         if "axis" in table:
             given.fail(f"{title} axis: that of a telescope is its own. Leave it out.")
     return np.stack([along, *_across(given, title, table, along)])

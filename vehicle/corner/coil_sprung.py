@@ -155,8 +155,8 @@ class CoilSprung(Suspension):
         """Return the equations, in which the rack is prescribed."""
         if free_rack:
             rack = f"the rack of a {self.TITLE} is prescribed"
-            problem = rack if self.steered() else f"a {self.TITLE} has no rack"
-            raise InputError([f"free_rack=True: {problem}. Leave that out."], "Model")
+            problem = rack if self.steered() else f"a {self.TITLE} is not steered"
+            raise InputError([f"free_rack=True: {problem}. Leave it out."], "Model")
         return self.GENERAL if self.beyond_the_plain() else self.PLAIN
 
     def without_friction(self) -> Self:

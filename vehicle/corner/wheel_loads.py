@@ -19,7 +19,7 @@ def needed_radius(radius: float | None) -> float:
     """Return the radius of a wheel [m], or raise an `InputError` if it is not known."""
     if radius is None:
         problem = (
-            "[tyre] radius_mm is missing, and the height of the wheel centre does not say it: "
+            "[tyre] radius_mm is missing, and does not follow from the height of the wheel centre: "
             "loads at the lowest point of the wheel need it. Enter it."
         )
         raise InputError([problem], "wheel_loads")

@@ -402,7 +402,7 @@ def doubts(found: Merged) -> str:
     rows = len(found.left_out) + len(found.read)
     return (
         f"{len(found.left_out)} of {rows} rows are not hardpoints: {listed(found.left_out)}; and "
-        f"{listed(found.missing)} stay as in the file. If a row is one of them, say so: --name "
+        f"{listed(found.missing)} stay as in the file. If a row is one of them, assign it: --name "
         f"{found.missing[0]}={short(found.left_out[0])} (names=)."
     )
 

@@ -64,10 +64,10 @@ def axes_of(words: str, *, left_handed: bool = False) -> Axes:
         raise InputError([problem], "axes")
     if (volume < 0) != left_handed:
         problem = f"{words!r} are {'left' if volume < 0 else 'right'}-handed axes. " + (
-            "If those of the table are, say --left-handed (left_handed=True); otherwise turn "
-            "one of them round."
+            "If those of the table are, give --left-handed (left_handed=True); otherwise reverse "
+            "one of them."
             if volume < 0
-            else "Leave --left-handed (left_handed=True) out, or turn one of them round."
+            else "Leave --left-handed (left_handed=True) out, or reverse one of them."
         )
         raise InputError([problem], "axes")
     return Axes(" ".join(named), directions)

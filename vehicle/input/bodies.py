@@ -151,7 +151,8 @@ class Bodies(Section):
         heavy = {name: getattr(self, name).mass_kg for name in self.MASSLESS}
         return [
             f"{name}.mass_kg = {mass} kg: the equations of this suspension leave this body without "
-            "mass; allowed is 0 kg. Set it to 0, and add what moves with the knuckle there."
+            "mass; allowed is 0 kg. Set it to 0, and add the part that moves with the knuckle to "
+            "the knuckle."
             for name, mass in heavy.items()
             if mass > 0.0
         ]

@@ -108,8 +108,8 @@ def read_blocks(path: str | Path) -> list[FileBlock]:
     blocks.append(FileBlock(name, start, tuple(lines)))
     if len(blocks) == 1:
         problem = (
-            "there is no [BLOCK] in it, so it is not a file in the TeimOrbit format. Give the "
-            "subsystem as text (TeimOrbit), not as XML."
+            "there is no [BLOCK] in it, so it is not a file in the TeimOrbit format. Give it "
+            "as text (TeimOrbit), not as XML."
         )
         raise InputError([problem], str(path))
     return blocks[1:]

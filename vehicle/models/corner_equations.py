@@ -17,6 +17,6 @@ def equations_of(suspension: Suspension, *, free_rack: bool) -> ModuleType:
     if suspension.pitman_arm is None:
         return found
     if free_rack:
-        problem = "free_rack=True: a Pitman arm is prescribed. Leave that out."
+        problem = "free_rack=True: a Pitman arm is prescribed. Leave it out."
         raise InputError([problem], "Model")
     return equations_named(f"{found.NAME}_pitman_arm")

@@ -247,12 +247,12 @@ and `[bushings.POINT]`, whose points are `pivot` and `wheel_center`, on both sid
                 "wheel_center."
             )
         line = pivot - shear
-        rise = np.cross(line / np.linalg.norm(line), wheel - shear)[2]
-        if abs(float(rise)) < _SHORTEST:
+        lever = abs(float(np.cross(line / np.linalg.norm(line), wheel - shear)[2]))
+        if lever < _SHORTEST:
             problems.append(
-                "[beam] shear_center: the wheel is hardly beside the line from its pivot to the "
-                "shear centre, about which it turns in roll; at least "
-                f"{1e3 * _SHORTEST:g} mm are needed. Move the shear centre, or pivot."
+                "[beam] shear_center: the lateral distance of the wheel from the line through its "
+                f"pivot and the shear centre, about which it turns in roll, is {1e3 * lever:.3g} "
+                f"mm; at least {1e3 * _SHORTEST:g} mm are needed. Move the shear centre, or pivot."
             )
         return problems
 

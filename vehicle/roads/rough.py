@@ -89,11 +89,11 @@ def iso8608(
             given.fail(f"spacing = {spacing:g} m: at most {0.5 / WAVES[1]:g} m is allowed.")
         if not given.failed and not 1.0 / WAVES[0] <= length <= spacing * MOST_POINTS:
             given.fail(
-                f"length = {length:g} m: {1.0 / WAVES[0]:g} m, one of the longest waves, to "
+                f"length = {length:g} m: {1.0 / WAVES[0]:g} m, the longest wave, to "
                 f"{spacing * MOST_POINTS:g} m are allowed."
             )
         if not given.failed and fade > length:
-            given.fail(f"fade = {fade:g} m: the length, {length:g} m, at most is allowed.")
+            given.fail(f"fade = {fade:g} m: at most the length, {length:g} m, is allowed.")
     count = math.ceil(length / spacing)
     n = np.arange(count // 2 + 1) / (count * spacing)
     density = np.where((n >= WAVES[0]) & (n <= WAVES[1]), spectrum(at_reference, n), 0.0)

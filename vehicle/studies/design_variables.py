@@ -149,7 +149,7 @@ def matching(given: Validator, suspension: Subject, patterns: Any) -> dict[str, 
         pattern = next((p for p in tried if any(_fits(name, p) for name in known)), given_pattern)
         found = {name for name in known if _fits(name, pattern) and _is_meant(name, pattern, known)}
         if not found and pattern in lists:
-            given.fail(f"{pattern} is a list, as of a curve; single numbers vary. Leave it out.")
+            given.fail(f"{pattern} is a list, such as a curve; single numbers vary. Leave it out.")
         elif not found:
             hint = _hint(pattern, known)
             given.fail(f"{pattern} is neither a number nor a section of the input file. {hint}")
@@ -159,8 +159,8 @@ def matching(given: Validator, suspension: Subject, patterns: Any) -> dict[str, 
             lost |= dict.fromkeys(sorted(name for name in fixed if _fits(name, pattern)))
     if lost:
         warnings.warn(
-            f"{', '.join(lost)}: lists, as of a curve, do not vary; single numbers do, and by a "
-            f"factor the forces of a spring, where {_SCALED} is named.",
+            f"{', '.join(lost)}: lists, such as a curve, do not vary. The forces of a spring's "
+            f"curve vary by a factor if {_SCALED} is named.",
             RuntimeWarning,
             stacklevel=2,
         )

@@ -28,7 +28,7 @@ from .sweep_axes import sweep_axes_of
 # Cost of a change over the whole range of a value, in deviations that matter: of equal solutions
 # the one with the smallest changes is the best.
 _RELUCTANCE = ENOUGH
-_MET = f"found: all targets are met to {100 * ENOUGH:g} % of within"
+_MET = f"found: all deviations are at most {100 * ENOUGH:g} % of `within`"
 # Meanings of SLSQP's exit codes.
 _GAVE_UP = {
     4: "the limits exclude each other",

@@ -60,11 +60,14 @@ def sensitivity(
         The values, named by section and key with dots between them, such as
         ``hardpoints.ball_joint.z``. The name of a hardpoint or of a section represents all of its
         numbers, ``*`` any text.
-    over : {'travel', 'rack', 'bump', 'roll', 'left', 'right'}, optional
-        Motion along the curves. Of a corner ``travel``, by default, or ``rack``; of axles and rigid
-        axles ``bump`` (both wheels), by default, or one of the last three.
+    over : str, optional
+        Motion along the curves, of which the first is the default. Of a corner 'travel' or 'rack';
+        of axles 'bump' (both wheels), 'roll', 'left' or 'right'; of a car 'heave', 'pitch' or
+        'roll' of its body, its 'speed' on a rough road, or the 'lateral_acceleration' of steady
+        turns, both with options after a colon: ``speed:road=C``.
     positions : array_like, optional
-        Wheel travel, or displacement of the rack [m], or roll [rad]; by default the usual range.
+        Wheel travel, heave, or displacement of the rack [m], roll or pitch [rad], speed [m/s], or
+        lateral acceleration [m/s^2]; by default the usual range.
     names : sequence of str, optional
         Characteristics; by default all.
     held : {'height', 'tyre', 'spring', 'locked'}, optional

@@ -204,7 +204,7 @@ class _Cars:
         rest = {name: c.variable for name, c in filled.coords.items() if name != _CAR}
         done = int(filled["success"].sum())
         text = f"{done} of {self.count} reached the end of the time"
-        text += "." if done == self.count else ", `reason` says why the others did not."
+        text += "." if done == self.count else ", `reason` has the cause for the others."
         facts = {"title": "motion over a grid of values", "message": text}
         return xr.Dataset(data, {**rest, **coordinates}, facts)
 

@@ -155,7 +155,7 @@ class _Reader:
             text += " and " if kind and fit else ""
             problem = f"[MODEL] {text}{f'FITTYP = {_shown(fit)}' if fit else ''} cannot be read"
         readable = "PROPERTY_FILE_FORMAT = 'PAC2002', or FITTYP = 5, 6, 21 (MF 5), 61 or 62"
-        raise InputError([f"{problem}; {readable} can. Convert the tyre."], self._source)
+        raise InputError([f"{problem}; {readable} can be read. Convert the tyre."], self._source)
 
     def _side(self) -> str:
         given = self._text("MODEL", "TYRESIDE").lower()

@@ -129,7 +129,7 @@ def test_its_motion_adds_nothing_to_how_loops_are_solved():
 
 
 def test_a_free_body_that_nobody_drives_has_no_pose():
-    with pytest.raises(DeclarationError, match="nothing else says where 'chassis' is; make it"):
+    with pytest.raises(DeclarationError, match="nothing else places 'chassis'; make it"):
         free_model(independent=on_it(FIXED.independent))
 
 

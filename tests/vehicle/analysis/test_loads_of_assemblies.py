@@ -180,8 +180,12 @@ WRONG: list[tuple[str, Any, str]] = [
     ),
     ("corner", {"a": {"left": {"contact_N": [0, 0, 1]}}}, "left is not known"),
     ("axle", {"a": {"left": {"rack_mm": 3.0}}}, "one rack"),
-    ("rigid", {"a": {"rack_mm": 3.0}}, r"\[cases.a\] rack_mm: no rack steers it. Leave it out"),
-    ("rigid", {"a": {"left": {"rack_mm": 3.0}}}, "no rack steers it"),
+    (
+        "rigid",
+        {"a": {"rack_mm": 3.0}},
+        r"\[cases.a\] rack_mm: its wheels are not steered. Leave it out",
+    ),
+    ("rigid", {"a": {"left": {"rack_mm": 3.0}}}, "its wheels are not steered"),
 ]
 FAR = {"travel_mm": 900.0}
 BEYOND: list[tuple[str, Any, str]] = [

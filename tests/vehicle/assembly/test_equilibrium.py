@@ -93,9 +93,9 @@ def test_what_cannot_be_is_refused(name: str, refused: Any) -> None:
 
 def test_a_rack_that_is_not_there_is_refused() -> None:
     model = model_of("rigid axle")
-    with pytest.raises(InputError, match=r"rack_position = 10 mm: it has no rack"):
+    with pytest.raises(InputError, match=r"rack_position = 10 mm: its wheels are not steered"):
         equilibrium(model, rack_position=0.01)
-    with pytest.raises(InputError, match=r"rack_position: it has no rack"):
+    with pytest.raises(InputError, match=r"rack_position: its wheels are not steered"):
         run(model, Scenario(inputs={"rack_position": 0.01}))
 
 

@@ -123,7 +123,9 @@ def test_a_file_of_the_user_gives_the_rest(tmp_path: Path) -> None:
     assert new.with_changes({"bodies.knuckle.mass_kg": 12.0}) == WISHBONES
     other = taken(tmp_path, subsystem(WISHBONES, rows=rows), base=mine, side="left")
     assert loaded(other, tmp_path) == new.mirrored()
-    with pytest.raises(InputError, match=r"push_rod is asked for, and the file mine\.toml is of a"):
+    with pytest.raises(
+        InputError, match=r"kind push_rod is given, and the file mine\.toml is of a"
+    ):
         taken(tmp_path, subsystem(WISHBONES), base=mine, kind="push_rod")
 
 

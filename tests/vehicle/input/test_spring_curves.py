@@ -181,7 +181,7 @@ def test_compliance_is_that_of_the_rate_where_it_is(held):
 
 
 def test_a_flat_piece_has_no_rate():
-    """What is left of the wheel rate there is what the force does as it turns."""
+    """The remaining wheel rate there is that of the rotation of the force."""
     name = "double_wishbone_car"
     points = {"compression_mm": [0.0, 20.0, 120.0, 160.0], "force_N": [0.0, 4e3, 4e3, 9e3]}
     length = 1e3 * Suspension.load(name).hardpoints.distance("spring_seat", "spring_top")
@@ -266,7 +266,7 @@ def test_a_simulation_says_where_a_curve_ends():
 
 
 def test_a_rate_beside_a_curve_is_no_variable():
-    """What a curve has in its place is refused by name, in studies, too."""
+    """A key that a curve replaces is refused by name, in studies, too."""
     car = curved("double_wishbone_car")
     with pytest.raises(InputError, match="both describe the spring"):
         car.with_changes({"spring.rate_N_per_m": 60e3})
@@ -465,7 +465,7 @@ def test_what_varies_of_a_spring_by_a_curve_is_said():
         match=r"spring.compression_mm, spring.force_N: lists, as of a .* where spring.force_N is",
     ):
         variation.sensitivity(car, ["spring"], positions=[0.0])
-    with pytest.raises(InputError, match=r"spring.compression_mm is a list, as of a curve"):
+    with pytest.raises(InputError, match=r"spring.compression_mm is a list, such as a curve"):
         variation.sensitivity(car, ["spring.compression_mm"], positions=[0.0])
 
 

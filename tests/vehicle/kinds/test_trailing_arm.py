@@ -36,7 +36,7 @@ ACROSS = CAR.with_changes(
 CARS = {"askew": CAR, "left": CAR.mirrored(), "across": ACROSS}
 TRAVELS = np.linspace(-0.1, 0.1, 9)
 UP = np.array([0.0, 0.0, 1.0])
-# What has no meaning where nothing steers.
+# Characteristics that need steering.
 OF_STEERING = {
     "caster", "caster_gradient", "kingpin_inclination", "trail", "steering_axis_offset",
     "scrub_radius", "hub_trail", "spindle_offset", "steer_gradient", "steering_ratio", "ackermann",
@@ -235,7 +235,7 @@ def test_rests_where_its_moments_balance() -> None:
     assert abs(sum(moments)) < 1e-6 * max(map(abs, moments))
 
 
-# -- nothing steers it --------------------------------------------------------------------------
+# -- not steered --------------------------------------------------------------------------------
 
 
 def test_what_belongs_to_steering_is_not_there() -> None:
@@ -266,18 +266,18 @@ def test_what_belongs_to_steering_is_not_there() -> None:
     ],
 )
 def test_what_moves_a_rack_is_refused(ask: Any) -> None:
-    with pytest.raises(InputError, match="it has no rack, and nothing steers its wheel"):
+    with pytest.raises(InputError, match="not steered"):
         ask(Model(CAR))
 
 
 @pytest.mark.parametrize("name", sorted(OF_STEERING & {"caster", "scrub_radius", "steering_ratio"}))
 def test_characteristics_of_steering_are_refused_by_name(name: str) -> None:
-    with pytest.raises(InputError, match=f"{name}: it has no rack"):
+    with pytest.raises(InputError, match=f"{name}: this suspension is not steered"):
         sensitivity(CAR, ["hardpoints.arm_inner.z"], names=[name])
 
 
 def test_free_rack_a_section_and_a_bush_of_it_are_refused() -> None:
-    with pytest.raises(InputError, match="has no rack"):
+    with pytest.raises(InputError, match="is not steered"):
         Model(CAR, free_rack=True)
     with pytest.raises(InputError, match="rack"):
         Suspension.from_dict(CAR.to_dict() | {"rack": {"axis": [0.0, 1.0, 0.0]}})
@@ -326,9 +326,9 @@ def test_axle_has_no_rack_between_its_sides() -> None:
     one = characteristics.over(Model(CAR), "travel", TRAVELS)
     np.testing.assert_allclose(found["camber_left"], one["camber"], rtol=0.0, atol=1e-13)
     assert "rack_position" not in found.coords
-    with pytest.raises(InputError, match="'steer': it has no rack"):
+    with pytest.raises(InputError, match="'steer': this suspension is not steered"):
         characteristics.over(axle, "steer")
-    with pytest.raises(InputError, match="no rack"):
+    with pytest.raises(InputError, match="not steered"):
         Axle.from_dict(REAR | {"steering": {"angle_deg": [-90.0, 90.0], "rack_mm": [-9.0, 9.0]}})
     held = loads.static(axle, {"corner": {"contact_g": [0.0, 0.5, 1.0]}}, static_load=3400.0)
     assert "rack" not in held["part"].values
@@ -363,4 +363,4 @@ def test_commands_that_steer_refuse_it(kintrafo: Any) -> None:
         command, *options = asked
         code, out, err = kintrafo(command, "trailing_arm_car", *options)
         assert code != 0
-        assert "it has no rack, and nothing steers its wheel" in out + err
+        assert "not steered" in out + err

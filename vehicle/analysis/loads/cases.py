@@ -108,7 +108,7 @@ def cases_of(
     if not assembly.steered and several:
         for name, table in described.items():
             if any(_RACK in one for one in tables_of({name: table})):
-                given.fail(f"[cases.{name}] {_RACK}: no rack steers it. Leave it out.")
+                given.fail(f"[cases.{name}] {_RACK}: its wheels are not steered. Leave it out.")
     found = []
     for wheel, static_load in zip(assembly.wheels, static_loads, strict=True):
         own = described

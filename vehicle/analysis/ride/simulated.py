@@ -148,7 +148,7 @@ def check_times(duration: float, settle: float, output_step: float) -> None:
         if settle >= duration:
             given.fail(f"settle = {settle:g} s: less than the duration, {duration:g} s, is needed.")
         if output_step > _LONGEST_STEP:
-            given.fail(f"{step}: {_LONGEST_STEP:g} s at most is allowed.")
+            given.fail(f"{step}: at most {_LONGEST_STEP:g} s is allowed.")
         elif duration < least:
             given.fail(
                 f"duration = {duration:g} s: {_FEWEST_OUTPUTS} times output_step, {least:g} s, or "

@@ -47,12 +47,12 @@ def _users(
     own = next(name for name, known in KINDS.items() if type(suspension) is known)
     near = nearest_kinds(subsystem.points, given)
     if kind not in (None, own):
-        problem = f"{kind} is asked for, and the {title} is of a {own}. Leave one of them out."
+        problem = f"kind {kind} is given, and the {title} is of a {own}. Leave one of them out."
         raise InputError([problem], "kind")
     if kind is None and own not in near:
         problem = (
             f"its hardpoints are those of a {' or '.join(near)}, and the {title} is of a {own}. "
-            f"Give another file, or say what it is: --kind {own}."
+            f"Give another file, or this kind: --kind {own}."
         )
         raise InputError([problem], subsystem.source)
     text = find(base).read_text(encoding="utf-8-sig")

@@ -354,10 +354,7 @@ def _problems_of_sides(axle: Axle) -> list[str]:
         )
     steered = axle.right.steered() and axle.left.steered()
     if axle.steering is not None and not steered:
-        problems.append(
-            f"[steering]: a {axle.right.TITLE} has no rack, and nothing steers its wheel. Remove "
-            "that section."
-        )
+        problems.append(f"[steering]: a {axle.right.TITLE} is not steered. Remove this section.")
     if steered:
         problems += _problems_of_steering(axle.right, axle.left)
     problems += [

@@ -27,7 +27,7 @@ class AxleModel(System):
     progress : callable, optional
         Called with a short description of the present step.
     wheel_loads : bool, optional
-        Whether loads on the wheels are inputs, as in `Model`, with these prefixes, too.
+        Whether loads on the wheels are inputs, as in `Model`, with the prefix of the side.
 
     Attributes
     ----------
