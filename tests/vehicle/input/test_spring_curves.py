@@ -462,7 +462,7 @@ def test_what_varies_of_a_spring_by_a_curve_is_said():
     car = curved("double_wishbone_car")
     with pytest.warns(
         RuntimeWarning,
-        match=r"spring.compression_mm, spring.force_N: lists, as of a .* where spring.force_N is",
+        match=r"spring.compression_mm, spring.force_N: lists, such as a .* if spring.force_N is",
     ):
         variation.sensitivity(car, ["spring"], positions=[0.0])
     with pytest.raises(InputError, match=r"spring.compression_mm is a list, such as a curve"):
