@@ -9,7 +9,18 @@ from pathlib import Path
 import kintrafo
 import pytest
 from kept import UNOPTIMISED
-from kintrafo.generator import Formulation, JointForce, Motion
+from kintrafo.generator import (
+    Body,
+    Direction,
+    Formulation,
+    Ground,
+    JointForce,
+    Mechanism,
+    Motion,
+    Weight,
+    flat,
+    hinge,
+)
 from kintrafo.generator.mechanisms import four_bar
 from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.targets.fmi import binaries
@@ -24,13 +35,15 @@ needs_library = pytest.mark.skipif(
 
 @cache
 def system_named(name: str) -> kintrafo.System:
-    """Return a small mechanism, one without signals or states, a suspension or a car."""
+    """Return a small mechanism, one without states, one without guards, a suspension or a car."""
     if name == "reference_car":
         return kintrafo.Model("reference_car")
     if name in ("quarter_car", "rigid_axle"):
         return kintrafo.model_of(kintrafo.load(name))
     if name == "prescribed":
         return kintrafo.System(own(_prescribed()))
+    if name == "pendulum":
+        return kintrafo.System(own(_pendulum()))
     return kintrafo.System(importlib.import_module(f"kintrafo.generated.{name}"))
 
 
@@ -40,6 +53,16 @@ def _prescribed() -> Formulation:
     given = {four_bar.D: Motion("drive", "rad", "angle of the rocker")}
     mechanism = replace(four_bar.FOUR_BAR, forces=plain)
     return Formulation("prescribed", "A four-bar that is turned", mechanism, (), prescribed=given)
+
+
+def _pendulum() -> Formulation:
+    """Return a pendulum: no guards, no signals, no inputs."""
+    body = Body("body", 2.0, flat("com", (0.3, -0.1)), 0.05)
+    turn = hinge("turn", Ground("ground"), body, flat("pin", (0.0, 0.0)))
+    weight = Weight(upward=Direction("upward", fixed=(0, 1, 0)))
+    angle = turn.angle("angle", "angle of the pendulum")
+    mechanism = Mechanism("pendulum", "A pendulum", (turn,), (weight,), (angle,))
+    return Formulation("pendulum", "A pendulum", mechanism, (turn,))
 
 
 def compiled(folder: Path, *flags: str) -> Path:

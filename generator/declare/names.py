@@ -41,7 +41,7 @@ results follow follow_turns square fmax GUARD_FLOOR ROUNDING ITERATIONS CONVERGE
 TURNED INLINED NOT_INLINED NO_EFFECT NULL CLOSE SHORTEST CLOSED FULL_TURN UNKNOWNS ELEMENTS DRIVEN
 ADDRESSES MECHANISM kept INLINE GREATEST_ANGLE ROUNDER SPREAD BITS REAL MODEL WIDTH
 kt_any_sine kt_any_cosine kt_sine kt_cosine kt_arc_sine kt_arc_tangent kt_root kt_magnitude
-kt_with_sign_of kt_exponential kt_logarithm kt_real
+kt_with_sign_of kt_exponential kt_logarithm kt_real casadi jnp
 """
 _WORDS = frozenset([*_C_WORDS.split(), *_MACROS.split(), *_OWN_WORDS.split(), *keyword.kwlist])
 # arguments of the residuals, functions that iterate, and macros of headers

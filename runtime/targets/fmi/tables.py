@@ -73,7 +73,7 @@ def _functions(manifest: Mapping[str, Any]) -> dict[str, Any]:
     found = {name: result_of(manifest, name) for name in derivatives}
     there = [result for result in found.values() if result is not None and result.length]
     named = {
-        name: "NULL" if result is None or not result.length else result.function
+        name: "NULL" if result is None else result.function
         for name in (
             "rhs", "rhs_jacobian", "signals", "margins", "rhs_tangent", "signals_tangent",
         )

@@ -1,5 +1,6 @@
 """Mistakes in a declaration are found before anything is derived, all at once and by name."""
 
+import re
 from dataclasses import replace
 
 import pytest
@@ -16,7 +17,11 @@ from kintrafo.generator import (
     LinearTyre,
     Weight,
 )
+from kintrafo.generator.backends.casadi.dialect import CASADI
 from kintrafo.generator.backends.counting import operations_of
+from kintrafo.generator.backends.jax.dialect import JAX
+from kintrafo.generator.backends.numpy.dialect import NUMPY
+from kintrafo.generator.backends.words import FORMULA
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import four_bar, macpherson
 from kintrafo.generator.mechanisms.macpherson import HG, OA
@@ -154,6 +159,18 @@ def test_several_force_elements_of_a_kind_have_names_of_their_own():
 )
 def test_names_that_code_cannot_have(old, name, refused):
     refused(DeclarationError, lambda: changed(MECHANISM, (old, replace(old, name=name))))
+
+
+@pytest.mark.parametrize("dialect", [FORMULA, NUMPY, CASADI, JAX])
+def test_names_in_the_syntax_of_a_language_are_reserved(dialect):
+    """A parameter of that name would hide a function or a package in the emitted code."""
+    spellings = [*dialect.functions.values(), dialect.root, dialect.negation]
+    used = {n for text in spellings for n in re.findall(r"(?<![\w.])[A-Za-z_]\w*", text)}
+    assert used
+    for name in used:
+        other = replace(WEIGHT.gravity, name=name)
+        with pytest.raises(DeclarationError, match=f"'{name}' has a name that the generated code"):
+            changed(MECHANISM, (WEIGHT.gravity, other))
 
 
 @pytest.mark.parametrize("name", ["rocker_length", "shared_1", "constant_1", "coupler_reach_x"])

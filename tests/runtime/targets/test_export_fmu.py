@@ -112,6 +112,27 @@ def test_fmpy_simulates_as_simulate_does(tmp_path, version, kind):
 
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize("name", ["pendulum", "prescribed"])
+def test_a_model_without_guards_or_without_states_moves(tmp_path, name, version, kind):
+    """Its description has empty tables; the pendulum has no signals and no inputs, either."""
+    fmpy = pytest.importorskip("fmpy")
+    system, path = system_named(name), tmp_path / "a.fmu"
+    kintrafo.export_model(system, path, "fmu", fmi=version)
+    names = [*system.state_names, *system.signal_names]
+    found = fmpy.simulate_fmu(
+        str(path), stop_time=0.2, output_interval=0.1, fmi_type=kind, relative_tolerance=1e-13,
+        output=names,
+    )  # fmt: skip
+    wanted = kintrafo.simulate(
+        system, (0.0, 0.2), system.design_state, t_eval=[0.2], method="DOP853", rtol=1e-13
+    )
+    for given, value in zip(names, [*wanted.y, *wanted.signals.values()], strict=True):
+        # the accumulated error of both integrations, as above
+        assert found[given][-1] == pytest.approx(value[-1], abs=1e-9)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("version", VERSIONS)
 def test_a_car_over_a_step_of_the_road_moves_as_by_simulate(fmu, version, kind):
     """FMPy accepts its description, and integrates it by CVode or calls its own steps."""
     fmpy = pytest.importorskip("fmpy")
