@@ -1,5 +1,6 @@
 """A car on a road with heights or a slope, against heights over time and balances of forces."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -12,6 +13,7 @@ from kintrafo.vehicle.analysis.handling.drivers import Fixed, HeldTorque
 from kintrafo.vehicle.analysis.handling.road_under import RoadUnder
 from kintrafo.vehicle.analysis.handling.subject import driving_car
 from kintrafo.vehicle.assembly.of import assembly_of
+from kintrafo.vehicle.models.car.car import center_of_gravity
 from kintrafo.vehicle.models.car.slope import Slope
 from kintrafo.vehicle.models.sides import SIDES
 
@@ -145,6 +147,29 @@ def test_tyres_carry_the_weight_on_a_slope(model, grade, crossfall) -> None:
     # on a crossfall the car has a sideslip angle, and moves along the road
     assert np.ptp(motion["y"].values) < 1e-5
     assert np.ptp(motion["yaw_angle"].values) < 1e-6
+
+
+def test_a_car_climbs_until_its_driven_wheels_slide(model) -> None:
+    """The steepest grade has the friction of the front wheels, by their load as a rigid car.
+
+    Their load is (cos b - sin h) / L of the weight W, and they carry W sin; the drag is 0.2 % of W.
+    """
+    car, changes = driving_car("test", model), {"speed_km_per_h": 30.0, "duration_s": 0.1}
+    behind, _, height = center_of_gravity(model.car) - [model.car.axle_positions["rear"], 0.0, 0.0]
+    friction = model.car.tyre("front_left").friction
+    steepest = friction * behind / (WHEELBASE + friction * height)
+    near = 0.95 * steepest
+    found = drive(model, "straight", changes, grade=near)
+    weight = car.mass * 9.81 / np.hypot(1.0, near)
+    load = 0.5 * weight * (behind - near * height) / WHEELBASE
+    radius = model.car.tyre("front_left").evaluate(load).loaded_radius
+    assert float(found.metrics["drive_torque"]) == pytest.approx(weight * near * radius, rel=0.01)
+    assert np.ptp(found.curves[""]["speed"].values) < 1e-3
+    with pytest.raises(InputError, match=r"straight ahead up to about .* % uphill") as refused:
+        drive(model, "straight", changes, grade=1.05 * steepest)
+    (named,) = re.findall(r"about ([\d.]+) %", str(refused.value))
+    # found to 1 % of the slope; the slipping tyres approach their friction
+    assert float(named) == pytest.approx(100.0 * steepest, rel=0.03)
 
 
 def test_a_deceleration_is_that_of_brakes_and_grade(model) -> None:

@@ -6,7 +6,7 @@ Gradients are the exact tangents of the branch.
 """
 
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import xarray as xr
@@ -18,6 +18,7 @@ from ....core.units import KM_PER_H
 from ....equations.errors import ModelError
 from ...assembly.by_wheel import WHEEL, wheel_coordinate
 from ...assembly.quantity import Quantity
+from ...models.car.slope import LEVEL, Slope
 from ...models.reach import PositionError
 from .body_motion import QUANTITIES
 from .car import DrivingCar
@@ -28,6 +29,8 @@ from .steady import NoSteadyMotionError, Steady, SteadyCondition, SteadyMotion
 
 # Accuracy of the greatest lateral acceleration [m/s^2].
 _RESOLVED = 1e-3
+# Accuracy of the steepest slope of straight running, as a part of the slope of the road.
+_OF_SLOPE = 0.01
 # The part by which the acceleration across the heading may be less than that across the path.
 _OF_SIDESLIP = 0.02
 # No car on tyres has more lateral acceleration than this [m/s^2].
@@ -96,6 +99,9 @@ def _column(name: str, meaning: str, units: str) -> Quantity:
     return Quantity(name, units, shown["long_name"], "", "", display)
 
 
+_Found = TypeVar("_Found")
+
+
 class Turns:
     """The branch of steady turns of a car, followed from turn to turn.
 
@@ -111,12 +117,14 @@ class Turns:
     ----------
     reached : float
         The greatest lateral acceleration that was found [m/s^2].
+    slope : Slope
+        The steepest slope on which straight running was found.
     """
 
     def __init__(self, car: DrivingCar, first: SteadyCondition, sense: int) -> None:
         self.car, self.first, self.sense = car, first, sense
         self.equations = SteadyMotion(car)
-        self.reached = 0.0
+        self.reached, self.slope = 0.0, LEVEL
         self._unknown: Array | None = None
         self._tangent: Array | None = None
 
@@ -128,12 +136,17 @@ class Turns:
         acceleration : float
             Lateral acceleration of the first turn at a given radius or steering wheel angle, more
             than zero: a car at standstill has no steady turn [m/s^2].
+
+        Raises
+        ------
+        NoSteadyMotionError
+            If none is found; on a slope there is straight running up to `slope`.
         """
         straight = self.first.kind == "speed"
         begun = 0.0 if straight else self.sense * acceleration
         last = SteadyCondition("lateral_acceleration", begun)
         if straight:
-            near = self.equations.near_straight(self.first.value)
+            near = self._up_the_slope(last)
         elif self.first.kind == "curvature":
             near, _ = self._entered(float(np.sqrt(acceleration / abs(self.first.value))))
         else:
@@ -142,6 +155,27 @@ class Turns:
         unknown, found = self.equations.solve(near, self.first, last)
         self._unknown, self.reached, self._tangent = unknown, last.value, found.tangent
         return found
+
+    def _up_the_slope(self, last: SteadyCondition) -> Array:
+        """Return a guess of straight running: on a slope that of its equations, in steps to it."""
+        near, whole = self.equations.near_straight(self.first.value), self.car.slope
+        if not any(whole):
+            return near
+        known = [(0.0, near)]
+
+        def solve(share: float) -> Array:
+            slope = Slope(share * whole.grade, share * whole.crossfall)
+            there = SteadyMotion(self.car.on_slope(slope))
+            at, near = known[-1]
+            if len(known) > 2:  # the first one is a guess
+                before, less = known[-2]
+                near = near + (near - less) * (share - at) / (at - before)
+            found, _ = there.solve(near, self.first, last)
+            known.append((share, found))
+            self.slope = slope
+            return found
+
+        return _in_steps(solve, 0.0, 1.0, _OF_SLOPE)
 
     def _entered(self, speed: float) -> tuple[Array, Steady]:
         """Return the turn at a speed, in steps from straight running to a small circle."""
@@ -172,21 +206,13 @@ class Turns:
         NoSteadyMotionError
             If there is none; turns up to `reached` exist.
         """
-        step = abs(acceleration - self.reached)
-        while True:
-            left = acceleration - self.reached
-            goal = self.reached + np.sign(left) * min(step, abs(left))
-            try:
-                unknown, found = self._solve(float(goal))
-            except (NoSteadyMotionError, ModelError):
-                step *= 0.5
-                if step < _RESOLVED:
-                    raise NoSteadyMotionError(f"{acceleration:g} m/s^2") from None
-                continue
-            self._unknown, self.reached, self._tangent = unknown, float(goal), found.tangent
-            if goal == acceleration:
-                return found
-            step *= 1.5
+
+        def solve(goal: float) -> Steady:
+            unknown, found = self._solve(goal)
+            self._unknown, self.reached, self._tangent = unknown, goal, found.tangent
+            return found
+
+        return _in_steps(solve, self.reached, acceleration, _RESOLVED)
 
     def to_speed(self, speed: float) -> Steady:
         """Return the turn at a speed [m/s], if it is another quantity that all have in common.
@@ -211,6 +237,31 @@ class Turns:
             near = near + self._tangent * (acceleration - self.reached)
         last = SteadyCondition("lateral_acceleration", acceleration)
         return self.equations.solve(near, self.first, last)
+
+
+def _in_steps(
+    solve: Callable[[float], _Found], reached: float, wanted: float, least: float
+) -> _Found:
+    """Return the solution at a value of a parameter, in steps from a value that was reached.
+
+    Each solution is the first guess of the next one. A step without a solution is halved; below
+    `least` it raises a `NoSteadyMotionError`.
+    """
+    step = abs(wanted - reached)
+    while True:
+        left = wanted - reached
+        goal = float(reached + np.sign(left) * min(step, abs(left)))
+        try:
+            found = solve(goal)
+        except (NoSteadyMotionError, ModelError):
+            step *= 0.5
+            if step < least:
+                raise NoSteadyMotionError(f"{wanted:g}") from None
+            continue
+        if goal == wanted:
+            return found
+        reached = goal
+        step *= 1.5
 
 
 def steady_turns(

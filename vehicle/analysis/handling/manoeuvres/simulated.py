@@ -11,6 +11,7 @@ from .....core.errors import InputError
 from .....core.named_types import Array
 from .....core.units import KM_PER_H
 from ....input.section import Positive
+from ....models.car.slope import Slope
 from ..car import DrivingCar
 from ..circle import Turns
 from ..driven import MOST_SAMPLES, Sampling, driven
@@ -80,12 +81,17 @@ class SimulatedManoeuvre(Manoeuvre):
         try:
             return turns, turns.begin(0.0)
         except NoSteadyMotionError:
-            slope = car.slope.words
+            begin = f"speed_km_per_h = {self.speed_km_per_h:g} km/h:"
             problem = (
-                f"speed_km_per_h = {self.speed_km_per_h:g} km/h: this car does not run straight "
-                f"ahead at this speed{f' on the slope, {slope}' if slope else ''}. Choose a lower "
-                f"{'speed, or less slope' if slope else 'one'}."
+                f"{begin} this car does not run straight ahead at this speed. Choose a lower one."
             )
+            if any(turns.slope):
+                steepest = Slope(*(float(np.trunc(1e3 * part) / 1e3) for part in turns.slope))
+                problem = (
+                    f"{begin} at this speed the tyres of this car carry it straight ahead up to "
+                    f"about {steepest.words}, and the road has {car.slope.words}. Choose less "
+                    "slope."
+                )
             raise InputError([problem], self.TITLE) from None
 
     def turned(self, turns: Turns, key: str, acceleration: float) -> Steady:
