@@ -68,6 +68,7 @@ def test_tyres_are_files_beside_the_car_or_tables(tmp_path: Any) -> None:
         {"body.inertia_zz_kg_m2": 0.0},
         {"front.drive.share": 0.5},
         {"brakes.front_share": 0.6, "rear.side.vehicle.front_brake_share": 0.5},
+        {"tyres.front.vertical_stiffness_N_per_mm": 5.0},
     ],
 )
 def test_what_contradicts_itself_is_refused(changes: dict[str, Any], refused: Any) -> None:
@@ -166,6 +167,59 @@ def test_a_car_rests_on_its_tyres(assembly: CarAssembly) -> None:
         }
         assert signals["fz"] == pytest.approx(2e5 * signals["deflection"], rel=1e-12)
         assert signals["fy"] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_its_axles_are_on_its_tyres(assembly: CarAssembly) -> None:
+    """The tyre of each axle has the height, stiffness and slopes of the equations at rest."""
+    model, car = assembly.model, assembly.car
+    state = np.asarray(kintrafo.equilibrium(model))
+    inputs = np.zeros(len(model.input_names))
+    by_state = model.evaluate("signals_jacobian", state, inputs)
+    names = model.state_names, model.signal_names
+    for wheel in assembly.wheels:
+        end, _, side = wheel.partition("_")
+        tyre = getattr(car.axles[end], side).tyre
+        signals = {
+            k: float(model.signal(f"{wheel}_{k}", state))
+            for k in ("wheel_center_z", "camber", "fz")
+        }
+        # of an upright wheel whose lowest point is as high
+        height = signals["wheel_center_z"] + 0.316 * (1.0 - np.cos(signals["camber"]))
+        rates = [
+            by_state[names[1].index(f"{wheel}_{force}"), names[0].index(name)]
+            for force, name in (
+                ("fz", "body_z"), ("fx", f"{wheel}_tyre_along"), ("fy", f"{wheel}_tyre_across")
+            )
+        ]  # fmt: skip
+        # the load is that at design; as the car settles, its springs move the wheels by millimetres
+        assert 1e-3 * tyre.radius_mm == pytest.approx(height, abs=5e-5)
+        assert tyre.rate_N_per_m == pytest.approx(-rates[0], rel=1e-9)
+        assert tyre.longitudinal_rate_N_per_m == pytest.approx(abs(rates[1]), rel=1e-6)
+        assert tyre.lateral_rate_N_per_m == pytest.approx(abs(rates[2]), rel=1e-6)
+        load = tyre.rate_N_per_m * (1e-3 * tyre.free_height_mm - height)
+        assert load == pytest.approx(signals["fz"], rel=1e-5)
+
+
+def _numbers(car: Car) -> dict[str, Any]:
+    """Return characteristics, loads and the parameters of the car that rides."""
+    assembly = CarAssembly(car)
+    curves = kintrafo.characteristics.over(assembly, "roll", [0.01])
+    loads = kintrafo.loads.static(car.axles["front"], {"curb": {"contact_N": [900.0, 0.0, 3e3]}})
+    return {
+        "curves": np.concatenate([np.ravel(v) for v in curves.values()]),
+        "loads": loads["force"].values,
+        "riding": list(CarModel(assembly.riding().car).parameters.values()),
+    }
+
+
+def test_the_tyre_in_the_file_of_an_axle_has_no_effect(assembly: CarAssembly) -> None:
+    others = {"rate_N_per_m": 4e5, "radius_mm": 500.0, "free_height_mm": 290.0}
+    changes = {
+        f"{end}.side.tyre.{key}": v for end in ("front", "rear") for key, v in others.items()
+    }
+    wanted, found = (_numbers(car) for car in (assembly.car, light_car(**changes)))
+    for name, numbers in wanted.items():
+        np.testing.assert_array_equal(found[name], numbers, err_msg=name)
 
 
 def test_it_runs_straight_at_a_steady_speed(assembly: CarAssembly) -> None:

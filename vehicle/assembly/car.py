@@ -16,7 +16,8 @@ from ...systems.rest import rest
 from ...systems.state import State
 from ..corner.wheeled import WheeledSection
 from ..input.units import in_metres
-from ..models.car.car import Car, center_of_gravity, masses, suspension_masses
+from ..kinds import Suspension
+from ..models.car.car import AnyAxle, Car, center_of_gravity, masses, suspension_masses
 from ..models.car.equations import CarModel
 from ..models.model import Model
 from ..models.reach import PositionError
@@ -60,7 +61,8 @@ class CarAssembly(Assembly):
         self.subject = self.car = car
         self._model = model
         self.wheels = car.wheels
-        self.held = _held_parts(car)
+        parts: Mapping[str, Any] = car.axles or {"": car.corner}
+        self.held = {end: _held(part) for end, part in parts.items()}
         known = _MOTIONS if car.axles else {"heave": _MOTIONS["heave"]}
         self.motions = dict(known)
 
@@ -110,10 +112,13 @@ class CarAssembly(Assembly):
 
     @property
     def design_sections(self) -> dict[str, dict[str, Any]]:
-        """The sections of the files of its axles, or of its corner, and those of its own."""
-        own = self.car.to_dict()
+        """The sections of the files of its axles, or of its corner, and those of its own.
+
+        Those of a car that drives have no ``[tyre]``, which has no effect.
+        """
+        own, left_out = self.car.to_dict(), {"tyre"} if self.car.drives else set()
         found = {
-            f"{name}.{begin}": sections
+            f"{name}.{begin}": {key: v for key, v in sections.items() if key not in left_out}
             for name, part in self.held_parts.items()
             for begin, sections in part.design_sections.items()
         }
@@ -124,10 +129,10 @@ class CarAssembly(Assembly):
         """The content of its files, by the prefix of the names of sections."""
         own = self.car.described
         # a part that is no file's name follows with its sections
-        apart = [name for name in self.held_parts if not isinstance(getattr(own, name), str)]
+        apart = [name for name in self.car.parts if not isinstance(getattr(own, name), str)]
         found: dict[str, Any] = {"": own.model_copy(update=dict.fromkeys(apart))}
-        for name, part in self.held_parts.items():
-            for begin, section in part.input_sections.items():
+        for name, part in self.car.parts.items():  # as their files describe them
+            for begin, section in _held(part).input_sections.items():
                 found[f"{name} {begin}".strip()] = section
         return found
 
@@ -422,10 +427,10 @@ class CarAssembly(Assembly):
             raise InputError([problem], self.heading)
 
     def riding(self) -> "CarAssembly":
-        """Return the car of the same files whose body does not travel, which may be itself."""
+        """Return the car on the same tyres whose body does not travel, which may be itself."""
         if not self.car.drives:
             return self
-        return CarAssembly(self.car.with_changes({"car": "roll"}))
+        return CarAssembly(Car.from_dict(self.car.to_dict() | {"car": "roll"} | self.car.axles))
 
     def require_riding(self) -> None:
         """Raise an `InputError` if the body travels."""
@@ -578,8 +583,6 @@ class _HeldWheel:
         }
 
 
-def _held_parts(car: Car) -> dict[str, HeldAssembly]:
-    """Return the axles on a held body, by end; of a quarter car its corner."""
-    if car.corner is not None:
-        return {"": CornerAssembly(Model(car.corner))}
-    return {end: axle_assembly(axle) for end, axle in car.axles.items()}
+def _held(part: Suspension | AnyAxle) -> HeldAssembly:
+    """Return an axle, or the corner of a quarter car, on a held body."""
+    return CornerAssembly(Model(part)) if isinstance(part, Suspension) else axle_assembly(part)

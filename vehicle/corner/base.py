@@ -307,6 +307,18 @@ class Suspension(WheeledSection):
             for body, mass in self.neglected_masses().items()
         ]
 
+    def on_tyre(self, tyre: TyreSection) -> Self:
+        """Return the suspension on another tyre.
+
+        Its equations are the same: without a term for damping and lift-off of the tyre, these stay
+        as they are.
+        """
+        found = super().on_tyre(tyre)
+        if found.equations(free_rack=False) is self.equations(free_rack=False):
+            return found
+        kept = {key: getattr(self.tyre, key) for key in ("damper_rate_N_s_per_m", "lifts_off")}
+        return super().on_tyre(tyre.model_copy(update=kept))
+
     # -- members of each kind -------------------------------------------------------------------
 
     @abstractmethod

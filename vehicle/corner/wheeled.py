@@ -1,6 +1,6 @@
 """The base of suspensions and of axles without sides: the data of one file with wheels."""
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 from ...core.columns import number
 from ..input.damper import NO_CURVE, Damper
@@ -67,6 +67,10 @@ class WheeledSection(DescribedSection):
         An unknown radius of the wheels raises an `InputError`.
         """
         return {"tyre_radius": needed_radius(self.tyre_radius())}
+
+    def on_tyre(self, tyre: "TyreSection") -> Self:
+        """Return the same data with another tyre."""
+        return self.model_copy(update={"tyre": tyre})
 
     def rate_key(self, part: str) -> str:
         """Return the key of the rate of a part, "spring" or "damper", or of the spring's curve."""

@@ -1,7 +1,7 @@
 """`Axle`: the data of an axle's file, with the suspensions that it names."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, ClassVar, Self
@@ -19,7 +19,7 @@ from ...data import data_sets
 from ...data.starter import AXLE, AXLES, CAR, not_of_a_suspension, whole_axle_in
 from ...input.described import DescribedParts, check_keys, described_by, parts_of
 from ...input.pitman_arm import PitmanLinkage
-from ...input.vehicle import GravitySection, Steering, VehicleSection
+from ...input.vehicle import GravitySection, Steering, TyreSection, VehicleSection
 from ...kinds import Suspension
 from ..model import Model
 from ..sides import LEFT, RIGHT
@@ -320,6 +320,10 @@ class Axle(DescribedParts):
         by_name = {f"{side}_{n}": value for side, own in sides.items() for n, value in own.items()}
         # both sides have one rack, whose values are those of the right one
         return self.parameters_of_bar() | sides[RIGHT] | by_name
+
+    def on_tyre(self, tyre: TyreSection) -> Self:
+        """Return the axle on another tyre, see `Suspension.on_tyre`."""
+        return replace(self, right=self.right.on_tyre(tyre), left=self.left.on_tyre(tyre))
 
     def heading(self) -> str:
         """Return the name of the axle."""

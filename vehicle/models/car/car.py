@@ -22,7 +22,7 @@ from ...tyres import Tyre
 from ..axle.axle import Axle
 from ..sides import SIDES
 from ..whole_axle import WholeAxle, whole_axle_class
-from .driving import SteeringColumn, named, tyre_of
+from .driving import SteeringColumn, carries, named, tyre_of, under_load
 from .file import COORDINATES, ENDS, OF_DRIVING, CarFile
 
 AnyAxle = Axle | WholeAxle
@@ -51,10 +51,8 @@ class Car(DescribedParts):
     ----------
     described : CarFile
         The data of its own file.
-    corner : Suspension or None
-        The suspension of a quarter car.
-    axles : dict of str to Axle or WholeAxle
-        The front and the rear axle, by end; empty for a quarter car.
+    parts : dict of str to Suspension, Axle or WholeAxle
+        The corner, or both axles, by the keys of the file, as their own files describe them.
     tyres : dict of str to kintrafo.tyres.Tyre
         The tyres of a car that drives, by end; empty for others.
 
@@ -67,8 +65,7 @@ class Car(DescribedParts):
     """
 
     described: CarFile
-    corner: Suspension | None
-    axles: Mapping[str, AnyAxle]
+    parts: Mapping[str, Any]
     tyres: Mapping[str, Tyre] = field(default_factory=dict)
 
     NEEDED = 'a kintrafo.Car, such as kintrafo.load("reference_vehicle"), is needed'
@@ -87,12 +84,12 @@ class Car(DescribedParts):
     def _of_parts(cls, described: CarFile, folder: Path, source: str) -> Self:
         makers = {"corner": Suspension.given, **dict.fromkeys(ENDS, _axle)}
         parts = parts_of(described, makers, folder, source)
-        axles = {end: parts[end] for end in ENDS if end in parts}
         described, tyres = _with_tyres(described, folder, source)
-        car = cls(described, parts.get("corner"), axles, tyres)
-        problems = _problems_of_axles(car) if axles else []
+        car = cls(described, parts, tyres)
+        problems = _problems_of_axles(car) if car.corner is None else []
         problems += _problems_of_gravity(car)
         problems += _problems_of_driving(car) if car.drives else []
+        problems += _problems_of_load(car) if car.drives and not problems else []
         if problems:
             raise InputError(problems, source)
         return car
@@ -176,9 +173,29 @@ class Car(DescribedParts):
     # -- its properties ---------------------------------------------------------------------------
 
     @property
-    def parts(self) -> dict[str, Any]:
-        """The corner, or both axles, by the keys of the file."""
-        return {"corner": self.corner} if self.corner is not None else dict(self.axles)
+    def corner(self) -> Suspension | None:
+        """The suspension of a quarter car."""
+        return self.parts.get("corner")
+
+    @property
+    def described_axles(self) -> dict[str, AnyAxle]:
+        """The axles as their files describe them, by end; empty for a quarter car."""
+        return {end: self.parts[end] for end in ENDS if end in self.parts}
+
+    @cached_property
+    def axles(self) -> dict[str, AnyAxle]:
+        """The front and the rear axle, by end; empty for a quarter car.
+
+        Those of a car that drives are on its tyres: their ``[tyre]`` is the tyre of ``[tyres]``
+        under the static load, see `under_load`.
+        """
+        axles = self.described_axles
+        if not self.drives:
+            return axles
+        return {
+            end: axle.on_tyre(under_load(self.tyres[end], _static_load(self, end)))
+            for end, axle in axles.items()
+        }
 
     @property
     def coordinates(self) -> tuple[str, ...]:
@@ -226,13 +243,17 @@ class Car(DescribedParts):
     @property
     def drive_shares(self) -> dict[str, float]:
         """The share of the driving force at each driven axle, by end [1]."""
-        return {end: axle.drive.share for end, axle in self.axles.items() if axle.drive is not None}
+        return {
+            end: axle.drive.share
+            for end, axle in self.described_axles.items()
+            if axle.drive is not None
+        }
 
     @property
     def front_brake_share(self) -> float | None:
         """The share of the brake torque at the front wheels [1]."""
         own = None if self.described.brakes is None else self.described.brakes.front_share
-        shares = [axle.vehicle.front_brake_share for axle in self.axles.values()]
+        shares = [axle.vehicle.front_brake_share for axle in self.described_axles.values()]
         return next((s for s in (own, *shares) if s is not None), None)
 
     @property
@@ -250,11 +271,11 @@ class Car(DescribedParts):
         """Return the name of the car."""
         if self.corner is not None:
             return f"quarter car, {self.corner.TITLE}"
-        return f"car, {' and '.join(axle.heading() for axle in self.axles.values())}"
+        return f"car, {' and '.join(axle.heading() for axle in self.described_axles.values())}"
 
     def steered(self) -> bool:
         """Return whether its front wheels are steered, by a rack or a Pitman arm."""
-        return (self.corner or self.axles["front"]).steered()
+        return (self.corner or self.described_axles["front"]).steered()
 
     @property
     def origins(self) -> dict[str, float]:
@@ -269,7 +290,7 @@ class Car(DescribedParts):
         shift = np.array([1.0, 0.0, 0.0])
         return {
             f"{end}_{side}": center + self.origins[end] * shift
-            for end, axle in self.axles.items()
+            for end, axle in self.described_axles.items()
             for side, center in axle.wheel_centers.items()
         }
 
@@ -278,7 +299,7 @@ class Car(DescribedParts):
         """The mean x coordinates of the wheel centres of the axles, by end [m]."""
         return {
             end: float(np.mean([self.wheel_centers[f"{end}_{side}"][0] for side in SIDES]))
-            for end in self.axles
+            for end in self.described_axles
         }
 
     @property
@@ -301,7 +322,7 @@ class Car(DescribedParts):
         if body.com_mm is not None and self.coordinates == ("heave",):
             words.append("[body] com_mm")
         words += self._unused_of_driving()
-        rear = self.axles.get("rear")
+        rear = self.described_axles.get("rear")
         if rear is not None and rear.steered():
             held = "a part of the body, and its tie rods hold the toe"
             words.append(f"rear axle: [{rear.steered_by}] ({held})")
@@ -311,7 +332,7 @@ class Car(DescribedParts):
         """Return the unused keys of driving; of a driving car those that its tyres replace."""
         if not self.drives:
             return [f"[{k}]" for k in OF_DRIVING if getattr(self.described, k) is not None]
-        words = [f"{end} axle: [tyre] (a car that drives takes [tyres])" for end in self.axles]
+        words = [f"{end} axle: [tyre] (a car that drives takes [tyres])" for end in ENDS]
         return words + [
             f"[tyres] {end}: {', '.join(tyre.left_out)}"
             for end, tyre in self.tyres.items()
@@ -373,10 +394,10 @@ def _problems_of_axles(car: Car) -> list[str]:
     problems = [
         f"{end}: its file describes the {axle.end} axle. Exchange the two files, or correct "
         "this one."
-        for end, axle in car.axles.items()
+        for end, axle in car.described_axles.items()
         if axle.end != end
     ]
-    if car.axles["rear"].steering is not None:
+    if car.described_axles["rear"].steering is not None:
         problems.append(
             "rear: [steering]: the rear wheels are not steered, and their rack is a part of the "
             "body. Remove that section."
@@ -384,7 +405,7 @@ def _problems_of_axles(car: Car) -> list[str]:
     problems += [
         f"{end}: [rods] {', '.join(axle.to_dict()['rods'])}: an axle on five rods moves only on "
         "its bushes, and rods are rigid in a car. Leave one of them out."
-        for end, axle in car.axles.items()
+        for end, axle in car.described_axles.items()
         if axle.overheld
     ]
     return problems or [*_problems_of_places(car), *_problems_of_shared(car)]
@@ -416,7 +437,7 @@ def _problems_of_places(car: Car) -> list[str]:
 def _problems_of_shared(car: Car) -> list[str]:
     """Return the differences of car and axles in the data of the whole vehicle."""
     problems = []
-    described = {end: axle.vehicle for end, axle in car.axles.items()}
+    described = {end: axle.vehicle for end, axle in car.described_axles.items()}
     for end, vehicle in described.items():
         base = vehicle.wheelbase_mm
         if base is not None and abs(base - (car.described.wheelbase_mm or 0.0)) > 1e3 * _CLOSE:
@@ -460,7 +481,7 @@ def _problems_of_driving(car: Car) -> list[str]:
             "needed. Correct them; an axle without [drive] is not driven."
         )
     if car.column is not None:
-        problems += _problems_of_column(car.axles["front"])
+        problems += _problems_of_column(car.described_axles["front"])
     if car.described.brakes is not None:
         problems += _problems_of_brakes(car)
     for end, tyre in car.tyres.items():
@@ -472,6 +493,18 @@ def _problems_of_driving(car: Car) -> list[str]:
                 "Use a tyre that reaches the ground."
             )
     return problems
+
+
+def _problems_of_load(car: Car) -> list[str]:
+    """Return the problems of tyres that do not carry the static load."""
+    found = {end: (_static_load(car, end), tyre) for end, tyre in car.tyres.items()}
+    return [
+        f"[tyres] {end}: the tyre does not carry the static load of {load:.0f} N on each wheel: it "
+        "has no stiffness there, or its axis reaches the road. Check its vertical stiffness and "
+        "radius, and the masses."
+        for end, (load, tyre) in found.items()
+        if not carries(tyre, load)
+    ]
 
 
 def _problems_of_column(front: AnyAxle) -> list[str]:
@@ -499,7 +532,7 @@ def _problems_of_column(front: AnyAxle) -> list[str]:
 
 def _problems_of_brakes(car: Car) -> list[str]:
     own = car.described.brakes.front_share if car.described.brakes is not None else None
-    shares = (axle.vehicle.front_brake_share for axle in car.axles.values())
+    shares = (axle.vehicle.front_brake_share for axle in car.described_axles.values())
     theirs = {share for share in shares if share is not None}
     if own is None and not theirs:
         problem = (
@@ -519,7 +552,7 @@ def _problems_of_brakes(car: Car) -> list[str]:
 def masses(car: Car) -> list[tuple[float, Array]]:
     """Return every mass of a car with its centre at design, axes of the car [kg, m]."""
     found = [(car.described.body.mass_kg, car.com)]
-    for end, axle in car.axles.items():
+    for end, axle in car.described_axles.items():
         shift = np.array([car.origins[end], 0.0, 0.0])
         for values in axle.parameters_of_masses():
             for name, mass in values.items():
@@ -537,13 +570,21 @@ def suspension_masses(car: Car) -> dict[str, float]:
     if car.corner is not None:
         parts: dict[str, list[Mapping[str, float]]] = {"": [car.corner.parameters()]}
     else:
-        parts = {end: [*axle.parameters_of_masses()] for end, axle in car.axles.items()}
+        parts = {end: [*axle.parameters_of_masses()] for end, axle in car.described_axles.items()}
     return {
         end: sum(
             mass for values in several for name, mass in values.items() if name.endswith("_mass")
         )
         for end, several in parts.items()
     }
+
+
+def _static_load(car: Car, end: str) -> float:
+    """Return the mean load of the wheels of an axle of a car at rest on a level road [N]."""
+    other = next(one for one in ENDS if one != end)
+    weight = sum(mass for mass, _ in masses(car)) * car.parts[end].gravity.acceleration_m_per_s2
+    x, center = car.axle_positions, center_of_gravity(car)[0]
+    return float(0.5 * weight * (center - x[other]) / (x[end] - x[other]))
 
 
 def center_of_gravity(car: Car) -> Array:

@@ -21,7 +21,7 @@ from ...input.section import (
     Triple,
 )
 from ...input.units import in_metres
-from ...input.vehicle import Share
+from ...input.vehicle import Share, TyreSection
 from ...tyres import LinearSlip, Tyre, load
 from ...tyres.loading import packaged_tyres
 
@@ -230,6 +230,40 @@ def tyre_of(given: Any, end: str, folder: Path) -> Tyre:
         return load(named(given, folder))
     problem = f"{shown(given)}: the name of a tyre's file, or a table of a linear one, is needed."
     raise InputError([problem], end)
+
+
+def under_load(tyre: Tyre, load: float) -> TyreSection:
+    """Return a tyre under a load, as the ``[tyre]`` of an axle's file.
+
+    Its radius is the loaded one, its rate the vertical stiffness, at a load; the free height is
+    that at which this rate has the load at this radius. Lateral and longitudinal rates are the
+    cornering stiffness and the slip stiffness over the relaxation lengths, if these are known.
+
+    Parameters
+    ----------
+    tyre : Tyre
+    load : float
+        [N].
+    """
+    at = tyre.evaluate(load, speed=0.0, extrapolate=True)
+    radius, rate = float(at.loaded_radius), float(at.vertical_stiffness)
+    across = float(at.cornering_stiffness / at.relaxation_y)
+    along = float(at.slip_stiffness / at.relaxation_x)
+    return TyreSection.model_construct(
+        rate_N_per_m=rate,
+        free_height_mm=1e3 * (radius + load / rate),
+        radius_mm=1e3 * radius,
+        lateral_rate_N_per_m=across if np.isfinite(across) else None,
+        longitudinal_rate_N_per_m=along if np.isfinite(along) else None,
+        damper_rate_N_s_per_m=tyre.vertical_damping,
+        lifts_off=True,
+    )
+
+
+def carries(tyre: Tyre, load: float) -> bool:
+    """Return whether a tyre has a radius and a stiffness under a load [N]."""
+    at = tyre.evaluate(load, speed=0.0, extrapolate=True)
+    return bool(at.loaded_radius > 0.0 and at.vertical_stiffness > 0.0)
 
 
 def named(given: Any, folder: Path) -> Any:
