@@ -123,12 +123,7 @@ def command(
     rig: RigOptions,
     shown: ShownOptions,
     positions: Annotated[
-        bool,
-        option(
-            "Positions of wheels, joints and coordinates instead of characteristics.",
-            None,
-            "--positions",
-        ),
+        bool, option("Positions of wheels, joints and coordinates instead of characteristics.")
     ] = False,
     output: CurveOptions,
 ) -> None:

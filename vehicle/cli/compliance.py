@@ -42,12 +42,7 @@ class NonlinearOptions:
     """The options of equilibria with large deflections."""
 
     nonlinear: Annotated[
-        bool,
-        option(
-            "Equilibrium with large deflections: over a motion, or --under a load.",
-            None,
-            "--nonlinear",
-        ),
+        bool, option("Equilibrium with large deflections: over a motion, or --under a load.")
     ] = False
     under: Annotated[
         Literal["lateral", "braking", "recession", "aligning"] | None,

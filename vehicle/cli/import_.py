@@ -66,10 +66,9 @@ class _Options:
             "Of Adams/Car and Project Chrono: side of the car. Default: that of --from, or left."
         ),
     ] = None
-    mirror: Annotated[
-        bool,
-        option("The table is of the other side of the car.", None, "--mirror", panel=_TABLES),
-    ] = False
+    mirror: Annotated[bool, option("The table is of the other side of the car.", panel=_TABLES)] = (
+        False
+    )
     unit: Annotated[
         str | None,
         option("If the table gives no unit: mm, cm, m, in or ft.", "UNIT", panel=_TABLES),
@@ -83,10 +82,9 @@ class _Options:
             panel=_TABLES,
         ),
     ] = None
-    left_handed: Annotated[
-        bool,
-        option("The axes of --axes are left-handed.", None, "--left-handed", panel=_TABLES),
-    ] = False
+    left_handed: Annotated[bool, option("The axes of --axes are left-handed.", panel=_TABLES)] = (
+        False
+    )
     sheet: Annotated[
         str | None, option("Sheet of a workbook that has several.", "NAME", panel=_TABLES)
     ] = None
@@ -102,8 +100,6 @@ class _Options:
         bool,
         option(
             "Read only hardpoints, camber and toe; other values are those of the packaged file.",
-            None,
-            "--points-only",
             panel=_CHRONO,
         ),
     ] = False

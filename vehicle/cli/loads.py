@@ -96,8 +96,7 @@ def command(
         ),
     ] = None,
     envelope: Annotated[
-        bool,
-        option("Show the extremes of every component, and their cases.", None, "--envelope"),
+        bool, option("Show the extremes of every component, and their cases.")
     ] = False,
     output: LoadOptions,
 ) -> None:

@@ -34,15 +34,9 @@ def command(
         str | None,
         option("Packaged file to copy, also a manoeuvre. Default: by --suspension.", "NAME"),
     ] = None,
-    axle: Annotated[
-        bool, option("Write the file of an axle, which names its sides.", None, "--axle")
-    ] = False,
-    rigid_axle: Annotated[
-        bool, option("Write the file of a rigid axle on four rods.", None, "--rigid-axle")
-    ] = False,
-    car: Annotated[
-        bool, typer.Option("--car", help="Write the file of a car, which names its axles.")
-    ] = False,
+    axle: Annotated[bool, option("Write the file of an axle, which names its sides.")] = False,
+    rigid_axle: Annotated[bool, option("Write the file of a rigid axle on four rods.")] = False,
+    car: Annotated[bool, option("Write the file of a car, which names its axles.")] = False,
     force: Force = False,
 ) -> None:
     """Write an annotated hardpoint file to begin with: every key, its unit and its sign."""

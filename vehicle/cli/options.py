@@ -57,19 +57,10 @@ File = Annotated[
     argument("Input file (TOML), or the name of a packaged one, such as reference_car.", "FILE"),
 ]
 Json = Annotated[
-    bool,
-    option(
-        "Print the result as JSON, in SI units, and nothing else.", None, "--json", panel=OUTPUT
-    ),
+    bool, option("Print the result as JSON, in SI units, and nothing else.", panel=OUTPUT)
 ]
 Force = Annotated[
-    bool,
-    option(
-        "Replace existing files, also those that kintrafo did not write.",
-        None,
-        "--force",
-        panel=OUTPUT,
-    ),
+    bool, option("Replace existing files, also those that kintrafo did not write.", panel=OUTPUT)
 ]
 Rebound = Annotated[float | None, option("Wheel travel downward. Default: 80, if reached.", "MM")]
 Bump = Annotated[float | None, option("Wheel travel upward. Default: 80, if reached.", "MM")]

@@ -47,7 +47,7 @@ def command(
     title: Annotated[str | None, option("Heading of the report.")] = None,
     model_name: Which = None,
     standard_cases: Annotated[
-        bool, option("Add the standard load cases and their free bodies.", None, "--standard-cases")
+        bool, option("Add the standard load cases and their free bodies.")
     ] = False,
     cases: Annotated[Path | None, option("Add the load cases of this file (TOML).", "PATH")] = None,
     bushes: Bushes = None,

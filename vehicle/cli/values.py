@@ -23,11 +23,15 @@ _NAMES = {float: "NUMBER", int: "COUNT"}
 def explained(command: Callable[..., None]) -> Callable[..., None]:
     """Add the parsers of this module to a command's numbers and choices, and return it.
 
-    The annotations of the command are completed in place.
+    The annotations of the command are completed in place. A flag has no opposite
+    such as --no-json.
     """
-    for hint in get_type_hints(command, include_extras=True).values():
+    for name, hint in get_type_hints(command, include_extras=True).items():
         if get_origin(hint) is not Annotated:
             continue
+        if hint.__origin__ is bool:
+            (info,) = hint.__metadata__
+            info.param_decls = info.param_decls or (f"--{name.replace('_', '-')}",)
         kinds = _kinds(hint.__origin__)
         kind = next((kind for kind in (float, int) if kind in kinds), None)
         choices = next((get_args(kind) for kind in kinds if get_origin(kind) is Literal), None)

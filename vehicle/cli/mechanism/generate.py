@@ -23,12 +23,9 @@ def command(
         Path | None,
         option("Write C, Python and report into this folder, too.", "PATH", "--out", "-o"),
     ] = None,
-    numpy: Annotated[
-        bool, option("Functions over NumPy arrays instead of compiled C.", None, "--numpy")
-    ] = False,
+    numpy: Annotated[bool, option("Functions over NumPy arrays instead of compiled C.")] = False,
     parameter_derivatives: Annotated[
-        bool,
-        option("Also derivatives with respect to parameters.", None, "--parameter-derivatives"),
+        bool, option("Also derivatives with respect to parameters.")
     ] = False,
     force: Force = False,
     json: Json = False,

@@ -38,9 +38,7 @@ def command(
     ] = None,
     *,
     model: Which = None,
-    free_rack: Annotated[
-        bool, option("The mechanism with the rack as a coordinate.", None, "--free-rack")
-    ] = False,
+    free_rack: Annotated[bool, option("The mechanism with the rack as a coordinate.")] = False,
     json: Json = False,
 ) -> None:
     """Show bodies, joints, mobility, loops and characteristic pairs of the mechanism.
