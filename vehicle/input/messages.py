@@ -2,7 +2,6 @@
 
 import reprlib
 from collections.abc import Mapping
-from itertools import chain
 from typing import Any, get_args, get_origin
 
 from pydantic import ValidationError
@@ -10,7 +9,7 @@ from pydantic_core import ErrorDetails
 
 from ...core.legible import short
 from ...core.suggestions import nearest, suggestion
-from .section import AllowedRange, Section
+from .section import Remedy, Section, metadata_of
 
 _MOST_LOOKED_AT = 200  # errors: each is compared with all known keys
 _EXPECTATIONS = {
@@ -68,12 +67,20 @@ class _Place:
         self.name = f"{self.title} {short(self.key)}{''.join(elements)}".strip()
         self.unit = model.unit_of_key(self.key, data)
 
-    def allowed(self) -> AllowedRange:
-        """Return the range of the key's value."""
-        field = self.model.model_fields[self.key]
-        optional = (getattr(kind, "__metadata__", ()) for kind in get_args(field.annotation))
-        metadata = chain(field.metadata, *optional)
-        return next(item for item in metadata if isinstance(item, AllowedRange))
+    def allowed(self) -> str:
+        """Return the range of the key's value, and the remedy for others."""
+        limits: dict[str, str] = {}
+        remedy = ""
+        for one in metadata_of(self.model.model_fields[self.key]):
+            remedy = one.text if isinstance(one, Remedy) else remedy
+            for name in ("ge", "gt", "le"):
+                if hasattr(one, name):
+                    limits[name] = f"{getattr(one, name):,.10g} {self.unit}".rstrip()
+        if "gt" in limits:
+            most = f", at most {limits['le']}" if "le" in limits else ""
+            return f"allowed is more than {limits['gt']}{most}. {remedy}"
+        most = f"to {limits['le']}" if "le" in limits else "or more"
+        return f"allowed is {limits['ge']} {most}. {remedy}"
 
 
 def subsection(model: type[Section], name: int | str) -> type[Section] | None:
@@ -115,11 +122,7 @@ def _wrong(place: _Place, detail: ErrorDetails) -> str:
     if not place.key:
         return f"{value} must be a section. Write {place.title}, below it {_keys(place.model)}."
     if detail["type"] in {"greater_than", "greater_than_equal", "less_than_equal"}:
-        allowed = place.allowed()
-        return (
-            f"{value} is out of range: allowed is {allowed.allowed.format(unit=place.unit)}. "
-            f"{allowed.remedy}"
-        )
+        return f"{value} is out of range: {place.allowed()}"
     if detail["type"] == "literal_error":
         expected = detail["ctx"]["expected"]
         remedy = "Choose one of them." if " or " in expected else "Enter it."

@@ -18,7 +18,7 @@ from ...core.vectors import (
     unit_vector,
 )
 from .hardpoints import LARGEST_COORDINATE, SMALLEST_CROSS_ANGLE, SMALLEST_DISTANCE
-from .section import AllowedRange, Number, Section, Triple, without_direction
+from .section import Number, Remedy, Section, Triple, without_direction
 from .units import in_metres
 
 RELAY_ROD = "relay_rod"
@@ -27,9 +27,7 @@ _NAMES = {"pitman_arm": "Pitman arm", "idler_arm": "idler arm"}
 _UP = np.array([0.0, 0.0, 1.0])
 
 GearRatio = Annotated[
-    Number,
-    Field(gt=0.0),
-    AllowedRange("more than 0", "Enter the turns of the steering wheel for one turn of the arm."),
+    Number, Field(gt=0.0), Remedy("Enter the turns of the steering wheel for one turn of the arm.")
 ]
 
 

@@ -1,13 +1,14 @@
 """The base of sections of input files, and the types of their values."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, Self, get_args
 
 import numpy as np
 from pydantic import AllowInfNan, BaseModel, BeforeValidator, ConfigDict, Field, Strict
 from pydantic import model_validator as validator_of_model
+from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError
 
 from ...core.columns import hypot
@@ -15,11 +16,10 @@ from .units import unit_of
 
 
 @dataclass(frozen=True)
-class AllowedRange:
-    """The range of a value as text, for the error message."""
+class Remedy:
+    """A remedy for a value out of its range, for the error message."""
 
-    allowed: str  # range, with `{unit}` for the unit
-    remedy: str  # sentence with the remedy for other values
+    text: str
 
 
 def _plain(value: Any) -> Any:
@@ -40,21 +40,31 @@ Number = Annotated[float, BeforeValidator(_plain), Strict(), AllowInfNan(False)]
 
 Flag = Annotated[bool, Strict()]
 
+CHECK_UNIT = Remedy("Check the unit of the value.")
+
 NonNegative = Annotated[
     Number,
     Field(ge=0.0),
-    AllowedRange(
-        "0 {unit} or more", "Remove the minus sign, or enter 0 to leave it out of the model."
-    ),
+    Remedy("Remove the minus sign, or enter 0 to leave it out of the model."),
 ]
 
-Positive = Annotated[
-    Number,
-    Field(gt=0.0),
-    AllowedRange("more than 0 {unit}", "Enter a positive value."),
-]
+Positive = Annotated[Number, Field(gt=0.0), Remedy("Enter a positive value.")]
 
 Triple = Annotated[tuple[Number, Number, Number], BeforeValidator(_three_numbers)]
+
+
+def metadata_of(field: FieldInfo) -> Iterator[Any]:
+    """Yield limits and remedies of the type of a key, and of the types that it consists of."""
+    yield from field.metadata
+    yield from _metadata(field.annotation)
+
+
+def _metadata(annotation: Any) -> Iterator[Any]:
+    for one in getattr(annotation, "__metadata__", ()):
+        yield one
+        yield from getattr(one, "metadata", ())  # of a `Field` below the top
+    for part in get_args(annotation):
+        yield from _metadata(part)
 
 
 def without_direction(axes: Mapping[str, Triple | None], remedy: str) -> list[str]:

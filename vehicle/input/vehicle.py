@@ -8,11 +8,11 @@ from ...core.columns import radians, tan
 from ...core.vectors import Vector, components, unit_vector
 from .places import reverse
 from .section import (
-    AllowedRange,
     Flag,
     NonNegative,
     Number,
     Positive,
+    Remedy,
     Section,
     Triple,
     without_direction,
@@ -22,17 +22,12 @@ from .units import in_metres
 Angle = Annotated[
     Number,
     Field(ge=-45.0, le=45.0),
-    AllowedRange(
-        "-45 {unit} to 45 {unit}",
-        "Enter the angle at design in degrees, with the sign that the file states.",
-    ),
+    Remedy("Enter the angle at design in degrees, with the sign that the file states."),
 ]
 
 
 Share = Annotated[
-    Number,
-    Field(ge=0.0, le=1.0),
-    AllowedRange("0 to 1", "Enter the part of the whole: 0.7 for 70 %."),
+    Number, Field(ge=0.0, le=1.0), Remedy("Enter the part of the whole: 0.7 for 70 %.")
 ]
 
 

@@ -9,7 +9,7 @@ that the first one passes, or takes another branch, is not in the batch.
 
 from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
-from typing import Any, get_args
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +19,7 @@ from ...core.named_types import Array
 from ...core.physical import impossible
 from ...systems.allowed import LengthLimit
 from ..corner.geometry import problems_of_sections
-from ..input.section import Section
+from ..input.section import Section, metadata_of
 from ..kinds import Suspension
 from .corner_equations import equations_of
 from .model import Model
@@ -148,8 +148,7 @@ def _with_columns(section: Any, columns: Mapping[str, BatchNumber]) -> Any:
 
 def _check_range(kind: type[Section], key: str, column: BatchNumber) -> None:
     """Remove suspensions with a value that the field does not allow."""
-    field = kind.model_fields[key]
-    for limit in (*field.metadata, *_metadata(field.annotation)):
+    for limit in metadata_of(kind.model_fields[key]):
         for name, question in _QUESTIONS.items():
             bound = getattr(limit, name, None)
             if bound is not None:
@@ -162,15 +161,6 @@ _QUESTIONS: dict[str, Callable[[Array, float], NDArray[np.bool_]]] = {
     "le": np.less_equal,
     "lt": np.less,
 }
-
-
-def _metadata(annotation: Any) -> Iterator[Any]:
-    """Yield the metadata of an annotation and of its parts."""
-    for one in getattr(annotation, "__metadata__", ()):
-        yield one
-        yield from getattr(one, "metadata", ())  # of a `Field` below the top
-    for part in get_args(annotation):
-        yield from _metadata(part)
 
 
 def _check(suspension: Suspension) -> None:

@@ -21,7 +21,7 @@ from ..corner.structure import (
     Structure,
 )
 from ..input.bodies import Bodies, RigidBody
-from ..input.section import AllowedRange, Number, Section, Triple
+from ..input.section import CHECK_UNIT, Number, Section, Triple
 from ..input.spring import SpringSection
 from ..input.stop import StopSection
 from ..input.units import in_metres
@@ -46,11 +46,7 @@ _SHORTEST = 0.05
 _CLOSE, _MOST_STEPS = 1e-14, 20
 _ARMS, _BEAM = "#4a525a", "#d55e00"
 
-_Rate = Annotated[
-    Number,
-    Field(ge=0.0, le=1e5),
-    AllowedRange("0 {unit} to 100,000 {unit}", "Check the unit of the value."),
-]
+_Rate = Annotated[Number, Field(ge=0.0, le=1e5), CHECK_UNIT]
 
 
 # -- the file -------------------------------------------------------------------------------------

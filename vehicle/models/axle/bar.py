@@ -20,7 +20,7 @@ from pydantic import Field
 from ....core.named_types import Array
 from ....core.vectors import angle_between_lines, cross, distance_from_line, unit_vector
 from ...input.hardpoints import SMALLEST_CROSS_ANGLE, SMALLEST_DISTANCE
-from ...input.section import AllowedRange, NonNegative, Number, Section, Triple
+from ...input.section import CHECK_UNIT, NonNegative, Number, Remedy, Section, Triple
 from ...input.units import LengthUnit, in_metres, point_in_metres
 from ..mirror import MIRROR
 
@@ -30,39 +30,12 @@ _RADIANS = pi / 180.0
 # A larger coordinate has the wrong unit [m].
 _LARGEST_COORDINATE = 20.0
 
-_REMEDY = "Check the unit of the value."
-_Rate = Annotated[
-    Number,
-    Field(gt=0.0, le=1e5),
-    AllowedRange("more than 0 {unit}, at most 100,000 {unit}", _REMEDY),
-]
-_Diameter = Annotated[
-    Number,
-    Field(gt=0.0, le=500.0),
-    AllowedRange("more than 0 {unit}, at most 500 {unit}", _REMEDY),
-]
-_Length = Annotated[
-    Number,
-    Field(gt=0.0, le=1e4),
-    AllowedRange("more than 0 {unit}, at most 10,000 {unit}", _REMEDY),
-]
-_Modulus = Annotated[
-    Number,
-    Field(gt=0.0, le=1e3),
-    AllowedRange("more than 0 {unit}, at most 1,000 {unit}", _REMEDY),
-]
-_Stiffness = Annotated[
-    Number,
-    Field(gt=0.0, le=1e7),
-    AllowedRange(
-        "more than 0 {unit}, at most 10,000,000 {unit}", "Leave the key out for a rigid part."
-    ),
-]
-_Twist = Annotated[
-    Number,
-    Field(ge=-60.0, le=60.0),
-    AllowedRange("-60 {unit} to 60 {unit}", "Check its sign and unit."),
-]
+_Rate = Annotated[Number, Field(gt=0.0, le=1e5), CHECK_UNIT]
+_Diameter = Annotated[Number, Field(gt=0.0, le=500.0), CHECK_UNIT]
+_Length = Annotated[Number, Field(gt=0.0, le=1e4), CHECK_UNIT]
+_Modulus = Annotated[Number, Field(gt=0.0, le=1e3), CHECK_UNIT]
+_Stiffness = Annotated[Number, Field(gt=0.0, le=1e7), Remedy("Leave the key out for a rigid part.")]
+_Twist = Annotated[Number, Field(ge=-60.0, le=60.0), Remedy("Check its sign and unit.")]
 
 
 class AntiRollBar(Section):

@@ -12,11 +12,12 @@ from ....core.validator import shown
 from ....core.vectors import Vector, components
 from ...input.messages import messages_of
 from ...input.section import (
-    AllowedRange,
+    CHECK_UNIT,
     Flag,
     NonNegative,
     Number,
     Positive,
+    Remedy,
     Section,
     Triple,
 )
@@ -47,28 +48,15 @@ class CarTyres(Section):
     )
 
 
-_REMEDY = "Check the unit of the value."
 # Ranges of a steering column: beyond them the equations are so stiff that a simulation hardly ends.
 _TwistRate = Annotated[
-    Number,
-    Field(ge=0.01, le=1e4),
-    AllowedRange("0.01 {unit} to 10,000 {unit}", "Leave the section out for a rigid column."),
+    Number, Field(ge=0.01, le=1e4), Remedy("Leave the section out for a rigid column.")
 ]
-_TwistDamping = Annotated[
-    Number, Field(ge=0.0, le=10.0), AllowedRange("0 {unit} to 10 {unit}", _REMEDY)
-]
-_PinionInertia = Annotated[
-    Number, Field(ge=0.0, le=1.0), AllowedRange("0 {unit} to 1 {unit}", _REMEDY)
-]
-_ColumnFriction = Annotated[
-    Number, Field(ge=0.0, le=1e3), AllowedRange("0 {unit} to 1,000 {unit}", _REMEDY)
-]
-_RackFriction = Annotated[
-    Number, Field(ge=0.0, le=1e5), AllowedRange("0 {unit} to 100,000 {unit}", _REMEDY)
-]
-_FrictionVelocity = Annotated[
-    Number, Field(ge=1e-4, le=1.0), AllowedRange("0.0001 {unit} to 1 {unit}", _REMEDY)
-]
+_TwistDamping = Annotated[Number, Field(ge=0.0, le=10.0), CHECK_UNIT]
+_PinionInertia = Annotated[Number, Field(ge=0.0, le=1.0), CHECK_UNIT]
+_ColumnFriction = Annotated[Number, Field(ge=0.0, le=1e3), CHECK_UNIT]
+_RackFriction = Annotated[Number, Field(ge=0.0, le=1e5), CHECK_UNIT]
+_FrictionVelocity = Annotated[Number, Field(ge=1e-4, le=1.0), CHECK_UNIT]
 
 
 class SteeringColumn(Section):

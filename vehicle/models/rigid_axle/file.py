@@ -7,13 +7,9 @@ from pydantic import Field
 from ....core.vectors import Vector
 from ...input.bodies import Bodies, RigidBody
 from ...input.hardpoints import Hardpoints
-from ...input.section import AllowedRange, Number, Section, Triple
+from ...input.section import CHECK_UNIT, Number, Section, Triple
 
-_Rate = Annotated[
-    Number,
-    Field(gt=0.0, le=1e5),
-    AllowedRange("more than 0 {unit}, at most 100,000 {unit}", "Check the unit of the value."),
-]
+_Rate = Annotated[Number, Field(gt=0.0, le=1e5), CHECK_UNIT]
 
 
 class LeftHardpoints(Section):

@@ -21,7 +21,7 @@ from .....core.errors import InputError, KintrafoError
 from .....core.named_types import Array
 from ....assembly.by_wheel import WHEEL, wheel_coordinate
 from ....assembly.equilibrium import equilibrium
-from ....input.section import AllowedRange, Number, Positive
+from ....input.section import Number, Positive, Remedy
 from ..car import DrivingCar
 from ..driven import OF_DRIVER, OF_WHEELS, STEER, STEERING_TORQUE
 from ..result import HandlingResult, quantity
@@ -34,14 +34,10 @@ _MOST_STEPS = 1000
 
 # From tyres of karts to those of trucks; values in bar are outside.
 _Pressure = Annotated[
-    Number,
-    Field(ge=20.0, le=2000.0),
-    AllowedRange("20 {unit} to 2,000 {unit}", "Check the unit of the value: 2.3 bar are 230 kPa."),
+    Number, Field(ge=20.0, le=2000.0), Remedy("Check the unit of the value: 2.3 bar are 230 kPa.")
 ]
 _Friction = Annotated[
-    Number,
-    Field(ge=0.0, le=3.0),
-    AllowedRange("0 to 3", "Enter a coefficient: about 0.8 on dry asphalt."),
+    Number, Field(ge=0.0, le=3.0), Remedy("Enter a coefficient: about 0.8 on dry asphalt.")
 ]
 
 _DESCRIBED = {
