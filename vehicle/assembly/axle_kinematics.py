@@ -7,7 +7,7 @@ import numpy as np
 
 from ...core.errors import InputError
 from ...core.named_types import Array, ArrayLike
-from ..corner.corner import Corner, Vehicle
+from ..corner.corner import Corner
 from ..models.axle import Axle
 from ..models.axle.bar import HalfBar
 from ..models.model import Model
@@ -17,6 +17,7 @@ from ..models.reach import at_rest, height_and_slope
 from ..models.sides import LEFT, RIGHT, SENSE
 from . import motions, wheel
 from .corner_kinematics import corner
+from .two_wheels import TwoWheels
 from .wheel_centre_line import inclination_rate
 
 # The slope of a half's angle over travel is exact; its derivative is a difference of fourth order
@@ -37,7 +38,7 @@ class Half:
 
 
 @dataclass(frozen=True)
-class AxleKinematics:
+class AxleKinematics(TwoWheels):
     """Both wheels of an axle in n positions, the leading dimension of every array."""
 
     axle: Axle
@@ -80,26 +81,6 @@ class AxleKinematics:
             rack=racks,
             per_turn=per_turn,
         )
-
-    @property
-    def end(self) -> str:
-        """The end of the vehicle, 'front' or 'rear'."""
-        return self.axle.end
-
-    @property
-    def vehicles(self) -> tuple[Vehicle, ...]:
-        """The data of the vehicle, the left wheel first."""
-        return tuple(corner.vehicle for corner in self.corners.values())
-
-    @property
-    def left(self) -> Corner:
-        """The left wheel."""
-        return self.corners[LEFT]
-
-    @property
-    def right(self) -> Corner:
-        """The right wheel."""
-        return self.corners[RIGHT]
 
     # -- its anti-roll bar ------------------------------------------------------------------------
 
@@ -149,10 +130,7 @@ class AxleKinematics:
 
     @property
     def rolled(self) -> tuple[Array, Array]:
-        """Travels of both wheels, and lateral motions of both contacts, per roll of the body.
-
-        The wheel centres move oppositely; (n, 2) each, the left wheel first [m/rad].
-        """
+        """Travels of both wheels, and lateral motions of both contacts, per roll [m/rad]."""
         line = self.left.center - self.right.center
         # per travel of the right wheel up and the left one down
         rate = self.left.travel.velocity + self.right.travel.velocity
@@ -163,11 +141,7 @@ class AxleKinematics:
         return travels, np.stack(moved, -1) * travels
 
     def path_slope(self, torque_on: str, side: str) -> Array:
-        """Return the slope v_x / v_z of the path of the point of a longitudinal force [1].
-
-        The point is the contact, fixed to the carrier; the wheel centre if the body reacts the
-        torque.
-        """
+        """Return the slope v_x / v_z of the path of the point of a longitudinal force [1]."""
         corner = self.corners[side]
         on_body = torque_on == "body"
         velocity = corner.travel.velocity if on_body else wheel.contact_velocity(corner)
@@ -176,13 +150,6 @@ class AxleKinematics:
         return slope
 
     # -- steered ----------------------------------------------------------------------------------
-
-    @property
-    def wheelbase(self) -> float:
-        """The wheelbase [m]."""
-        found = self.left.vehicle.wheelbase
-        assert found is not None  # measures that need it are left out if it is not known
-        return found
 
     @property
     def design_track(self) -> float:

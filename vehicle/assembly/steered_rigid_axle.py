@@ -171,26 +171,9 @@ class SteeredRigidAxleKinematics(RigidAxleKinematics):
         return moved
 
     @property
-    def left(self) -> Any:
-        """The left wheel."""
-        return self.corners[LEFT]
-
-    @property
-    def right(self) -> Any:
-        """The right wheel."""
-        return self.corners[RIGHT]
-
-    @property
     def rack(self) -> Array:
         """The displacement of the Pitman arm's ball along its circle, (n,) [m]."""
         return self.parts.inputs[:, self.model.input_names.index("rack_position")]
-
-    @property
-    def wheelbase(self) -> float:
-        """The wheelbase [m]."""
-        found = self.left.vehicle.wheelbase
-        assert found is not None  # measures that need it are left out if it is not known
-        return float(found)
 
     @property
     def design_track(self) -> float:

@@ -16,12 +16,13 @@ import numpy as np
 
 from ...core.named_types import Array
 from ...core.vectors import cross
-from ..corner.corner import CarrierMotion, RoadWheel, Vehicle
+from ..corner.corner import CarrierMotion, RoadWheel
 from ..input.spring_table import rate_at
 from ..models.sides import SIDES
 from ..models.whole_axle import of_side
 from ..models.whole_axle_model import WholeAxleModel
 from .part_poses import CENTER, CONTACT
+from .two_wheels import TwoWheels
 from .wheel import lowest_point_rate
 from .wheel_centre_line import inclination_rate
 from .whole_axle_parts import WholeAxleParts
@@ -38,7 +39,7 @@ class TravellingWheel(RoadWheel):
 
 
 @dataclass(frozen=True)
-class WholeAxleKinematics:
+class WholeAxleKinematics(TwoWheels):
     """An axle without sides at rest in n positions."""
 
     parts: WholeAxleParts
@@ -55,16 +56,6 @@ class WholeAxleKinematics:
     def axle(self) -> Any:
         """The axle."""
         return self.model.axle
-
-    @property
-    def end(self) -> str:
-        """The end of the vehicle, 'front' or 'rear'."""
-        return self.axle.end
-
-    @property
-    def vehicles(self) -> tuple[Vehicle, ...]:
-        """The data of the vehicle for each wheel, the left one first."""
-        return tuple(wheel.vehicle for wheel in self.parts.wheels.values())
 
     @cached_property
     def corners(self) -> dict[str, TravellingWheel]:
@@ -178,10 +169,7 @@ class WholeAxleKinematics:
 
     @cached_property
     def rolled(self) -> tuple[Array, Array]:
-        """Travels of both wheels, and lateral motions of both contacts, per roll of the body.
-
-        The wheel centres move oppositely; (n, 2) each, the left wheel first [m/rad].
-        """
+        """Travels of both wheels, and lateral motions of both contacts, per roll [m/rad]."""
         by_travel = -self.inclination_rate[:, None]
         moved = np.stack([self.contact_in(side, "roll")[:, 1] for side in SIDES], -1)
         return np.array(RISES["roll"]) / by_travel, moved / by_travel
@@ -189,8 +177,7 @@ class WholeAxleKinematics:
     def path_slope(self, torque_on: str, side: str = "") -> Array:
         """Return the slope v_x / v_z of the path of the point of a longitudinal force [1].
 
-        Both wheels rise. The point is the contact, fixed to the carrier of the wheel; it is the
-        wheel centre if `torque_on` is 'body'. Without `side` it is the middle of both sides.
+        Both wheels rise. Without `side` the point is the middle of those of both sides.
         """
         place = self.wheel_center if torque_on == "body" else self.contact
         sides = (side,) if side else SIDES

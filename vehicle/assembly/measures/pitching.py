@@ -9,35 +9,11 @@ Sources: W. F. Milliken and D. L. Milliken, Race Car Vehicle Dynamics, SAE, 1995
 Dixon, Suspension Geometry and Computation, Wiley, 2009 (pitch geometry).
 """
 
-from collections.abc import Sequence
-from typing import Protocol
-
 from ....core.named_types import Array
-from ...corner.corner import Vehicle
-from ...models.axle import Axle
-from ...models.rigid_axle.axle import RigidAxle
+from ..two_wheels import TwoWheels
 
 
-class Pitching(Protocol):
-    """Kinematics in side view: of an `AxleKinematics` or a `WholeAxleKinematics`."""
-
-    @property
-    def axle(self) -> Axle | RigidAxle:
-        """The axle, with the reactions of brakes and drive."""
-
-    @property
-    def end(self) -> str:
-        """The end of the vehicle, 'front' or 'rear'."""
-
-    @property
-    def vehicles(self) -> Sequence[Vehicle]:
-        """The data of the vehicle, by wheel."""
-
-    def path_slope(self, torque_on: str, side: str) -> Array:
-        """Return the slope v_x / v_z of the path of the point of a longitudinal force [1]."""
-
-
-def braking(of: Pitching, side: str = "") -> Array:
+def braking(of: TwoWheels, side: str = "") -> Array:
     """Return anti-dive of a front axle, anti-lift of a rear axle, under braking [1].
 
     `side` is the wheel of an `AxleKinematics`.
@@ -48,13 +24,13 @@ def braking(of: Pitching, side: str = "") -> Array:
     return share * _path(of, side, of.axle.brakes.torque_on)
 
 
-def driving(of: Pitching, side: str = "") -> Array:
+def driving(of: TwoWheels, side: str = "") -> Array:
     """Return anti-lift of a front axle, anti-squat of a rear axle, under drive [1]."""
     assert of.axle.drive is not None
     return of.axle.drive.share * _path(of, side, of.axle.drive.torque_on)
 
 
-def _path(of: Pitching, side: str, torque_on: str) -> Array:
+def _path(of: TwoWheels, side: str, torque_on: str) -> Array:
     """Return (L / h) v_x / v_z, positive if the axle's load falls as the force grows."""
     vehicle = of.vehicles[0]
     assert vehicle.wheelbase is not None

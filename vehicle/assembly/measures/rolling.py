@@ -1,50 +1,21 @@
 """Formulas of track, roll moment and roll stiffness of two wheels.
 
-Each takes `AxleKinematics` or `WholeAxleKinematics` and returns an array over its positions, SI
-units, chassis axes. Forces of the road are vertical and act on the wheels; unsprung weights are
-left out. The stiffness of both wheels is a 2 x 2 matrix K, the left wheel first: the derivative of
-the wheels' forces with respect to their travels. A roll of the body by phi (positive about the x
-axis: right side down) moves the wheels by -y phi, with y the lateral position of each contact, so
-that the stiffness in roll is y' K y.
+Each takes the kinematics of both wheels and returns an array over its positions, SI units, chassis
+axes. Forces of the road are vertical and act on the wheels; unsprung weights are left out. The
+stiffness of both wheels is a 2 x 2 matrix K, the left wheel first: the derivative of the wheels'
+forces with respect to their travels. A roll of the body by phi (positive about the x axis: right
+side down) moves the wheels by -y phi, with y the lateral position of each contact, so that the
+stiffness in roll is y' K y.
 
 Source: W. F. Milliken and D. L. Milliken, Race Car Vehicle Dynamics, SAE, 1995, chapter 16, for any
 stiffness of the two wheels together.
 """
 
-from collections.abc import Sequence
-from typing import Protocol
-
 import numpy as np
 
 from ....core.named_types import Array
-from ...corner.corner import Vehicle
 from ...models.sides import LEFT, RIGHT, SIDES
-
-
-class TwoWheels(Protocol):
-    """Two wheels in n positions: an `AxleKinematics` or a `WholeAxleKinematics`."""
-
-    @property
-    def vehicles(self) -> Sequence[Vehicle]:
-        """The data of the vehicle, by wheel."""
-
-    def contact(self, side: str) -> Array:
-        """Return the lowest point of a wheel, (n, 3) [m]."""
-
-    def wheel_force(self, side: str) -> Array:
-        """Return the vertical force of springs, stops and bar at a wheel, (n,) [N]."""
-
-    @property
-    def springs(self) -> Array:
-        """The stiffness of springs and stops at both wheels, (n, 2, 2) [N/m]."""
-
-    @property
-    def bar(self) -> Array:
-        """The stiffness of the anti-roll bar at both wheels, (n, 2, 2) [N/m]."""
-
-    @property
-    def rolled(self) -> tuple[Array, Array]:
-        """Travels of both wheels, and lateral motion of both contacts, per roll, (n, 2) each."""
+from ..two_wheels import TwoWheels
 
 
 def track(of: TwoWheels) -> Array:
