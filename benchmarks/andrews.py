@@ -62,23 +62,13 @@ _ROUNDS = 15
 
 @dataclass(frozen=True)
 class Solver:
-    """A program with a method.
-
-    Attributes
-    ----------
-    name : str
-    unknowns : int
-        Size of the system that is integrated.
-    compiled : bool
-        Whether no Python runs between the first step and the last, so that a time means something.
-    prepare : callable
-        From a tolerance to a `Run`.
-    """
+    """A program with a method."""
 
     name: str
-    unknowns: int
+    unknowns: int  # size of the system that is integrated
+    # whether no Python runs between the first step and the last, so that a time means something
     compiled: bool
-    prepare: Callable[[float], Run]
+    prepare: Callable[[float], Run]  # from a tolerance to a `Run`
 
 
 @dataclass(frozen=True)

@@ -42,24 +42,13 @@ _STEPS = 30
 
 @dataclass(frozen=True)
 class Peer:
-    """A suspension as Exudyn has it.
+    """A suspension as Exudyn has it."""
 
-    Attributes
-    ----------
-    arms : dict
-        For each arm its ball joint, and how the names of its bearings begin.
-    seated_on : str
-        The part that carries the lower seat of the spring.
-    strut : bool
-        Whether a strut guides the knuckle.
-    links : tuple of str
-        Rods with a bush at either end.
-    """
-
+    # for each arm its ball joint, and how the names of its bearings begin
     arms: Mapping[str, tuple[str, str]]
-    seated_on: str
-    strut: bool = False
-    links: tuple[str, ...] = ()
+    seated_on: str  # part that carries the lower seat of the spring
+    strut: bool = False  # whether a strut guides the knuckle
+    links: tuple[str, ...] = ()  # rods with a bush at either end
 
     def origin(self, part: str) -> str:
         """Return the point at which a part's own axes begin, at design."""

@@ -27,28 +27,15 @@ ROAD = (np.linspace(*SPAN, 101), 0.01 * np.sin(np.linspace(0.0, 25.0, 101)))
 
 @dataclass(frozen=True)
 class Time:
-    """The cost of an ensemble.
+    """The cost of an ensemble."""
 
-    Attributes
-    ----------
-    clock : float
-        [s]
-    cores : float
-        Processor time of all processes, which other programs disturb less [s].
-    """
-
-    clock: float
-    cores: float
+    clock: float  # [s]
+    cores: float  # processor time of all processes, which other programs disturb less [s]
 
 
 @dataclass(frozen=True)
 class Pair:
-    """The same ensemble by both ways, one after the other.
-
-    Attributes
-    ----------
-    threads, workers : Time
-    """
+    """The same ensemble by both ways, one after the other."""
 
     threads: Time
     workers: Time

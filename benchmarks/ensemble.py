@@ -62,43 +62,24 @@ VARIED = ("spring_rate", "damper_rate", "tyre_rate")
 
 @dataclass(frozen=True)
 class Call:
-    """Time of one right-hand side.
+    """Time of one right-hand side."""
 
-    Attributes
-    ----------
-    lanes : int
-        1: the function of one state.
-    nanoseconds : float
-        For one car, the least of the repetitions.
-    """
-
-    lanes: int
-    nanoseconds: float
+    lanes: int  # 1: the function of one state
+    nanoseconds: float  # for one car, the least of the repetitions
 
 
 @dataclass(frozen=True)
 class Rate:
-    """How fast many cars are simulated.
-
-    Attributes
-    ----------
-    what : str
-    cars, threads : int
-        Threads, or processes.
-    setting : str
-        Tolerance, or number of steps.
-    error : float
-        Greatest of the arm angles [rad].
-    seconds, processor_seconds : float
-        On the clock, and of all processor cores together: the least of the repetitions. What other
-        programs take is in the first.
-    """
+    """How fast many cars are simulated."""
 
     what: str
+    # threads, or processes
     cars: int
     threads: int
-    setting: str
-    error: float
+    setting: str  # tolerance, or number of steps
+    error: float  # greatest of the arm angles [rad]
+    # on the clock, and of all processor cores together: the least of the repetitions. What other
+    # programs take is in the first.
     seconds: float
     processor_seconds: float
 

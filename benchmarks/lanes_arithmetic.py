@@ -33,12 +33,7 @@ FORMS = ("p{} *= one;", "s{} += one;", "q{} = one / q{};", "r{} = root(r{});")
 
 @dataclass(frozen=True)
 class Operations:
-    """How many vectors are computed by each kind of operation.
-
-    Attributes
-    ----------
-    products, sums, quotients, roots : int
-    """
+    """How many vectors are computed by each kind of operation."""
 
     products: int
     sums: int

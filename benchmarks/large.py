@@ -30,30 +30,20 @@ WEIGHTS = (672.0, -168.0, 32.0, -3.0)
 
 @dataclass(frozen=True)
 class Large:
-    """What a large mechanism costs.
-
-    Attributes
-    ----------
-    title : str
-    operations, jacobian_operations : int
-        Of one call of ``rhs`` (of a block that iterates, of one iteration) and of ``rhs_jacobian``.
-    derive, write, compile : float
-        Processor time of the derivation, of writing the C, and of the C compiler [s].
-    call, jacobian_call : float
-        Processor time of one call of ``rhs`` and of ``rhs_jacobian`` [s].
-    error : float
-        Of the Jacobian, as a part of its greatest element.
-    """
+    """What a large mechanism costs."""
 
     title: str
+    # of one call of `rhs` (of a block that iterates, of one iteration) and of `rhs_jacobian`
     operations: int
     jacobian_operations: int
+    # processor time of the derivation, of writing the C, and of the C compiler [s]
     derive: float
     write: float
     compile: float
+    # processor time of one call of `rhs` and of `rhs_jacobian` [s]
     call: float
     jacobian_call: float
-    error: float
+    error: float  # of the Jacobian, as a part of its greatest element
 
 
 def measure(model: Formulation, compiler: Compiler, rounds: int, reach: float) -> Large:

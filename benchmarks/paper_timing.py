@@ -50,30 +50,16 @@ CONTENDERS = (
 
 @dataclass(frozen=True)
 class Case:
-    """The motion of the paper: one second from 0.325 m, the wheel spinning at 14.8 rev/s.
-
-    Attributes
-    ----------
-    model : Model
-    start : ndarray
-        Initial state.
-    inputs : ndarray
-        Held at zero.
-    eigenvalues : ndarray
-        At rest [1/s].
-    times, reference : ndarray
-        Where errors are taken [s], and the arm angle there [rad].
-    amplitude : float
-        Greatest distance of the arm angle from its value at rest [rad].
-    """
+    """The motion of the paper: one second from 0.325 m, the wheel spinning at 14.8 rev/s."""
 
     model: Model
-    start: Array
-    inputs: Array
-    eigenvalues: NDArray[np.complex128]
+    start: Array  # initial state
+    inputs: Array  # held at zero
+    eigenvalues: NDArray[np.complex128]  # at rest [1/s]
+    # where errors are taken [s], and the arm angle there [rad]
     times: Array
     reference: Array
-    amplitude: float
+    amplitude: float  # greatest distance of the arm angle from its value at rest [rad]
 
     def error(self, arm_angle: Array) -> float:
         """Return the greatest error of the arm angle at `times`, as a part of the amplitude."""
@@ -164,60 +150,35 @@ def native_call(
 
 @dataclass(frozen=True)
 class Entry:
-    """One method of the protocol.
-
-    Attributes
-    ----------
-    method : str
-    stops : bool
-        Whether it steps onto every output; it interpolates otherwise.
-    steps, evaluations, jacobians, factorisations, error_test_failures : int
-    error : float
-        Of the arm angle, as a part of its amplitude.
-    integration : Timing
-        In C, from the first step to the last output.
-    simulate : Timing
-        What a user of `simulate` waits for: with the physical signals at every output.
-    """
+    """One method of the protocol."""
 
     method: str
-    stops: bool
+    stops: bool  # whether it steps onto every output; it interpolates otherwise
     steps: int
     evaluations: int
     jacobians: int
     factorisations: int
     error_test_failures: int
-    error: float
-    integration: Timing
+    error: float  # of the arm angle, as a part of its amplitude
+    integration: Timing  # in C, from the first step to the last output
+    # what a user of `simulate` waits for: with the physical signals at every output
     simulate: Timing
 
 
 @dataclass(frozen=True)
 class PaperTiming:
-    """The result of the protocol.
-
-    Attributes
-    ----------
-    rtol, atol, output_interval : float
-    outputs : int
-        Number of outputs after the initial state.
-    entries : list of Entry
-        The first two are the paper's: Runge-Kutta, and Gear.
-    time_ratio, simulate_ratio, evaluation_ratio : float
-        Of these two.
-    paper_ratio : float
-        Of the times that the paper gives.
-    """
+    """The result of the protocol."""
 
     rtol: float
     atol: float
     output_interval: float
-    outputs: int
-    entries: list[Entry]
+    outputs: int  # number of outputs after the initial state
+    entries: list[Entry]  # the first two are the paper's: Runge-Kutta, and Gear
+    # of the first two entries
     time_ratio: float
     simulate_ratio: float
     evaluation_ratio: float
-    paper_ratio: float
+    paper_ratio: float  # of the times that the paper gives
 
 
 def measure(

@@ -30,14 +30,7 @@ NO_SUNDIALS = (
 
 @dataclass(frozen=True)
 class Timing:
-    """Processor time of repetitions of the same work.
-
-    Attributes
-    ----------
-    least, median, most : float
-        [s]
-    repeats : int
-    """
+    """Processor times of repetitions of the same work [s]."""
 
     least: float
     median: float

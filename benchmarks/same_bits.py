@@ -39,23 +39,13 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 
 @dataclass(frozen=True)
 class Way:
-    """How a program is compiled and run.
-
-    Attributes
-    ----------
-    name : str
-    compiler : tuple of str
-        With what differs of its options.
-    runner : tuple of str
-        Command that runs the program, such as an emulator; empty for none.
-    older : bool
-        Whether it sees a processor of 2008.
-    """
+    """How a program is compiled and run."""
 
     name: str
-    compiler: tuple[str, ...]
+    compiler: tuple[str, ...]  # with what differs of its options
+    # command that runs the program, such as an emulator; empty for none
     runner: tuple[str, ...] = ()
-    older: bool = False
+    older: bool = False  # whether it sees a processor of 2008
 
     @property
     def there(self) -> bool:

@@ -74,17 +74,10 @@ class Point:
 
 @dataclass(frozen=True)
 class Stiffness:
-    """How fast the model's own motions are, against the steps that accuracy asks for.
+    """How fast the model's own motions are, against the steps that accuracy asks for."""
 
-    Attributes
-    ----------
-    eigenvalues : ndarray
-        At rest [1/s].
-    stable_step : float
-        Longest step at which Dormand-Prince's formula is stable for all of them [s].
-    """
-
-    eigenvalues: NDArray[np.complex128]
+    eigenvalues: NDArray[np.complex128]  # at rest [1/s]
+    # longest step at which Dormand-Prince's formula is stable for all of them [s]
     stable_step: float
 
 

@@ -43,24 +43,12 @@ def missing() -> list[str]:
 
 @dataclass(frozen=True)
 class Measured:
-    """Output of the board.
+    """Output of the board."""
 
-    Attributes
-    ----------
-    bits : list of str
-        A line for each function in each state: status, and results in hexadecimal.
-    instructions : dict of str to int
-        Of a call; ``thousand`` is one of a thousand instructions.
-    stack : dict of str to int
-        Bytes that a call takes of it.
-    code : int
-        Bytes of these functions and of all constants.
-    """
-
-    bits: list[str]
-    instructions: dict[str, int]
-    stack: dict[str, int]
-    code: int
+    bits: list[str]  # a line for each function in each state: status, and results in hexadecimal
+    instructions: dict[str, int]  # of a call; `thousand` is one of a thousand instructions
+    stack: dict[str, int]  # bytes that a call takes of it
+    code: int  # bytes of these functions and of all constants
 
 
 class Program:

@@ -40,14 +40,9 @@ _RATE, _FREE = 4530.0, 0.07785
 
 @dataclass(frozen=True)
 class Squeezer:
-    """Unknowns and equations as symbols.
+    """Unknowns and equations as symbols."""
 
-    Attributes
-    ----------
-    angles, rates, accelerations, multipliers
-        Vectors of 7, 7, 7 and 6 symbols.
-    """
-
+    # vectors of 7, 7, 7 and 6 symbols
     angles: Any
     rates: Any
     accelerations: Any

@@ -31,24 +31,12 @@ MASSIVE = (ARM, KNUCKLE, WHEEL)
 
 @dataclass(frozen=True)
 class Instant:
-    """A state and what the independent reference says about it.
+    """A state and what the independent reference says about it."""
 
-    Attributes
-    ----------
-    state : ndarray, shape (4,)
-        beta1 (rad), wheel spin (rad), beta1 rate, spin rate (rad/s).
-    pose : Pose
-        Of the bodies.
-    twist : ndarray, shape (6, 6)
-        Velocities of centres of mass, angular velocities, chassis axes.
-    acceleration : ndarray, shape (2,)
-        Second derivatives of beta1 and spin, rad/s².
-    """
-
-    state: Array
-    pose: Pose
-    twist: Array
-    acceleration: Array
+    state: Array  # beta1 (rad), wheel spin (rad), beta1 rate, spin rate (rad/s), (4,)
+    pose: Pose  # of the bodies
+    twist: Array  # velocities of centres of mass, angular velocities, chassis axes, (6, 6)
+    acceleration: Array  # second derivatives of beta1 and spin, rad/s², (2,)
 
 
 @cache

@@ -104,31 +104,19 @@ _POINTER = ctypes.POINTER(ctypes.c_double)
 
 @dataclass(frozen=True)
 class Source:
-    """C (or C++) of one peer's right-hand side.
+    """C (or C++) of one peer's right-hand side."""
 
-    Attributes
-    ----------
-    name : str
-        Of the file.
-    code : str
-        Defines ``static void rhs(const double *p, const double *x, double *out)`` after `HEAD`.
-    states, outputs : int
-        Lengths of ``x`` and ``out``.
-    fed_back : slice
-        The outputs whose sum is added, times 1e-30, to each state of the dependent loop.
-    is_derivative : bool
-        Whether ``out`` is the derivative of ``x`` and beta1 comes first, so that it can be
-        integrated as it is.
-    compiler, options : str, tuple of str
-        What compiles it, and its further options.
-    """
-
-    name: str
+    name: str  # of the file
+    # defines `static void rhs(const double *p, const double *x, double *out)` after `HEAD`
     code: str
+    # lengths of `x` and `out`
     states: int
     outputs: int
-    fed_back: slice
+    fed_back: slice  # outputs whose sum is added, times 1e-30, to each state of the dependent loop
+    # whether `out` is the derivative of `x` and beta1 comes first, so that it can be integrated as
+    # it is
     is_derivative: bool = False
+    # what compiles it, and its further options
     compiler: str = "gcc"
     options: tuple[str, ...] = ()
 
@@ -153,21 +141,11 @@ HEAD = """
 
 @dataclass
 class Library:
-    """A compiled peer.
+    """A compiled peer."""
 
-    Attributes
-    ----------
-    source : Source
-        What it was made of.
-    parameters : ndarray
-        Passed to every call.
-    compile_seconds : float
-        Time that the compiler took.
-    """
-
-    source: Source
-    parameters: Array
-    compile_seconds: float
+    source: Source  # what it was made of
+    parameters: Array  # passed to every call
+    compile_seconds: float  # time that the compiler took
     _library: ctypes.CDLL = field(repr=False)
 
     def __call__(self, state: Array) -> Array:

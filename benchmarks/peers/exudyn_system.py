@@ -20,21 +20,11 @@ exu.config.printToConsole = False
 
 @dataclass(frozen=True)
 class Setting:
-    """Settings of the integration by the generalised-alpha method.
+    """Settings of the integration by the generalised-alpha method."""
 
-    Attributes
-    ----------
-    steps : int
-        Number of steps of a simulation.
-    spectral_radius : float
-        Of the generalised-alpha method at infinite frequency.
-    modified_newton : bool
-        Whether the Jacobian is kept from step to step.
-    """
-
-    steps: int
-    spectral_radius: float = 0.9
-    modified_newton: bool = False
+    steps: int  # number of steps of a simulation
+    spectral_radius: float = 0.9  # of the generalised-alpha method at infinite frequency
+    modified_newton: bool = False  # whether the Jacobian is kept from step to step
 
     def __str__(self) -> str:
         return f"{self.steps} steps"

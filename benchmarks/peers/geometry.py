@@ -15,48 +15,24 @@ from .case import ARM, KNUCKLE, Array, car
 
 @dataclass(frozen=True)
 class Constants:
-    """Prepared geometry and inertia of the reference car, SI units.
+    """Prepared geometry and inertia of the reference car, SI units."""
 
-    Attributes
-    ----------
-    arm_radius : float
-        Distance of the ball joint from the hinge.
-    strut_top, tie_rod_inner : ndarray, shape (3,)
-        Fixed points, hinge frame.
-    up : ndarray, shape (3,)
-        Vertical, hinge frame.
-    foot_height : float
-        Height of the frame's origin above the ground.
-    rod : ndarray, shape (2,)
-        Outer end of the tie rod in the strut frame; its third component is zero.
-    rod_length_squared : float
-        Of the tie rod.
-    branch : float
-        Sign of the closed form's root.
-    wheel, spin_axis, knuckle_com : ndarray, shape (3,)
-        Strut frame.
-    knuckle_inertia : ndarray, shape (3, 3)
-        About its centre of mass, strut frame.
-    arm_com : ndarray, shape (3,)
-        Along the hinge, along the lever, across (hinge x lever).
-    arm_inertia : ndarray, shape (3, 3)
-        About its centre of mass in these axes.
-    """
-
-    arm_radius: float
+    arm_radius: float  # distance of the ball joint from the hinge
+    # fixed points, hinge frame, (3,)
     strut_top: Array
     tie_rod_inner: Array
-    up: Array
-    foot_height: float
-    rod: Array
-    rod_length_squared: float
-    branch: float
+    up: Array  # vertical, hinge frame, (3,)
+    foot_height: float  # height of the frame's origin above the ground
+    rod: Array  # outer end of the tie rod in the strut frame; its third component is zero, (2,)
+    rod_length_squared: float  # of the tie rod
+    branch: float  # sign of the closed form's root
+    # strut frame, (3,)
     wheel: Array
     spin_axis: Array
     knuckle_com: Array
-    knuckle_inertia: Array
-    arm_com: Array
-    arm_inertia: Array
+    knuckle_inertia: Array  # about its centre of mass, strut frame, (3, 3)
+    arm_com: Array  # along the hinge, along the lever, across (hinge x lever), (3,)
+    arm_inertia: Array  # about its centre of mass in these axes, (3, 3)
 
 
 def strut_frame() -> Array:

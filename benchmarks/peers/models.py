@@ -14,53 +14,27 @@ from .compiled import FLAGS, Source
 
 @dataclass(frozen=True)
 class Built:
-    """A right-hand side ready to be compiled.
+    """A right-hand side ready to be compiled."""
 
-    Attributes
-    ----------
-    source : Source
-        Its C or C++.
-    constants : ndarray
-        Passed to every call.
-    state : callable
-        From an `Instant` to the peer's own state.
-    accelerations : callable
-        From an `Instant` and the peer's output to the second derivatives of beta1 and spin.
-    derive_seconds, generate_seconds : float
-        Time to set up the equations and to write the code.
-    """
-
-    source: Source
-    constants: Array
-    state: Callable[[Instant], Array]
+    source: Source  # C or C++
+    constants: Array  # passed to every call
+    state: Callable[[Instant], Array]  # from an `Instant` to the peer's own state
+    # from an `Instant` and the peer's output to the second derivatives of beta1 and spin
     accelerations: Callable[[Instant, Array], Array]
+    # time to set up the equations and to write the code
     derive_seconds: float
     generate_seconds: float
 
 
 @dataclass(frozen=True)
 class Candidate:
-    """A right-hand side by name.
+    """A right-hand side by name."""
 
-    Attributes
-    ----------
-    name : str
-        Tool and formulation.
-    parameters : str
-        ``inputs``, ``literal`` (numbers in the code) or ``data`` (of a run-time model).
-    needs : tuple of str
-        Packages without which it is skipped.
-    make : callable
-        Returns a `Built`.
-    flags : tuple of str
-        Names of the compiler flags that it is compiled with.
-    """
-
-    name: str
-    parameters: str
-    needs: tuple[str, ...]
-    make: Callable[[], Built]
-    flags: tuple[str, ...] = tuple(FLAGS)
+    name: str  # tool and formulation
+    parameters: str  # `inputs`, `literal` (numbers in the code) or `data` (of a run-time model)
+    needs: tuple[str, ...]  # packages without which it is skipped
+    make: Callable[[], Built]  # returns a `Built`
+    flags: tuple[str, ...] = tuple(FLAGS)  # names of the compiler flags that it is compiled with
 
     @property
     def missing(self) -> list[str]:

@@ -23,21 +23,11 @@ TOLERANCES: Array = 10.0 ** -np.arange(4.0, 11.1, 0.25)
 
 @dataclass(frozen=True)
 class Simulator:
-    """One way to simulate the second.
+    """One way to simulate the second."""
 
-    Attributes
-    ----------
-    name : str
-        Tool and method.
-    settings : tuple
-        From loose to tight.
-    prepare : callable
-        From a setting to a `Run`; its time is build time.
-    """
-
-    name: str
-    settings: tuple[Any, ...]
-    prepare: Callable[[Any], Run]
+    name: str  # tool and method
+    settings: tuple[Any, ...]  # from loose to tight
+    prepare: Callable[[Any], Run]  # from a setting to a `Run`; its time is build time
 
 
 def kintrafo(method: str) -> Simulator:

@@ -29,52 +29,32 @@ Report = Callable[[str], None]
 
 @dataclass
 class Evaluation:
-    """Measured times of one compiled right-hand side.
-
-    Attributes
-    ----------
-    name, parameters, flags : str
-        Which.
-    error : float
-        Of the accelerations against the reference, see `acceleration_error`.
-    derive_seconds, generate_seconds, compile_seconds : float
-        Build time by phase.
-    nanoseconds : dict
-        By kind of loop: ``least`` and ``median`` over the rounds.
-    """
+    """Measured times of one compiled right-hand side."""
 
     name: str
     parameters: str
     flags: str
-    error: float
+    error: float  # of the accelerations against the reference, see `acceleration_error`
+    # build time by phase
     derive_seconds: float
     generate_seconds: float
     compile_seconds: float
+    # by kind of loop: `least` and `median` over the rounds
     nanoseconds: dict[str, dict[str, float]] = field(default_factory=dict)
 
 
 @dataclass
 class Second:
-    """Measured time of the second of simulation.
+    """Measured time of the second of simulation."""
 
-    Attributes
-    ----------
-    name, setting : str
-        Tool and method, and the loosest setting that was accurate enough.
-    error : float
-        Of the arm angle, rad.
-    least_milliseconds, median_milliseconds : float
-        Of the run.
-    build_seconds : float
-        To prepare the run.
-    """
-
+    # tool and method, and the loosest setting that was accurate enough
     name: str
     setting: str
-    error: float
+    error: float  # of the arm angle, rad
+    # of the run
     least_milliseconds: float
     median_milliseconds: float
-    build_seconds: float
+    build_seconds: float  # to prepare the run
 
 
 @dataclass(frozen=True)
@@ -183,25 +163,14 @@ def _count(entry: Entry) -> int:
 
 @dataclass(frozen=True)
 class Contender:
-    """A simulator at the loosest setting that is accurate enough.
+    """A simulator at the loosest setting that is accurate enough."""
 
-    Attributes
-    ----------
-    name, setting : str
-        See `Second`.
-    error : float
-        Of the arm angle, rad.
-    build_seconds : float
-        To prepare the run.
-    run : callable
-        Simulates the second.
-    """
-
+    # see `Second`
     name: str
     setting: str
-    error: float
-    build_seconds: float
-    run: Run
+    error: float  # of the arm angle, rad
+    build_seconds: float  # to prepare the run
+    run: Run  # simulates the second
 
 
 def loosest(simulator: Simulator) -> Contender:
