@@ -11,9 +11,7 @@ import numpy as np
 from kintrafo.generated import macpherson, macpherson_free_rack, macpherson_general
 from oracle.constraints import BODIES, Array, Pose
 from oracle.multipliers import (
-    ReducedEquations,
     Solution,
-    reduced_equations,
     solve_free,
     solve_prescribed,
 )
@@ -81,12 +79,6 @@ class Instant:
             inputs["rack_acceleration"] = self.rack_acceleration
             return solve_prescribed(car, pose, *rates, **inputs)
         return solve_free(car, pose, *rates, rack_force=self.rack_force, **inputs)
-
-    def reduced(self, car: Mechanism) -> ReducedEquations:
-        """Project the equations of motion with the oracle."""
-        rates = self.beta1_rate, self.spin_rate, self.rack_rate
-        inputs = self.road_and_strut() | {"rack_force": self.rack_force}
-        return reduced_equations(car, self.pose(car), *rates, **inputs)
 
     def road_and_strut(self) -> dict[str, float]:
         """Return the inputs that all models share, in the words of the oracle."""

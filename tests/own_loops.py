@@ -127,9 +127,7 @@ def bennett_ratio(twist: float, other: float) -> float:
     return float(np.sin((other + twist) / 2) / np.sin((other - twist) / 2))
 
 
-BENNETT_TWISTS = 0.6, 1.3
-BENNETT_ANGLE = 1.0
-BENNETT = bennett(0.3, *BENNETT_TWISTS, BENNETT_ANGLE)
+BENNETT = bennett(0.3, 0.6, 1.3, 1.0)
 
 
 # -- loops that hold each other -------------------------------------------------------------------

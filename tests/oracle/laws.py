@@ -6,7 +6,6 @@ how fast they approach, in m/s, positive in bump.
 
 from collections.abc import Callable
 from functools import lru_cache
-from itertools import pairwise
 
 import numpy as np
 from scipy.interpolate import PPoly
@@ -39,24 +38,6 @@ def _spring(parameters: Parameters) -> Callable[[float], float]:
     rate, free = parameters["spring_rate"], parameters["spring_free_length"]
     curve = _curve(parameters, "spring_table", -1.0)
     return lambda length: rate * (free - length) + curve(-length)
-
-
-_RULE = np.polynomial.legendre.leggauss(3)
-
-
-def spring_energy(parameters: Parameters, length: float) -> float:
-    """Return what the spring has stored, J: zero at its free length."""
-    # both are integrated from there, over the pieces of the curve, by a rule exact for cubics
-    free = parameters["spring_free_length"]
-    knots = [parameters[f"spring_table_knot_{i}"] for i in range(DAMPER_SEGMENTS + 1)]
-    low, high = sorted((free, length))
-    ends = np.unique(np.clip([low, *knots, high], low, high))
-    (at, weights), force = _RULE, _spring(parameters)
-    pieces = [
-        0.5 * (b - a) * weights @ [force(0.5 * (a + b + (b - a) * x)) for x in at]
-        for a, b in pairwise(ends)
-    ]
-    return float(np.sign(free - length) * np.sum(pieces))
 
 
 def _curve(parameters: Parameters, name: str, sense: float) -> Callable[[float], float]:
@@ -118,15 +99,6 @@ def stop_force(parameters: Parameters, side: str, length: float) -> float:
         return 0.0
     rate, cubic = (parameters[f"{side}_stop_{name}"] for name in ("rate", "progression"))
     return float(sense * np.polyval([cubic, 0.0, rate, 0.0], depth))
-
-
-def stop_energy(parameters: Parameters, side: str, length: float) -> float:
-    """Return what the ``bump`` or ``rebound`` stop has stored, J."""
-    depth, _ = _depth(parameters, side, length)
-    if depth < 0.0:
-        return 0.0
-    rate, cubic = (parameters[f"{side}_stop_{name}"] for name in ("rate", "progression"))
-    return float(np.polyval(np.polyint([cubic, 0.0, rate, 0.0]), depth))
 
 
 def _depth(parameters: Parameters, side: str, length: float) -> tuple[float, float]:

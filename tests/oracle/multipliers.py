@@ -15,24 +15,20 @@ along the unit rack axis). Units are SI, world axes are the chassis axes. Twists
 (velocity of the centre of mass, angular velocity) and (force, moment about the centre of mass).
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
-from scipy.integrate import solve_ivp
 
 from oracle.constraints import ARM, KNUCKLE, RACK, UPPER_STRUT, WHEEL, Array, Pose
 from oracle.laws import (
     damper_force,
     friction_force,
-    spring_energy,
     spring_force,
-    stop_energy,
     stop_force,
     tyre_load,
 )
-from oracle.newton import Z_AXIS, Mechanism, observe, solve_pose
+from oracle.newton import Z_AXIS, Mechanism, observe
 
 CAUSES = (
     "gravity",
@@ -46,8 +42,6 @@ CAUSES = (
     "rack",
 )
 """Forces that do work on the moving bodies."""
-
-RackMotion = Callable[[float], tuple[float, float, float]]
 
 
 @dataclass(frozen=True)
@@ -64,32 +58,15 @@ class Solution:
         body in the order of `oracle.constraints.BODIES`.
     multipliers : ndarray, shape (33,) or (34,)
         Of the joints' equations, and of the rack's motion if prescribed: N and N m.
-    rack_drive_force : float
-        Force along the rack axis on the rack that makes it move as prescribed, N; zero where the
-        rack is free.
     strut_slide_rate : float
         Rate of beta2, m/s, positive in bump.
-    kinetic_energy : float
-        In J.
-    potential_energy : dict of float
-        Of ``gravity`` (zero at z = 0), ``spring``, ``bump_stop``, ``rebound_stop`` and ``tyre``
-        (half the rate times the square of the vertical deflection), J.
-    power : dict of float
-        Of all that does work on the moving bodies, W: the causes of `applied_wrenches`, ``rack``
-        being the force on the rack, driving or given. The kinetic energy grows at the rate of their
-        sum. Only those of gravity, spring and stops are minus the rates of the potential energies;
-        the tyre is not since its force has a part across the wheel's travel.
     """
 
     coordinate_accelerations: Array
     twist: Array
     acceleration: Array
     multipliers: Array
-    rack_drive_force: float
     strut_slide_rate: float
-    kinetic_energy: float
-    potential_energy: dict[str, float]
-    power: dict[str, float]
 
     @property
     def beta1_acceleration(self) -> float:
@@ -275,112 +252,6 @@ def reduced_equations(
     )
 
 
-@dataclass(frozen=True)
-class Trajectory:
-    """A motion in time.
-
-    Attributes
-    ----------
-    time : ndarray, shape (n,)
-        In s.
-    coordinates, rates : ndarray, shape (n, 3)
-        beta1, spin, rack displacement, rad, rad, m, and their time derivatives.
-    work : ndarray, shape (n,)
-        Work done on the moving bodies since the start, J.
-    poses, solutions : list
-        At the times.
-    """
-
-    time: Array
-    coordinates: Array
-    rates: Array
-    work: Array
-    poses: list[Pose]
-    solutions: list[Solution]
-
-
-def _at_rest(_time: float) -> tuple[float, float, float]:
-    """Hold the rack at design."""
-    return 0.0, 0.0, 0.0
-
-
-def simulate(
-    mechanism: Mechanism,
-    time: npt.ArrayLike,
-    coordinates: tuple[float, float, float],
-    rates: tuple[float, float, float],
-    *,
-    rack_motion: RackMotion | None = _at_rest,
-    rtol: float = 1e-12,
-    **inputs: Callable[[float], float],
-) -> Trajectory:
-    """Integrate the independent coordinates with DOP853.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        The suspension.
-    time : array_like, shape (n,)
-        Increasing times at which the result is wanted, the first is the start, s.
-    coordinates, rates : tuple of float
-        Initial beta1, spin and rack displacement and their rates; the rack's are only used where
-        the rack is free.
-    rack_motion : callable or None
-        Displacement, velocity and acceleration of the rack over time; None for a free rack.
-    rtol : float
-        Relative tolerance; the absolute tolerances are the same for angles and rates, and a
-        hundredth of it for the rack.
-    inputs : callable
-        Those of `applied_wrenches` over time; `rack_force` only for a free rack.
-    """
-    times = np.asarray(time, dtype=float)
-    nearby = mechanism.design
-
-    def instant(t: float, state: Array) -> tuple[Pose, Solution, float, float]:
-        nonlocal nearby
-        beta1, spin, rack, beta1_rate, spin_rate, rack_rate = state[:6]
-        acceleration = None
-        if rack_motion is not None:
-            rack, rack_rate, acceleration = rack_motion(t)
-        pose = nearby = solve_pose(mechanism, beta1, rack, spin, nearby)
-        twist = solve_twist(mechanism, pose, beta1_rate, spin_rate, rack_rate)
-        now = {name: value(t) for name, value in inputs.items()}
-        return pose, _solve(mechanism, pose, twist, now, acceleration), rack, rack_rate
-
-    def derivative(t: float, state: Array) -> Array:
-        _, solution, _, _ = instant(t, state)
-        change = np.concatenate(
-            (state[3:6], solution.coordinate_accelerations, [sum(solution.power.values())])
-        )
-        if rack_motion is not None:
-            change[[2, 5]] = 0.0
-        return change
-
-    initial = np.array([*coordinates, *rates, 0.0])
-    tolerance = rtol * np.array([1.0, 1.0, 0.01, 1.0, 1.0, 0.01, 100.0])
-    result = solve_ivp(
-        derivative,
-        (times[0], times[-1]),
-        initial,
-        method="DOP853",
-        t_eval=times,
-        rtol=rtol,
-        atol=tolerance,
-    )
-    if not result.success:
-        raise RuntimeError(result.message)
-    instants = [instant(t, state) for t, state in zip(times, result.y.T, strict=True)]
-    rack_states = np.array([(rack, rate) for _, _, rack, rate in instants])
-    return Trajectory(
-        time=times,
-        coordinates=np.column_stack((result.y[:2].T, rack_states[:, 0])),
-        rates=np.column_stack((result.y[3:5].T, rack_states[:, 1])),
-        work=result.y[6],
-        poses=[pose for pose, _, _, _ in instants],
-        solutions=[solution for _, solution, _, _ in instants],
-    )
-
-
 def _square(mechanism: Mechanism, pose: Pose) -> Array:
     """Return the joints' Jacobian with the rate rows below it, shape (36, 36)."""
     _, constraint = mechanism.joints.evaluate(pose)
@@ -443,31 +314,12 @@ def _solve(
     # relative angular velocity is along it.
     coordinate_accelerations = rows @ unknowns[:36]
 
-    drive_force = 0.0
-    power = {cause: float(np.sum(wrench * twist)) for cause, wrench in wrenches.items()}
-    if rack_acceleration is not None:
-        drive_force = float(-multipliers[-1])
-        power["rack"] += drive_force * float(mechanism.rack_axis @ twist[RACK - 1, :3])
-
-    given = mechanism.parameters
-    seen = observe(mechanism, pose)
-    height = pose.position[WHEEL - 1, 2] - inputs.get("road_height", 0.0)
     return Solution(
         coordinate_accelerations=coordinate_accelerations,
         twist=twist,
         acceleration=acceleration,
         multipliers=multipliers,
-        rack_drive_force=drive_force,
         strut_slide_rate=_slide_rate(mechanism, pose, twist),
-        kinetic_energy=float(0.5 * twist.ravel() @ mass @ twist.ravel()),
-        potential_energy={
-            "gravity": float(given["gravity"] * mechanism.masses @ pose.position[:, 2]),
-            "spring": spring_energy(given, seen.spring_length),
-            "bump_stop": stop_energy(given, "bump", seen.strut_length),
-            "rebound_stop": stop_energy(given, "rebound", seen.strut_length),
-            "tyre": 0.5 * given["tyre_rate"] * float(height - given["tyre_free_height"]) ** 2,
-        },
-        power=power,
     )
 
 

@@ -1,16 +1,12 @@
 """Loops without a closed form: the block that iterates, what surrounds it, and what is refused.
 
-The oracles: a multi-link suspension that is a double wishbone in disguise, against the closed form
-of the double wishbone; SciPy's root finder on the lengths of the rods, followed from the design
-position on; maximal coordinates; and the program itself in 50 digits.
+The oracles: maximal coordinates, and the program itself in 50 digits.
 """
 
 from __future__ import annotations
 
-import re
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
-from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -34,13 +30,10 @@ from kintrafo.generator.planning.plan import CataloguePlan
 from kintrafo.generator.program import ConstantStage, Program
 from kintrafo.generator.program.newton import adjugate
 from own_models import Built, needs_gcc, own
-from scipy.integrate import solve_ivp
-from scipy.optimize import root
-from scipy.spatial.transform import Rotation
 from symbolic import constants_of, derivatives_of, python
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable
 
     from oracle.constraints import Array
 
@@ -67,7 +60,7 @@ def built() -> Callable[[str], Built]:
     @cache
     def found(name: str) -> Built:
         model = BY_NAME[name]
-        return Built.of(model, own(model, derivatives=name in DIFFERENTIATED))
+        return Built.of(model, own(model, derivatives=name == ARM.name))
 
     return found
 
@@ -85,9 +78,6 @@ def states(built: Built, count: int, seed: int = 0) -> tuple[Array, Array]:
 
 MODEL_NAMES = pytest.mark.parametrize("name", [ARM.name, FIVE.name])
 WITH_STRUT = pytest.mark.parametrize("name", [ARM.name, FIVE.name, STRUT.name])
-# those of a carrier on more rods are held against 50 digits with the models that are shipped
-DIFFERENTIATED = [ARM.name]
-WITH_DERIVATIVES = pytest.mark.parametrize("name", DIFFERENTIATED)
 
 
 # -- linear algebra of the block ------------------------------------------------------------------
@@ -109,124 +99,6 @@ def test_adjugate_and_determinant_in_integers(size: int) -> None:
     *found, last = [e.xreplace(values) for e in function.results]
     assert sp.Matrix(size, size, found) == numbers.adjugate()
     assert last == numbers.det()
-
-
-# -- against a closed form ------------------------------------------------------------------------
-
-
-def disguised_wishbone() -> tuple[dict[str, float], dict[str, float]]:
-    """Return parameters of both models: two links to one ball joint are a wishbone.
-
-    The rods have no mass, as has the upper arm: their motion is that of other bodies.
-    """
-    wishbone = {n: entry["default"] for n, entry in double_wishbone.PARAMETERS.items()}
-    wishbone |= {n: 0.0 for n in wishbone if re.match("upper_arm_(mass|inertia)", n)}
-    links = {p.name: p.default for p in CONTROL_ARM.parameters}
-    links |= {n: 0.0 for n in links if re.match(r"(\w+_link)_(mass|inertia)", n)}
-    links |= {n: v for n, v in wishbone.items() if n in links}
-    for ours, theirs in (
-        ("upper_link_inner", "upper_arm_front"),
-        ("camber_link_inner", "upper_arm_rear"),
-        ("upper_link_outer", "upper_ball_joint"),
-        ("camber_link_outer", "upper_ball_joint"),
-        ("toe_link_inner", "tie_rod_inner"),
-        ("toe_link_outer", "tie_rod_outer"),
-    ):
-        links |= {f"{ours}_{a}": wishbone[f"{theirs}_{a}"] for a in "xyz"}
-    links |= {n.replace("knuckle", "carrier"): v for n, v in wishbone.items() if "knuckle" in n}
-    return links, wishbone
-
-
-@pytest.mark.parametrize(
-    ("function", "tolerance"),
-    # of the largest entry: a hundred roundings leave two digits for the condition of both models;
-    # the derivatives see products of two badly scaled factors more
-    [("rhs", 1e-12), ("signals", 1e-12), ("mass_matrix", 1e-12), ("rhs_jacobian", 1e-11)],
-)
-def test_two_links_to_one_ball_joint_are_a_wishbone(
-    function: str, tolerance: float, built: Callable[[str], Built]
-) -> None:
-    ours, theirs = disguised_wishbone()
-    links = replace(built(ARM.name), parameters=ours)
-    state, inputs = states(links, 50)
-    constants = double_wishbone.prepare(theirs)
-    padded = np.zeros((50, len(double_wishbone.INPUTS)))
-    for i, name in enumerate(links.module.INPUTS):
-        padded[:, list(double_wishbone.INPUTS).index(name)] = inputs[:, i]
-    expected = getattr(double_wishbone, function)(state, padded, constants)
-    found = links(function, state, inputs)
-    if function == "signals":
-        places = [list(double_wishbone.SIGNALS).index(n) for n in links.module.SIGNALS]
-        expected = expected[:, places]
-    scale = np.abs(expected).max(axis=0)
-    np.testing.assert_allclose(found, expected, rtol=0.0, atol=tolerance * scale.max())
-
-
-# -- against a root finder ------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class Links:
-    """The rods of a carrier as lengths between points, m; nothing of it is the project's."""
-
-    model: str
-    parameters: Mapping[str, float]
-
-    def point(self, name: str) -> Array:
-        return np.array([self.parameters[f"{name}_{a}"] for a in "xyz"])
-
-    def carried(self, angle: float, rack: float) -> tuple[dict[str, Array], Array]:
-        """Return the inner ends of the rods, and where the ball joint of an arm is."""
-        inner = {rod: self.point(f"{rod}_inner") for rod in RODS[self.model]}
-        inner["toe_link"] = inner["toe_link"] + [0.0, rack, 0.0]
-        if self.model == FIVE.name:
-            turn = self._turn(self.point("rocker_axis"), angle)
-            pivot = self.point("rocker_pivot")
-            inner["push_rod"] = pivot + turn.apply(inner["push_rod"] - pivot)
-            return inner, np.zeros(3)
-        rear, front = self.point("lower_arm_rear"), self.point("lower_arm_front")
-        turn = self._turn(front - rear, angle)
-        return inner, rear + turn.apply(self.point("lower_ball_joint") - rear)
-
-    @staticmethod
-    def _turn(axis: Array, angle: float) -> Rotation:
-        return Rotation.from_rotvec(angle * axis / np.linalg.norm(axis))
-
-    def solve(self, angle: float, rack: float) -> Array:
-        """Return where the wheel centre is; followed from the design position in small steps."""
-        unknowns = np.zeros(3 if self.model == ARM.name else 6)
-        outer = np.array([self.point(f"{rod}_outer") for rod in RODS[self.model]])
-        lengths = np.linalg.norm(outer - [*self.carried(0.0, 0.0)[0].values()], axis=1)
-        start = self.carried(0.0, 0.0)[1]
-        for part in np.linspace(0.0, 1.0, 11):
-            ends, pin = self.carried(part * angle, part * rack)
-            inner = np.array([*ends.values()])
-
-            def left(x: Array, inner: Array = inner, pin: Array = pin) -> Array:
-                placed = self._placed(x, outer - start, pin)
-                return np.linalg.norm(placed - inner, axis=1) - lengths
-
-            unknowns = root(left, unknowns, tol=1e-14).x
-        assert np.abs(left(unknowns)).max() < 1e-14
-        return self._placed(unknowns, self.point("wheel_center") - start, pin)
-
-    @staticmethod
-    def _placed(x: Array, local: Array, pin: Array) -> Array:
-        shift = x[3:] if len(x) > 3 else pin
-        return Rotation.from_rotvec(x[:3]).apply(local) + shift
-
-
-@MODEL_NAMES
-def test_the_wheel_is_where_a_root_finder_puts_it(name: str, built: Callable[[str], Built]) -> None:
-    model = built(name)
-    links = Links(name, model.parameters)
-    columns = [list(model.module.SIGNALS).index(f"wheel_center_{a}") for a in "xyz"]
-    for angle, rack in product(TRAVEL[name] * np.linspace(-1, 1, 7), (-0.03, 0.0, 0.03)):
-        state = np.array([model.design[0] + angle, 0.0, 0.0, 0.0])
-        inputs = np.array([rack, 0.0, 0.0, 0.0])
-        found = model("signals", state, inputs)[columns]
-        # 1e-14: the rounding of lengths below 1 m, over a determinant of a tenth
-        np.testing.assert_allclose(found, links.solve(angle, rack), rtol=0.0, atol=1e-14)
 
 
 # -- against maximal coordinates ------------------------------------------------------------------
@@ -274,43 +146,16 @@ def test_accelerations_are_those_of_the_maximal_coordinates(
         )
 
 
-@MODEL_NAMES
-def test_a_rack_that_is_held_stands_still(name: str, built: Callable[[str], Built]) -> None:
-    model = built(name)
-    state, inputs = states(model, 20)
-    still = inputs * [1.0, 0.0, 0.0, 1.0]
-    expected = model("rhs", state, still)
-    # the same terms without those that are zero, so in another order: a hundred roundings leave
-    # a digit for the condition of the loops
-    np.testing.assert_allclose(
-        model("rhs_rack_held", state, inputs), expected, rtol=0.0, atol=1e-13 * abs(expected).max()
-    )
-
-
-def test_energy_stays_where_nothing_dissipates(built: Callable[[str], Built]) -> None:
-    lossless = {"damper_rate": 0.0, "tyre_rate": 0.0, "spring_free_length": 0.45}
-    model = replace(built(ARM.name), parameters={**built(ARM.name).parameters, **lossless})
-    start = np.array([*model.design, 2.0, 30.0])
-    result = solve_ivp(
-        lambda _, y: model("rhs", y), (0.0, 0.05), start, "DOP853", rtol=1e-11, atol=1e-11
-    )
-    assert result.success
-    inputs = np.zeros(len(model.module.INPUTS))
-    energies = [model.oracle.energy(model.motion(y, inputs)) for y in result.y.T]
-    # the integrator's tolerance, of the energy that changes hands
-    assert np.ptp(energies) < 1e-8 * np.ptp(0.5 * 30.0 * result.y[2] ** 2)
-
-
 # -- derivatives ----------------------------------------------------------------------------------
 
 
-@WITH_DERIVATIVES
 @pytest.mark.parametrize("by", ["state", "inputs"])
 def test_jacobians_are_exact(
-    name: str, by: str, built: Callable[[str], Built], derive: Callable[[str], Derivation]
+    by: str, built: Callable[[str], Built], derive: Callable[[str], Derivation]
 ) -> None:
-    # differences in 50 digits: every perturbed state is solved again, to 50 digits
-    model, derived = built(name), derive(name)
+    # differences in 50 digits: every perturbed state is solved again, to 50 digits. Those of a
+    # carrier on more rods are compared in `test_mechanisms`.
+    model, derived = built(ARM.name), derive(ARM.name)
     state, inputs = (values[0] for values in states(model, 1, seed=3))
     found = model("rhs_jacobian" if by == "state" else "rhs_input_jacobian", state, inputs)
     with mpmath.workdps(50):
@@ -323,20 +168,6 @@ def test_jacobians_are_exact(
     scale[scale == 0.0] = 1.0
     # a hundred roundings leave two digits for the condition of the loops
     np.testing.assert_allclose(found / scale, expected / scale, rtol=0.0, atol=1e-12)
-
-
-@WITH_DERIVATIVES
-def test_signals_jacobian_is_exact(name: str, built: Callable[[str], Built]) -> None:
-    model = built(name)
-    state, inputs = (values[0] for values in states(model, 1, seed=4))
-    h = 1e-5
-    ahead, behind = (model("signals", state + s * h * np.eye(4), inputs) for s in (1, -1))
-    expected = ((ahead - behind) / (2 * h)).T
-    scale = np.abs(expected).max(axis=1, keepdims=True) + np.abs(ahead[0])[:, None]
-    # 1e-8: differences in double precision
-    np.testing.assert_allclose(
-        model("signals_jacobian", state, inputs) / scale, expected / scale, rtol=0.0, atol=1e-8
-    )
 
 
 # -- where it fails -------------------------------------------------------------------------------
@@ -477,8 +308,10 @@ def test_angles_of_the_links_can_be_reported() -> None:
     given = {f"given_{name}": value for name, value in beta.items()}
     for left in python(residuals)(values | given):
         assert abs(left) < 1e-14  # of sines
-    link = Links(ARM.name, {p.name: p.default for p in mechanism.parameters})
-    start, end = link.point("upper_link_inner"), link.point("upper_link_outer")
+    default = {p.name: p.default for p in mechanism.parameters}
+    start, end = (
+        np.array([default[f"upper_link_{end}_{a}"] for a in "xyz"]) for end in ("inner", "outer")
+    )
     design = {**values, "rack_position": 0.0, "arm_angle": design_angle(derived)}
     beta = dict(zip(shown.labels, python(shown)(design), strict=True))
     x, y, z = (end - start) / np.linalg.norm(end - start)

@@ -1,15 +1,13 @@
 """Loops of hinges and guides that are solved together, by iteration.
 
-The oracles: maximal coordinates; published relations of the angles of Bennett's and Bricard's
-chains; SciPy's root finder on a chain of rotations, followed from the design position on; the
-program itself in 50 digits; and the mean of the tangents, where a motion has to be continuous.
+The oracles: maximal coordinates; the program itself in 50 digits; and the mean of the tangents,
+where a motion has to be continuous.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
 from functools import cache
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import mpmath
@@ -25,12 +23,10 @@ from kintrafo.generator.closed_forms.tree import JointOfTree
 from kintrafo.generator.loops.errors import NoClosedFormError
 from kintrafo.generator.loops.graph import JointGraph
 from kintrafo.generator.loops.mobility import Mobility
-from kintrafo.generator.mechanisms.chains import AXES, BRICARD, PLACES, SEVEN_HINGES
+from kintrafo.generator.mechanisms.chains import BRICARD, SEVEN_HINGES
 from kintrafo.generator.planning.plan import CataloguePlan
 from own_mechanisms import askew, heading
-from own_models import Built, needs_gcc, own
-from scipy.optimize import root
-from scipy.spatial.transform import Rotation
+from own_models import Built, own
 from symbolic import constants_of, derivatives_of
 
 if TYPE_CHECKING:
@@ -208,76 +204,6 @@ def test_jacobians_are_exact(
     np.testing.assert_allclose(found / scale, expected / scale, rtol=0.0, atol=1e-11)
 
 
-# -- published relations --------------------------------------------------------------------------
-
-
-def test_bennett(built: Callable[[Formulation], Built]) -> None:
-    """tan(a/2) tan(b/2) of neighbouring angles stays, opposite angles are opposite (Bennett)."""
-    model = own_loops.BENNETT
-    compiled = built(model)
-    names = list(compiled.module.RELATIVE_COORDINATES)
-    turned = compiled("relative_coordinates", path(compiled, 0.05))
-    one, two, three, four = (turned[:, names.index(f"hinge_{i}_angle")] for i in range(4))
-    ratio = own_loops.bennett_ratio(*own_loops.BENNETT_TWISTS)
-    start = own_loops.BENNETT_ANGLE
-    second = 2 * np.arctan(ratio / np.tan(start / 2))
-    # some ten roundings of each angle; ten times as many of the product of two tangents
-    product = np.tan((start + one) / 2) * np.tan((second + two) / 2)
-    np.testing.assert_allclose(product, ratio, rtol=1e-13)
-    np.testing.assert_allclose(one, -three, rtol=0.0, atol=1e-14)
-    np.testing.assert_allclose(two, -four, rtol=0.0, atol=1e-14)
-
-
-def test_bricard(built: Callable[[Formulation], Built]) -> None:
-    """Opposite angles of the line-symmetric chain are equal."""
-    compiled = built(BRICARD)
-    names = list(compiled.module.RELATIVE_COORDINATES)
-    turned = compiled("relative_coordinates", path(compiled, 0.05))
-    for i in range(3):
-        one, other = (turned[:, names.index(f"hinge_{k}_angle")] for k in (i, i + 3))
-        assert np.ptp(one) > 0.1
-        # some ten roundings leave two digits for the condition of the loop
-        np.testing.assert_allclose(one, other, rtol=0.0, atol=1e-13)
-
-
-# -- against a root finder ------------------------------------------------------------------------
-
-
-def seven_angles(driven: float, before: Array) -> Array:
-    """Return the angles of seven hinges that bring a body all around back to the ground."""
-    places = np.array(PLACES)
-    axes = np.array(AXES)
-    axes /= np.linalg.norm(axes, axis=1, keepdims=True)
-
-    def left(rest: Array) -> Array:
-        turned, at = Rotation.identity(), np.zeros(3)
-        for place, axis, angle in zip(places, axes, [driven, *rest], strict=True):
-            turn = Rotation.from_rotvec(angle * axis)
-            at = turned.apply(place - turn.apply(place)) + at
-            turned = turned * turn
-        return np.concatenate((turned.as_rotvec(), at))
-
-    found = root(left, before, tol=1e-14)
-    assert np.abs(left(found.x)).max() < 1e-13
-    return np.array(found.x)
-
-
-def test_seven_hinges_are_where_a_root_finder_puts_them(
-    built: Callable[[Formulation], Built],
-) -> None:
-    model = SEVEN_HINGES
-    compiled = built(model)
-    for end in SPANS[model.name]:
-        angles = np.zeros(6)
-        for driven in np.linspace(0.0, end, 60):
-            angles = seven_angles(driven, angles)
-            found = compiled("relative_coordinates", np.array([driven, 0.0]))
-            difference = found - [driven, *angles]
-            difference = (difference + np.pi) % (2.0 * np.pi) - np.pi
-            # 1e-13: what the root finder leaves, over the least singular value of its equations
-            np.testing.assert_allclose(difference, 0.0, atol=2e-12)
-
-
 # -- where it fails -------------------------------------------------------------------------------
 
 
@@ -312,22 +238,6 @@ def test_a_chain_that_moves_by_its_dimensions_alone_is_refused_with_others(
     broken = replace(compiled, parameters=parameters)
     with pytest.raises(ClosureError, match="hinge_5 cannot meet with any coordinates of hinge_1"):
         broken("rhs", np.array([0.3, 0.0]))
-
-
-@needs_gcc
-def test_c_computes_what_numpy_computes(built: Callable[[Formulation], Built]) -> None:
-    model = own_loops.BENNETT
-    compiled = built(model)
-    arrays = replace(compiled, module=own(model, arrays=True))
-    state = states(arrays, 100)
-    state[:, 0] = np.linspace(-15.0, 15.0, 100)  # two turns and a part of one, either way
-    for function in ("rhs", "rhs_jacobian", "positions", "margins"):
-        found, expected = compiled(function, state), arrays(function, state)
-        # the last digits of sines and cosines differ, and with them when an iteration ends
-        atol = 1e-11 * np.abs(expected).max(axis=0)
-        assert (np.abs(found - expected) <= atol).all(), function
-    text = Path(compiled.module.__file__).with_name(f"{model.name}.c").read_text()
-    assert text.count("for (int i = 0; i < ITERATIONS; ++i)") == 1
 
 
 def test_report_names_joints_and_equations(derive: Callable[[Formulation], Derivation]) -> None:

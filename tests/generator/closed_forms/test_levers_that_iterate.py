@@ -17,7 +17,6 @@ import own_loops
 import pytest
 from numpy.typing import NDArray
 from own_mechanisms import askew
-from own_models import Built, needs_gcc, own
 from placements import Placements
 
 MODEL = own_loops.STEPHENSON
@@ -162,14 +161,3 @@ def test_no_answer_is_behind_a_gap(ratio):
         inputs = levers.inputs[k][:, None]
         answered, _, _ = Placements.of(MODEL).at(levers.parameters(k), inputs)
         np.testing.assert_array_equal(answered, np.arange(COUNT) < count)
-
-
-@needs_gcc
-def test_c_answers_what_numpy_answers():
-    module = own(MODEL, derivatives=False)
-    levers, reached = some(27.0)
-    for k in range(len(reached)):
-        compiled = replace(Built.of(MODEL, module), parameters=levers.parameters(k))
-        states = np.stack([levers.inputs[k], np.zeros(COUNT)], axis=1)
-        margins = compiled("margins", states)
-        np.testing.assert_array_equal((margins > 0.0).all(axis=1), np.arange(COUNT) < reached[k])

@@ -87,26 +87,6 @@ def difference(one: Pose, other: Pose) -> float:
     return float(max(positions, np.abs(one.rotation - other.rotation).max()))
 
 
-@pytest.mark.parametrize(
-    ("seed", "offset"),
-    [(0, 0.0), (1, 0.0), (2, 0.12), (3, 0.12), *((s, None) for s in range(4, 24))],
-)
-def test_poses_of_many_geometries(seed: int, offset: float | None) -> None:
-    """Over travel and rack: the same poses as Newton's, and the same reach."""
-    subject = random_car(1000 + seed, offset)
-    found = 0
-    for rack in np.linspace(-0.06, 0.06, 3):
-        for turn in np.linspace(-0.45, 0.45, 5):
-            at = subject.at(turn, rack)
-            pose, expected = closed_form(at), by_newton(subject.car, at)
-            assert (pose is None) == (expected is None)
-            if pose is not None and expected is not None:
-                found += 1
-                assert difference(pose, expected) < ROUNDING * subject.slackness(at)
-                assert residual_norm(subject.car, pose) < ROUNDING
-    assert found > 9  # of 15; some geometries do not reach the ends
-
-
 def last_reached(subject: Offset, side: float) -> float:
     """Return the last rack displacement (m) to one side at which the rod reaches the knuckle."""
     reached, missed = 0.0, 0.4 * side

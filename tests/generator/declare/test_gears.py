@@ -135,36 +135,6 @@ def test_a_train_of_gears_has_the_inertia_that_the_motor_feels() -> None:
         np.testing.assert_allclose(rates[:, 0], [1.0, ratio, belt * ratio], rtol=1e-14, atol=1e-16)
 
 
-def test_a_planet_wheel_rolls_as_willis_says() -> None:
-    """Sun, planet and ring as the arm sees them; the ring stands, so that the arm goes slower."""
-    arm_body, arm_line = shaft("arm", (0.0, 0.0, 0.0))
-    sun_body, sun_line = shaft("sun", (0.0, 0.0, 0.0))
-    planet_body, planet_line = shaft("planet", (0.0, 0.15, 0.0))
-    sun_teeth, planet_teeth = 24, 18
-    ring_teeth = sun_teeth + 2 * planet_teeth
-    arm = g.Revolute("arm_hinge", FRAME, arm_body, arm_line)
-    # in the axes of the arm the ring turns by -arm, and both mesh with the planet
-    over_ring = g.Ratio("ring_over_sun", ring_teeth / sun_teeth, "teeth")
-    sun = g.Revolute("sun_hinge", arm_body, sun_body, sun_line, follows=g.Gear(arm, over_ring))
-    over_sun = g.Ratio("sun_over_planet", -sun_teeth / planet_teeth, "teeth")
-    rolls = g.Gear(sun, over_sun)
-    planet = g.Revolute("planet_hinge", arm_body, planet_body, planet_line, follows=rolls)
-    mechanism = g.Mechanism(
-        "planetary",
-        "Planetary gear",
-        (arm, sun, planet),
-        (g.Weight(), g.JointForce(arm, TORQUE)),
-        (arm.angle("arm_angle", "arm"),),
-    )
-    system = kintrafo.System(kintrafo.compile(mechanism))
-    speed = 3.0
-    turning = system.evaluate("velocities", [0.7, speed]).reshape(3, 6)
-    omega = turning[:, :3] @ np.array(AXIS.along) / np.linalg.norm(AXIS.along)
-    # 1 + ring / sun, and the planet's teeth on the ring stand: (1 - ring / planet)
-    expected = [1.0, 1.0 + ring_teeth / sun_teeth, 1.0 - ring_teeth / planet_teeth]
-    np.testing.assert_allclose(sorted(omega / speed), sorted(expected), rtol=1e-13)
-
-
 def screw_press(name: str = "press") -> g.Mechanism:
     """Return a spindle that a nut turns, and a spring under the ram that it drives."""
     nut, line = shaft("nut", (0.2, 0.0, 0.5))
@@ -232,9 +202,6 @@ def test_a_mirror_image_turns_with_its_original() -> None:
 def test_a_number_alone_is_no_ratio() -> None:
     with pytest.raises(DeclarationError, match="a Parameter is needed: write Ratio"):
         g.Gear(DRIVE, 0.25)
-
-
-TURN = g.Revolute("turn", FRAME, WHEEL, WHEEL_LINE)
 
 
 @pytest.mark.parametrize(

@@ -9,13 +9,11 @@ import pytest
 from cases import MODELS, At, Instant, car_parameters
 from kintrafo.generated import macpherson, macpherson_general
 from oracle.constraints import KNUCKLE, RACK, WHEEL, Array, Pose
-from oracle.newton import Mechanism, observe, solve_pose_at_height
+from oracle.newton import Mechanism, solve_pose_at_height
 from oracle.reference import (
     BETA1_DESIGN,
     KINEMATICS,
     KINEMATICS_COLUMNS,
-    mirrored_parameters,
-    vector,
 )
 
 # 0 is the reference car; of the others, those that reach the ends of the travel below
@@ -33,10 +31,6 @@ class Placed(At):
 
     car: Mechanism
     pose: Pose
-
-    def residuals(self, beta: Array) -> Array:
-        """Evaluate the closure equations at given relative coordinates."""
-        return self.model.residuals(beta, self.state, self.inputs, self.constants)
 
 
 @cache
@@ -70,9 +64,6 @@ def travel(request: pytest.FixtureRequest) -> list[Placed]:
     return [Placed(model, instant, constants, car, pose) for instant, pose in found]
 
 
-each_model = pytest.mark.parametrize("model", MODELS.values(), ids=MODELS.keys())
-
-
 @pytest.mark.parametrize("row", KINEMATICS, ids=lambda row: f"{row[0]:.3f}m")
 def test_reference_car(row: Array) -> None:
     """Heights, branch and signs of all angles, as tabulated with 16 digits."""
@@ -92,25 +83,6 @@ def test_positions_and_orientations_are_newtons(travel: list[Placed]) -> None:
     for place in travel:
         assert np.abs(place("positions") - place.pose.position).max() < 1e-12
         assert np.abs(place("orientations") - place.pose.rotation).max() < 1e-12
-
-
-def test_loops_close(travel: list[Placed]) -> None:
-    """The residuals are lengths below 1 m and sines: 1e-14 is fifty roundings of those."""
-    for place in travel:
-        assert np.abs(place.residuals(place("relative_coordinates"))).max() <= 1e-14
-
-
-def test_residuals_determine_the_coordinates(travel: list[Placed]) -> None:
-    """A step of any size in any direction leaves residuals in proportion to it."""
-    for place in travel[::4]:
-        beta = place("relative_coordinates")
-        step = 1e-5
-        columns = [
-            (place.residuals(beta + h) - place.residuals(beta - h)) / (2.0 * step)
-            for h in step * np.eye(len(beta))
-        ]
-        # Lengths of 0.1 m to 1 m by angles; the least is the azimuth of a strut close to vertical.
-        assert np.linalg.svd(np.array(columns), compute_uv=False)[-1] > 0.01
 
 
 def rotation_x(angle: float) -> Array:
@@ -165,97 +137,3 @@ def test_relative_coordinates_are_the_papers(travel: list[Placed]) -> None:
         # The strut is within 20 degrees of vertical: its azimuth is three times worse conditioned
         # than its direction, which Newton gives to 1e-15.
         assert found == pytest.approx({name: expected[name] for name in found}, rel=0.0, abs=1e-13)
-
-
-def test_paper_equations_from_the_coordinates(travel: list[Placed]) -> None:
-    """Eq. 6, 17 and 18 with their rotations give back the ball joint and the wheel centre."""
-    for place in travel:
-        car, point = place.car, place.car.points
-        beta = place("relative_coordinates")
-        beta1, beta2, beta3, beta4, beta10 = *beta[:4], beta[9]
-        frame = rotation_z(beta4) @ rotation_x(beta3)
-        length = car.parameters["strut_length_max"] - beta2
-
-        # the knuckle about the strut's axis: z' is the direction of the wheel centre across it
-        line = point["strut_lower"] - point["strut_top"]
-        line = line / np.linalg.norm(line)
-        mark = point["wheel_center"] - point["strut_lower"]
-        z = mark - (mark @ line) * line
-        z = z / np.linalg.norm(z)
-        basis = np.array([np.cross(line, z), line, z])
-
-        radius = np.linalg.norm(point["ball_joint"] - car.hinge_foot)
-        _, h_y, h_z = car.hinge
-        ball = car.hinge_foot + radius * (np.sin(beta1) * h_y + np.cos(beta1) * h_z)
-        wheel = place.pose.position[WHEEL - 1]
-        c, s = np.cos(beta10), np.sin(beta10)
-        for name, expected in (("ball_joint", ball), ("wheel_center", wheel)):
-            x, y, z = basis @ (point[name] - point["strut_lower"])
-            swung = np.array([c * x - s * z, length + y, s * x + c * z])
-            by_chain = point["strut_top"] + frame @ swung
-            # a few roundings of lengths below 1 m
-            assert by_chain == pytest.approx(expected, abs=1e-14)
-
-
-@pytest.mark.parametrize(
-    ("model", "coordinate"),
-    [(model, name) for model in MODELS.values() for name in model.RELATIVE_COORDINATES],
-    ids=lambda value: getattr(value, "NAME", value),
-)
-def test_a_fault_leaves_a_residual(model, coordinate: str) -> None:
-    """The equation of each coordinate sees it change."""
-    index = list(model.RELATIVE_COORDINATES).index(coordinate)
-    for seed in (0, 1):
-        constants = model.prepare(car_parameters(seed, model))
-        at = At(model, Instant(BETA1_DESIGN - 0.2, SPIN, 0.02), constants)
-        beta = at("relative_coordinates")
-        fault = 1e-6
-        beta[index] += fault
-        residual = model.residuals(beta, at.state, at.inputs, constants)
-        # The least sensitive ones: the length of the rod changes by its arm of 0.15 m times a sine
-        # (beta10), and the sine of a steep strut's elevation by the cosine (beta3): 0.1 or more.
-        assert 0.05 * fault < abs(residual[index]) < 1.5 * fault
-
-
-@pytest.mark.parametrize("model", [macpherson, macpherson_general], ids=lambda m: m.NAME)
-@pytest.mark.parametrize("seed", range(3))
-def test_left_suspension_is_the_mirror_image(model, seed: int) -> None:
-    """Same arm, spin and rack coordinates; camber and toe stay, the steer angle changes sign."""
-    parameters = car_parameters(seed, model)
-    right = model.prepare(parameters)
-    left = model.prepare(mirrored_parameters(parameters))
-    state, inputs = Instant(BETA1_DESIGN + 0.1, SPIN, 0.02, 1.0, 50.0, 0.2).arrays(model)
-    flip = np.array([1.0, -1.0, 1.0])
-    # a few roundings of positions of order one
-    assert model.positions(state, inputs, left) * flip == pytest.approx(
-        model.positions(state, inputs, right), abs=1e-14
-    )
-    seen = {}
-    for side, constants in (("right", right), ("left", left)):
-        values = model.signals(state, inputs, constants)
-        seen[side] = dict(zip(model.SIGNALS, values, strict=True))
-    seen["left"]["steer"] *= -1.0
-    seen["left"]["wheel_center_y"] *= -1.0
-    # forces are up to 1e4 N: relative to the largest signal
-    assert seen["left"] == pytest.approx(seen["right"], rel=1e-12, abs=1e-12)
-
-
-def test_wheel_angles_of_general_cars(travel: list[Placed]) -> None:
-    """Camber, toe and steer of a wheel whose spin axis is not along y at design."""
-    names = ["camber", "toe", "steer", "strut_length"] + [f"wheel_center_{a}" for a in "xyz"]
-    for place in travel:
-        found = dict(zip(place.model.SIGNALS, place("signals"), strict=True))
-        seen = observe(place.car, place.pose)
-        expected = [seen.camber, seen.toe, seen.steer, seen.strut_length, *seen.wheel_center]
-        assert [found[name] for name in names] == pytest.approx(expected, rel=0.0, abs=1e-13)
-
-
-@each_model
-def test_bodies_in_order(model) -> None:
-    """At design every body has the position of its parameters, in the order of `BODIES`."""
-    parameters = car_parameters(1, model)
-    state = Instant(Mechanism(parameters).beta1_design).state(model)
-    positions = model.positions(state, None, model.prepare(parameters))
-    for body, position in zip(model.BODIES, positions, strict=True):
-        name = "wheel_center" if body == "wheel" else f"{body}_com"
-        assert position == pytest.approx(vector(parameters, name), abs=1e-15)

@@ -140,20 +140,6 @@ def unicycle(*forces):
     )
 
 
-@pytest.mark.parametrize("omega", [3.0, 8.0])
-def test_a_wheel_rolls_on_above_its_critical_speed(omega):
-    """Lean and turn: ``(A + m r^2) A lean'' = (A m g r - C (C + m r^2) omega^2) lean``."""
-    system = kintrafo.System(own(unicycle(), arrays=True))
-    linear = kintrafo.linearise(system, system.state(angle_rate=omega))
-    mass, across = MASS + 1.0, DIAMETRAL + 0.02
-    rolling = mass * RADIUS**2
-    square = across * mass * 9.81 * RADIUS - SPIN * (SPIN + rolling) * omega**2
-    expected = np.sqrt(complex(square / (across * (across + rolling))))
-    nearest = np.abs(linear.eigenvalues[:, None] - [expected, -expected]).min(axis=0)
-    assert nearest.max() < 1e-6 * abs(expected)
-    assert linear.steady
-
-
 def test_a_push_acts_on_the_speeds_that_are_left():
     """``(C + m r^2) omega' = F r`` of a force ahead, declared in two ways."""
     push = g.Input("push", "N", "force at the centre, ahead")

@@ -307,32 +307,6 @@ def test_every_guard_has_an_edge(model) -> None:
     assert {guard for guard, _ in model.GUARDS} == {edge.guard for edge in EDGES_OF[model]}
 
 
-def test_a_strut_top_within_the_offset_is_named() -> None:
-    """The condition that only an offset strut has, in words."""
-    parameters, instant = top_within_the_offset()
-    constants = macpherson_general.prepare(of_model(macpherson_general, parameters))
-    with pytest.raises(
-        ClosureError, match="strut_top would be nearer to ball_joint than the axis of telescope BC"
-    ) as caught:
-        macpherson_general.rhs(*instant.arrays(macpherson_general), constants)
-    # 0.01 m in each direction, against an offset of 0.05 m; a few roundings of squares below 1 m
-    assert caught.value.margins["length_squared_BC"] == pytest.approx(3e-4 - 2.5e-3, abs=1e-15)
-
-
-@each_model
-def test_margins_are_positive_on_the_reference_car(model) -> None:
-    margins = model.margins(Instant(BETA1_DESIGN).state(model))
-    assert len(margins) == len(model.GUARDS)
-    assert (margins > 0.0).all()
-
-
-def test_every_flat_wheel_is_refused() -> None:
-    for turn in np.linspace(-0.3, 0.3, 31):
-        parameters, instant = flat_wheel(BETA1_DESIGN + turn)
-        with pytest.raises(ClosureError, match="lies flat"):
-            macpherson.rhs(instant.state(macpherson), None, macpherson.prepare(parameters))
-
-
 # -- numbers that are none ------------------------------------------------------------------------
 
 
@@ -380,15 +354,6 @@ def test_nan_in_an_array_is_placed(model) -> None:
     states[2, 0] = np.nan
     with pytest.raises(ModelError, match=r"NaN or infinite: beta1 \(element \[2\]"):
         model.rhs(states)
-
-
-@each_model
-def test_nan_in_given_coordinates_is_named(model) -> None:
-    state = Instant(BETA1_DESIGN).state(model)
-    beta = model.relative_coordinates(state)
-    beta[3] = np.nan
-    with pytest.raises(ModelError, match="beta4"):
-        model.residuals(beta, state)
 
 
 @each_model

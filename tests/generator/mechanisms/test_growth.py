@@ -39,18 +39,6 @@ def test_chain_is_a_pendulum(chain: Built, angle: float) -> None:
 
 
 @needs_gcc
-def test_rockers_stay_parallel(chain: Built) -> None:
-    turned = chain("orientations", np.array([0.8, 0.0]), np.zeros(1))
-    bodies = chain.module.BODIES
-    for name, rotation in zip(bodies, turned, strict=True):
-        angle = 0.8 if name.startswith("rocker") else 0.0
-        c, s = np.cos(angle), np.sin(angle)
-        expected = [[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]]
-        # 1e-13: some ten roundings a loop
-        np.testing.assert_allclose(rotation, expected, atol=1e-13)
-
-
-@needs_gcc
 @pytest.mark.parametrize("loop", [1, LONG - 1, LONG])
 def test_the_loop_that_cannot_close_is_named(chain: Built, loop: int) -> None:
     """Also where guards share a bit of the status word."""
