@@ -36,7 +36,6 @@ READERS: dict[str, tuple[str, Callable[[Path], Any]]] = {
     "a road": (".csv", measured),
 }
 TOML = [name for name, (ending, _) in READERS.items() if ending == ".toml"]
-TABLES = [name for name, (ending, _) in READERS.items() if ending == ".csv"]
 
 
 def refusal(reader: str, path: Path) -> str:

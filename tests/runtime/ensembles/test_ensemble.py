@@ -113,30 +113,6 @@ def test_each_has_its_road(car: Model, start: Any) -> None:
             )
 
 
-def fixed(car: Model, start: Any, step: float) -> xr.Dataset:
-    """Integrate with a fixed step, without an estimate of the error."""
-    return ensemble(
-        car, None, (0.0, 0.2), start, signals=car.state_names, t_eval=[0.0333, 0.0777, 0.1999, 0.2],
-        rtol=0.5, atol=1e3, first_step=step, max_step=step,
-    )  # fmt: skip
-
-
-def test_order_of_convergence(car: Model, start: Any) -> None:
-    """Fifth at the ends of steps, fourth between them: halved steps have a 32nd, a 16th."""
-    exact = simulate(car, (0.0, 0.2), start, method="DOP853", rtol=1e-13, atol=1e-13,
-                     t_eval=[0.0333, 0.0777, 0.1999, 0.2])  # fmt: skip
-    errors = []
-    for step in (0.004, 0.002):
-        found = fixed(car, start, step)
-        assert int(found["steps"][0]) == round(0.2 / step)
-        values = np.array([found[name].values[0] for name in car.state_names])
-        errors.append(np.abs(values - exact.y)[0])
-    end, between = errors[0][3] / errors[1][3], errors[0][:3] / errors[1][:3]
-    # one order below them would be 16 and 8, with the terms of higher order that steps have
-    assert 20.0 < end < 50.0
-    assert (between > 11.0).all()
-
-
 @needs_native
 @pytest.mark.parametrize("road", [BUMP, STEP], ids=["smooth", "with a jump"])
 def test_two_hundred_cars_have_the_bits_of_simulate(car: Model, start: Any, road: Any) -> None:

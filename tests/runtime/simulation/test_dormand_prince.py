@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from kintrafo import Model, SignalEvent, ensemble, simulate, state_at_height
+from kintrafo import Model, SignalEvent, simulate, state_at_height
 from kintrafo.simulation.solvers import native_available
 
 pytestmark = pytest.mark.skipif(not native_available(), reason="nothing is integrated in C")
@@ -45,20 +45,6 @@ def test_it_is_of_fifth_order_and_its_polynomial_of_fourth() -> None:
     for errors in (steps, within):
         gains = [a / b for a, b in pairwise(errors)]
         assert gains == pytest.approx([32.0, 32.0], rel=0.2), errors
-
-
-@pytest.mark.parametrize("rtol", [1e-4, 1e-6])
-def test_one_alone_goes_as_one_of_many(rtol) -> None:
-    """The same steps but for the logarithms behind their lengths, which lanes have to 1e-7.
-
-    So both err alike: the results differ by a small part of their error.
-    """
-    accuracy = {"t_eval": TIMES, "rtol": rtol, "atol": 1e-3 * rtol}
-    alone = run(**accuracy)
-    same = {"damper_rate": [MODEL.parameters["damper_rate"]]}
-    many = ensemble(MODEL, same, SPAN, START, signals=["beta1"], **accuracy)
-    assert alone.steps == int(many["steps"][0])
-    assert np.abs(many["beta1"].values[0] - alone.y[0]).max() < 0.01 * arm_error(alone)
 
 
 def test_outputs_cost_nothing() -> None:

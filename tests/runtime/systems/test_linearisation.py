@@ -1,4 +1,4 @@
-"""Linearisation: against the oracle, simulated perturbations, a quarter car and SciPy."""
+"""Linearisation: against the oracle and SciPy."""
 
 import re
 
@@ -13,7 +13,6 @@ from kintrafo import (
     Suspension,
     equilibrium,
     linearise,
-    simulate,
     state_at_height,
 )
 from kintrafo.systems.modes import eigenvalues_of, mode_of_states, modes_of, modes_of_motions
@@ -125,59 +124,6 @@ def test_mode_of_states_does_not_depend_on_units():
     assert found.eigenvalues == pytest.approx(linear.mode_of("beta1").eigenvalues, rel=1e-9)
 
 
-def test_a_small_perturbation_moves_as_the_linear_equations_say():
-    """The difference of two simulations, against the matrix exponential."""
-    start = equilibrium(HELD)
-    linear = linearise(HELD, start, outputs=["wheel_center_z", "tyre_force"])
-    size = 1e-5  # rad; the second-order part is of its square
-    moved = start + size * np.eye(4)[0]
-    times = np.linspace(0.0, 0.2, 41)
-    result = simulate(HELD, (0.0, 0.2), moved, t_eval=times, rtol=1e-11, atol=1e-14)
-    _, outputs, states = scipy.signal.lsim(
-        scipy.signal.StateSpace(linear.A, linear.B, linear.C, linear.D),
-        np.zeros((times.size, len(linear.input_names))),
-        times,
-        X0=moved - start,
-    )
-    for row, name in enumerate(HELD.state_names):
-        found = result.y[row] - start[row]
-        scale = np.abs(states[:, row]).max()
-        assert found == pytest.approx(states[:, row], rel=0.0, abs=1e-4 * scale), name
-    for column, name in enumerate(linear.output_names):
-        found = result.signals[name] - linear.outputs[column]
-        scale = np.abs(outputs[:, column]).max()
-        # forces of 4 kN less forces of 4 kN: 1 N is left of them
-        assert found == pytest.approx(outputs[:, column], rel=0.0, abs=1e-4 * scale), name
-
-
-def test_a_small_harmonic_road_is_followed_as_the_frequency_response_says():
-    linear = linearise(HELD, equilibrium(HELD), outputs=["tyre_force", "wheel_center_z"])
-    frequency, amplitude = 11.0, 1e-6
-    # six periods in the decay of the transient by exp(-18 * 1.5)
-    times = 1.5 + np.linspace(0.0, 1.0 / frequency, 9)[:-1]
-
-    def road(t):
-        return amplitude * np.sin(2 * np.pi * frequency * t)
-
-    result = simulate(
-        HELD,
-        (0.0, times[-1]),
-        equilibrium(HELD),
-        inputs={"road_height": road},
-        t_eval=times,
-        rtol=1e-11,
-        atol=1e-14,
-        max_step=1e-3,
-    )
-    response = linear.frequency_response(frequency, "road_height")
-    for name, expected in response.items():
-        values = result.signals[name] - linear.outputs[linear.output_names.index(name)]
-        # the discrete Fourier coefficient of one period, of a sine that began at t = 0
-        found = 2j * np.mean(values * np.exp(-2j * np.pi * frequency * times)) / amplitude
-        # the transient is at exp(-27) = 2e-12; the input's spline and the tolerances are coarser
-        assert abs(found - expected) < 1e-3 * abs(expected), name
-
-
 def test_frequency_response_is_scipys():
     linear = linearise(HELD, equilibrium(HELD))
     frequencies = np.array([0.1, 1.0, 12.0, 80.0])
@@ -216,53 +162,6 @@ def test_rack_moves_with_its_velocity_and_acceleration():
     moving = np.array([1.0, s, s * s])
     expected = alone.C @ resolvent @ alone.B[:, columns] @ moving + alone.D[:, columns] @ moving
     assert fast == pytest.approx(expected[0], rel=1e-12)
-
-
-def test_frequency_of_a_quarter_car():
-    """An arm swinging in a vertical plane below a vertical strut far away: m z'' = -(k + kt) z.
-
-    The hinge is along x, all points lie in one transverse plane, the arm is level, and the strut is
-    so long that it neither tilts nor turns the wheel. Masses are at the ball joint's height in the
-    wheel centre.
-    """
-    rate, tyre, mass = 20e3, 150e3, 40.0
-    points = {
-        "unit": "m",
-        "arm_front": [0.2, 0.2, 0.3],
-        "arm_rear": [-0.2, 0.2, 0.3],
-        "ball_joint": [0.0, 0.7, 0.3],
-        "strut_top": [0.0, 0.7, 19.3],
-        "tie_rod_outer": [-0.1, 0.7, 0.3],
-        "tie_rod_inner": [-0.1, 0.2, 0.3],
-        "wheel_center": [0.0, 0.75, 0.3],
-    }
-    data = CAR.to_dict()
-    data["hardpoints"] = points
-    data["vehicle"] = {"side": "left"}
-    data["strut"] = {
-        "length_max_mm": 19500.0,
-        "spring_rate_N_per_m": rate,
-        "spring_free_slide_mm": 500.0,
-        "damper_rate_N_s_per_m": 900.0,
-    }
-    data["tyre"] = {"rate_N_per_m": tyre, "free_height_mm": 300.0}
-    data["gravity"] = {"acceleration_m_per_s2": 0.0}
-    inertia = {"inertia_spin_kg_m2": 1.0, "inertia_diametral_kg_m2": 0.6}
-    data["bodies"] = {
-        "control_arm": {"mass_kg": 0.0},
-        "knuckle": {"mass_kg": 0.0},
-        "wheel": {"mass_kg": mass} | inertia,
-    }
-    model = Model(Suspension.from_dict(data))
-    state = equilibrium(model)
-    assert float(model.signal("wheel_center_z", state)) == pytest.approx(0.3, abs=1e-12)
-    hop = linearise(model, state).mode_of("beta1")
-    frequency = np.sqrt((rate + tyre) / mass) / (2 * np.pi)
-    damping = 900.0 / (2.0 * np.sqrt((rate + tyre) * mass))
-    # the knuckle tilts with the strut by (0.5 m / 19 m) of the arm's turn, once squared in the
-    # inertia and once in the lever of the wheel's 50 mm
-    assert hop.natural_frequency == pytest.approx(frequency, rel=3e-3)
-    assert hop.damping_ratio == pytest.approx(damping, rel=3e-3)
 
 
 def test_a_state_that_is_no_equilibrium_is_said_to_be_none():
