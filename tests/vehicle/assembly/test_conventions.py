@@ -4,6 +4,8 @@ Points of the wheel are carried along as a person would watch them: its top, its
 where the steering axis pierces the ground. Nothing here knows the definitions of the angles.
 """
 
+from collections import defaultdict
+
 import numpy as np
 import pytest
 from kintrafo import Model, Suspension, state_at_height
@@ -144,8 +146,7 @@ STEP = 1e-5  # of the wheel's travel, to either side of design [m]
 def shift_in_bump(car, offset):
     """Return how a point of the wheel carrier moves for a metre of wheel travel at design.
 
-    The point is so far from the wheel centre [m]. It is carried along by a small bump and rebound,
-    so that the error is that of a central difference: some ten STEP^2, and rounding over STEP.
+    The point is so far from the wheel centre [m].
     """
     model = Model(car)
     knuckle = model.equations.BODIES.index("knuckle")
@@ -159,78 +160,50 @@ def shift_in_bump(car, offset):
     return (ends[0] - ends[1]) / (2.0 * STEP)
 
 
-TO_GROUND = np.array([0.0, 0.0, -RIGHT.hardpoints.metres("wheel_center")[2]])
-TO_TOP = -TO_GROUND
+TO_TOP = np.array([0.0, 0.0, RIGHT.hardpoints.metres("wheel_center")[2]])
+OFFSETS = (TO_TOP, -TO_TOP, np.zeros(3), np.array([0.3, 0.0, 0.0]))
+
+
+def tilted(hinge, *, rear=0.0, tie_rod=300.0):
+    """Return changes: heights of the hinge of the arm, the rear so much more, and tie rod [mm]."""
+    return {
+        "hardpoints.arm_front.z": hinge,
+        "hardpoints.arm_rear.z": hinge + rear,
+        "hardpoints.tie_rod_inner.z": tie_rod,
+    }
+
+
+TILTED = (tilted(205.0), tilted(60.0), tilted(205.0, rear=60.0), tilted(205.0, rear=-60.0),
+          tilted(205.0, tie_rod=250.0))  # fmt: skip
 
 
 @side
-class TestInstantCentres:
-    def tilted(self, side, *, hinge=205.0, rear=0.0):
-        """Return the car with the arm's hinge at a height, its rear bearing so much higher [mm]."""
-        places = {"hardpoints.arm_front.z": hinge, "hardpoints.arm_rear.z": hinge + rear}
-        return CARS[side].with_changes(places)
-
-    @pytest.mark.parametrize(("hinge", "sign"), [(205.0, 1.0), (60.0, -1.0)])
-    def test_swing_arm_is_positive_with_the_top_leaning_inboard_in_bump(self, side, hinge, sign):
-        car = self.tilted(side, hinge=hinge)
-        top, ground = shift_in_bump(car, TO_TOP), shift_in_bump(car, TO_GROUND)
-        lean = -OUTBOARD[side] * (top - ground)[1] / (TO_TOP - TO_GROUND)[2]
-        assert np.sign(lean) == sign
-        # the contact rises by its distance from the centre times the angle
-        length = ground[2] / lean
-        assert at_design(car, "swing_arm_length_kinematic") == pytest.approx(length, rel=1e-7)
-        assert np.sign(at_design(car, "swing_arm_length_geometric")) == sign
-        assert np.sign(at_design(car, "camber_gradient")) == -sign
-
-    @pytest.mark.parametrize(("hinge", "sign"), [(205.0, 1.0), (120.0, -1.0)])
-    def test_roll_centre_is_above_when_the_contact_goes_outboard(self, side, hinge, sign):
-        car = self.tilted(side, hinge=hinge)
-        shift = shift_in_bump(car, TO_GROUND)
-        assert np.sign(shift[1]) == sign * OUTBOARD[side]
-        height = abs(car.hardpoints.metres("wheel_center")[1]) * OUTBOARD[side] * shift[1]
-        found = at_design(car, "roll_center_height_kinematic")
-        assert found == pytest.approx(height / shift[2], rel=1e-7)
-        assert np.sign(at_design(car, "roll_center_height_geometric")) == sign
-
-    @pytest.mark.parametrize("sign", [1.0, -1.0])
-    def test_anti_dive_is_positive_when_the_contact_goes_ahead(self, side, sign):
-        car = self.tilted(side, rear=60.0 * sign)
-        shift = shift_in_bump(car, TO_GROUND)
-        assert np.sign(shift[0]) == sign
-        slope = np.arctan2(shift[0], shift[2])
-        assert at_design(car, "side_view_swing_arm_angle") == pytest.approx(slope, abs=1e-7)
-        assert np.sign(at_design(car, "anti_dive")) == sign
-
-    @pytest.mark.parametrize("sign", [1.0, -1.0])
-    def test_hub_angle_and_wheelbase_change_are_positive_ahead(self, side, sign):
-        car = self.tilted(side, rear=60.0 * sign)
-        shift = shift_in_bump(car, np.zeros(3))
-        assert np.sign(shift[0]) == sign
-        slope = np.arctan2(shift[0], shift[2])
-        assert at_design(car, "side_view_hub_angle") == pytest.approx(slope, abs=1e-7)
-        change = one(over(Model(car), "travel", [STEP]), "wheelbase_change")
-        assert np.sign(change) == sign
-
-    @pytest.mark.parametrize(("hinge", "sign"), [(205.0, 1.0), (120.0, -1.0)])
-    def test_half_track_change_is_positive_outboard(self, side, hinge, sign):
-        car = self.tilted(side, hinge=hinge)
-        outboard = OUTBOARD[side] * shift_in_bump(car, TO_GROUND)[1]
-        changes = over(Model(car), "travel", [-STEP, STEP])["half_track_change"].values
-        assert np.sign(changes[1] - changes[0]) == sign
-        assert np.diff(changes)[0] / (2.0 * STEP) == pytest.approx(outboard, abs=1e-7)
-
-    @pytest.mark.parametrize(("height", "sign"), [(300.0, 1.0), (250.0, -1.0)])
-    def test_bump_steer_is_positive_with_the_front_going_inboard(self, side, height, sign):
-        car = CARS[side].with_changes({"hardpoints.tie_rod_inner.z": height})
-        ahead = np.array([0.3, 0.0, 0.0])
-        turned = shift_in_bump(car, ahead) - shift_in_bump(car, np.zeros(3))
-        inboard = -OUTBOARD[side] * turned[1] / ahead[0]
-        assert np.sign(inboard) == sign
-        assert at_design(car, "bump_steer") == pytest.approx(inboard, abs=1e-7)
-
-
-@pytest.mark.parametrize("name", sorted(over(Model(RIGHT), "travel", [0.0]).data_vars))
-def test_what_is_mirrored_and_what_is_the_same_on_both_sides(name):
-    right, left = (one(over(Model(car), "travel", [0.03]), name) for car in CARS.values())
-    same_sense = name == "steer"
-    assert left == pytest.approx(-right if same_sense else right, rel=1e-9, abs=1e-12)
+def test_what_a_wheel_does_in_bump_has_the_sign_of_its_points(side):
+    """Of each there is either sign in some of the cars."""
+    signs = defaultdict(set)
+    for changes in TILTED:
+        car = CARS[side].with_changes(changes)
+        top, ground, hub, front = (shift_in_bump(car, offset) for offset in OFFSETS)
+        leans_inboard = -OUTBOARD[side] * (top - ground)[1]
+        goes_outboard = OUTBOARD[side] * ground[1]
+        found = over(Model(car), "travel", [-STEP, 0.0, STEP])
+        values = {name: found[name].values[1] for name in found}
+        for name in ("wheelbase_change", "half_track_change"):
+            values[name] = found[name].values[2] - found[name].values[0]
+        expected = {
+            "swing_arm_length_kinematic": leans_inboard,
+            "swing_arm_length_geometric": leans_inboard,
+            "camber_gradient": -leans_inboard,
+            "roll_center_height_kinematic": goes_outboard,
+            "roll_center_height_geometric": goes_outboard,
+            "half_track_change": goes_outboard,
+            "side_view_swing_arm_angle": ground[0],
+            "anti_dive": ground[0],
+            "side_view_hub_angle": hub[0],
+            "wheelbase_change": hub[0],
+            "bump_steer": -OUTBOARD[side] * (front - hub)[1],
+        }
+        for name, value in expected.items():
+            assert np.sign(values[name]) == np.sign(value), name
+            signs[name].add(np.sign(value))
+    assert all(found == {-1.0, 1.0} for found in signs.values()), signs
