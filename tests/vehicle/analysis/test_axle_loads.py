@@ -1,4 +1,4 @@
-"""Loads of whole axles: against those of their sides, balances of the whole, work, and formulas."""
+"""Loads of whole axles: against balances of the whole, and work."""
 
 from typing import Any
 
@@ -9,7 +9,6 @@ from axles import AXLE, BENT, placed
 from kintrafo import (
     Axle,
     AxleModel,
-    Suspension,
     System,
     equilibrium,
     loads,
@@ -21,11 +20,7 @@ from kintrafo.vehicle.assembly.axle_kinematics import AxleKinematics
 from kintrafo.vehicle.models.points import carried
 from kintrafo.vehicle.models.positions import arm_angles, design_height
 from kintrafo.vehicle.models.reach import at_rest
-from listed_loads import wrench
 
-CAR = Suspension.load("reference_car")
-PLAIN = Axle.from_dict({"axle": "front", "side": CAR})
-LINKED = Axle.from_dict({"axle": "rear", "side": Suspension.load("multi_link_car")})
 SIDES = ("left", "right")
 # Forces at both ends, on both wheels, of different sizes, the rack aside.
 PUSHED: dict[str, Any] = {
@@ -41,34 +36,6 @@ def of(found: xr.Dataset, part: str, by: str = "", point: str = "") -> xr.Datase
     """Return the loads on a part, of its first case."""
     rows = (found["part"] == part) & found["by"].str.startswith(by)
     return found.isel(case=0).isel(load=(rows & found["point"].str.startswith(point)).values)
-
-
-@pytest.mark.parametrize("axle", [PLAIN, AXLE, LINKED], ids=["plain", "with a bar", "multi-link"])
-def test_even_loads_are_those_of_each_side(axle: Axle) -> None:
-    """An untwisted bar, or none, leaves each side as it is by itself."""
-    cases = {
-        "brake": {"contact_g": [-1.0, 0.0, 1.2]},
-        "held": {"travel_mm": 20.0, "contact_N": [-800.0, 0.0, 0.0]},
-    }
-    found = loads.static(axle, cases)
-    for side, model in axle.models.items():
-        alone = loads.static(model, cases)
-        # the rack is that of both
-        own = alone.isel(load=~(alone["point"] == "rack_guide").values)
-        for name in map(str, own["load"].values):
-            here = alone.sel(load=name)
-            words = {key: str(here[key].values) for key in ("part", "point", "by")}
-            rows = np.all(
-                [found[key].isin([word, f"{word}_{side}"]) for key, word in words.items()], axis=0
-            )
-            # along the missing force that is left, 1e-6 N, and the last bits of 1e4 N
-            force = found["force"].isel(load=rows)[:, 0]
-            np.testing.assert_allclose(force, here["force"], atol=1e-7)
-        np.testing.assert_allclose(found["travel"].sel(wheel=side), alone["travel"], atol=1e-12)
-        np.testing.assert_allclose(
-            found["wheel_load"].sel(wheel=side), alone["wheel_load"], rtol=1e-9
-        )
-        assert float(abs(found["holding_force"].sel(wheel=side)).max()) < 1e-6
 
 
 def test_mounts_name_what_they_carry() -> None:
@@ -99,39 +66,6 @@ def test_links_do_the_work_of_the_bar(axle: Axle) -> None:
         link = of(found, f"drop_link_{side}")
         along = np.diff(link["at"].values, axis=0)[0]
         assert np.linalg.norm(np.cross(along, force)) < 1e-9 * np.linalg.norm(force)
-
-
-def test_a_bar_is_a_spring_and_a_lever() -> None:
-    """Levers of 200 mm across, links upright at design, wheels held 30 mm apart."""
-    bar = {
-        "unit": "mm", "bush": [230.0, -300.0, 320.0], "link_top": [30.0, -500.0, 320.0],
-        "link_foot": [30.0, -500.0, 120.0], "link_on": "control_arm", "rate_Nm_per_deg": 20.0,
-    }  # fmt: skip
-    axle = Axle.from_dict({"axle": "front", "side": CAR, "anti_roll_bar": bar})
-    apart = {"apart": {"left": {"travel_mm": 1.0}, "right": {"travel_mm": -1.0}}}
-    found = loads.static(axle, apart)
-    tops = {s: of(found, "anti_roll_bar", point=f"link_top_{s}") for s in SIDES}
-    rise = {s: float(tops[s]["at"].values[0, 2]) - 0.32 for s in SIDES}
-    # a bar whose levers point forward turns by the rise over the lever, by its rate
-    torque = -np.rad2deg(rise["left"] - rise["right"]) / 0.2 * 20.0
-    # the angle is the arcsine of a rise of some 0.5 mm over 200 mm: 1e-6 of it
-    assert abs(float(found["bar_torque"][0])) == pytest.approx(abs(torque), rel=1e-5)
-    for side in SIDES:
-        vertical = float(tops[side]["force"].values[0, 2])
-        # upright but for some thousandths of a radian, whose square is left out
-        assert abs(vertical) == pytest.approx(abs(torque) / 0.2, rel=1e-4)
-        assert vertical * (rise[side] - rise[SIDES[side == "left"]]) > 0.0
-        # lever rule: links 1 m apart, bearings 0.6 m
-        bearing = float(of(found, "anti_roll_bar", point=f"bar_bush_{side}")["force"].values[0, 2])
-        assert bearing == pytest.approx(-vertical * 1.0 / 0.6, rel=1e-4)
-
-
-def test_the_steering_holds_both_tie_rods() -> None:
-    found = loads.static(AXLE, PUSHED)
-    rods = of(found, "rack", "tie_rod")["force"].values
-    assert rods.shape == (2, 3)
-    assert float(found["rack_force"][0]) == pytest.approx(-rods[:, 1].sum(), abs=1e-9)
-    assert wrench(of(found, "rack")) == pytest.approx(np.zeros(6), abs=1e-8)
 
 
 def test_a_bar_bends_where_one_wheel_is_held() -> None:

@@ -9,7 +9,6 @@ import csv
 import dataclasses
 import re
 
-import kintrafo
 import numpy as np
 import pytest
 from benches import SKEWED, UP, Strut, Wishbones
@@ -24,14 +23,12 @@ from kintrafo import (
     PositionError,
     Suspension,
     characteristics,
-    travel_range,
     variation,
 )
 from kintrafo.vehicle.assembly import wheel
 from kintrafo.vehicle.assembly.by_wheel import flat
-from kintrafo.vehicle.assembly.corner_kinematics import corner, vehicle_of
+from kintrafo.vehicle.assembly.corner_kinematics import corner
 from kintrafo.vehicle.assembly.measures import ackermann as axle
-from kintrafo.vehicle.corner.corner import RoadWheel
 
 CAR = Suspension.load("reference_car")
 MODEL = Model(CAR)
@@ -293,17 +290,6 @@ def test_steering(bench, place):
         assert float(found[name][0]) == pytest.approx(-one.side * one.toe(place), abs=POSE)
 
 
-def test_camber_is_seen_from_the_front_and_toe_from_above():
-    """Not the arcsine of a component: of a wheel that leans by 4 deg and is steered by 30 deg."""
-    lean, steered = np.radians([4.0, 30.0])
-    axis = np.array([np.cos(lean) * np.sin(steered), np.cos(lean) * np.cos(steered), -np.sin(lean)])
-    still = RoadWheel(vehicle_of(MODEL.suspension.mirrored()), np.zeros(3), np.zeros(3), axis, axis)
-    assert np.degrees(wheel.camber(still)) == pytest.approx(4.62, abs=5e-3)
-    assert np.degrees(wheel.toe(still)) == pytest.approx(30.0, rel=1e-12)
-    assert np.degrees(np.arcsin(-axis[2])) == pytest.approx(4.0, rel=1e-12)
-    assert np.degrees(np.arcsin(axis[0])) == pytest.approx(29.92, abs=5e-3)
-
-
 # -- both wheels ----------------------------------------------------------------------------------
 
 
@@ -331,19 +317,6 @@ def test_parallel_wheels_and_wheels_straight_ahead():
     assert np.isnan(part[2])
     assert np.isinf(axle.turning_circle(parallel, parallel, 2.6)[2])
     assert np.isinf(axle.steering_ratio(np.zeros(1), np.zeros(1), 0.05)[0])
-
-
-def test_axle_quantities_of_the_reference_car():
-    """By hand from the two steer angles, each at its wheel's own curve."""
-    racks = np.array([-0.05, 0.02])
-    found = characteristics.over(MODEL, "rack", racks)
-    left, right = found["steer_left"].values, found["steer_right"].values
-    inner, outer = np.array([left[0], -right[1]]), np.array([right[0], -left[1]])
-    assert (inner > 0.0).all()
-    ideal = np.arctan(2.6 / (2.6 / np.tan(inner) + 1.52))
-    assert found["ackermann_error"].values == pytest.approx(outer - ideal, rel=1e-12)
-    assert found["ackermann"].values == pytest.approx((inner - outer) / (inner - ideal), rel=1e-9)
-    assert found["turning_circle"].values == pytest.approx(5.2 / np.sin(outer), rel=1e-12)
 
 
 @pytest.mark.parametrize("name", ["reference_car", "double_wishbone_car", "multi_link_car"])
@@ -441,11 +414,6 @@ def assert_mirror_images(suspension):
             assert first == pytest.approx(expected, rel=1e-8, abs=1e-12, nan_ok=True), name
 
 
-@pytest.mark.parametrize("name", BENCHES)
-def test_sides_are_mirror_images(name):
-    assert_mirror_images(BENCHES[name][1])
-
-
 shift = st.floats(-20.0, 20.0)
 
 
@@ -460,18 +428,6 @@ def test_any_sides_are_mirror_images(x, y, z, camber, toe):
         "wheel.toe_deg": toe,
     }
     assert_mirror_images(CAR.with_changes(changes))
-
-
-def test_signs_on_a_drawing():
-    """Of the reference car, front right: what can be seen from its hardpoints."""
-    at = characteristics.over(MODEL, "travel", [0.0]).isel(wheel_travel=0)
-    assert float(at["caster"]) == pytest.approx(np.arctan2(33.0, 640.0))  # top 33 mm rearward
-    assert float(at["kingpin_inclination"]) == pytest.approx(np.arctan2(125.0, 640.0))
-    # the axis meets the ground 180 mm below the ball joint, ahead of x = 0 and inboard of 760 mm
-    assert float(at["trail"]) * 1e3 == pytest.approx(5.0 + 180.0 * 33.0 / 640.0)
-    assert float(at["steering_axis_offset"]) * 1e3 == pytest.approx(50.0 - 180.0 * 125.0 / 640.0)
-    assert float(at["hub_trail"]) * 1e3 == pytest.approx(5.0 - 120.0 * 33.0 / 640.0)
-    assert float(at["spindle_offset"]) * 1e3 == pytest.approx(50.0 + 120.0 * 125.0 / 640.0)
 
 
 def test_free_rack_changes_no_characteristic():
@@ -530,6 +486,17 @@ def test_derivatives_are_those_of_the_curves(place):
     assert float(at["wheel_rate"]) == pytest.approx(slope("force"), rel=1e-9)
 
 
+MIRRORED = {name: car for name, (_, car) in BENCHES.items()} | {
+    "offset strut": OFFSET,
+    **{name: Suspension.load(name) for name in ("push_rod_car", "pull_rod_car", "multi_link_car")},
+}
+
+
+@pytest.mark.parametrize("name", MIRRORED)
+def test_sides_are_mirror_images(name):
+    assert_mirror_images(MIRRORED[name])
+
+
 def test_spring_and_damper_differ_where_the_spring_has_seats():
     at = characteristics.over(Model(OFFSET), "travel", [0.0]).isel(wheel_travel=0)
     # between the hardpoints, in mm
@@ -537,10 +504,6 @@ def test_spring_and_damper_differ_where_the_spring_has_seats():
     assert float(at["spring_length"]) * 1e3 == pytest.approx(np.linalg.norm(seats), rel=1e-13)
     assert float(at["damper_length"]) * 1e3 == pytest.approx(np.linalg.norm(strut), rel=1e-13)
     assert float(at["motion_ratio"]) != pytest.approx(float(at["damper_motion_ratio"]), rel=1e-3)
-
-
-def test_mirror_images_of_an_offset_strut():
-    assert_mirror_images(OFFSET)
 
 
 # -- the datasets ---------------------------------------------------------------------------------
@@ -626,23 +589,6 @@ def test_an_instant_centre_at_infinity_is_infinite():
 
 # -- refusals -------------------------------------------------------------------------------------
 
-REACH = travel_range(MODEL)
-DESIGN = 0.3
-
-
-@settings(max_examples=50, deadline=None)
-@given(st.floats(REACH.height[0] - DESIGN, REACH.height[1] - DESIGN))
-def test_any_travel_within_reach_is_met(travel):
-    found = characteristics.over(MODEL, "travel", [travel])
-    assert np.isfinite([found[name].values[0] for name in ("camber", "toe", "caster")]).all()
-
-
-@settings(max_examples=30, deadline=None)
-@given(st.one_of(st.floats(-5.0, -0.3657), st.floats(0.316, 5.0)))
-def test_any_travel_beyond_reach_is_refused_with_the_range(travel):
-    with pytest.raises(PositionError, match=r"out of reach: .* -365.59 mm to \+315.87 mm"):
-        characteristics.over(MODEL, "travel", [0.0, travel])
-
 
 def test_racks_beyond_reach_are_refused():
     with pytest.raises(PositionError, match="rack cannot be at 500 mm"):
@@ -656,11 +602,6 @@ def test_what_is_no_row_of_numbers_is_refused(wrong):
     for motion in ("travel", "rack"):
         with pytest.raises(InputError, match="number"):
             characteristics.over(MODEL, motion, wrong)
-
-
-def test_the_module_is_part_of_the_interface():
-    assert kintrafo.characteristics is characteristics
-    assert "characteristics" in dir(kintrafo)
 
 
 # -- the page -------------------------------------------------------------------------------------

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from folders import ROOT
-from kintrafo import Axle, InputError, Model, RigidAxle, Suspension, characteristics, compliance
+from kintrafo import Axle, InputError, Model, RigidAxle, Suspension, compliance
 from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.input.toml_writer import write_toml
 from kintrafo.vehicle.kinds import KINDS
@@ -77,28 +77,6 @@ def test_signs_and_units() -> None:
     assert float(at["toe_by_aligning"]) < 0.0 < float(at["displacement_by_braking"])
 
 
-def test_the_other_side_is_the_mirror_image() -> None:
-    model = Model("double_wishbone_car")
-    bush = {"lower_arm_rear": {"axial_N_per_mm": 500.0, "radial_N_per_mm": [900.0, 2000.0],
-                               "axis": [1.0, 0.3, 0.2]}}  # fmt: skip
-    mirrored = {"lower_arm_rear": bush["lower_arm_rear"] | {"axis": [1.0, -0.3, 0.2]}}
-    one = compliance.linear(model, bush, [-0.03, 0.04])
-    other = compliance.linear(model.mirror_image, mirrored, [-0.03, 0.04])
-    for name in one:
-        if name != "flexibility":
-            np.testing.assert_allclose(other[name], one[name], rtol=1e-9, err_msg=str(name))
-
-
-def test_a_stiffer_bush_gives_less() -> None:
-    model = Model("reference_car")
-    soft, stiff, rigid = (
-        compliance.linear(model, {"arm_rear": {"radial_N_per_mm": k}}, [0.0], held="locked")
-        for k in (1e3, 2e3, 1e11)
-    )
-    np.testing.assert_allclose(soft["flexibility"], 2.0 * stiff["flexibility"], rtol=1e-9)
-    np.testing.assert_allclose(soft["flexibility"], 1e8 * rigid["flexibility"], rtol=1e-9)
-
-
 def test_a_rod_deflects_at_either_end() -> None:
     model = Model("reference_car")
     inner, outer = (
@@ -116,18 +94,6 @@ def test_a_locked_spring_needs_no_rate() -> None:
         for c in (car, car.with_changes({"strut.spring_rate_N_per_m": 0.0}))
     )
     np.testing.assert_allclose(one, other, rtol=1e-9, atol=1e-18)
-
-
-def test_height_and_spring() -> None:
-    """The contact stays where it is; or goes with the spring, however stiff the bushes."""
-    model = Model("reference_car")
-    bush = {"arm_rear": {"radial_N_per_mm": 1e9}}
-    held = compliance.linear(model, bush, [0.0], held="height")["flexibility"][0]
-    free = compliance.linear(model, bush, [0.0], held="spring")["flexibility"][0]
-    assert abs(held.sel(moved="z").values).max() < 1e-18
-    rate = float(characteristics.over(model, "travel", [0.0])["wheel_rate"][0])
-    # per travel of the wheel centre, and the contact rises with the camber's gain, too
-    assert float(free.sel(moved="z", by="fz")) == pytest.approx(1.0 / rate, rel=0.02)
 
 
 def test_a_bearing_tilts_across_the_spin_axis_whatever_its_axis_is() -> None:

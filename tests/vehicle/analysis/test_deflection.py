@@ -2,7 +2,6 @@
 
 import re
 import tomllib
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -25,8 +24,7 @@ from kintrafo.core.validator import Validator
 from kintrafo.core.vectors import unit_vector
 from kintrafo.vehicle.analysis.compliance.connections import CompliantJoints
 from kintrafo.vehicle.analysis.compliance.equilibrium import ElasticEquilibrium, ElasticState
-from kintrafo.vehicle.analysis.compliance.on_bushes import at_height, on_bushes, on_joints, softs_of
-from kintrafo.vehicle.analysis.compliance.rig_loads import BY_NAME
+from kintrafo.vehicle.analysis.compliance.on_bushes import softs_of
 from kintrafo.vehicle.analysis.compliance.rigid_displacements import (
     Angles,
     Distances,
@@ -35,9 +33,6 @@ from kintrafo.vehicle.analysis.compliance.rigid_displacements import (
     RigidDisplacements,
     Torsions,
 )
-from kintrafo.vehicle.analysis.compliance.under_load import unit_load
-from kintrafo.vehicle.assembly import wheel
-from kintrafo.vehicle.assembly.corner import CornerAssembly
 from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.assembly.part_poses import CornerParts
 from kintrafo.vehicle.input.curve import Curve
@@ -47,14 +42,11 @@ from oracle.constraints import Pose
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 from soft_suspensions import (
-    BUSHES,
-    BUSHES_OF,
     CURVED,
     LINKED,
     SOFTER,
     STRUT,
     TRAILING,
-    UNDER,
     WISHBONES,
     Energy,
 )
@@ -165,12 +157,6 @@ def test_nothing_is_left_of_the_potential(
     assert np.abs(left).max() > 1e3
 
 
-def with_rack(car: Suspension) -> dict[str, Any]:
-    """Return the bushes of a car, and a soft rack if it has one."""
-    rack = {"rack": {"axial_N_per_mm": 3000.0}} if car.steered() else {}
-    return BUSHES_OF[car] | rack
-
-
 # -- limits ---------------------------------------------------------------------------------------
 
 
@@ -195,22 +181,6 @@ def test_torsion_of_the_arm_adds_to_the_wheel_rate(travel: float) -> None:
     for which, force in enumerate((rigid, soft)):
         rate = float(found["contact_rate"][which, 2])
         assert rate == pytest.approx((by @ force) / heights, rel=1e-7)
-
-
-def test_what_resists_tilting_stiffens() -> None:
-    """Some deflection is rotation of the arm across its axis, which the tilt of bushes resists."""
-    model = Model("reference_car")
-    bushes: dict[str, Any] = {
-        point: {"axial_N_per_mm": 100.0, "radial_N_per_mm": 300.0}
-        for point in ("arm_front", "arm_rear")
-    }
-    moved = []
-    for tilt in (0.0, 20.0, 1e6):
-        resisting = {point: bush | {"tilt_Nm_per_deg": tilt} if tilt else bush
-                     for point, bush in bushes.items()}  # fmt: skip
-        found = compliance.nonlinear(model, resisting, "braking", [2000.0])
-        moved.append(float(found["displacement"][0, 0]))
-    assert moved[0] > 1.02 * moved[1] > 1.02 * moved[2] > 0.0
 
 
 def test_two_rates_against_tilting_have_axes() -> None:
@@ -299,23 +269,6 @@ def test_torsion_alone_has_no_linear_deflection() -> None:
     assert abs(found["displacement"][0, 0]) > 1e-6
 
 
-def test_stiff_bushes_are_rigid_joints() -> None:
-    """A thousand times as stiff, a thousandth of it is left."""
-    model = Model("reference_car")
-    off = []
-    for factor in (1.0, 1e3):
-        bushes = {
-            point: {k: factor * np.array(v) if k.endswith("N_per_mm") else v for k, v in b.items()}
-            for point, b in BUSHES.items()
-            if point != "wheel_center"
-        }
-        found = compliance.elastokinematics(
-            model, bushes, along=[-0.05, 0.05], hardpoints="relaxed"
-        )
-        off.append(np.abs(np.diff(found["toe"], axis=0)).max())
-    assert off[1] == pytest.approx(1e-3 * off[0], rel=0.05)
-
-
 def test_a_curve_is_a_stiffness_where_it_is_straight() -> None:
     model = Model("reference_car")
     straight = {"arm_rear": {"axial_N_per_mm": 500.0, "radial_N_per_mm": 2000.0}}
@@ -335,19 +288,6 @@ def test_a_curve_is_a_stiffness_where_it_is_straight() -> None:
         for bushes in (straight, bent)
     ]
     np.testing.assert_allclose(*relaxed, rtol=1e-9)
-
-
-def test_a_left_car_is_the_mirror_image() -> None:
-    car = Suspension.load("double_wishbone_car")
-    bushes = {"lower_arm_rear": {"axial_N_per_mm": 300.0, "radial_N_per_mm": 1500.0},
-              "rack": {"axial_N_per_mm": 2000.0}}  # fmt: skip
-    for under in UNDER:
-        one, other = (
-            compliance.nonlinear(Model(side), bushes, under, [500.0])
-            for side in (car, car.mirrored())
-        )
-        for name in one:
-            np.testing.assert_allclose(one[name], other[name], rtol=1e-7, atol=1e-12)
 
 
 @pytest.mark.parametrize("name", ["push_rod_car", "pull_rod_car", "offset_strut_car"])
@@ -506,38 +446,6 @@ def test_two_bearings_share_a_force_as_their_bushes_do(kind: str, on: str) -> No
             assert abs(forces[other] @ axis) < 1e-6
 
 
-def test_how_bearings_share_matters_to_the_toe() -> None:
-    """By the forces of the rigid bearing alone, put in by hand."""
-    model = Model("reference_car")
-    bushes = {
-        "arm_front": {"axial_N_per_mm": _STIFF, "radial_N_per_mm": 2000.0},
-        "arm_rear": {"axial_N_per_mm": _LOOSE, "radial_N_per_mm": 1000.0},
-    }
-    with Validator("test") as given:
-        soft = softs_of(given, CornerAssembly(model), bushes, "loaded")[""]
-    half, carried = dict(soft.carried), soft.carried
-    keys = [("chassis", "control_arm", at) for at in ("arm_front", "arm_rear")]
-    points = model.suspension.hardpoints
-    axis = unit_vector(points.metres("arm_rear") - points.metres("arm_front"))
-    along = sum(carried[key][:3] @ axis for key in keys)
-    for key in keys:
-        own = carried[key].copy()
-        own[:3] += (0.5 * along - own[:3] @ axis) * axis
-        half[key] = own
-    toes = []
-    for each in (soft, replace(soft, carried=half)):
-        corner = CornerAssembly(model)
-        poses = corner.poses(corner.at_travel(np.zeros(1)))
-        suspension = on_joints(corner, poses, {"": each})
-        base = at_height(suspension, np.zeros(1))
-        unit = unit_load(BY_NAME["lateral"], suspension.wheels[0])[:, None]
-        state = suspension.under(4000.0 * unit, "height", base)
-        toes.append(np.diff([wheel.toe(on_bushes(suspension, s)) for s in (base, state)], axis=0))
-    found = compliance.nonlinear(model, bushes, "lateral", [4000.0])["toe_change"][0, 0]
-    assert float(found) == pytest.approx(float(toes[0][0, 0]), rel=1e-9)
-    assert abs(float(found) / float(toes[1][0, 0]) - 1.0) > 1e-5
-
-
 # -- loads beyond the bushes ---------------------------------------------------------------------
 
 
@@ -575,21 +483,6 @@ def test_wheels_that_lie_in_their_bushes_at_rest_are_refused() -> None:
         compliance.elastokinematics(
             Model("double_wishbone_car"), bushes, along=[0.0], hardpoints="relaxed"
         )
-
-
-def test_the_two_rates_of_a_wheel_have_two_names() -> None:
-    found = compliance.elastokinematics(
-        Model("reference_car"), {"arm_rear": {"axial_N_per_mm": 500.0}}, along=[0.0]
-    )
-    rate = found["contact_rate"]
-    of_wheel = characteristics.over(Model("reference_car"), "travel", [0.0])["wheel_rate"]
-    assert "wheel_rate" not in found
-    assert rate.attrs["long_name"] != of_wheel.attrs["long_name"]
-    assert "height of the contact" in rate.attrs["definition"]
-    assert "height of the wheel centre" in rate.attrs["definition"]
-    # with rigid joints they differ by the path of the contact alone
-    assert float(rate[0, 0]) == pytest.approx(float(of_wheel[0]), rel=2e-2)
-    assert float(rate[0, 0]) != pytest.approx(float(of_wheel[0]), rel=1e-3)
 
 
 def _of_page(page: str, name: str) -> dict[str, Any]:

@@ -11,7 +11,7 @@ from kintrafo import CarModel, InputError, load
 from kintrafo.vehicle.analysis.handling import circle, drive, load_manoeuvre, responses, steering
 from kintrafo.vehicle.analysis.handling.circle import Turns, steering_ratio
 from kintrafo.vehicle.analysis.handling.driven import Sampling, driven
-from kintrafo.vehicle.analysis.handling.drivers import Fixed, HeldTorque, OpenLoop, SpeedHeld
+from kintrafo.vehicle.analysis.handling.drivers import OpenLoop, SpeedHeld
 from kintrafo.vehicle.analysis.handling.linear import steering_response
 from kintrafo.vehicle.analysis.handling.manoeuvres import MANOEUVRES
 from kintrafo.vehicle.analysis.handling.manoeuvres.sine_with_dwell import amplitudes_of, judge
@@ -70,23 +70,6 @@ def test_gradients_are_those_of_the_bicycle_model(car, speed) -> None:
     assert float(found["steering_wheel_gradient"]) == pytest.approx(ratio * straight, rel=1e-6)
 
 
-def test_a_turn_is_where_a_simulation_ends(car) -> None:
-    turns = Turns(car, SteadyCondition("speed", 20.0), 1)
-    straight = turns.begin(0.0)
-    turn = turns.to(5.0)
-    angle = turn.unknowns["steering_wheel"]
-    motion = driven(
-        car, straight.state, OpenLoop(steering.ramp(angle, 2.0)),
-        SpeedHeld(float(turn.unknowns["forward"]), turn.unknowns["drive"], 4e3, 0.3), 6.0,
-    )  # fmt: skip
-    last = motion.isel(time=-1)
-    # what the slowest mode has left after 6 s
-    for name, value in (("yaw_rate", turn.unknowns["yaw_rate"]), ("lateral_acceleration", 5.0),
-                        ("roll_angle", turn.unknowns["roll"])):  # fmt: skip
-        assert float(last[name]) == pytest.approx(value, rel=1e-5)
-    assert float(last["drive_torque"]) == pytest.approx(turn.unknowns["drive"], rel=1e-3)
-
-
 def test_a_turn_of_a_car_with_linkages_is_where_its_simulation_ends() -> None:
     car = driving_car("test", CarModel(load("driving_car")))
     turns = Turns(car, SteadyCondition("speed", 20.0), -1)
@@ -133,26 +116,6 @@ def test_turns_to_both_sides_are_mirror_images_and_end_at_the_friction(car) -> N
     beyond = most + 0.2
     with pytest.raises(InputError, match=r"lateral_acceleration_m_per_s2 = .*no steady turn above"):
         run(car, "step_steer", lateral_acceleration_m_per_s2=beyond, speed_km_per_h=90.0)
-
-
-def test_a_car_that_oversteers_is_unstable_above_its_critical_speed(car) -> None:
-    swapped = {"front": CORNERING["rear"], "rear": CORNERING["front"]}
-    changed = {f"{end}_tyre_cornering_stiffness": 0.5 * c for end, c in swapped.items()}
-    loose = rail_car.car(**(car.model.parameters | changed))
-    _, _, front, rear = bicycle(loose)
-    gradient = loose.mass / loose.wheelbase * (rear / swapped["front"] - front / swapped["rear"])
-    critical = np.sqrt(-loose.wheelbase / gradient)
-    below, above = (
-        float(
-            circle(loose, speed=part * critical, lateral_acceleration=[1e-3]).curves[""]["growth"][
-                0
-            ]
-        )
-        for part in (0.97, 1.03)
-    )
-    # the speed and the place are neutral: what is left of them is rounding
-    assert below < 1e-3
-    assert above > 1e-2
 
 
 def test_straight_running_by_speed_is_that_of_the_bicycle_model(car) -> None:
@@ -497,11 +460,3 @@ def test_a_car_is_checked_before_its_equations_are_derived(name, changes, of_car
     model = load_manoeuvre(name, changes)
     with pytest.raises(InputError, match=re.escape(words)):
         drive(light_car(**of_car), model)  # whose equations take half a minute
-
-
-def test_a_car_that_stays_straight_stays_straight(car) -> None:
-    turns = Turns(car, SteadyCondition("speed", 15.0), 1)
-    straight = turns.begin(0.0)
-    motion = driven(car, straight.state, Fixed(0.0), HeldTorque(0.0, 0.0), 0.5)
-    assert np.allclose(motion["speed"], 15.0, rtol=1e-9)
-    assert np.abs(motion["y"] - motion["y"][0]).max() < 1e-12

@@ -122,31 +122,6 @@ def test_loads_of_the_joints_are_the_multipliers(seed: int, free: bool) -> None:
 EVERY = (CAR, OFFSET, WISHBONES, PUSHED, PULLED, LINKED, TRAILING)
 
 
-def left_of(found: xr.Dataset) -> dict[str, np.ndarray]:
-    """Return the sums of all listed loads on each part about the origin, the chassis's as well."""
-    force, at = found["force"].values, found["at"].values
-    moment = found["moment"].values + np.cross(at, force)
-    return {
-        str(part): np.concatenate([force[:, own].sum(1), moment[:, own].sum(1)], axis=-1)
-        for part in np.unique(found["part"].values)
-        for own in [(found["part"] == part).values]
-    }
-
-
-def test_a_free_rack_is_in_equilibrium_with_its_inertia() -> None:
-    model = Model(heavy(CAR), free_rack=True)
-    rest = equilibrium(model, spin_rate=50.0)
-    motion = simulate(model, (0.0, 0.05), rest, inputs={"rack_force": lambda t: 300.0 * t})
-    found = loads.along(model, motion)
-    assert {"gravity", "inertia"} <= set(found["by"].values[found["part"].values == "rack"])
-    for part, left in left_of(found).items():
-        assert part == "chassis" or abs(left).max() < 1e-6, part
-    steering = found.isel(load=((found["part"] == "rack") & (found["by"] == "steering")).values)
-    pushed = 300.0 * motion.t
-    # the motion is as exact as its tolerances, of forces of 1e4 N
-    np.testing.assert_allclose(steering["force"].values[:, 0, 1], pushed, atol=1e-5)
-
-
 @pytest.mark.parametrize("car", EVERY, ids=lambda car: car.TITLE)
 def test_a_mount_carries_the_total_of_what_is_bolted_there(car: Suspension) -> None:
     found = loads.static(Model(car), STILL | {"held": {"travel_mm": 15.0}})
@@ -188,9 +163,7 @@ def test_the_top_of_a_strut_has_the_spring_in_its_total(kintrafo: Any, tmp_path:
     assert float(force[0]) == pytest.approx(3487.0, abs=1.0)
 
 
-@pytest.mark.parametrize(
-    "car", [CAR, WISHBONES, OFFSET, PUSHED, PULLED, LINKED, TRAILING], ids=lambda car: car.TITLE
-)
+@pytest.mark.parametrize("car", EVERY, ids=lambda car: car.TITLE)
 def test_joints_do_no_work(car: Suspension) -> None:
     """In any motion, the forces of a joint on its two parts have no power in sum."""
     model = Model(car)
@@ -248,9 +221,7 @@ def test_motions_need_no_other_force(car: Suspension, free: bool) -> None:
 # -- load cases ---------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    "car", [CAR, WISHBONES, OFFSET, PUSHED, PULLED, LINKED], ids=lambda car: car.TITLE
-)
+@pytest.mark.parametrize("car", EVERY, ids=lambda car: car.TITLE)
 def test_at_rest_positions_are_those_of_the_equations(car: Suspension) -> None:
     model = Model(car)
     rest = equilibrium(model)
@@ -264,70 +235,9 @@ def test_at_rest_positions_are_those_of_the_equations(car: Suspension) -> None:
     assert float(found["residual"].max()) < 1e-8
 
 
-@pytest.mark.parametrize(
-    "car", [STOPPED, WISHBONES, OFFSET, PUSHED, PULLED, LINKED], ids=lambda car: car.TITLE
-)
-def test_work_of_the_loads_is_taken_up_by_spring_and_stops(car: Suspension) -> None:
-    """Virtual work, with derivatives of where things are: no joint appears in it."""
-    model = Model(car)
-    cases = {
-        "brake": {"contact_N": [-3000.0, 200.0, 4500.0], "contact_Nm": [0.0, 0.0, 80.0]},
-        "drive": {"contact_N": [0.0, -800.0, 3500.0], "center_N": [1500.0, 0.0, 100.0],
-                  "center_Nm": [10.0, -20.0, 30.0], "rack_mm": 25.0},
-    }  # fmt: skip
-    found = loads.static(model, cases)
-    for name in cases:
-        case = found.sel(case=name)
-        rack = float(case["rack"])
-        work = 0.0
-        for part, point, by in (
-            ("wheel", "contact", "road"),
-            ("wheel", "wheel_center", "drive"),
-            *((body, "mass", "gravity") for body in model.equations.MASSIVE_BODIES),
-        ):
-            load = case.sel(load=f"{part} at {point} by {by}")
-            moved, turned = by_travel(model, float(case["travel"]), rack, part, load["at"].values)
-            work += load["force"].values @ moved + load["moment"].values @ turned
-        work += lengthening(model, float(case["travel"]), rack)
-        # central differences of 10 um over some 0.1 m: 1e-8 of some 5 kN
-        assert abs(work) < 1e-3
-
-
 def state_of(model: Model, travel: float, rack: float) -> tuple[np.ndarray, np.ndarray]:
     """Return state and inputs of a position at rest."""
     return at_rest(model, arm_angles(model, design_height(model) + travel, rack), rack)
-
-
-def by_travel(
-    model: Model, travel: float, rack: float, part: str, at: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return how a point of a part moves and turns per wheel travel, the brake closed."""
-    # a braked wheel turns with the knuckle
-    which = model.equations.BODIES.index("knuckle" if part == "wheel" else part)
-    step = 1e-5
-    places, turns = [], []
-    for by in (-step, 0.0, step):
-        state = state_of(model, travel + by, rack)
-        places.append(model.evaluate("positions", *state)[which])
-        turns.append(model.evaluate("orientations", *state)[which])
-    spin = (turns[2] - turns[0]) / (2.0 * step) @ turns[1].T
-    turning = np.array([spin[2, 1], spin[0, 2], spin[1, 0]])
-    return (places[2] - places[0]) / (2.0 * step) + np.cross(turning, at - places[1]), turning
-
-
-def lengthening(model: Model, travel: float, rack: float) -> float:
-    """Return the work of spring and stops per wheel travel."""
-    step, total = 1e-5, 0.0
-    here = model.signals(*state_of(model, travel, rack))
-    around = [model.signals(*state_of(model, travel + by, rack)) for by in (-step, step)]
-    for name, force in here.items():
-        if not name.endswith("_force") or name == "tyre_force":
-            continue
-        path = "spring" if name == "spring_force" or "strut_length" not in here else "strut"
-        path = path if f"{path}_length" in here else "strut"
-        low, high = (signals[f"{path}_length"] for signals in around)
-        total += float(force * (high - low) / (2.0 * step))
-    return total
 
 
 def test_a_wheel_held_at_a_travel_takes_the_load_that_presses_it_there() -> None:

@@ -12,7 +12,6 @@ from kintrafo.vehicle.data.starter import whole_axles
 from listed_loads import wrench
 from rigid_axles import AXLES as RIGID
 
-Array = np.ndarray
 KINDS = ("reference_car", "offset_strut_car", "double_wishbone_car", "push_rod_car",
          "pull_rod_car", "multi_link_car", "trailing_arm_car")  # fmt: skip
 CORNERS = {name: Model(name) for name in KINDS}
@@ -26,7 +25,6 @@ WHOLE = {name: kintrafo.load(name) for name in whole_axles()}
 EVERY: dict[str, Any] = {**CORNERS, **AXLES, **RIGID, **WHOLE}
 SHORT = {"corner": CORNERS["reference_car"], "axle": AXLE, "rigid": RIGID["lopsided"]}
 each = pytest.mark.parametrize("subject", EVERY.values(), ids=EVERY)
-SIDES = ("left", "right")
 
 # Forces and moments at both places of the wheels, all of them different.
 LEFT = {"contact_N": [-1500.0, 700.0, 3900.0], "contact_Nm": [20.0, 5.0, -60.0]}

@@ -99,66 +99,6 @@ def test_a_weighted_sine_has_the_size_of_the_weighting() -> None:
 # -- a quarter car against two masses -------------------------------------------------------------
 
 
-def test_a_quarter_car_is_that_of_two_masses_in_the_limit(car: kintrafo.Car) -> None:
-    """Links without mass: the formulas of two masses on two springs, of any textbook."""
-    none = {
-        f"corner.bodies.{body}.{key}": 0.0
-        for body in ("control_arm", "knuckle")
-        for key in _INERTIA
-    }
-    wheel_alone = {
-        "mass_kg": 37.0,
-        "inertia_spin_kg_m2": 1e-6,
-        "inertia_diametral_kg_m2": 1e-6,
-    }
-    changes = {f"corner.bodies.wheel.{key}": value for key, value in wheel_alone.items()}
-    one = car.with_changes(none | changes)
-    assembly = assembly_of(one)
-    linear = linear_at_rest(assembly)
-    # the rates at the wheel, by the characteristics, which know no equations of motion
-    curves = kintrafo.characteristics.over(one.corner, "travel", [0.0])
-    rate, ratio = float(curves["wheel_rate"][0]), float(curves["motion_ratio"][0])
-    damping = 1500.0 * ratio**2
-    sprung, wheel, tyre = 345.36, 37.0, 200e3
-    frequencies = np.array([0.5, 1.0, 2.0, 5.0, 10.0, 15.0, 25.0])
-    s = 2j * np.pi * frequencies
-    coupling = rate + damping * s
-    whole = (sprung * s**2 + coupling) * (wheel * s**2 + coupling + tyre) - coupling**2
-    heave = tyre * coupling / whole
-    found = linear.state_response(frequencies, "road_height")[:, 0]
-    # the wheel moves across, too: the square of its path's slope, 0.14, adds 2 % to its mass
-    np.testing.assert_allclose(np.abs(found), np.abs(heave), rtol=3e-2)
-    modes = kintrafo.ride.modes(one)["frequency"].values
-    middle = sprung * (rate + tyre) + wheel * rate
-    roots = np.roots(
-        [sprung * wheel, (sprung + wheel) * damping, middle, damping * tyre, rate * tyre]
-    )
-    expected = np.sort(np.abs(roots))[::2] / (2.0 * np.pi)
-    np.testing.assert_allclose(np.sort(modes), expected, rtol=1e-2)
-    # the metrics of its ride, from spectral densities by the same formulas
-    n, speed = np.linspace(0.2, 50.0, 20001), 25.0
-    s = 2j * np.pi * n
-    coupling = rate + damping * s
-    whole = (sprung * s**2 + coupling) * (wheel * s**2 + coupling + tyre) - coupling**2
-    body, hub = tyre * coupling / whole, tyre * (sprung * s**2 + coupling) / whole
-    road = 64e-6 * (n / speed / 0.1) ** -2.0 / speed
-    expected = {
-        "acceleration_rms": s**2 * body, "load_rms": tyre * (hub - 1.0), "travel_rms": hub - body,
-    }  # fmt: skip
-    numbers = kintrafo.ride.by_speed(one, [10.0, speed])
-    for name, response in expected.items():
-        wanted = np.sqrt(np.trapezoid(np.abs(response) ** 2 * road, n))
-        assert float(numbers[name][1]) == pytest.approx(wanted, rel=3e-2), name
-        # the density of the road is as 1 / n^2: twice the speed, twice the density
-        ratio = float(numbers[name][1] / numbers[name][0])
-        assert ratio == pytest.approx(np.sqrt(2.5), rel=1e-9)
-    static = (sprung + wheel) * 9.81
-    np.testing.assert_allclose(numbers["load_variation"] * static, numbers["load_rms"], rtol=2e-2)
-
-
-_INERTIA = ("mass_kg", "inertia_xx_kg_m2", "inertia_yy_kg_m2", "inertia_zz_kg_m2")
-
-
 def test_rest_is_that_of_a_simulation(car: kintrafo.Car) -> None:
     model = kintrafo.CarModel(car)
     start = model.design_state.copy()
