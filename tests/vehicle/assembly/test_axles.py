@@ -1,4 +1,4 @@
-"""Axles: against their own compiled equations, differences, formulas by hand, and mirror images."""
+"""Axles: against their own compiled equations, differences, and formulas by hand."""
 
 import re
 from pathlib import Path
@@ -32,7 +32,6 @@ from kintrafo.vehicle.assembly import motions, wheel
 from kintrafo.vehicle.assembly.axle import AxleAssembly
 from kintrafo.vehicle.assembly.axle_kinematics import AxleKinematics
 from kintrafo.vehicle.assembly.by_wheel import flat
-from kintrafo.vehicle.assembly.corner_kinematics import corner as corner_of
 from kintrafo.vehicle.assembly.measures import axle_rolling as formulas
 from kintrafo.vehicle.models.axle.bar import AntiRollBar
 from kintrafo.vehicle.models.axle.steering import SteeringCurve
@@ -359,33 +358,6 @@ def test_anti_features_are_the_slopes_of_paths(end: str, torque_on: str) -> None
         assert float(found[f"{name}_right"][1]) == pytest.approx(sense * share * part, rel=1e-5)
 
 
-# -- mirrors ------------------------------------------------------------------------------------
-
-
-def test_the_mirror_image_exchanges_the_sides() -> None:
-    bar = BENT.bar.model_dump(exclude_none=True)
-    image = bar | {
-        "bush": [-250.0, 380.0, 260.0],
-        "link_top": [-60.0, 600.0, 300.0],
-        "link_foot": [-50.0, 610.0, 195.0],
-        "axis": [-0.1, 1.0, 0.05],
-    }
-    right = WISHBONES.with_changes({"vehicle.wheelbase_mm": 2700.0})
-    one = Axle.from_dict({"axle": "rear", "side": right, "anti_roll_bar": bar})
-    two = Axle.from_dict({"axle": "rear", "side": right.mirrored(), "anti_roll_bar": image})
-    angles = np.deg2rad([-2.0, 0.0, 1.0])
-    first, second = (
-        flat(characteristics.over(one, "roll", angles)),
-        flat(characteristics.over(two, "roll", angles)),
-    )
-    for name in first:
-        np.testing.assert_allclose(first[name], second[name], rtol=1e-9, atol=1e-9, err_msg=name)
-    back = flat(characteristics.over(one, "roll", -angles))
-    for name in ("camber", "inclination", "jacking", "track_change"):
-        both = (f"{name}_left", f"{name}_right") if f"{name}_left" in back else (name, name)
-        np.testing.assert_allclose(back[both[0]], first[both[1]], atol=1e-9)
-
-
 # -- steering -----------------------------------------------------------------------------------
 
 
@@ -664,90 +636,7 @@ def test_commands_refuse_what_only_the_other_sort_has(kintrafo: Any) -> None:
 
 # -- compliance of both wheels ------------------------------------------------------------------
 
-SOFT: dict[str, Any] = {
-    "arm_front": {"axial_N_per_mm": 1500.0, "radial_N_per_mm": [8000.0, 5000.0]},
-    "arm_rear": {"axial_N_per_mm": 400.0, "radial_N_per_mm": 1200.0, "axis": [0.2, 0.1, 1.0]},
-}
-RACK = {"rack": {"axial_N_per_mm": 2500.0}}
 PLAIN = Axle.from_dict({"axle": "front", "side": CAR})
-
-
-@pytest.mark.parametrize("held", ["height", "spring", "locked"])
-def test_wheels_that_share_nothing_give_way_by_themselves(held: Any) -> None:
-    """Both blocks are those of one wheel, mirrored bushes on a mirrored car among them."""
-    found = compliance.linear(PLAIN, SOFT, [0.03], held=held)["flexibility"].values[0]
-    right = compliance.linear(Model(CAR), SOFT, [0.03], held=held)["flexibility"].values[0]
-    image = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
-    np.testing.assert_allclose(found[6:, 6:], right, rtol=1e-9, atol=1e-15)
-    np.testing.assert_allclose(
-        found[:6, :6], image[:, None] * right * image, rtol=1e-9, atol=1e-9 * abs(right).max()
-    )
-    assert not found[:6, 6:].any()
-
-
-def test_a_soft_rack_steers_as_the_kinematics_say() -> None:
-    """With locked springs, by virtual work: the rack gives way to what the contacts do on it.
-
-    The spring of a double wishbone is locked where its arm is.
-    """
-    travel, step, force, softness = 0.03, 1e-5, 1000.0, 1.0 / 2.5e6
-    axle = Axle.from_dict({"axle": "front", "side": WISHBONES})
-    found = flat(compliance.linear(axle, RACK, [travel], held="locked")).isel(wheel_travel=0)
-    model = axle.models["right"]
-    angle = arm_angles(model, design_height(model) + travel)
-    knuckle = model.equations.BODIES.index("knuckle")
-
-    def pose(rack: float) -> tuple[np.ndarray, np.ndarray]:
-        state = at_rest(model, angle, rack)
-        center, turned = (model.evaluate(f, *state) for f in ("positions", "orientations"))
-        return center[knuckle], turned[knuckle]
-
-    center, turned = pose(0.0)
-    contact = turned.T @ (wheel.contact(corner_of(model, angle)) - center)
-
-    def contact_and_toe(rack: float) -> np.ndarray:
-        center, turned = pose(rack)
-        return np.append(center + turned @ contact, wheel.toe(corner_of(model, angle, rack)))
-
-    slope = (contact_and_toe(step) - contact_and_toe(-step)) / (2.0 * step)
-    ahead, left = np.array([slope[0], slope[1]])
-    heading = float(wheel.steer(corner_of(model, angle)))  # in the axes of the tyre
-    along = ahead * np.cos(heading) + left * np.sin(heading)
-    across = left * np.cos(heading) - ahead * np.sin(heading)
-    for name, turns, other in (
-        ("lateral_parallel", force * across, "lateral_opposed"),  # to the left, both
-        ("braking_opposed", force * along, "braking_parallel"),  # forward on the right
-    ):
-        toe = softness * 2.0 * turns * slope[3]
-        sides = [force * float(found[f"toe_by_{name}_{s}"]) for s in ("right", "left")]
-        assert sides == pytest.approx([toe, -toe], rel=1e-6)  # step^2 of the difference
-        assert abs(float(found[f"toe_by_{other}_right"]) * force) < 1e-9 * abs(toe)
-
-
-@pytest.mark.parametrize("axle", [AXLE, BENT], ids=["reference", "bent"])
-def test_the_bar_couples_the_wheels_as_the_rig_says(axle: Axle) -> None:
-    """Nothing else is soft: the heights of both contacts against rates of springs and bar."""
-    travel = 0.02
-    found = compliance.linear(axle, {"rack": {"axial_N_per_mm": 1e11}}, [travel], held="spring")
-    pair = AxleKinematics.at(axle, [travel], [travel], 0.0)
-    slopes = [pair.halves["left"].slope[0], -pair.halves["right"].slope[0]]
-    stiffness = axle.bar.rate() * np.outer(slopes, slopes)
-    rise = []
-    for i, side in enumerate(("left", "right")):
-        at = pair.corners[side]
-        stiffness[i, i] += wheel.wheel_rate(at)[0]
-        rise.append(wheel.contact_velocity(at)[0, 2])
-    expected = np.outer(rise, rise) * np.linalg.inv(stiffness)
-    heights = found["flexibility"].values[0][np.ix_([2, 8], [2, 8])]
-    np.testing.assert_allclose(heights, expected, rtol=1e-6, atol=1e-6 * expected.max())
-
-
-def test_the_matrix_of_an_axle_is_symmetric() -> None:
-    soft = {name.replace("arm", "lower_arm"): table for name, table in SOFT.items()} | RACK
-    for held in ("height", "spring", "locked"):
-        matrix = compliance.linear(BENT, soft, [-0.02, 0.03], held=held)["flexibility"].values
-        np.testing.assert_allclose(matrix, matrix.mT, rtol=0.0, atol=1e-12 * abs(matrix).max())
-        assert (np.linalg.eigvalsh(matrix) > -1e-12 * abs(matrix).max()).all()
 
 
 @pytest.mark.parametrize(

@@ -46,7 +46,6 @@ from rigid_axles import (
 )
 from scipy.interpolate import PchipInterpolator
 
-Array = np.ndarray
 PAGE = ROOT / "docs/suspension/types.md"
 PLACES = [(0.0, 0.0), (0.06, 0.0), (-0.05, 0.08), (0.03, -0.1), (-0.08, -0.03)]
 
@@ -78,19 +77,6 @@ def test_the_axle_is_where_a_root_finder_puts_it(axle: RigidAxle) -> None:
         yaw, roll_, pitch = turn.as_euler("ZXY")
         shown = [beam.coordinate(name)[0] for name in ("yaw", "roll", "pitch")]
         np.testing.assert_allclose(shown, [yaw, roll_, pitch], rtol=0.0, atol=2e-12)
-
-
-@each_axle
-def test_first_motions_are_those_of_the_root_finder(axle: RigidAxle) -> None:
-    found = Found(axle)
-    point = axle.center + np.array([0.1, 0.3, -0.36])
-    for at in PLACES[1:3]:
-        by = slopes(lambda h, r: found.place(point, h, r), at)
-        beam = beam_at(axle, *at)
-        here = found.place(point, *at)
-        shown = np.stack([beam.velocity("left", here, name)[0] for name in ("heave", "roll")], -1)
-        # 1e-12 of the fourth order, and 1e-13 of the positions over the step
-        np.testing.assert_allclose(shown, by, rtol=0.0, atol=3e-10)
 
 
 # -- springs --------------------------------------------------------------------------------------
@@ -142,27 +128,6 @@ def test_rates_at_the_wheels_are_those_of_the_energy() -> None:
     np.testing.assert_allclose(alone, np.diag(second), rtol=0.0, atol=1e-2)
 
 
-def test_springs_across_make_the_roll_stiffness_of_the_book() -> None:
-    """Upright springs without force: k s^2 / 2 for their distance s, and the bar."""
-    plain = AXLE.with_changes(
-        {
-            "hardpoints.spring_top": [0.0, -500.0, 700.0],
-            "hardpoints.spring_seat": [0.0, -500.0, 360.0],
-            "spring.force_at_design_N": 0.0,
-        }
-    )
-    shown = flat(characteristics.over(plain, "bump", [0.0]))
-    # rounding of forces over rates
-    book = 48000.0 * 1.0**2 / 2.0 + math.degrees(180.0)
-    assert float(shown["roll_stiffness"][0]) == pytest.approx(book, rel=1e-12)
-    assert float(shown["roll_stiffness_bar"][0]) == pytest.approx(math.degrees(180.0), rel=1e-12)
-    assert float(shown["wheel_rate_left"][0]) == pytest.approx(48000.0, rel=1e-12)
-    assert float(shown["roll_motion_ratio_left"][0]) == pytest.approx(500.0 / 780.0, rel=1e-12)
-    # one wheel: half of the heave of both, and its part of the roll
-    alone = 0.5 * 48000.0 + book / 1.56**2
-    assert float(shown["wheel_rate_alone_right"][0]) == pytest.approx(alone, rel=1e-12)
-
-
 # -- hand formulas of the guidance ----------------------------------------------------------------
 
 
@@ -186,32 +151,6 @@ def planar(slope: float, height: float) -> RigidAxle:
             },
         }
     )
-
-
-@pytest.mark.parametrize(("slope", "height"), [(0.0, 400.0), (0.05, 380.0), (-0.08, 440.0)])
-def test_the_roll_centre_is_where_a_panhard_rod_crosses_the_middle(
-    slope: float, height: float
-) -> None:
-    shown = characteristics.over(planar(slope, height), "bump", [0.0])
-    # exact at design, to rounding
-    assert float(shown["roll_center_height"][0]) == pytest.approx(1e-3 * height, rel=1e-11)
-    # links along x that rise to the front turn the axle out of the curve
-    assert float(shown["roll_steer"][0]) == pytest.approx(-slope, abs=1e-12)
-    # the rod falls by 60 mm over 920 mm to its end on the axle, at the left: a force to the left
-    # draws at it, and so its other end with the body down
-    assert float(shown["jacking"][0]) == pytest.approx(-60.0 / 920.0, rel=1e-11)
-
-
-def test_the_roll_centre_of_triangulated_links_is_on_the_line_through_their_meeting_point() -> None:
-    shown = characteristics.over(TRIANGULATED, "bump", [0.0])
-    # the upper links meet in the centre plane behind the axle; the line is along the lower links
-    part = 120.0 / (450.0 - 120.0)
-    meet = np.array([-20.0, 530.0]) + part * np.array([-20.0 - 420.0, 530.0 - 500.0])
-    slope = (340.0 - 310.0) / 600.0
-    height = meet[1] - slope * meet[0]
-    assert float(shown["roll_center_height"][0]) == pytest.approx(1e-3 * height, rel=1e-11)
-    assert float(shown["roll_steer"][0]) == pytest.approx(-slope, abs=1e-12)
-    assert float(shown["jacking"][0]) == pytest.approx(0.0, abs=1e-12)
 
 
 @pytest.mark.parametrize("torque_on", ["carrier", "body"])
@@ -284,35 +223,6 @@ def test_contacts_are_the_lowest_points_of_the_wheels() -> None:
         assert float(beam.contact(side)[0, 2]) == pytest.approx(lowest, abs=1e-8)
         camber = float(beam.signal(f"{side}_axle_camber")[0])
         assert camber == pytest.approx(math.radians(-0.5) - sign * 0.05, abs=1e-4)
-
-
-def test_the_mirror_image_is_the_mirror_image() -> None:
-    """All characteristics, with right and left exchanged."""
-    data = LOPSIDED.to_dict()
-    image = LOPSIDED.to_dict()
-    for rod in image["rods"].values():
-        for end in rod.values():
-            end[1] = -end[1]
-    right, left = data["hardpoints"], data["left_hardpoints"]
-    image["left_hardpoints"] = {
-        name: [right[name][0], -right[name][1], right[name][2]] for name in left
-    }
-    for name in left:
-        image["hardpoints"][name] = [left[name][0], -left[name][1], left[name][2]]
-    for motion in ("bump", "roll"):
-        along = np.array([-0.04, 0.0, 0.05])
-        ours = flat(characteristics.over(LOPSIDED, motion, along))
-        mirrored = along if motion == "bump" else -along
-        theirs = flat(characteristics.over(RigidAxle.from_dict(image), motion, mirrored))
-        odd = {"axle_steer", "heave_steer", "axle_lateral", "jacking", "roll_moment"}
-        for variable in ours.data_vars:
-            stem, _, side = str(variable).rpartition("_")
-            other = {"left": "right", "right": "left"}.get(side)
-            twin = f"{stem}_{other}" if other else str(variable)
-            sign = -1.0 if twin in odd or stem == "steer" else 1.0
-            np.testing.assert_allclose(
-                ours[variable], sign * theirs[twin], rtol=1e-9, atol=1e-9, err_msg=str(variable)
-            )
 
 
 # -- at rest and over a road ----------------------------------------------------------------------

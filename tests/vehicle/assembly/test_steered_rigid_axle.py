@@ -1,9 +1,8 @@
 """Steered rigid axles, against formulations that share nothing with the equations.
 
 `test_mechanisms` compares the equations with maximal coordinates and watches the energy, like those
-of every mechanism. Here the poses of beam and knuckles are the root of all distances at once,
-forces of the steering follow from virtual work on these poses, and Ackermann and bump steer from
-plane geometry.
+of every mechanism. Here the poses of beam and knuckles are the root of all distances at once, and
+forces of the steering follow from virtual work on these poses.
 """
 
 from __future__ import annotations
@@ -240,81 +239,6 @@ PLANE = AXLE.with_changes(
     }
 )
 """With upright kingpins and a level Panhard rod, so that the steering is one in a plane."""
-
-
-def trapezoid(left: float) -> float:
-    """Return the angle of the right knuckle by that of the left one: a plane four-bar linkage."""
-    half, x, y = 0.720, -0.170, 0.697
-    arm, rod = math.hypot(x, y - half), 2.0 * y
-    # ends from their kingpins, at design
-    begin = math.atan2(y - half, x)
-    end = np.array([0.0, half]) + arm * np.array([math.cos(begin + left), math.sin(begin + left)])
-    away = end - [0.0, -half]
-    far = float(np.hypot(*away))
-    # law of cosines about the right kingpin; the arm is behind the line to the left end
-    opening = math.acos((arm**2 + far**2 - rod**2) / (2.0 * arm * far))
-    direction = math.atan2(away[1], away[0]) + opening
-    turned = direction - math.atan2(half - y, x)
-    return math.remainder(turned, 2.0 * math.pi)
-
-
-def test_ackermann_is_that_of_the_plane_trapezoid() -> None:
-    racks = np.array([-0.08, -0.03, 0.05, 0.09])
-    found = characteristics.over(PLANE, "rack", racks)
-    left, right = found["steer"].values
-    assert (np.sign(left) == np.sign(racks)).all()
-    # roundings of 1e-16 m over a lever of 0.17 m, in a cosine law
-    np.testing.assert_allclose(right, [trapezoid(each) for each in left], rtol=0.0, atol=2e-13)
-    inner = np.where(left > 0.0, left, -right)
-    outer = np.where(left > 0.0, right, -left)
-    base, track = 3.0, 1.64
-    ideal = np.arctan(base / (base / np.tan(inner) + track))
-    np.testing.assert_allclose(found["ackermann_error"], outer - ideal, rtol=0.0, atol=2e-13)
-
-
-def pole() -> Array:
-    """Return the instant centre of the beam in side view: where the links meet."""
-    (low, upper) = (PLANE.rods[name] for name in ("left_link", "upper_link"))
-    a, b = (1e-3 * np.array(r.axle)[[0, 2]] for r in (low, upper))
-    u, v = (1e-3 * (np.array(r.axle) - np.array(r.chassis))[[0, 2]] for r in (low, upper))
-    along, _ = np.linalg.solve(np.stack([u, -v], axis=-1), b - a)
-    return np.asarray(a + along * u)
-
-
-@pytest.mark.parametrize("rise", [-60.0, 0.0, 25.0])
-def test_bump_steer_is_that_of_the_instant_centre(rise: float) -> None:
-    """The beam turns about the pole of its links, and the drag link about the Pitman arm's ball."""
-    ball = np.array([-730.0, 470.0, 445.0 + rise])
-    axle = PLANE.with_changes(
-        {"pitman_arm.ball_mm": ball.tolist(), "pitman_arm.pivot_mm": [-730.0, 470.0, 645.0 + rise]}
-    )
-    found = characteristics.over(axle, "bump", [0.0])
-    center, end = pole(), 1e-3 * np.array(axle.drag_link.knuckle)
-    # per metre of travel the beam turns about y, so that the wheel centres rise
-    turn = -1.0 / (0.0 - center[0])
-    velocity = np.cross([0.0, turn, 0.0], end - [center[0], end[1], center[1]])
-    along = end - 1e-3 * ball
-    lever = np.cross([0.0, 0.0, 1.0], end - [0.0, 0.72, end[2]]) @ along
-    steer = -(velocity @ along) / lever
-    # toe of the left wheel is against its steer angle; rounding of a quotient
-    assert found["bump_steer"].sel(wheel="left").item() == pytest.approx(-steer, rel=1e-10)
-    other = trapezoid(1e-6) / 1e-6 * steer
-    assert found["bump_steer"].sel(wheel="right").item() == pytest.approx(other, rel=1e-5)
-
-
-def test_a_drag_link_to_the_pole_does_not_steer_in_bump() -> None:
-    center, end = pole(), 1e-3 * np.array(PLANE.drag_link.knuckle)
-    to_pole = np.array([center[0], end[1], center[1]]) - end
-    ball = 1e3 * (end + 0.7 * to_pole / np.linalg.norm(to_pole))
-    axle = PLANE.with_changes(
-        {
-            "pitman_arm.ball_mm": ball.tolist(),
-            "pitman_arm.pivot_mm": (ball + np.array([0.0, 0.0, 200.0])).tolist(),
-        }
-    )
-    found = characteristics.over(axle, "bump", [0.0])
-    # rounding: of coordinates of a pole that is 10 m away
-    assert np.abs(found["bump_steer"].values).max() < 1e-12
 
 
 def test_a_soft_track_rod_lets_the_far_knuckle_turn() -> None:

@@ -24,7 +24,6 @@ from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.assembly.rig import RigPosition
 from kintrafo.vehicle.assembly.twist_beam import TwistBeamParts
-from listed_loads import wrench
 from oracle.constraints import skew
 from scipy.integrate import solve_ivp
 
@@ -99,18 +98,6 @@ def test_positions_are_those_that_the_halves_are_led_to(left: float, right: floa
     np.testing.assert_allclose(z, [left, right], rtol=0.0, atol=1e-14)
 
 
-def test_parallel_travel_is_that_of_trailing_arms() -> None:
-    found = characteristics.over(UPRIGHT, "bump", np.array([-0.05, 0.0, 0.07]))
-    for name in ("camber", "toe", "half_track_change"):
-        assert np.abs(found[name].values).max() < 1e-15
-    assert np.abs(found["bar_twist"].values).max() < 1e-15
-    lever = np.hypot(*(WHEEL - PIVOT)[[0, 2]])
-    angles = np.arcsin((found.wheel_travel + WHEEL[2] - PIVOT[2]) / lever)
-    back = PIVOT[0] - WHEEL[0] - lever * np.cos(angles)
-    # sums over a metre
-    np.testing.assert_allclose(found["wheelbase_change"].sel(wheel="left"), back, atol=1e-14)
-
-
 def test_roll_is_the_angle_of_the_line_through_the_wheels() -> None:
     angles = np.radians([-4.0, 1.0, 3.0])
     states = MODEL.states_at(
@@ -156,30 +143,6 @@ def test_first_order_in_roll_is_that_of_the_drawing() -> None:
     for name, value in drawn().items():
         # the equations of a tree at design: rounding
         assert found[name].item() == pytest.approx(value, rel=1e-12), name
-
-
-def test_a_beam_that_goes_back_to_the_wheels_makes_a_rigid_axle_of_it() -> None:
-    """Between a trailing arm and a rigid axle, whose wheels keep camber to the road in roll."""
-    camber = []
-    for x in (400.0, 300.0, 200.0, 100.0, 0.0):
-        changes = {"beam.shear_center_x_mm": x, "beam.shear_center_z_mm": 300.0}
-        found = characteristics.over(UPRIGHT.with_changes(changes), "roll", np.array([0.0]))
-        camber.append(found["roll_camber"].sel(wheel="left").item())
-    assert (np.diff(camber) > 0.0).all()
-    assert camber[0] < 0.1
-    assert camber[-1] == pytest.approx(1.0, rel=1e-12)
-
-
-@pytest.mark.parametrize(("rise", "toe_in"), [(40.0, True), (-40.0, False)])
-def test_a_shear_centre_above_the_pivots_turns_the_bumped_wheel_in(
-    rise: float, toe_in: bool
-) -> None:
-    """As V-sections that are open downward do it on cars."""
-    axle = UPRIGHT.with_changes({"beam.shear_center_z_mm": 315.0 + rise})
-    found = characteristics.over(axle, "roll", np.radians([2.0]))
-    # the right side of the body is down, and the right wheel up
-    assert (found["toe"].sel(wheel="right").item() > 0.0) == toe_in
-    assert (found["roll_steer"].sel(wheel="right").item() > 0.0) == toe_in
 
 
 # -- springs --------------------------------------------------------------------------------------
@@ -245,42 +208,11 @@ def _force(heights: Array, side: str) -> float:
     return float(_at(heights).wheel_force(side)[0])
 
 
-def test_the_part_of_the_beam_in_roll_stiffness_is_a_formula() -> None:
-    """Torque by twist: twice the half distance of pivots over that of the shear centre, squared."""
-    found = characteristics.over(UPRIGHT, "roll", np.array([0.0]))
-    axis = SHEAR - PIVOT
-    rise = (skew(axis) @ (WHEEL - PIVOT))[2]
-    by_roll = 2.0 * PIVOT[1] / rise * WHEEL[1]
-    assert found["roll_stiffness_bar"].item() == pytest.approx(RATE * by_roll**2, rel=1e-12)
-    whole = found["roll_stiffness_bar"] + found["roll_stiffness_springs"]
-    assert found["roll_stiffness"].item() == pytest.approx(whole.item(), rel=1e-12)
-
-
 def test_it_rests_at_design() -> None:
     assert abs(equilibrium(MODEL)[0]) < 5e-3
 
 
 # -- loads and bushes -----------------------------------------------------------------------------
-
-
-def test_loads_of_a_cornering_axle_by_hand() -> None:
-    """Lateral forces behind the pivots are held by a couple of forces along the vehicle."""
-    case = {"travel_mm": 0.0, "contact_N": [0.0, 2000.0, 0.0]}
-    found = loads.static(UPRIGHT, {"left_turn": case})
-    on_arms = {side: found.isel(case=0).where(found["part"] == f"arm_{side}", drop=True)
-               for side in SIDES}  # fmt: skip
-    at_pivot = {
-        side: own.isel(load=own["point"].values == f"pivot_{side}")["force"].values[0]
-        for side, own in on_arms.items()
-    }
-    # how both share the force along their axis is statically indeterminate
-    assert sum(force[1] for force in at_pivot.values()) == pytest.approx(-4000.0, rel=1e-9)
-    couple = 0.5 * (at_pivot["left"][0] - at_pivot["right"][0])
-    assert couple == pytest.approx(2000.0 * (PIVOT[0] - WHEEL[0]) / PIVOT[1], rel=1e-9)
-    for side in SIDES:
-        balance = wrench(found.isel(case=0, load=found["part"].values == f"arm_{side}"))
-        # forces of 4 kN and arms of a metre
-        np.testing.assert_allclose(balance, 0.0, atol=1e-8)
 
 
 class Frame:
@@ -351,32 +283,6 @@ def test_compliance_is_that_of_a_frame(how: str) -> None:
             data = found[f"{name}_by_lateral_{how}_{side}"].item()
             # sums over some metres and 1e6 N/m; what nothing moves is their rounding
             assert data == pytest.approx(value, rel=1e-8, abs=1e-14), (name, side)
-
-
-def test_lateral_forces_turn_it_on_its_bushes_as_textbooks_say() -> None:
-    """Both wheels steer with the force, which is oversteer: F L / (2 b^2 k), two forces F."""
-    soft = {"pivot": {"axial_N_per_mm": 1e9, "radial_N_per_mm": 4000.0}}
-    found = compliance.linear(UPRIGHT, soft, [0.0], held="height")
-    toe = found["toe_by_lateral_parallel"].isel(wheel_travel=0)
-    steer = -toe.values * np.array([1.0, -1.0])
-    expected = (PIVOT[0] - WHEEL[0]) / (PIVOT[1] ** 2 * K_RADIAL)
-    # the drawing leaves out what the beam does as the pivots move up and down: a few percent
-    np.testing.assert_allclose(np.abs(steer), expected, rtol=0.1)
-    assert steer[0] == pytest.approx(steer[1], rel=1e-9)
-
-
-def test_stiff_bushes_leave_the_motion_of_rigid_joints() -> None:
-    stiff = {"pivot": {"axial_N_per_mm": 1e8, "radial_N_per_mm": 1e8}}
-    for motion, at in (("bump", [-0.03, 0.05]), ("roll", np.radians([2.0]))):
-        found = compliance.elastokinematics(AXLE, stiff, motion, at)
-        soft = (
-            found.sel(data_set="on bushes")
-            if "on bushes" in found.data_set
-            else found.isel(data_set=-1)
-        )
-        rigid = found.isel(data_set=0)
-        for name in ("toe", "camber"):
-            np.testing.assert_allclose(soft[name], rigid[name], rtol=0.0, atol=1e-6)
 
 
 # -- the file -------------------------------------------------------------------------------------

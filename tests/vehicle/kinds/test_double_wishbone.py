@@ -1,13 +1,13 @@
 """Positions, characteristics and equilibrium of the double wishbone, from its input file.
 
 The oracle is a wheel carrier on five rods (`oracle.links`), of which everything is measured anew,
-gradients by central differences; besides, arrangements that can be computed by hand.
+gradients by central differences.
 """
 
 import kintrafo
 import numpy as np
 import pytest
-from benches import SKEWED, UP, Wishbones
+from benches import SKEWED, Wishbones
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo import Model, PositionError, Suspension, characteristics
@@ -90,133 +90,10 @@ def test_every_characteristic_of_a_strut_is_there():
         assert set(ours) == set(theirs)
 
 
-# -- by hand --------------------------------------------------------------------------------------
-
-
-def arranged(**points):
-    """Return a car with arms in planes across the vehicle, whose lower arm is 400 mm long."""
-    standing = {
-        "lower_arm_front": [150.0, -350.0, 200.0],
-        "lower_arm_rear": [-150.0, -350.0, 200.0],
-        "lower_ball_joint": [0.0, -750.0, 200.0],
-        "upper_arm_front": [150.0, -350.0, 450.0],
-        "upper_arm_rear": [-150.0, -350.0, 450.0],
-        "upper_ball_joint": [0.0, -750.0, 450.0],
-        "tie_rod_inner": [-120.0, -350.0, 300.0],
-        "tie_rod_outer": [-120.0, -750.0, 300.0],
-        "spring_top": [0.0, -550.0, 600.0],
-        "spring_seat": [0.0, -550.0, 200.0],
-        "wheel_center": [0.0, -800.0, 300.0],
-    }
-    changes = {f"hardpoints.{name}": point for name, point in (standing | points).items()}
-    return Model(CAR.with_changes(changes))
-
-
-def test_parallel_arms_of_equal_length_only_shift_the_wheel():
-    travel = np.array([-0.1, -0.03, 0.0, 0.05, 0.1])
-    at = characteristics.over(arranged(), "travel", travel)
-    for name in ("camber", "toe", "caster", "kingpin_inclination", "wheelbase_change"):
-        assert at[name].values == pytest.approx(np.zeros(5), abs=1e-14), name
-    for name in ("camber_gradient", "bump_steer", "caster_gradient", "anti_dive"):
-        assert at[name].values == pytest.approx(np.zeros(5), abs=1e-13), name
-    # the contact moves on a circle of the arms' length, whose centre line is at its height
-    drop = 0.4 - np.sqrt(0.4**2 - travel**2)
-    assert at["half_track_change"].values == pytest.approx(-drop, abs=1e-14)
-    lean = travel / np.sqrt(0.4**2 - travel**2)
-    expected = -lean * (0.8 - drop)
-    assert at["roll_center_height_kinematic"].values == pytest.approx(expected, abs=1e-13)
-    assert at["roll_center_height_geometric"].values == pytest.approx(expected, abs=1e-13)
-
-
-def test_spring_at_half_the_arm_has_half_the_travel():
-    at = characteristics.over(arranged(), "travel", [0.0])
-    assert float(at["motion_ratio"][0]) == pytest.approx(0.5, rel=1e-14)
-    # k MR^2, and the force by how the ratio changes: length l = sqrt((0.4 - z/2)^2 + d^2) with
-    # d = (0.4 - sqrt(0.4^2 - z^2)) / 2, of which the second derivative at zero vanishes
-    assert float(at["wheel_rate"][0]) == pytest.approx(60000.0 / 4.0, rel=1e-12)
-
-
-def test_arms_that_meet_at_a_point_turn_the_wheel_about_it():
-    # lines from y = -750 mm through the bearings meet at y = 50 mm, z = 100 mm: the lower ones
-    # fall by 100 mm over 800 mm, the upper ones by 350 mm, the tie rod by 200 mm
-    model = arranged(
-        lower_arm_front=[150.0, -350.0, 150.0],
-        lower_arm_rear=[-150.0, -350.0, 150.0],
-        upper_arm_front=[150.0, -350.0, 275.0],
-        upper_arm_rear=[-150.0, -350.0, 275.0],
-        tie_rod_inner=[-120.0, -350.0, 200.0],
-    )
-    at = characteristics.over(model, "travel", [0.0]).isel(wheel_travel=0)
-    # the contact is at y = -800 mm, z = 0
-    for way in ("kinematic", "geometric"):
-        assert float(at[f"swing_arm_length_{way}"]) == pytest.approx(0.85, rel=1e-13)
-        height = 0.8 * 100.0 / 850.0
-        assert float(at[f"roll_center_height_{way}"]) == pytest.approx(height, rel=1e-13)
-    # the wheel is 850 mm beside the centre: a metre of travel would lean it by 1/0.85 rad
-    assert float(at["camber_gradient"]) == pytest.approx(-1.0 / 0.85, rel=1e-13)
-    assert float(at["bump_steer"]) == pytest.approx(0.0, abs=1e-13)
-
-
-def test_steering_axis_goes_through_the_ball_joints():
-    at = characteristics.over(MODEL, "travel", [0.0]).isel(wheel_travel=0)
-    assert float(at["caster"]) == pytest.approx(np.arctan2(30.0, 320.0))  # top 30 mm rearward
-    assert float(at["kingpin_inclination"]) == pytest.approx(np.arctan2(50.0, 320.0))
-    # the axis meets the ground 185 mm below the lower ball joint
-    assert float(at["trail"]) * 1e3 == pytest.approx(5.0 + 185.0 * 30.0 / 320.0)
-    assert float(at["steering_axis_offset"]) * 1e3 == pytest.approx(40.0 - 185.0 * 50.0 / 320.0)
-
-
 # -- at rest and in motion ------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("name", CARS)
-def test_at_rest_the_forces_do_no_work(name):
-    car = CARS[name]
-    bench, model, p = Wishbones(car), Model(car), car.parameters()
-    rest = kintrafo.equilibrium(model)
-    travel = float(model.signal("wheel_center_z", rest)) - bench.points["wheel_center"][2]
-    place = travel, 0.0
-
-    def com(body):
-        return np.array([p[f"{body}_com_{axis}"] for axis in "xyz"])
-
-    def potential(place):
-        pose = bench.pose(place)
-        arm = com("knuckle") - bench.points["wheel_center"]
-        heights = {
-            "lower_arm": bench.carrier.on_arm(pose, "lower", com("lower_arm"))[2],
-            "upper_arm": bench.carrier.on_arm(pose, "upper", com("upper_arm"))[2],
-            "knuckle": (pose.center + pose.rotation @ arm)[2],
-            "wheel": pose.center[2],
-        }
-        weight = sum(p["gravity"] * p[f"{body}_mass"] * z for body, z in heights.items())
-        pressed = p["spring_free_length"] - bench.spring(place)
-        return 0.5 * p["spring_rate"] * pressed**2 + weight
-
-    # the tyre pushes in the plane of the wheel (Eq. 24)
-    axis = bench.axis(place)
-    load = p["tyre_rate"] * (p["tyre_free_height"] - bench.center(place)[2])
-    force = load * (UP - axis * axis[2]) / (1.0 - axis[2] ** 2)
-    work = float(force @ bench.by_travel(bench.center, place))
-    # 600 J are rounded to 1e-13 J, and divided by 2 mm
-    assert bench.by_travel(potential, place) == pytest.approx(work, rel=1e-9)
 
 
 def test_packaged_car_rests_at_its_design_position():
     rest = kintrafo.equilibrium(MODEL)
     # the force at design is given to a thousandth of a newton
     assert float(MODEL.signal("wheel_center_z", rest)) == pytest.approx(0.3, abs=1e-8)
-
-
-def test_a_released_wheel_comes_to_rest_again():
-    start = kintrafo.state_at_height(MODEL, 0.325, spin_rate=90.0)
-    result = kintrafo.simulate(MODEL, (0.0, 2.0), start, rtol=1e-9, atol=1e-12)
-    # wheel hop decays by exp(-23 /s t)
-    assert result.signals["wheel_center_z"][-1] == pytest.approx(0.3, abs=1e-7)
-
-
-def test_an_actuator_is_a_spring_that_is_longer_by_force_over_rate():
-    stiff = CAR.with_changes({"spring.force_at_design_N": 5360.268 + 500.0})
-    lifted = kintrafo.equilibrium(MODEL, strut_force=500.0)
-    assert lifted == pytest.approx(kintrafo.equilibrium(Model(stiff)), abs=1e-12)
-    assert float(MODEL.signal("wheel_center_z", lifted)) < 0.3

@@ -8,18 +8,14 @@ from typing import Any
 import numpy as np
 import pytest
 from kintrafo import (
-    Axle,
     InputError,
     Model,
     PositionError,
     Suspension,
     characteristics,
-    equilibrium,
-    simulate,
     state_at_height,
 )
 from kintrafo.vehicle.analysis.sweep import positions
-from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.models.points import hardpoints
 from kintrafo.vehicle.models.positions import arm_angles, design_height
 from kintrafo.vehicle.models.reach import at_rest
@@ -30,7 +26,6 @@ CAR = Suspension.load("multi_link_car")
 MODEL = Model(CAR)
 LINKS = ("front_upper_link", "rear_upper_link", "front_lower_link", "rear_lower_link", "tie_rod")
 TRAVELS = np.linspace(-0.08, 0.08, 9)
-TIMES = np.linspace(0.0, 0.4, 9)
 
 
 def points_at(model: Model, travels: np.ndarray, rack: float = 0.0) -> dict[str, np.ndarray]:
@@ -67,89 +62,7 @@ def test_the_knuckle_is_where_a_root_finder_puts_it(rack: float) -> None:
             np.testing.assert_allclose(found[f"{name}_outer"][i], place, rtol=0.0, atol=1e-13)
 
 
-# -- arms of two links each are a double wishbone -----------------------------------------------
-
-WISHBONES = Suspension.load("double_wishbone_car").with_changes(
-    # on the line of the rear lower link, where link and arm carry it alike
-    {"hardpoints.spring_seat": [-36.0, -648.0, 187.0]}
-)
-
-
-def as_links() -> Suspension:
-    """Return the double wishbone as five links, of which two and two meet in a ball joint."""
-    wishbones, data = WISHBONES.to_dict(), CAR.to_dict()
-    points = wishbones["hardpoints"]
-    data["hardpoints"] = {"unit": "mm"} | {
-        name: points[name] for name in ("tie_rod_outer", "tie_rod_inner", "wheel_center")
-    }
-    for level in ("upper", "lower"):
-        for end in ("front", "rear"):
-            data["hardpoints"][f"{end}_{level}_link_inner"] = points[f"{level}_arm_{end}"]
-            data["hardpoints"][f"{end}_{level}_link_outer"] = points[f"{level}_ball_joint"]
-    for end in ("seat", "top"):
-        data["hardpoints"][f"spring_{end}"] = points[f"spring_{end}"]
-    data["hardpoints"]["damper_top"] = points["spring_top"]
-    data["hardpoints"]["damper_seat"] = points["lower_ball_joint"]
-    for section in ("vehicle", "wheel", "spring", "tyre", "rack", "gravity"):
-        data[section] = wishbones[section]
-    data["bodies"] = {
-        "knuckle": wishbones["bodies"]["knuckle"],
-        "wheel": wishbones["bodies"]["wheel"],
-        "rear_lower_link": {"mass_kg": 0.0},
-    }
-    return Suspension.from_dict(data)
-
-
-def test_the_seat_is_on_the_line_of_the_link() -> None:
-    seat, rear, ball = (
-        WISHBONES.hardpoints.metres(name)
-        for name in ("spring_seat", "lower_arm_rear", "lower_ball_joint")
-    )
-    assert np.linalg.norm(np.cross(seat - rear, ball - rear)) < 1e-12
-
-
-def test_arms_of_two_links_are_wishbones() -> None:
-    """All characteristics, the axis of steering among them, which only one of the two knows."""
-    ours, theirs = (
-        characteristics.over(Model(car), "travel", TRAVELS) for car in (as_links(), WISHBONES)
-    )
-    others = {"arm_rotation", "damper_length", "damper_motion_ratio"}
-    # of the planes of arms there, which know no toe link, and of the motion here
-    others |= {"roll_center_height_geometric", "swing_arm_length_geometric"}
-    assert len(set(ours.data_vars) - others) == 24
-    for name in set(ours.data_vars) - others:
-        # what the positions are rounded to, in curves with slopes of some tens; differences of
-        # fourth order leave 1e-10 of the caster's gradient
-        least = 1e-8 if name == "caster_gradient" else 1e-10
-        np.testing.assert_allclose(ours[name], theirs[name], rtol=least, atol=least, err_msg=name)
-
-
-def test_it_rests_and_swings_as_the_wishbones() -> None:
-    light = {f"bodies.{arm}": {"mass_kg": 1e-9} for arm in ("lower_arm", "upper_arm")}
-    cars = (
-        as_links().with_changes({"damper.rate_N_s_per_m": 0.0}),
-        WISHBONES.with_changes(light | {"damper.rate_N_s_per_m": 0.0}),
-    )
-    heights = []
-    for car in cars:
-        model = Model(car)
-        start = state_at_height(model, design_height(model) + 0.03)
-        result = simulate(model, (0.0, 0.4), start, t_eval=TIMES, rtol=1e-10, atol=1e-12)
-        rest = float(model.signal("wheel_center_z", equilibrium(model)))
-        heights.append([*model.signal("wheel_center_z", result.y.T), rest])
-    # the accuracy of both solutions, over some periods
-    np.testing.assert_allclose(heights[0], heights[1], rtol=0.0, atol=1e-8)
-
-
 # -- what it is as a suspension -----------------------------------------------------------------
-
-
-def test_the_left_one_is_its_image() -> None:
-    right = characteristics.over(MODEL, "travel", TRAVELS)
-    left = characteristics.over(Model(CAR.mirrored()), "travel", TRAVELS)
-    for name in right.data_vars:
-        sign = -1.0 if name == "steer" else 1.0
-        np.testing.assert_allclose(left[name], sign * right[name], rtol=1e-9, atol=1e-12)
 
 
 def test_the_knuckle_turns_about_the_axis_that_is_reported() -> None:
@@ -211,12 +124,3 @@ def test_a_spring_that_does_not_move_locks_nothing() -> None:
     assert np.isnan(found["caster"][0])
     assert np.isfinite(found["toe"]).all()
     assert np.isfinite(found["caster"][1])
-
-
-def test_an_axle_of_it_rolls() -> None:
-    axle = Axle.from_dict({"axle": "rear", "side": CAR})
-    found = flat(characteristics.over(axle, "roll", [-0.03, 0.0, 0.03]))
-    rate = characteristics.over(MODEL, "travel", [0.0])["wheel_rate"].values[0]
-    half = found["track"].values[1] / 2.0
-    assert float(found["roll_stiffness"][1]) == pytest.approx(2.0 * rate * half**2, rel=1e-9)
-    np.testing.assert_allclose(found["toe_left"], found["toe_right"][::-1], rtol=0.0, atol=1e-12)

@@ -47,7 +47,7 @@ RIGHT = kintrafo.load("double_wishbone_car").with_changes(
 AXLE = Axle.from_dict({"axle": "front", "side": RIGHT})
 PLACES = [(-0.06, 0.0), (0.0, 0.06), (0.03, -0.07), (0.05, 0.03)]  # wheel travel, rack [m]
 
-# As in `test_double_wishbone`.
+# Rounding of the poses; of differences of them by the oracle.
 POSE, SLOPE = 1e-13, 1e-9
 
 

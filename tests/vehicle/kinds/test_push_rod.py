@@ -11,10 +11,6 @@ from kintrafo import (
     Model,
     Suspension,
     characteristics,
-    equilibrium,
-    loads,
-    simulate,
-    state_at_height,
 )
 from kintrafo.vehicle.models.points import hardpoints
 from kintrafo.vehicle.models.positions import arm_angles, design_height
@@ -92,37 +88,6 @@ def test_motion_ratio_and_wheel_rate_are_derivatives(car: Suspension) -> None:
     force = car.spring.rate_N_per_m * (free - length)
     rate = np.gradient(force * curves["motion_ratio"].values, fine)
     np.testing.assert_allclose(curves["wheel_rate"][inner], rate[inner], rtol=1e-4)
-
-
-def test_the_rocker_is_balanced_by_hand() -> None:
-    """Moments about the rocker's axis: the rod's force against the spring's, and the weight."""
-    found = loads.static(MODEL, {"still": {"contact_g": [0.0, 0.0, 1.0]}}).isel(case=0)
-    on = found["part"].values == "rocker"
-
-    def pull(by: str) -> tuple[np.ndarray, np.ndarray]:
-        chosen = found.isel(load=on & (found["by"].values == by))
-        return chosen["force"].values[0], chosen["at"].values[0]
-
-    rear, front = (CAR.hardpoints.metres(f"rocker_{end}") for end in ("rear", "front"))
-    axis = (front - rear) / np.linalg.norm(front - rear)
-    moments = {by: axis @ np.cross(at - rear, f) for by in ("push_rod", "spring", "gravity")
-               for f, at in [pull(by)]}  # fmt: skip
-    assert abs(moments["push_rod"]) > 300.0
-    assert sum(moments.values()) == pytest.approx(0.0, abs=1e-9 * abs(moments["spring"]))
-    force, at = pull("push_rod")
-    foot = points_at(np.array([float(found["travel"])]))["push_rod_outer"][0]
-    np.testing.assert_allclose(np.cross(force, at - foot), 0.0, atol=1e-6)  # along the rod
-
-
-@ROCKERS
-def test_it_rests_and_moves(car: Suspension) -> None:
-    model, image = Model(car), Model(car.mirrored())
-    rest = equilibrium(model)
-    assert float(model.signal("wheel_center_z", rest)) == pytest.approx(0.3, abs=1e-6)
-    result = simulate(model, (0.0, 2.0), state_at_height(model, 0.33))
-    assert float(result.signals["wheel_center_z"][-1]) == pytest.approx(0.3, abs=1e-5)
-    mirrored = simulate(image, (0.0, 2.0), state_at_height(image, 0.33))
-    np.testing.assert_allclose(mirrored.y[0, -1], result.y[0, -1], atol=1e-9)
 
 
 def test_what_the_equations_have_is_read_from_the_file() -> None:

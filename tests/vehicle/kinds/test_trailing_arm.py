@@ -1,4 +1,4 @@
-"""The trailing arm: one hinge, by Rodrigues' rotation and the balance of one body, by hand.
+"""The trailing arm: one hinge, by Rodrigues' rotation, and what it has not.
 
 `test_mechanisms` compares its equations with maximal coordinates, like those of every model;
 `test_compliance` and `test_deflection` its bushes.
@@ -10,12 +10,10 @@ import numpy as np
 import pytest
 from kintrafo import (
     Axle,
-    AxleModel,
     InputError,
     Model,
     PositionError,
     Suspension,
-    arm_angles,
     characteristics,
     equilibrium,
     loads,
@@ -26,7 +24,6 @@ from kintrafo.vehicle.analysis.compare import compare
 from kintrafo.vehicle.analysis.sweep import positions
 from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.assembly.usual import usual_rack
-from kintrafo.vehicle.models.positions import design_height
 from kintrafo.vehicle.studies import sensitivity
 
 CAR = Suspension.load("trailing_arm_car")
@@ -109,40 +106,6 @@ def test_wheel_swings_about_the_hinge(name: str) -> None:
             np.testing.assert_allclose(found[quantity].values[i], expected, **near)
 
 
-@pytest.mark.parametrize("name", CARS)
-def test_instant_centres_are_where_the_hinge_passes(name: str) -> None:
-    """Seen from the front, the hinge pierces the plane across through the contact; so from aside.
-
-    In the plane the part of the turning along it does nothing, which leaves a turn about a point.
-    """
-    car = CARS[name]
-    start, axis = hinge(car)
-    found = characteristics.over(Model(car), "travel", TRAVELS)
-    given = car.vehicle
-    lever = 2600.0 / 550.0 * 0.3  # as the file has them
-    for i, travel in enumerate(TRAVELS):
-        _, _, contact = wheel_at(car, travel)
-        aside = start + axis * (contact - start)[1] / axis[1] - contact
-        slope = aside[2] / -aside[0]  # the path is at right angles to the arm to the centre
-        np.testing.assert_allclose(
-            found["side_view_swing_arm_angle"][i], np.arctan(slope), rtol=1e-11
-        )
-        np.testing.assert_allclose(found["anti_lift_braked"][i], lever * -slope, rtol=1e-11)
-        if name == "across":
-            # parallel to the plane: the wheel moves straight, seen from the front
-            assert np.isinf(found["swing_arm_length_kinematic"][i])
-            assert abs(found["roll_center_height_kinematic"][i]) < 1e-13
-            continue
-        front = start + axis * (contact - start)[0] / axis[0] - contact
-        np.testing.assert_allclose(
-            found["swing_arm_length_kinematic"][i], -given.sign * front[1], rtol=1e-11
-        )
-        height = front[2] * contact[1] / -front[1]
-        np.testing.assert_allclose(
-            found["roll_center_height_kinematic"][i], height, rtol=1e-11, atol=1e-13
-        )
-
-
 def test_reach_ends_where_the_wheel_turns_back() -> None:
     """The highest wheel centre: amplitude of a + b cos + c sin."""
     start, axis = hinge(CAR)
@@ -154,85 +117,6 @@ def test_reach_ends_where_the_wheel_turns_back() -> None:
     with pytest.raises(PositionError, match="out of reach") as refused:
         state_at_height(Model(CAR), highest + 0.001)
     assert "rack" not in str(refused.value)
-
-
-def test_angle_of_the_arm_falls_as_the_wheel_rises() -> None:
-    for car in CARS.values():
-        model = Model(car)
-        angles = arm_angles(model, design_height(model) + TRAVELS)
-        assert (np.diff(angles) < 0.0).all()
-        expected = [abs(angle_for(car, travel)) for travel in TRAVELS]
-        np.testing.assert_allclose(np.abs(angles - model.design_state[0]), expected, atol=1e-13)
-
-
-# -- what it carries ----------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("name", CARS)
-def test_bearings_balance_the_arm(name: str) -> None:
-    """Spring by the moment about the hinge, then force and moment of both bearings together."""
-    car = CARS[name]
-    case: dict[str, Any] = {"corner": {"contact_N": [700.0, 900.0, 0.0], "travel_mm": 20.0}}
-    found = loads.static(Model(car), case)
-    start, axis = hinge(car)
-    angle = angle_for(car, 0.02)
-    center, spin, contact = wheel_at(car, 0.02)
-
-    def carried(place: np.ndarray) -> np.ndarray:
-        return np.asarray(start + turned(place - start, axis, angle))
-
-    forward = np.cross(car.vehicle.sign * spin, UP)
-    forward /= np.linalg.norm(forward)
-    part = car.bodies.rigid()["trailing_arm"]
-    weights = -9.81 * UP * part.mass_kg, -9.81 * UP * car.bodies.wheel.mass_kg
-    road = 700.0 * forward + 900.0 * np.cross(UP, forward)
-    seat, top = carried(car.hardpoints.metres("spring_seat")), car.hardpoints.metres("spring_top")
-    along = (seat - top) / np.linalg.norm(seat - top)
-    length = np.linalg.norm(car.hardpoints.metres("spring_seat") - top) - np.linalg.norm(seat - top)
-    assert car.spring.force_at_design_N is not None
-    spring = (car.spring.force_at_design_N + car.spring.rate_N_per_m * length) * along
-    known = [
-        (road, contact),
-        (weights[0], carried(part.centre_of_mass(car.hardpoints))),
-        (weights[1], center),
-        (spring, seat),
-    ]
-    # the wheel is held there: the road pushes as it needs
-    missing = sum(axis @ np.cross(at - start, force) for force, at in known)
-    known.append((-missing / (axis @ np.cross(contact - start, UP)) * UP, contact))
-    total = sum(force for force, _ in known)
-    moment = sum(np.cross(at - start, force) for force, at in known)
-    one = found.isel(load=((found["part"] == "trailing_arm") & (found["by"] == "chassis")).values)
-    force, at = one["force"].values[0], one["at"].values[0]
-    assert force.shape == (2, 3)
-    # of some 10 kN, with the spring's force to a rounding of its length
-    np.testing.assert_allclose(force.sum(0), -total, rtol=0.0, atol=1e-7)
-    np.testing.assert_allclose(np.cross(at - start, force).sum(0), -moment, rtol=0.0, atol=1e-7)
-    np.testing.assert_allclose(*(force @ axis), rtol=0.0, atol=1e-7)
-
-
-def test_rests_where_its_moments_balance() -> None:
-    """Vertical load at rest from weights and spring about the hinge."""
-    model = Model(CAR)
-    rest = equilibrium(model)
-    start, axis = hinge(CAR)
-    travel = float(model.signal("wheel_center_z", rest)) - design_height(model)
-    center, spin, _ = wheel_at(CAR, travel)
-    upward = UP - (UP @ spin) * spin
-    tyre = float(model.signal("tyre_force", rest)) * upward / np.linalg.norm(upward)
-    part = CAR.bodies.rigid()["trailing_arm"]
-    seat, top = CAR.hardpoints.metres("spring_seat"), CAR.hardpoints.metres("spring_top")
-    spring = float(model.signal("spring_force", rest)) * (seat - top) / np.linalg.norm(seat - top)
-    assert abs(travel) < 1e-8
-    forces = [
-        (tyre, center),
-        (-9.81 * part.mass_kg * UP, part.centre_of_mass(CAR.hardpoints)),
-        (-9.81 * CAR.bodies.wheel.mass_kg * UP, center),
-        (spring, seat),
-    ]
-    moments = [axis @ np.cross(at - start, force) for force, at in forces]
-    # the travel of some nanometres turns nothing that matters: 1e-8 of the moments
-    assert abs(sum(moments)) < 1e-6 * max(map(abs, moments))
 
 
 # -- not steered --------------------------------------------------------------------------------
@@ -333,26 +217,6 @@ def test_axle_has_no_rack_between_its_sides() -> None:
     held = loads.static(axle, {"corner": {"contact_g": [0.0, 0.5, 1.0]}}, static_load=3400.0)
     assert "rack" not in held["part"].values
     assert "rack_force" not in held
-
-
-def test_equations_of_an_axle_are_those_of_its_sides() -> None:
-    """Without a bar, both sides move by themselves."""
-    both, one = AxleModel(Axle.from_dict(REAR)), Model(CAR)
-    assert not [name for name in both.input_names if "rack" in name]
-    state = np.array([*both.design_state])
-    rates = {"arm_angle": 0.7, "spin_angle": -30.0}
-    single = one.design_state.copy()
-    for name, rate in rates.items():
-        single[one.state_names.index(f"{name}_rate")] = rate
-        for side in ("right", "left"):
-            state[both.state_names.index(f"{side}_{name}_rate")] = rate
-    expected = one.evaluate("rhs", single, one.inputs({"road_height": 0.01}))
-    roads = {f"{side}_road_height": 0.01 for side in ("right", "left")}
-    found = both.evaluate("rhs", state, both.inputs(roads))
-    for name in one.state_names:
-        for side in ("right", "left"):
-            ours = found[both.state_names.index(f"{side}_{name}")]
-            assert ours == pytest.approx(expected[one.state_names.index(name)], rel=1e-9, abs=1e-9)
 
 
 # -- its page -----------------------------------------------------------------------------------
