@@ -132,49 +132,6 @@ def test_a_quarter_car_rests_on_its_spring(quarter: CarModel) -> None:
     assert raised[1] == pytest.approx(state[1], abs=1e-12)
 
 
-def test_a_quarter_car_moves_like_its_suspension_in_an_accelerated_frame(
-    quarter: CarModel,
-) -> None:
-    """The suspension on a body with the acceleration a feels the gravity g + a, and no more."""
-    rng = np.random.default_rng(3)
-    alone = kintrafo.Model("reference_car")
-    for _ in range(5):
-        state = quarter.design_state + rng.normal(0.0, [0.05, 0.1, 1.0, 0.5, 2.0, 30.0])
-        inputs = quarter.inputs({"road_height": float(rng.normal(0.0, 0.02))})
-        rates = quarter.evaluate("rhs", state, inputs)
-        # the ground of the suspension moves: what counts is the road from the body
-        heave, acceleration = state[0], rates[3]
-        felt = kintrafo.System(
-            alone.equations, alone.parameters | {"gravity": 9.81 + float(acceleration)}
-        )
-        own = felt.inputs({"road_height": float(inputs[quarter.input_names.index("road_height")])})
-        own[felt.input_names.index("road_height")] -= heave
-        expected = felt.evaluate("rhs", state[[1, 2, 4, 5]], own)[2:]
-        np.testing.assert_allclose(rates[4:], expected, rtol=1e-10, atol=1e-9)
-
-
-def test_momentum_of_a_quarter_car(quarter: CarModel) -> None:
-    """The tyre alone and gravity move the common centre of mass: M q'' + B - Q in heave."""
-    rng = np.random.default_rng(4)
-    state = quarter.design_state + rng.normal(0.0, [0.05, 0.1, 1.0, 0.5, 2.0, 30.0])
-    inputs = quarter.inputs()
-    rates = quarter.evaluate("rhs", state, inputs)
-
-    def momentum(at: np.ndarray) -> float:
-        bodies = quarter.equations.BODIES
-        velocities = quarter.evaluate("velocities", at, inputs)[:, 5]
-        mass = {name: quarter.parameters[f"{name}_mass"] for name in bodies}
-        return float(sum(mass[name] * v for name, v in zip(bodies, velocities, strict=True)))
-
-    step = 1e-5
-    change = (momentum(state + step * rates) - momentum(state - step * rates)) / (2 * step)
-    a = quarter.evaluate("orientations", state, inputs)[quarter.equations.BODIES.index("knuckle")]
-    up = 1.0 - (a @ np.array([0.0, 1.0, 0.0]))[2] ** 2
-    force = float(quarter.signal("tyre_force", state, inputs)) * np.sqrt(up)
-    # rounding of the momentum over the step, and its third derivative
-    assert change == pytest.approx(force - 9.81 * (345.36 + 42.0), abs=2e-3)
-
-
 def test_a_car_without_rest_is_refused() -> None:
     car = Car.load("quarter_car")
     heavy = car.with_changes({"body.mass_kg": 4000.0})

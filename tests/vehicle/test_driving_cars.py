@@ -257,63 +257,6 @@ def test_the_rack_keeps_a_lopsided_car_straight(assembly: CarAssembly) -> None:
     assert np.ptp(found.y[1]) < 1e-6
 
 
-def test_momentum_changes_by_what_the_road_and_the_air_do(assembly: CarAssembly) -> None:
-    """Of all masses, in the axes of the world, as the car turns, slides and leans on its tyres."""
-    model = assembly.model
-    state = assembly.running(SPEED)
-    inputs, state = np.array(state.inputs), np.array(state)
-    random = np.random.default_rng(2)
-    places = model.layout.positions + model.layout.speeds
-    state[model.layout.positions : places] += random.uniform(-0.5, 0.5, model.layout.speeds)
-    state[places:] += random.uniform(-0.01, 0.01, len(state) - places)
-    at = model.state_names.index("body_e0")
-    state[at : at + 4] = np.array([0.9, 0.01, -0.01, 0.4]) / np.linalg.norm([0.9, 0.01, 0.01, 0.4])
-    rates, step = model.evaluate("rhs", state, inputs), 1e-5
-    mass = np.array([model.parameters[f"{name}_mass"] for name in model.equations.BODIES])
-    before, after = (
-        mass @ model.evaluate("velocities", state + sign * step * rates, inputs)[:, 3:]
-        for sign in (-1.0, 1.0)
-    )
-    signals = {name: float(value) for name, value in model.signals(state, inputs).items()}
-    body = rotation(state[at : at + 4])
-    heading = np.arctan2(body[1, 0], body[0, 0])
-    # drag against the velocity of the body's centre of mass, lift along its z
-    velocity = body @ state[[model.state_names.index(f"body_{k}") for k in "uvw"]]
-    force = signals["air_lift"] * body[:, 2]
-    force -= signals["air_drag"] * velocity / np.linalg.norm(velocity)
-    force[2] -= 9.81 * mass.sum()
-    for wheel in assembly.wheels:
-        ahead = heading + signals[f"{wheel}_steer"]
-        fx, fy, fz = (signals[f"{wheel}_f{axis}"] for axis in "xyz")
-        force += [
-            fx * np.cos(ahead) - fy * np.sin(ahead),
-            fx * np.sin(ahead) + fy * np.cos(ahead),
-            fz,
-        ]
-    # rounding of 1e5 kg m/s over the step, and its third derivative
-    np.testing.assert_allclose((after - before) / (2.0 * step), force, atol=0.05)
-
-
-def test_braking_is_that_of_the_torques(assembly: CarAssembly) -> None:
-    """With J w' = F r - T at each wheel and m v' = -sum of F, on its way to standstill."""
-    model = assembly.model
-    still = {name: 0.0 for name in model.parameters if name.startswith(("air_drag", "air_lift"))}
-    model = kintrafo.System(model.equations, model.parameters | still | {"air_pitching": 0.0})
-    brakes = assembly.controls.brakes(0.3)
-    start = assembly.running(SPEED)
-    inputs = dict.fromkeys(assembly.controls.drive(0.0), 0.0) | brakes
-    found = kintrafo.simulate(model, (0.0, 8.0), start, inputs=inputs, method="BDF")
-    assert found.success
-    mass = sum(m for m, _ in masses(assembly.car))
-    spinning = sum(v for k, v in model.parameters.items() if k.endswith("wheel_inertia_spin"))
-    radius = 0.316 - 0.018
-    slowing = sum(brakes.values()) / radius / (mass + spinning / radius / 0.306)
-    way = float(found.y[0, -1] - found.y[0, 0])
-    # the radius under load changes by 3 mm as the car pitches: 1 %
-    assert way == pytest.approx(SPEED**2 / (2.0 * slowing), rel=0.02)
-    assert abs(float(found.y[model.state_names.index("body_u"), -1])) < 0.02
-
-
 def test_a_brake_does_not_drive_and_a_locked_wheel_slips_by_one(assembly: CarAssembly) -> None:
     model, start = assembly.model, assembly.running(SPEED)
     row, moment = model.input_names.index("rear_left_brake_torque"), "rear_left_brake_moment"

@@ -17,7 +17,6 @@ SHORT = 10
 _MODEL = Model("reference_car")
 _REST = np.asarray(equilibrium(_MODEL))
 _ROAD = _MODEL.input_names.index("road_height")
-_RACK = _MODEL.input_names.index("rack_position")
 # Of the wheel's path, an integration at rtol 1e-8 beside one at 1e-10: some hundred tolerances, and
 # the fit of a function to 1e-10 of its range
 _TOLERANCE = 1e-5

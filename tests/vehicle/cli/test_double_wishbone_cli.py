@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 import xarray as xr
 from folders import ROOT
-from kintrafo import InputError, Model, Suspension, equilibrium, linearise, simulate, travel_range
+from kintrafo import InputError, Model, Suspension, equilibrium, simulate, travel_range
 from kintrafo.vehicle.analysis.checkup import checkup
-from kintrafo.vehicle.analysis.compare import compare
 
 CAR = "double_wishbone_car"
 MODEL = Model(CAR)
@@ -49,16 +48,6 @@ def test_check_names_what_this_suspension_has(kintrafo):
     assert checkup(MODEL).notes == ()
 
 
-def test_compare_with_a_strut(kintrafo):
-    code, out, _ = kintrafo("compare", "reference_car", CAR, "--json")
-    found = {difference["name"]: difference for difference in json.loads(out)}
-    assert code == 0
-    assert found["caster"]["other"] == pytest.approx(np.arctan2(30.0, 320.0))
-    assert found["caster"]["first"] == pytest.approx(np.arctan2(33.0, 640.0))
-    dataset = compare({"strut": Model("reference_car"), "arms": MODEL}, over="rack")
-    assert dataset.sizes["data_set"] == 2
-
-
 def test_measured_actuator(kintrafo, tmp_path):
     (tmp_path / "m.csv").write_text("time_s,spring_actuator_N\n0,500\n1,500\n2,500\n")
     assert kintrafo("simulate", CAR, "--measured", "m.csv", "-o", "m.nc")[0] == 0
@@ -72,21 +61,6 @@ def test_measured_actuator(kintrafo, tmp_path):
 def test_events_of_a_strut_are_refused():
     with pytest.raises(InputError, match=r"come with its forces\. Known are: wheel_leaves_ground"):
         simulate(MODEL, (0.0, 0.1), MODEL.design_state, events="strut_fully_extended")
-
-
-def test_linearisation_knows_the_wheel_hop_and_the_spinning_wheel():
-    rest = equilibrium(MODEL, spin_rate=60.0)
-    linear = linearise(MODEL, rest)
-    assert linear.steady
-    assert linear.mode_of(MODEL.names.arm).oscillates
-    slow = linear.frequency_response([0.01], "road_height")["wheel_center_z"][0]
-    # a slow road lifts the wheel from one position of rest to the next
-    low, high = (
-        float(MODEL.signal("wheel_center_z", equilibrium(MODEL, road_height=road)))
-        for road in (-1e-4, 1e-4)
-    )
-    # the square of 1e-4 m over the size of the suspension
-    assert abs(slow) == pytest.approx((high - low) / 2e-4, rel=1e-6)
 
 
 # -- the page of the documentation ---------------------------------------------------------------

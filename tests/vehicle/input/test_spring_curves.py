@@ -131,21 +131,6 @@ def test_what_is_computed_uses_the_rate_where_it_is(name, interpolation):
     assert float(rate_at(model.parameters, length)) == pytest.approx(there, rel=1e-9)
 
 
-@pytest.mark.parametrize("name", KINDS)
-def test_it_rests_where_the_curve_carries_the_wheel(name):
-    """Newton's equilibrium beside one by the curve of SciPy: virtual work at the wheel."""
-    model = Model(curved(name, force=4200.0))
-    rest = kintrafo.equilibrium(model)
-    signals = {key: float(value) for key, value in model.signals(rest).items()}
-    free = float(model.signal("spring_length", model.design_state)) + compression_of(
-        "cubic", 4200.0
-    )
-    curve, _ = expected_curve("cubic")
-    force = float(curve(free - signals["spring_length"]))
-    assert signals["spring_force"] == pytest.approx(force, rel=1e-10)
-    assert np.abs(model.evaluate("rhs", rest)).max() < 1e-6
-
-
 def test_an_axle_rolls_on_the_rates_where_its_springs_are():
     """Stiffness in roll and compliance of both sides: those of straight springs at design."""
     name = "double_wishbone_car"
@@ -166,18 +151,6 @@ def test_an_axle_rolls_on_the_rates_where_its_springs_are():
 
 
 BUSH = {"lower_arm_rear": {"axial_N_per_mm": 400.0, "radial_N_per_mm": 1200.0}}
-
-
-@pytest.mark.parametrize("held", ["tyre", "spring"])
-def test_compliance_is_that_of_the_rate_where_it_is(held):
-    name = "double_wishbone_car"
-    model = Model(curved(name))
-    there = float(expected_curve("cubic")[1](compression_of("cubic", 4000.0)))
-    tangent = Model(with_spring(name, rate_N_per_m=there, force_at_design_N=4000.0))
-    one, other = (
-        compliance.linear(m, BUSH, [0.0], held=held)["flexibility"] for m in (model, tangent)
-    )
-    np.testing.assert_allclose(one, other, rtol=1e-9, atol=1e-15)
 
 
 def test_a_flat_piece_has_no_rate():
@@ -324,18 +297,6 @@ def test_the_three_ways_to_say_it_are_one():
                 for m, s in zip((one, other), states, strict=True)
             )
             assert first == pytest.approx(second, rel=1e-11)
-
-
-@pytest.mark.parametrize("name", KINDS)
-def test_a_straight_curve_is_a_rate(name):
-    """Two points make the spring that a rate makes, in whatever equations."""
-    points = {"compression_mm": [0.0, 100.0], "force_N": [0.0, 6000.0]}
-    curve = Model(with_spring(name, force_at_design_N=3000.0, **points))
-    rate = Model(with_spring(name, force_at_design_N=3000.0, rate_N_per_m=60e3))
-    for height in (-0.04, 0.0, 0.03):
-        states = [kintrafo.state_at_height(m, kintrafo_height(m) + height) for m in (curve, rate)]
-        found, expected = (m.evaluate("rhs", s) for m, s in zip((curve, rate), states, strict=True))
-        np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-8)
 
 
 def test_a_macpherson_spring_stands_in_one_place():

@@ -110,17 +110,6 @@ def test_rack_beyond_the_dead_point_is_refused():
         travel_range(MODEL, rack_position=0.5)
 
 
-def test_left_and_right_are_mirror_images():
-    left = Model(MODEL.suspension.mirrored())
-    for wanted in (0.2, 0.3, 0.4):
-        a = MODEL.signals(state_at_height(MODEL, wanted))
-        b = left.signals(state_at_height(left, wanted))
-        for name in ("wheel_center_x", "camber", "toe", "strut_length", "tyre_force"):
-            assert b[name] == pytest.approx(a[name], abs=1e-10), name
-        for name in ("wheel_center_y", "steer"):
-            assert b[name] == pytest.approx(-a[name], abs=1e-12), name
-
-
 def test_hardpoints_agree_with_the_oracle():
     mechanism = newton.Mechanism(reference_parameters())
     pose = newton.solve_pose(mechanism, MODEL.design_state[0] - 0.2, 0.03)

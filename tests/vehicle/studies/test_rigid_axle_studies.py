@@ -3,7 +3,6 @@
 The root finder of `test_rigid_axle` shares nothing with the equations.
 """
 
-import math
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +10,6 @@ import numpy as np
 import pytest
 from kintrafo import Axle, InputError, Model, RigidAxle, characteristics, rig, roads, variation
 from kintrafo.vehicle.analysis.scenario import Scenario, run
-from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.models.rigid_axle.model import RigidAxleModel
 from rigid_axles import AXLE, Found
 
@@ -31,7 +29,7 @@ def steer(axle: RigidAxle) -> Array:
 
 
 def test_sensitivities_are_differences_of_what_the_root_finder_finds() -> None:
-    """Of ends of rods in mm, of a wheel's place that does not count, in metres of the file, too."""
+    """Of ends of rods, and of a damper's place that does not count."""
     places = ["rods.panhard_rod.axle.z", "rods.left_link.chassis.z", "hardpoints.damper_top.z"]
     ours = variation.sensitivity(AXLE, places, over="roll", positions=ROLLS, names=["axle_steer"])
     assert ours["axle_steer"].dims == ("place", "roll_angle")
@@ -42,66 +40,6 @@ def test_sensitivities_are_differences_of_what_the_root_finder_finds() -> None:
         slope = (beside[1] - beside[0]) / 2e-3
         np.testing.assert_allclose(ours["axle_steer"].sel(place=place), slope, rtol=2e-4)
     assert (ours["axle_steer"].sel(place=places[2]) == 0.0).all()
-    metres = AXLE.to_dict()
-    metres["hardpoints"] = {
-        name: "m" if name == "unit" else [x / 1e3 for x in point]
-        for name, point in metres["hardpoints"].items()
-    }
-    metres["rods"] = {
-        name: {end: [x / 1e3 for x in point] for end, point in rod.items()}
-        for name, rod in metres["rods"].items()
-    }
-    of_metres = variation.sensitivity(
-        RigidAxle.from_dict(metres), places[:1], over="roll", positions=ROLLS, names=["axle_steer"]
-    )
-    nominal = ours["axle_steer"].sel(place=places[0])
-    np.testing.assert_allclose(of_metres["axle_steer"][0], nominal, rtol=1e-8)
-
-
-def test_cars_of_a_tolerance_are_where_the_root_finder_puts_them() -> None:
-    limits = {"axle_steer": {"over": "roll", "at_deg": 2.0, "least": 0.0, "most": 0.0525}}
-    found = variation.tolerance(
-        AXLE, {"rods.panhard_rod": 3.0, "rods.left_link.axle.z": 2.0}, limits=limits,
-        over="roll", positions=ROLLS, names=["axle_steer"], count=12,
-    )  # fmt: skip
-    within = []
-    for car in range(12):
-        row = found["value_of"].isel(car=car)
-        values = {str(p): 1e3 * float(v) for p, v in zip(row["place"].values, row, strict=True)}
-        steered = steer(AXLE.with_changes(values))
-        within.append(0.0 <= math.degrees(steered[1]) <= 0.0525)
-        if car == 0:
-            least = greatest = steered
-        least, greatest = np.minimum(least, steered), np.maximum(greatest, steered)
-    bands = found["axle_steer"]
-    np.testing.assert_allclose(bands.sel(quantile=0.0), least, atol=1e-11)
-    np.testing.assert_allclose(bands.sel(quantile=1.0), greatest, atol=1e-11)
-    assert found["within_limits"].values.tolist() == within
-    assert 0 < sum(within) < 12
-    # errors of some mm of rods of some 600 mm: shares of first order tell nearly all
-    np.testing.assert_allclose(found["axle_steer_share"].sum("place"), 1.0, rtol=1e-9)
-    assert abs(float(found["axle_steer_first_order"][1]) - 1.0) < 0.6
-
-
-def test_an_optimum_and_a_fit_find_the_axle_that_was_meant() -> None:
-    moved = {"rods.panhard_rod.axle.z": 12.0, "rods.left_link.chassis.z": -7.0}
-    meant = AXLE.with_changes({"rods.panhard_rod.axle.z": 412.0, "rods.left_link.chassis.z": 298.0})
-    height = 1e3 * characteristics.over(meant, "bump", [-0.04, 0.04])["roll_center_height"].values
-    targets = {
-        "axle_steer": {"over": "roll", "at_deg": np.rad2deg(ROLLS), "within": 1e-3,
-                       "value": np.rad2deg(steer(meant))},
-        "roll_center_height": {"at_mm": [-40.0, 40.0], "value": height, "within": 0.01},
-    }  # fmt: skip
-    free = dict.fromkeys(moved, 30.0)
-    found = variation.optimise(AXLE, free, targets)
-    assert found.success
-    for place, by in moved.items():
-        assert found.moved[place] == pytest.approx(by, abs=0.02)
-    rig = flat(characteristics.over(meant, "roll", np.deg2rad(np.linspace(-4.0, 4.0, 9))))
-    fitted = variation.fit(AXLE, rig[["axle_steer", "roll_center_height"]], free)
-    assert fitted.success
-    for place, by in moved.items():
-        assert fitted.moved[place] == pytest.approx(by, abs=0.3)
 
 
 def test_what_a_rig_measured_is_explained(kintrafo: Any, tmp_path: Path) -> None:
@@ -127,26 +65,6 @@ def test_what_a_rig_measured_is_explained(kintrafo: Any, tmp_path: Path) -> None
     assert "over wheel_travel or rack_position" in err
     with pytest.raises(InputError, match="curves over roll_angle, which"):
         rig.beside(rig.measured_curves("rig.csv"), {"car": Model("reference_car")})
-
-
-def test_a_front_of_axles_and_many_of_them() -> None:
-    front = variation.pareto(
-        AXLE, {"rods.panhard_rod.axle.z": 40.0, "rods.left_link.chassis.z": 20.0},
-        minimise={"roll_center_height": {}},
-        maximise={"axle_steer": {"over": "roll", "at_deg": 2.0}}, population=8, generations=2,
-    )  # fmt: skip
-    assert front.success
-    member = front.suspension(1)
-    assert isinstance(member, RigidAxle)
-    told = float(front.dataset["axle_steer_over_roll_least"][0])
-    assert told == pytest.approx(steer(member)[1], abs=1e-12)
-    many = variation.cars(
-        AXLE, {"rods.panhard_rod.axle.z": [390.0, 410.0]}, over="roll", positions=ROLLS,
-        names=["axle_steer"],
-    )  # fmt: skip
-    for row, z in zip(many["axle_steer"].values, (390.0, 410.0), strict=True):
-        changed = AXLE.with_changes({"rods.panhard_rod.axle.z": z})
-        np.testing.assert_allclose(row, steer(changed), atol=1e-12)
 
 
 def test_motions_over_a_road_are_those_of_one_after_the_other() -> None:
