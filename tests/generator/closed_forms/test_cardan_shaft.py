@@ -69,25 +69,6 @@ def turn_about_x(axes: np.ndarray) -> float:
     return atan2(axes[2, 1], axes[1, 1])
 
 
-@pytest.mark.parametrize("bend", [35, -35], ids=["Z", "W"])
-def test_yokes_in_phase_leave_the_speed_as_it_is(bend: float) -> None:
-    built, names = answers(column("even", radians(35), radians(bend), 0.0))
-    row = names.index("rolling_angle")
-    for turn in TURNS:
-        state = np.array([turn, 1.0])
-        assert off(built("relative_coordinates", state)[row], turn) < 1e-14
-        assert built("relative_jacobian", state)[row, 0] == pytest.approx(1.0, abs=1e-14)
-
-
-def test_yokes_a_quarter_turn_apart_square_the_error_of_a_cross() -> None:
-    """The ratio goes from the square of the cosine of the bend to its inverse."""
-    built, names = answers(column("uneven", radians(35), radians(35), pi / 2))
-    row, square = names.index("rolling_angle"), cos(radians(35)) ** 2
-    for turn, ratio in ((0.0, square), (pi / 2, 1 / square)):
-        found = built("relative_jacobian", np.array([turn, 1.0]))[row, 0]
-        assert found == pytest.approx(ratio, rel=1e-14)
-
-
 def test_a_shaft_at_a_right_angle_to_the_pinion_is_refused() -> None:
     """The bracket swings until the shaft is there, from a bend of 80 degrees on."""
     model = column("swung", 0.0, radians(-80), 0.0, swinging=True)

@@ -7,7 +7,7 @@ those of the `macpherson` of that side, whose left hardpoints this file mirrors.
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -152,31 +152,6 @@ def test_halves_of_the_bar_may_have_mass() -> None:
     np.testing.assert_allclose(found, oracle.accelerations, rtol=0.0, atol=1e-11 * scale)
     light = at.axle.evaluate("rhs", state, inputs)[4:]
     assert np.abs(found - light).max() > 1e-3 * scale  # the mass does make a difference
-
-
-def test_a_free_rack_couples_the_sides() -> None:
-    """The same declaration with the rack as a fifth freedom: then the axle is one part."""
-    prescribed = declaration.MODELS[0]
-    mechanism = prescribed.mechanism
-    model = replace(
-        prescribed,
-        independent=(*prescribed.independent, mechanism.joint("y")),
-        prescribed={},
-        held={},
-        massive=(*prescribed.massive, mechanism.body("rack")),
-    )
-    given = parameters_of(2, rack_mass=3.0)
-    at = Compared.of(2)
-    state, inputs = at.state[0], at.inputs[0]
-    named = dict(zip(at.axle.input_names, map(float, inputs), strict=True)) | {"rack_force": 200.0}
-    motion = Built(prescribed, front_axle, at.axle.parameters).motion(state, inputs)
-    oracle = Oracle(model, given).reduced(motion, named, {})
-    values = dict(zip(at.axle.state_names, map(float, state), strict=True)) | named
-    values |= {"beta9": named["rack_position"], "beta9_rate": named["rack_velocity"]}
-    found = accelerations(model, given, values)
-    scale = np.abs(oracle.accelerations).max()
-    np.testing.assert_allclose(found, oracle.accelerations, rtol=0.0, atol=1e-11 * scale)
-    assert np.abs(oracle.mass_matrix[4, :4]).min() > 1e-3  # the rack moves both sides
 
 
 # -- the page --------------------------------------------------------------------------------------

@@ -61,13 +61,6 @@ class TestReading:
         for name in ("wheel_inertia_spin", "wheel_inertia_diametral"):
             assert ours[name] == pytest.approx(packaged_ones[name], rel=1e-4)
 
-    def test_has_its_characteristics(self):
-        found, _, _ = chrono.read(STRUT, tire=TIRE)
-        at = [-0.05, 0.0, 0.05]
-        ours, theirs = (over(Model(s), "travel", at) for s in (found, GENERIC))
-        for name in ("camber", "toe", "caster", "roll_center_height_kinematic"):
-            np.testing.assert_allclose(ours[name], theirs[name], atol=1e-13)
-
     def test_camber_and_toe_turn_the_spindle_as_chrono_does(self, tmp_path):
         """Toe about the vertical, then camber about the spindle's own axis, on the left side."""
         camber, toe = -3.0, 20.0
