@@ -626,28 +626,6 @@ def number(largest: float) -> st.SearchStrategy[float]:
     return st.floats(-largest, largest)
 
 
-wild_instants = st.builds(
-    Instant,
-    beta1=number(1e3),
-    spin=number(1e3),
-    rack=number(0.5),
-    beta1_rate=number(1e4),
-    spin_rate=number(1e4),
-    rack_rate=number(1e3),
-    rack_acceleration=number(1e6),
-    road_height=number(10.0),
-    strut_force=number(1e7),
-    rack_force=number(1e7),
-)
-
-
-@given(wild_instants)
-@calm
-@each_model
-def test_wild_states(model, instant: Instant) -> None:
-    finite_or_refused(model, instant, usual_constants(model))
-
-
 anything = st.floats(allow_nan=False, allow_infinity=False)
 any_instants = st.builds(Instant, *[anything] * len(fields(Instant)))
 

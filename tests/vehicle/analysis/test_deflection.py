@@ -183,26 +183,6 @@ def test_torsion_of_the_arm_adds_to_the_wheel_rate(travel: float) -> None:
         assert rate == pytest.approx((by @ force) / heights, rel=1e-7)
 
 
-def test_two_rates_against_tilting_have_axes() -> None:
-    """Exchanged with their axes they are the same; two that are equal are one; others are not."""
-    model = Model("reference_car")
-
-    def moved(tilt: Any, radial_axis: list[float]) -> float:
-        bush = {"axial_N_per_mm": 100.0, "radial_N_per_mm": 300.0, "axis": [1.0, 0.0, 0.0],
-                "tilt_Nm_per_deg": tilt, "radial_axis": radial_axis}  # fmt: skip
-        bushes = dict.fromkeys(("arm_front", "arm_rear"), bush)
-        found = compliance.nonlinear(model, bushes, "braking",
-                                 [2000.0])  # fmt: skip
-        return float(found["displacement"][0, 0])
-
-    upright, sideways = [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]
-    one, same = moved([20.0, 4000.0], upright), moved([4000.0, 20.0], sideways)
-    assert one == pytest.approx(same, rel=1e-9)
-    assert moved([20.0, 20.0], upright) == pytest.approx(moved(20.0, sideways), rel=1e-9)
-    # a force from the front turns the arm about the vertical
-    assert moved([4000.0, 20.0], upright) < 0.98 * one
-
-
 @pytest.mark.parametrize("hardpoints", ["loaded", "relaxed"])
 def test_a_radial_curve_is_the_same_to_all_sides(hardpoints: Any) -> None:
     model = Model("reference_car")

@@ -232,22 +232,6 @@ def test_the_axle_deflects_as_on_springs(
         assert told[name] == pytest.approx(value, rel=1e-5, abs=1e-6 * abs(theirs).max())
 
 
-def test_springs_that_carry_the_axle_are_as_soft_as_its_wheel_rate_and_roll_stiffness() -> None:
-    """Preloaded springs, with hard bushes: what the road finds are the rates of kinematics."""
-    hard = {"panhard_rod_chassis": {"axial_N_per_mm": 1e10}}
-    # without camber the contacts, fixed to the wheels, rise as the wheel centres do, but for what
-    # toe and the axle's pitch turn: 2e-5
-    axle = LOPSIDED.with_changes({"wheel.camber_deg": 0.0})
-    found = compliance.linear(axle, hard, [0.03], held="spring")["flexibility"][0]
-    kinematic = flat(characteristics.over(axle, "bump", [0.03]))
-    vertical = found.sel(moved=["z_left", "z_right"], by=["fz_left", "fz_right"]).values
-    stiff = np.linalg.inv(vertical)
-    for i, side in enumerate(SIDES):
-        assert stiff[i].sum() == pytest.approx(float(kinematic[f"wheel_rate_{side}"][0]), rel=1e-4)
-    levers = [Placed(axle, 0.03).contacts[side][1] for side in SIDES]
-    assert levers @ stiff @ levers == pytest.approx(float(kinematic["roll_stiffness"][0]), rel=1e-4)
-
-
 # -- loads of any size ----------------------------------------------------------------------------
 
 STOPPED = AXLE.with_changes(

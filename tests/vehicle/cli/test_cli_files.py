@@ -294,13 +294,3 @@ def test_strange_names(kintrafo, tmp_path, name):
     code, out, err = kintrafo("check", f"no_such_{name}")
     assert (code, out) == (2, "")
     assert "no_such_" in err
-
-
-def test_strange_names_compared(kintrafo, tmp_path):
-    for name in STRANGE:
-        (tmp_path / name).write_text(TEXT, encoding="utf-8")
-    files = [f"a.{ending}" for ending in ("csv", "nc", "parquet")]
-    options = [text for file in files for text in ("-o", file)]
-    code, _, err = kintrafo("compare", *STRANGE[:2], *STRANGE[-2:], *options)
-    assert code == 0, err
-    assert "\n'=1.toml," in (tmp_path / "a.csv").read_text(encoding="utf-8")
