@@ -35,22 +35,6 @@ def system() -> kintrafo.System:
     return kintrafo.System(module, CAR.parameters)
 
 
-def beside(system: kintrafo.System, name: str, by: float) -> dict[str, np.ndarray]:
-    """Return a motion in which something is another, by a method that shares nothing."""
-    parameters, start, inputs = dict(system.parameters), START.copy(), dict(ROAD)
-    if name in parameters:
-        parameters[name] += by
-    elif name in system.state_names:
-        start[system.state_names.index(name)] += by
-    else:
-        inputs[name] = by
-    other = kintrafo.System(system.equations, parameters)
-    found = kintrafo.simulate(
-        other, SPAN, start, inputs=inputs, t_eval=TIMES, method="DOP853", rtol=1e-12, atol=1e-14
-    )
-    return {**found.signals, **dict(zip(system.state_names, found.y, strict=True))}
-
-
 def test_it_is_the_transpose_of_the_gradient(system: kintrafo.System) -> None:
     weights = np.cos(40.0 * TIMES)
     of = dict.fromkeys([*SIGNALS, "beta1"], weights)
