@@ -3,11 +3,7 @@
 from typing import Any
 
 import numpy as np
-from kintrafo import (
-    Axle,
-    AxleModel,
-    Suspension,
-)
+from kintrafo import Axle, AxleModel, Suspension
 from kintrafo.vehicle.models.positions import arm_angles, design_height
 
 AXLE = Axle.load("reference_axle")

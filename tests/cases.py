@@ -10,11 +10,7 @@ from types import ModuleType
 import numpy as np
 from kintrafo.generated import macpherson, macpherson_free_rack, macpherson_general
 from oracle.constraints import BODIES, Array, Pose
-from oracle.multipliers import (
-    Solution,
-    solve_free,
-    solve_prescribed,
-)
+from oracle.multipliers import Solution, solve_free, solve_prescribed
 from oracle.newton import Mechanism, solve_pose
 from oracle.reference import (
     Parameters,

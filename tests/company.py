@@ -14,13 +14,7 @@ import own_shafts
 import own_wheels
 import own_yokes
 import sympy as sp
-from kintrafo.generator import (
-    Copy,
-    Formulation,
-    Mechanism,
-    Revolute,
-    combined,
-)
+from kintrafo.generator import Copy, Formulation, Mechanism, Revolute, combined
 from kintrafo.generator.equations.design import _angle, design_coordinates
 from kintrafo.generator.equations.dynamics import Dynamics
 from kintrafo.generator.equations.in_motion import InMotion

@@ -111,10 +111,7 @@ def _printed(function: Function, prepare: Function, parameters: list[str], names
         "from kintrafo.equations.following import follow_turns",
         *arrays.printed_blocks(blocks_of([function]), NUMPY),
         arrays.definition(
-            prepare,
-            "parameters",
-            arrays.loaded("parameters", parameters, prepare, NUMPY),
-            NUMPY,
+            prepare, "parameters", arrays.loaded("parameters", parameters, prepare, NUMPY), NUMPY
         ),
         arrays.definition(function, "constants, coordinates", loads, NUMPY),
     ]

@@ -5,10 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import (
-    RigidAxle,
-    RigidAxleModel,
-)
+from kintrafo import RigidAxle, RigidAxleModel
 from scipy.optimize import fsolve
 from scipy.spatial.transform import Rotation
 

@@ -6,12 +6,7 @@ An oracle for compliance: it shares no code with what it is held against.
 from typing import Any
 
 import numpy as np
-from kintrafo import (
-    Axle,
-    Model,
-    Suspension,
-    arm_angles,
-)
+from kintrafo import Axle, Model, Suspension, arm_angles
 from kintrafo.vehicle.models.positions import design_height
 from kintrafo.vehicle.models.reach import at_rest
 from oracle.constraints import Assembler, Pose

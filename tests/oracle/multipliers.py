@@ -21,13 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from oracle.constraints import ARM, KNUCKLE, RACK, UPPER_STRUT, WHEEL, Array, Pose
-from oracle.laws import (
-    damper_force,
-    friction_force,
-    spring_force,
-    stop_force,
-    tyre_load,
-)
+from oracle.laws import damper_force, friction_force, spring_force, stop_force, tyre_load
 from oracle.newton import Z_AXIS, Mechanism, observe
 
 CAUSES = (

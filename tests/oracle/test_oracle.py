@@ -8,17 +8,8 @@ import pytest
 
 from oracle import laws
 from oracle.constraints import Array, Pose
-from oracle.multipliers import (
-    reduced_equations,
-    solve_twist,
-)
-from oracle.newton import (
-    AssemblyError,
-    Mechanism,
-    observe,
-    residual_norm,
-    solve_pose,
-)
+from oracle.multipliers import reduced_equations, solve_twist
+from oracle.newton import AssemblyError, Mechanism, observe, residual_norm, solve_pose
 from oracle.reference import (
     BETA1_DESIGN,
     GENERAL_BODIES,

@@ -49,7 +49,7 @@ WALKS: dict[str, dict[str, str | None]] = {
     "A force, a law, a path": {
         "generator/declare/forces/push.py": source(
             "generator/declare/forces/joint_force.py", ("JointForce", "Push")
-        ),
+        )
     },
     "A joint": {
         "generator/declare/joints.py": source("generator/declare/joints.py")
@@ -92,7 +92,7 @@ def motions(subject: Any) -> xr.Dataset:
     assembly = assembly_of(subject)
     counts = stacked((), [len(assembly.motions) for _ in assembly.wheels], {})
     return xr.Dataset({"motions": counts}, {WHEEL: wheel_coordinate(assembly.wheels)})
-''',
+'''
     },
     "An assembly": {
         "vehicle/assembly/bench.py": '''"""A suspension on a bench: a corner."""

@@ -161,8 +161,7 @@ class TestEnveloping:
     )
     def test_what_no_wheel_climbs_is_refused(self, how: dict[str, float], refused: Any) -> None:
         refused(
-            InputError,
-            lambda: road_profiles.kerb(**how, radius=RADIUS, contact_length=CONTACT),
+            InputError, lambda: road_profiles.kerb(**how, radius=RADIUS, contact_length=CONTACT)
         )
 
 

@@ -206,13 +206,7 @@ BETWEEN = r"Only the crosses '\w+' and '\w+' hold '{}'\. {}"
 
 
 @pytest.mark.parametrize("allowed", [False, True], ids=["closed form", "iteration"])
-@pytest.mark.parametrize(
-    "links",
-    [
-        "rigid",
-        "turned",
-    ],
-)
+@pytest.mark.parametrize("links", ["rigid", "turned"])
 def test_what_is_no_such_shaft_is_refused_with_a_remedy(
     links: str, refused: Any, *, allowed: bool
 ) -> None:

@@ -187,11 +187,7 @@ def test_what_parts_have_in_common_is_there_once() -> None:
 
 
 @pytest.mark.parametrize(
-    "asked",
-    [
-        {"shared": (Input("track", "m", "track"),)},
-        {"own": (macpherson.STRUT_LOWER,)},
-    ],
+    "asked", [{"shared": (Input("track", "m", "track"),)}, {"own": (macpherson.STRUT_LOWER,)}]
 )
 def test_what_a_copy_does_not_know(asked: dict[str, tuple[object]], refused: Any) -> None:
     refused(DeclarationError, lambda: Copy(macpherson.mechanism(), "left_", **asked))

@@ -205,11 +205,7 @@ def test_a_number_alone_is_no_ratio() -> None:
 
 
 @pytest.mark.parametrize(
-    ("kind", "ratio"),
-    [
-        (g.Revolute, g.Lead("r", 1.0, "")),
-        (g.Prismatic, g.Ratio("r", 1.0, "")),
-    ],
+    ("kind", "ratio"), [(g.Revolute, g.Lead("r", 1.0, "")), (g.Prismatic, g.Ratio("r", 1.0, ""))]
 )
 def test_a_ratio_in_wrong_units_is_refused(kind: type, ratio: g.Parameter, refused: Any) -> None:
     along = WHEEL_LINE if kind is g.Revolute else AXIS

@@ -9,10 +9,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import sympy as sp
-from company import (
-    EVERY,
-    check_in_company,
-)
+from company import EVERY, check_in_company
 from kintrafo.generator import (
     FORWARD,
     Body,

@@ -10,11 +10,7 @@ from cases import MODELS, At, Instant, car_parameters
 from kintrafo.generated import macpherson, macpherson_general
 from oracle.constraints import KNUCKLE, RACK, WHEEL, Array, Pose
 from oracle.newton import Mechanism, solve_pose_at_height
-from oracle.reference import (
-    BETA1_DESIGN,
-    KINEMATICS,
-    KINEMATICS_COLUMNS,
-)
+from oracle.reference import BETA1_DESIGN, KINEMATICS, KINEMATICS_COLUMNS
 
 # 0 is the reference car; of the others, those that reach the ends of the travel below
 SEEDS = {

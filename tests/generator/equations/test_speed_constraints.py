@@ -98,11 +98,7 @@ RIM = g.Rolling("rim", g.Wheel(DISC, DISC.center, AXIS), g.Length("radius", RADI
 
 def disc_model(eliminated=("disc_u", "disc_v", "disc_w"), constraints=(RIM,)):
     mechanism = g.Mechanism(
-        "disc",
-        "a rolling disc",
-        joints=(FLIGHT,),
-        forces=(g.Weight(),),
-        constraints=constraints,
+        "disc", "a rolling disc", joints=(FLIGHT,), forces=(g.Weight(),), constraints=constraints
     )
     return g.Formulation("disc", "a rolling disc", mechanism, (FLIGHT,), eliminated=eliminated)
 

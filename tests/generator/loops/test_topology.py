@@ -351,13 +351,7 @@ def test_too_few_coordinates_for_a_loop() -> None:
         CataloguePlan.of(model)
 
 
-@pytest.mark.parametrize(
-    "independent",
-    [
-        ("A", "D"),
-        (),
-    ],
-)
+@pytest.mark.parametrize("independent", [("A", "D"), ()])
 def test_number_of_coordinates_is_compared_with_the_mobility(
     independent: tuple[str, ...], refused: Any
 ) -> None:

@@ -114,13 +114,7 @@ def test_gif_lasts_as_long_as_the_motion(spun, tmp_path):
 
 
 @pytest.mark.parametrize(
-    "options",
-    [
-        {"fps": 0.0},
-        {"slower": -1.0},
-        {"slower": 1e6},
-        {"path": "a.mp4"},
-    ],
+    "options", [{"fps": 0.0}, {"slower": -1.0}, {"slower": 1e6}, {"path": "a.mp4"}]
 )
 def test_what_cannot_be_shown_is_refused_by_name(spun, tmp_path, options, refused):
     """Rates, lengths and names of files."""

@@ -235,10 +235,7 @@ def thrown():
             name="thrown",
             title="Block that meets a stop",
             joints=(guide,),
-            forces=(
-                g.ForceElement("end", g.AlongGuide(guide), (stop,)),
-                g.JointForce(guide, push),
-            ),
+            forces=(g.ForceElement("end", g.AlongGuide(guide), (stop,)), g.JointForce(guide, push)),
             coordinates=(guide.slide("slide", "slide of the block"),),
         )
     )

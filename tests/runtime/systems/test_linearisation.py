@@ -7,14 +7,7 @@ import pytest
 import scipy.signal
 from cases import MODELS, Instant
 from folders import ROOT
-from kintrafo import (
-    InputError,
-    Model,
-    Suspension,
-    equilibrium,
-    linearise,
-    state_at_height,
-)
+from kintrafo import InputError, Model, Suspension, equilibrium, linearise, state_at_height
 from kintrafo.systems.modes import eigenvalues_of, mode_of_states, modes_of, modes_of_motions
 from oracle.multipliers import solve_free, solve_prescribed
 from oracle.newton import Mechanism, solve_pose
@@ -251,13 +244,7 @@ def test_inputs_change_the_point():
     assert np.array_equal(linear.inputs, raised)
 
 
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        {"outputs": ["tire_force"]},
-        {"state": np.zeros((3, 4))},
-    ],
-)
+@pytest.mark.parametrize("arguments", [{"outputs": ["tire_force"]}, {"state": np.zeros((3, 4))}])
 def test_what_cannot_be_linearised_is_refused(arguments, refused):
     refused(InputError, lambda: linearise(HELD, **({"state": REST} | arguments)))
 

@@ -6,15 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from axles import AXLE, BENT, placed
-from kintrafo import (
-    Axle,
-    AxleModel,
-    System,
-    equilibrium,
-    loads,
-    roads,
-    simulate,
-)
+from kintrafo import Axle, AxleModel, System, equilibrium, loads, roads, simulate
 from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.vehicle.assembly.axle_kinematics import AxleKinematics
 from kintrafo.vehicle.models.points import carried

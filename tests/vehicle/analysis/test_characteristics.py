@@ -16,15 +16,7 @@ from differences import difference, second_difference
 from folders import DATA, ROOT
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kintrafo import (
-    Axle,
-    InputError,
-    Model,
-    PositionError,
-    Suspension,
-    characteristics,
-    variation,
-)
+from kintrafo import Axle, InputError, Model, PositionError, Suspension, characteristics, variation
 from kintrafo.vehicle.assembly import wheel
 from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.assembly.corner_kinematics import corner

@@ -41,15 +41,7 @@ from kintrafo.vehicle.models.reach import at_rest
 from oracle.constraints import Pose
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
-from soft_suspensions import (
-    CURVED,
-    LINKED,
-    SOFTER,
-    STRUT,
-    TRAILING,
-    WISHBONES,
-    Energy,
-)
+from soft_suspensions import CURVED, LINKED, SOFTER, STRUT, TRAILING, WISHBONES, Energy
 
 CARS = [STRUT, WISHBONES, LINKED, TRAILING]
 

@@ -274,10 +274,7 @@ def without_ratio():
             FILE["front"] | {"steering": {"angle_deg": [-90, 0, 90], "rack_mm": [12, 0, -12]}},
             "a constant ratio",
         ),
-        (
-            FILE["front"] | {"side": without_ratio()},
-            "travel_per_turn_mm is missing",
-        ),
+        (FILE["front"] | {"side": without_ratio()}, "travel_per_turn_mm is missing"),
     ],
 )
 def test_a_column_needs_a_rack_and_its_ratio(front, words) -> None:

@@ -34,16 +34,7 @@ from kintrafo.vehicle.assembly.measures.rigid_axle import MEASURES
 from kintrafo.vehicle.assembly.measures.whole_axle import wheel_rate, wheel_rate_alone
 from kintrafo.vehicle.assembly.rigid_axle_kinematics import RigidAxleKinematics
 from kintrafo.vehicle.assembly.rigid_axle_parts import RigidAxleParts
-from rigid_axles import (
-    AXLE,
-    LEFT,
-    LOPSIDED,
-    MODEL,
-    TRIANGULATED,
-    Found,
-    each_axle,
-    slopes,
-)
+from rigid_axles import AXLE, LEFT, LOPSIDED, MODEL, TRIANGULATED, Found, each_axle, slopes
 from scipy.interpolate import PchipInterpolator
 
 PAGE = ROOT / "docs/suspension/types.md"
@@ -402,14 +393,8 @@ def test_a_rod_that_repeats_another_is_one_too_many() -> None:
         # across at no place
         {
             "rods.left_link": {"chassis": [620.0, 500.0, 310.0], "axle": [20.0, 500.0, 310.0]},
-            "rods.right_link": {
-                "chassis": [620.0, -500.0, 310.0],
-                "axle": [20.0, -500.0, 310.0],
-            },
-            "rods.panhard_rod": {
-                "chassis": [620.0, -60.0, 525.0],
-                "axle": [-20.0, -60.0, 525.0],
-            },
+            "rods.right_link": {"chassis": [620.0, -500.0, 310.0], "axle": [20.0, -500.0, 310.0]},
+            "rods.panhard_rod": {"chassis": [620.0, -60.0, 525.0], "axle": [-20.0, -60.0, 525.0]},
             "rods.upper_link.chassis.y": 60.0,
         },
         {"rods.upper_link.axle": [500.0, 60.0, 480.0]},

@@ -62,16 +62,7 @@ WRITING = {
         "a.svg",
     ),
     "compliance --nonlinear of an axle": (
-        [
-            "compliance",
-            "--nonlinear",
-            "reference_axle",
-            *SOFT,
-            "--over",
-            "roll",
-            "--plot",
-            "a.svg",
-        ],
+        ["compliance", "--nonlinear", "reference_axle", *SOFT, "--over", "roll", "--plot", "a.svg"],
         "a.svg",
     ),
     "compare": (["compare", CAR, CAR, "--plot", "a.pdf"], "a.pdf"),

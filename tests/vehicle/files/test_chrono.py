@@ -759,10 +759,7 @@ class TestMistakes:
     def test_are_named(self, tmp_path, changes, refused):
         refused(InputError, lambda: chrono.read(written(tmp_path, content() | changes)))
 
-    @pytest.mark.parametrize(
-        "points",
-        [[[0, 0], [0, 0, 1]], [[0, "a"], [1, 1]], [[0, 0]], 5],
-    )
+    @pytest.mark.parametrize("points", [[[0, 0], [0, 0, 1]], [[0, "a"], [1, 1]], [[0, 0]], 5])
     def test_points_of_a_curve_are_named_once(self, tmp_path, points, refused):
         data = content()
         data["Spring"]["Spring Curve Data"] = points

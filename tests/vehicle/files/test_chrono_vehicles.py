@@ -293,9 +293,7 @@ MISTAKES: dict[str, dict[tuple[Any, ...], Any]] = {
     "kind": {(REAR, "Template"): "SolidAxle"},
     "steering": {(PITMAN, "Template"): "RotaryArm"},
     "no axis": {(PITMAN, "Revolute Joint", "Direction"): [0, 0, 0]},
-    "no idler arm": {
-        (PITMAN, IDLER, "Location Link"): FILES[PITMAN][IDLER]["Location Chassis"],
-    },
+    "no idler arm": {(PITMAN, IDLER, "Location Link"): FILES[PITMAN][IDLER]["Location Chassis"]},
     "damper": {(REAR, "Shock", "Map Data"): [[0, 1], [2, 3]]},
     "no mass": {("generic/chassis/Chassis.json", "Components", 0, "Mass"): 0.0},
     "quaternion": {(VEHICLE, "Steering Subsystems", 0, "Orientation"): [2, 0, 0, 0]},

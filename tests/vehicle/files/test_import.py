@@ -70,11 +70,7 @@ OTHERS = [
 
 @pytest.mark.parametrize(("source", "option", "found"), OTHERS)
 def test_options_of_another_format(
-    kintrafo: Any,
-    tmp_path: Path,
-    source: str,
-    option: str,
-    found: Any,
+    kintrafo: Any, tmp_path: Path, source: str, option: str, found: Any
 ) -> None:
     for name, text in {"a.csv": TABLE, "a.sub": ADAMS, "b.json": CHRONO}.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
@@ -95,12 +91,7 @@ def test_options_of_another_format(
     ],
 )
 def test_a_refusal_says_what_a_file_is_read_as(
-    kintrafo: Any,
-    tmp_path: Path,
-    name: str,
-    text: str,
-    more: str,
-    found: Any,
+    kintrafo: Any, tmp_path: Path, name: str, text: str, more: str, found: Any
 ) -> None:
     (tmp_path / name).write_text(text, encoding="utf-8")
     code, out, err = kintrafo("import", name, "new.toml", *more.split())

@@ -7,14 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import (
-    InputError,
-    Model,
-    PositionError,
-    Suspension,
-    characteristics,
-    state_at_height,
-)
+from kintrafo import InputError, Model, PositionError, Suspension, characteristics, state_at_height
 from kintrafo.vehicle.analysis.sweep import positions
 from kintrafo.vehicle.models.points import hardpoints
 from kintrafo.vehicle.models.positions import arm_angles, design_height

@@ -5,13 +5,7 @@
 
 import numpy as np
 import pytest
-from kintrafo import (
-    Axle,
-    InputError,
-    Model,
-    Suspension,
-    characteristics,
-)
+from kintrafo import Axle, InputError, Model, Suspension, characteristics
 from kintrafo.vehicle.models.points import hardpoints
 from kintrafo.vehicle.models.positions import arm_angles, design_height
 from kintrafo.vehicle.models.reach import at_rest
