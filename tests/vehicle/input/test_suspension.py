@@ -219,13 +219,6 @@ def suspensions(draw):
 class TestRoundTrip:
     @unhurried
     @given(suspensions())
-    def test_dictionaries(self, car):
-        again = Suspension.from_dict(car.to_dict())
-        assert again == car
-        assert again.parameters() == car.parameters()
-
-    @unhurried
-    @given(suspensions())
     def test_files(self, tmp_path_factory, car):
         file = tmp_path_factory.mktemp("cars") / "car.toml"
         assert Suspension.load(car.save(file)) == car
