@@ -52,7 +52,7 @@ def step(height: float, *, at: float, end: float) -> Samples | float:
     if at <= 0.0:
         return height
     if at >= end:
-        problem = f"at {at:g} s, but the simulation ends at {end:g} s. Let it end later."
+        problem = f"at {at:g} s, but the simulation ends at {end:g} s. Increase the end."
         raise InputError([problem], "road step")
     return np.array([0.0, at, at, end]), np.array([0.0, 0.0, height, height])
 

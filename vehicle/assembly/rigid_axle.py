@@ -53,7 +53,7 @@ class RigidAxleAssembly(WholeAxleAssembly):
         if not self.axle.overheld:
             return ()
         (fifth,) = {*self.axle.rods} - {*self.axle.guides}
-        return "what springs do as they turn", f"what {fifth} does to where the axle is"
+        return "the rotation of the springs", f"the effect of {fifth} on the position of the axle"
 
     @property
     def on_a_beam(self) -> bool:

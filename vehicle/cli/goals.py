@@ -111,7 +111,7 @@ def refuse_beyond(goals: "Sequence[Goal]", curves: "Mapping[str, Dataset]") -> N
                 )
                 given.fail(
                     f"{goal.name}: {', '.join(places)} {over.unit} of {over.words} is beyond its "
-                    f"curve, which goes from {low} to {high} {over.unit}. Let the curve go as far, "
+                    f"curve, which goes from {low} to {high} {over.unit}. Extend the curve, "
                     "or leave that position out."
                 )
 

@@ -42,7 +42,7 @@ def command(
     console.print(summary(model, paper.rest(model), dynamics))
     console.print(
         "The paper gives no hardpoints, masses or rates. These are results of "
-        f"{data}, which is not the paper's car: compare them in kind.",
+        f"{data}, which is not the paper's car: compare the shapes of the curves, not the numbers.",
         markup=False,
     )
     for file in [*files, overview]:

@@ -205,7 +205,7 @@ def _table(motion: "Dataset", run: _Run) -> "Table":
 def _in_words(result: "Simulation", run: _Run) -> list[str]:
     """Return sentences on the solver, the body, and wheels that left the ground."""
     crossings, counts = _crossings(result, run), _counts(result)
-    lines = [f"{result.solver}: " + ", ".join(f"{v} {_WORDS[n]}" for n, v in counts.items())]
+    lines = [f"{result.solver}: " + ", ".join(_WORDS[n].format(v) for n, v in counts.items())]
     if not run.moves:
         lines.append(
             "The body is held; in the file of a car it moves (see docs/suspension/car.md)."
@@ -223,6 +223,7 @@ def _in_words(result: "Simulation", run: _Run) -> list[str]:
 
 
 _WORDS = {
-    "steps": "steps", "nfev": "evaluations", "njev": "Jacobians", "nlu": "factorisations",
-    "error_test_failures": "failed error tests", "order": "the last order",
+    "steps": "{} steps", "nfev": "{} evaluations", "njev": "{} Jacobians",
+    "nlu": "{} factorisations", "error_test_failures": "{} failed error tests",
+    "order": "last order {}",
 }  # fmt: skip

@@ -73,7 +73,7 @@ class ScenarioOptions:
         from ..analysis.scenario import Scenario
 
         if self.speed is not None and self.measured is None:
-            raise typer.BadParameter("only a road from --measured is driven on at a --speed")
+            raise typer.BadParameter("--speed is only for a road from --measured")
         self._refuse_details()
         recording = None
         if self.measured is not None:

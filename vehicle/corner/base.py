@@ -129,7 +129,7 @@ class Suspension(WheeledSection):
     bump_stop: StopSection | None = Field(default=None, description="the stop in bump")
     rebound_stop: StopSection | None = Field(default=None, description="the stop in rebound")
     bushings: Bushings | None = Field(
-        default=None, description="what deflects at hardpoints, for compliance: see Loads"
+        default=None, description="the bushings at hardpoints, for compliance: see Compliance"
     )
 
     def __init__(self, /, **data: Any) -> None:

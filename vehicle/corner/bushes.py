@@ -295,7 +295,7 @@ def refuse_rigid(given: Validator, bushes: Sequence[Bush], rack: float) -> None:
 
 def left_out(bushes: Sequence[Bush]) -> str:
     """Return the effects of bushes that a linear analysis neglects, for a sentence, or ""."""
-    return "what resists torsion and tilting" if any(any(b.turning) for b in bushes) else ""
+    return "torsion and tilting of the bushes" if any(any(b.turning) for b in bushes) else ""
 
 
 def softness_of_rack(given: Validator, described: Mapping[str, Any]) -> float:

@@ -135,7 +135,7 @@ and `[bushings.POINT]`, whose points are `pivot` and `wheel_center`, on both sid
     brakes: Brakes = Field(default=Brakes(), description="reaction of the brake torque")
     drive: AxleDrive | None = Field(default=None, description="the drive of the axle")
     bushings: Bushings | None = Field(
-        default=None, description="what deflects at hardpoints, for compliance: see Loads"
+        default=None, description="the bushings at hardpoints, for compliance: see Compliance"
     )
 
     def heading(self) -> str:

@@ -232,8 +232,8 @@ class WholeAxleModel(System):
         steered = f", and its steering at {rack:+g} mm" if steers else ""
         to = f", the steering to {ends[2]:+.2f} mm" if steers else ""
         message = (
-            f"the axle cannot be with its left wheel at {left:+g} mm and its right one at "
-            f"{right:+g} mm from design{steered}: on this way it comes to {ends[0]:+.2f} mm and "
+            f"the axle cannot have its left wheel at {left:+g} mm and its right one at "
+            f"{right:+g} mm from design{steered}: the motion ends at {ends[0]:+.2f} mm and "
             f"{ends[1]:+.2f} mm{to}, where {self.ENDS}. Choose less."
         )
         raise PositionError(message)

@@ -32,7 +32,7 @@ _MET = f"found: all deviations are at most {100 * ENOUGH:g} % of `within`"
 # Meanings of SLSQP's exit codes.
 _GAVE_UP = {
     4: "the limits exclude each other",
-    8: "no step from here makes it better",
+    8: "no step from here improves it",
     9: TOO_MANY_STEPS,
 }
 

@@ -137,8 +137,8 @@ def sensitivity(
     return dataset.assign_attrs(left_out=", ".join(left_out), message=_message(left_out))
 
 
-_ALONE = "a file cannot have values beside them (name one in full to see why)"
-_RIGID = "nothing here depends on bushes, joints are rigid"
+_ALONE = "a file with slightly different values is an error (name one in full to see why)"
+_RIGID = "bushes have no effect here: joints are rigid"
 # Number of names in the message on values that are left out; the dataset has all.
 _NAMED = 3
 
@@ -272,7 +272,7 @@ def _dataset(curves: Curves, places: Sequence[DesignVariable], values: Array) ->
         name: xr.Variable((PLACE, along.name), values[:, i], _attributes(curves, name, places))
         for i, name in enumerate(curves.names)
     }
-    labels = {"long_name": "value of the input file that moves"}
+    labels = {"long_name": "value of the input file that is changed"}
     coordinates = {
         PLACE: xr.Variable(PLACE, [place.name for place in places], labels),
         "place_unit": xr.Variable(PLACE, [place.si_unit for place in places]),
@@ -297,7 +297,7 @@ def _attributes(curves: Curves, name: str, places: Sequence[DesignVariable]) -> 
     shown = Display(_per(shown.units, unit, " per "), shown.factor * to_si)
     return attributes | {
         "long_name": f"sensitivity of {quantity.long_name}",
-        "sign": "positive where it grows with the value",
+        "sign": "positive if the quantity grows with the value",
         "display_units": shown.units,
         "display_factor": shown.factor,
     }

@@ -236,7 +236,7 @@ def _dataset(cars: _Cars, parts: Array) -> xr.Dataset:
     values = np.array([p.value * p.to_si for p in cars.places]) + cars.off
     data["value_of"] = variable((CAR, PLACE), values, "value that the car has, in place_unit", "SI")
     coordinates = {
-        QUANTILE: variable(QUANTILE, np.array(QUANTILES), "part of the cars that is below", "1"),
+        QUANTILE: variable(QUANTILE, np.array(QUANTILES), "fraction of the cars below it", "1"),
         PLACE: [place.name for place in cars.places],
         "place_unit": (PLACE, [place.si_unit for place in cars.places]),
         along.name: xr.Variable(along.name, curves.positions, along.attributes()),

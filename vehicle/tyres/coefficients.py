@@ -50,7 +50,7 @@ OF_COMBINED_SLIP = ("RBX1", "RBY1")
 
 REASONS: Mapping[str, str] = {
     "MODEL": "how another program runs",
-    "MDI_HEADER": "who wrote it",
+    "MDI_HEADER": "the origin of the file",
     "SHAPE": "the contact is that of a thin disc",
     "DIMENSION": "the contact is that of a thin disc",
     "INERTIA": "masses and moments of inertia are in the file of the vehicle",

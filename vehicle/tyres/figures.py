@@ -57,7 +57,7 @@ def key_figures(tyre: Tyre, loads: Any = None) -> "xr.Dataset":
     with Validator("key_figures") as given:
         chosen = given.array("loads", usual if loads is None else loads, "N", dimensions=(1,))
         if not given.failed and (chosen.min() < max(low, 1.0) or chosen.max() > high):
-            given.fail(f"loads: from {max(low, 1.0):g} to {high:g} N the tyre is known.")
+            given.fail(f"loads: {max(low, 1.0):g} to {high:g} N are allowed for this tyre.")
     at_zero = tyre.evaluate(chosen)
     leaning = [tyre.evaluate(chosen, camber=side * _SMALL).fy for side in (-1.0, 1.0)]
     lateral, angle = _friction(tyre, chosen, "slip_angle", 0)

@@ -275,11 +275,11 @@ def test_stops_carry_what_springs_do_not() -> None:
     with pytest.raises(PositionError, match="N too much for spring and stops"):
         loads.static(Model(CAR), {"a": {"contact_N": [0.0, 0.0, 1e6]}})
     some = loads.static(Model(CAR), STILL | {"a": {"contact_N": [0.0, 0.0, 1e6]}})
-    assert some.attrs["message"] == "1 of 2 cases are carried"
-    assert "Give the file its [bump_stop]" in str(some["reason"].values[1])
+    assert some.attrs["message"] == "1 of 2 cases have an equilibrium"
+    assert "Add a [bump_stop]" in str(some["reason"].values[1])
     with_stops = Model(STOPPED.with_changes({"bump_stop.rate_N_per_m": 3e4}))
     crushed = loads.static(with_stops, STILL | {"a": {"contact_N": [0.0, 0.0, 1e6]}})
-    assert "Give the file" not in str(crushed["reason"].values[1])
+    assert "Add a" not in str(crushed["reason"].values[1])
     assert np.isnan(some["force"].values[1]).all()
 
 
@@ -307,7 +307,7 @@ def test_a_spring_without_leverage_is_no_dead_point() -> None:
     kerb = {"contact_g": [0.0, 1.5, 2.0]}
     found = loads.static(Model(odd), STILL | {"kerb": kerb}, static_load=3800.0)
     assert str(found["reason"].values[0]) == ""
-    assert "it is not carried" in str(found["reason"].values[1])
+    assert "there is no equilibrium" in str(found["reason"].values[1])
 
 
 def test_couples_are_shown_without_a_force(kintrafo: Any, tmp_path: Path) -> None:

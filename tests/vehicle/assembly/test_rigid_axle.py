@@ -336,7 +336,7 @@ def test_no_position_is_beyond_a_gap() -> None:
     end = 0.3 * model.farthest(0.3, 0.3)
     model.states_at([0.0, end], [0.0, end])
     for travel in (0.19, 0.25):
-        with pytest.raises(PositionError, match=rf"it comes to \+{1e3 * end:.1f}"):
+        with pytest.raises(PositionError, match=rf"the motion ends at \+{1e3 * end:.1f}"):
             model.states_at(travel, travel)
         with pytest.raises(PositionError, match="a damper is at the end of its length"):
             model.states_at([0.0, travel, -0.01], [0.0, travel, 0.01])

@@ -448,7 +448,7 @@ def test_chapters_stand_in_the_page():
     model = Model("reference_car")
     cases = {"still": {"contact_g": [0.0, 0.0, 1.0]}, "far": {"contact_N": [0.0, 0.0, 1e6]}}
     loaded = loads_chapter(loads.static(model, cases))
-    assert "1 of 2 cases are carried" in loaded.words[0]
+    assert "1 of 2 cases have an equilibrium" in loaded.words[0]
     assert loaded.words[1].startswith("far:")
     (picture,) = loaded.pictures  # a case that is not carried has none
     kind, _, coded = picture.source.partition(";base64,")

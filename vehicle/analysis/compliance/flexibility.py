@@ -117,8 +117,8 @@ def refuse_without_rate(given: Validator, held: WheelSupport, *tyres: TyreSectio
     """Add an error if tyres support the wheels and one of them has no vertical rate."""
     if held == "tyre" and not all(tyre.rate_N_per_m > 0.0 for tyre in tyres):
         given.fail(
-            "held: the tyre is to hold the wheel, and [tyre] rate_N_per_m = 0 N/m. Enter its rate, "
-            "or let something else hold the wheel: height, spring, locked."
+            "held: the tyre supports the wheel, but [tyre] rate_N_per_m = 0 N/m. Enter its rate, "
+            "or select another support of the wheel: height, spring, locked."
         )
 
 

@@ -27,8 +27,8 @@ from .linear import refuse_without_radius
 Hardpoints = Literal["loaded", "relaxed"]
 
 HARDPOINTS = {
-    "loaded": "the hardpoints are where the joints are under the static load at design",
-    "relaxed": "the hardpoints are where the joints are with relaxed bushes",
+    "loaded": "the joints are at the hardpoints under the static load at design",
+    "relaxed": "the joints are at the hardpoints with relaxed bushes",
 }
 """Meanings of the hardpoints of a file."""
 

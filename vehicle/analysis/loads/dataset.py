@@ -130,7 +130,7 @@ def dataset_of(
         meaning = f"{name} on the part, in the axes that the part had at design"
         data[f"{name}_in_part"] = (inside, meaning, data[name][2])
     points = _points_in_parts(fields["at"], places, design, rows)
-    data["at_in_part"] = (points, "where it acts on the part as it was at design", "m")
+    data["at_in_part"] = (points, "point of the part where it acts, as placed at design", "m")
     left = [_sum(fields, rows[part], places[part].center) for part in moving]
     residuals = {}
     for name, unit, sums in zip(
@@ -172,8 +172,8 @@ def over_cases(
         The reason why a case has no equilibrium; empty if it has.
     """
     found = found.assign_coords({CASE: [names[i] for i in carried]}).reindex({CASE: [*names]})
-    found["reason"] = variable(CASE, np.array(reasons), "why the case cannot be carried", "1")
-    message = f"{len(carried)} of {len(names)} cases are carried"
+    found["reason"] = variable(CASE, np.array(reasons), "reason for no equilibrium", "1")
+    message = f"{len(carried)} of {len(names)} cases have an equilibrium"
     return found.assign_attrs(title="loads in load cases", message=message)
 
 
@@ -181,7 +181,7 @@ def refuse_if_none(names: Sequence[str], carried: Sequence[int], reasons: Sequen
     """Raise a `PositionError` if no case has an equilibrium, see `over_cases`."""
     if not carried:
         lines = [f"{name}: {reason}" for name, reason in zip(names, reasons, strict=True)]
-        raise PositionError("\n  - ".join(["none of the cases can be carried", *lines[:3]]))
+        raise PositionError("\n  - ".join(["none of the cases has an equilibrium", *lines[:3]]))
 
 
 def _sum(fields: dict[str, Array], rows: list[int], about: Array) -> tuple[Array, Array]:

@@ -46,13 +46,12 @@ _TRIES = 20
 _POLE = 1e-9
 
 _LOCKED = (
-    "it is not carried: the axle would be in balance only at the end of its reach, where its rods "
-    "lock, or beyond a gap of it. Give the file its [bump_stop] and [rebound_stop], or the case "
-    "its travel_mm."
+    "there is no equilibrium: the axle would be in balance only at the end of its reach, where its "
+    "rods lock, or beyond a gap of it. Add a [bump_stop] and a [rebound_stop] to the file, or give "
+    "the case a travel_mm."
 )
 _UNSTABLE = (
-    "it is not carried: no position was found that is stable. Give a wheel its travel_mm, or "
-    "correct the forces."
+    "there is no stable equilibrium near design. Give a wheel a travel_mm, or correct the forces."
 )
 
 
@@ -348,7 +347,7 @@ class _Search:
         else:
             problem = "no position is stable"
         return (
-            f"it is not carried between wheel heights of {low:.1f} mm and {high:.1f} mm: "
+            f"there is no equilibrium between wheel heights of {low:.1f} mm and {high:.1f} mm: "
             f"{problem}. {self._advice(0, pressed=held[-1] < 0.0, lifted=held[0] > 0.0)}"
         )
 
@@ -368,8 +367,8 @@ class _Search:
             for travel, wheel in zip(travels, self.assembly.wheels, strict=True)
         )
         return (
-            f"it is not carried: at travels of {where} wheel {self.assembly.ENDS}, and at the "
-            f"{self.assembly.wheels[most]} one there is {problem}. "
+            f"there is no equilibrium: at travels of {where} wheel {self.assembly.ENDS}, and at "
+            f"the {self.assembly.wheels[most]} one there is {problem}. "
             f"{self._advice(most, pressed=force < 0.0, lifted=force > 0.0)}"
         )
 
@@ -377,10 +376,10 @@ class _Search:
         """Return advice for a wheel that is pressed or lifted too much."""
         name = self.assembly.wheels[wheel]
         if pressed and not self.assembly.has_stop(name, "bump_stop"):
-            return "Give the file its [bump_stop], or the case its travel_mm."
+            return "Add a [bump_stop] to the file, or give the case a travel_mm."
         if not pressed and lifted and not self.assembly.has_stop(name, "rebound_stop"):
-            return "Give the file its [rebound_stop], or the case its travel_mm."
-        return "Give the case its travel_mm, or correct the forces."
+            return "Add a [rebound_stop] to the file, or give the case a travel_mm."
+        return "Give the case a travel_mm, or correct the forces."
 
 
 def _changes_sign(values: Array, axes: NDArray[np.int64]) -> Booleans:

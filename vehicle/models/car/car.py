@@ -510,10 +510,7 @@ def _problems_of_load(car: Car) -> list[str]:
 def _problems_of_column(front: AnyAxle) -> list[str]:
     """Return the problem of a steering column that moves no rack, or by an unknown ratio."""
     if not front.steered():
-        problem = (
-            "the front wheels are not steered, and there is no rack that it moves. Remove this "
-            "section."
-        )
+        problem = "the front wheels are not steered. Remove this section."
     elif front.steering is not None:
         problem = (
             "front: [steering]: the rack follows the angle by a curve, and a column that twists "
@@ -522,8 +519,8 @@ def _problems_of_column(front: AnyAxle) -> list[str]:
         )
     elif front.steering_gear.travel_per_turn() is None:
         problem = (
-            f"front: {front.steering_gear.TURN_KEY} is missing: how far the rack moves for a "
-            "turn of the steering wheel, by which the column moves it. Add it."
+            f"front: {front.steering_gear.TURN_KEY} is missing: the travel of the rack for one "
+            "turn of the steering wheel, which a column needs. Add it."
         )
     else:
         return []

@@ -74,7 +74,7 @@ class BeamAxle(WholeAxle):
     brakes: Brakes = Field(default=Brakes(), description="reaction of the brake torque")
     drive: AxleDrive | None = Field(default=None, description="the drive of the axle")
     bushings: Bushings | None = Field(
-        default=None, description="what deflects at hardpoints, for compliance: see Loads"
+        default=None, description="the bushings at hardpoints, for compliance: see Compliance"
     )
 
     PARTS: ClassVar[tuple[str, ...]] = _PARTS

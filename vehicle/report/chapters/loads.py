@@ -36,5 +36,5 @@ def loads_chapter(found: xr.Dataset) -> Chapter:
             drawn = free_bodies(found, case, title=f"Forces on the parts: {case}")
             # in svg the halo of its letters would be many lines
             pictures.append(ChapterPicture.of(drawn, f"Free bodies in the load case {case}", "png"))
-    sizes = overview(found, "Sizes of the forces [N]")
+    sizes = overview(found, "Magnitudes of the forces [N]")
     return Chapter("Load cases", tuple(words), (sizes,), tuple(pictures))
