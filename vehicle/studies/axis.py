@@ -14,30 +14,16 @@ from ..assembly.quantity import Quantity
 
 @dataclass(frozen=True)
 class SweepAxis:
-    """The quantity that varies along curves, and the curves over it.
-
-    Attributes
-    ----------
-    along : Quantity
-    known : mapping of str to Quantity
-        The curves over it, by the names of their columns.
-    words : str
-        Name in titles and messages, such as 'wheel travel'.
-    curves : callable, optional
-        A function that returns the curves of an assembly at some positions, if they are not those
-        of a motion.
-    usual : tuple of float, optional
-        The usual positions of such curves, SI units.
-    at : float, optional
-        The default position, SI units.
-    """
+    """The quantity that varies along curves, and the curves over it."""
 
     along: Quantity
-    known: Mapping[str, Quantity]
-    words: str
+    known: Mapping[str, Quantity]  # the curves over it, by the names of their columns
+    words: str  # name in titles and messages, such as 'wheel travel'
+    # a function that returns the curves of an assembly at some positions, if they are not those of
+    # a motion
     curves: Callable[[Assembly, Array], xr.Dataset] | None = None
-    usual: tuple[float, ...] = ()
-    at: float = 0.0
+    usual: tuple[float, ...] = ()  # the usual positions of such curves, SI units
+    at: float = 0.0  # the default position, SI units
 
     @property
     def unit(self) -> str:

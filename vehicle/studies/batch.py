@@ -39,17 +39,11 @@ _FEWEST = 3
 # Attempts to evaluate a batch without those that fail, before all are evaluated one by one.
 _MOST_TRIES = 8
 
-Finish = Callable[[slice, list[Array], list[str]], None]
-
 
 def moved_by(places: Sequence[DesignVariable], off: Array) -> dict[str, Array]:
     """Return the values of many files by place, in the unit of the file.
 
-    Parameters
-    ----------
-    places : sequence of DesignVariable
-    off : ndarray, shape (count, places)
-        Deviations from the values of the file, SI units.
+    Deviations from the values of the file have the shape (count, places), SI units.
     """
     return {
         name: column
@@ -62,31 +56,22 @@ def curves_of_many(
     suspension: Subject,
     values: Mapping[str, Array],
     looks: Sequence[Curves],
-    finish: Finish,
     *,
+    reduced: Callable[[Array], Array] = lambda curves: curves,
     threads: int | None = None,
     progress: Callable[[float], None] | None = None,
-) -> None:
-    """Evaluate curves of many suspensions.
+) -> tuple[list[Array], NDArray[np.object_]]:
+    """Return the values of each of `looks` for many suspensions, and reasons why some have none.
 
-    Parameters
-    ----------
-    suspension : Suspension, Axle or RigidAxle
-        The nominal subject; axles and rigid axles are evaluated one by one.
-    values : mapping of str to ndarray, shape (count,)
-        Values of each suspension by place, in the unit of the file.
-    looks : sequence of Curves
-    finish : callable
-        Called for some suspensions at a time, from the thread of the caller, with their slice, the
-        values of each of `looks`, (some, names, positions), and a reason for each suspension
-        without curves, whose values are NaN; other reasons are empty.
-    threads : int, optional
-        By default the number of cores.
-    progress : callable, optional
-        Called with the completed fraction, up to 1.
+    Values of each suspension are by place, in the unit of the file; axles and rigid axles are
+    evaluated one by one. Curves, (count, names, positions), may be reduced along the positions;
+    those of a suspension with a reason are NaN, and other reasons are empty. The default number of
+    threads is that of cores.
     """
     count = next(iter(values.values())).size
     parts = [slice(a, min(a + _TOGETHER, count)) for a in range(0, count, _TOGETHER)]
+    found: list[Array] = []
+    why = np.full(count, "", dtype=object)
 
     def found_in(part: slice, unwanted: Callable[[], bool]) -> tuple[slice, list[Array], list[str]]:
         own = {place: column[part] for place, column in values.items()}
@@ -96,12 +81,17 @@ def curves_of_many(
 
     def take(some: tuple[slice, list[Array], list[str]]) -> None:
         nonlocal done
-        finish(*some)
-        done += some[0].stop - some[0].start
+        part, curves, why[part] = some
+        for which, own in enumerate(map(reduced, curves)):
+            if not done:
+                found.append(np.full((count, *own.shape[1:]), np.nan))
+            found[which][part] = own
+        done += part.stop - part.start
         if progress is not None:
             progress(done / count)
 
     shared_out(found_in, parts, take, min(threads or usual_threads(), len(parts)))
+    return found, why
 
 
 def _some(

@@ -1,6 +1,6 @@
 """Suspensions with some free values, and their characteristics at the positions of goals."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -11,29 +11,30 @@ from .batch import curves_of_many, moved_by
 from .curves import CurveBundle, changed
 from .design_variables import DesignVariable
 from .evaluation import Subject
-from .goals import Goal
+from .goals import Goal, Limit
 
 # A value this close to the end of its range, as a part of it, is at the end.
 _AT_THE_END = 1e-6
+IMPOSSIBLE = 1e6
+"""Excess over limits, and deviation in those that matter, of a suspension without values."""
 
 
 class Candidates:
     """Characteristics as functions of the free values, each from -1 to 1 over its range.
 
-    Parameters
-    ----------
-    suspension : Suspension, Axle or RigidAxle
-    reach : mapping of DesignVariable to float
-        Largest change of each value to either side [SI].
-    goals : sequence of Goal
+    The range is the largest change of each value to either side [SI].
     """
 
     def __init__(
-        self, suspension: Subject, reach: Mapping[DesignVariable, float], goals: Sequence[Goal]
+        self,
+        suspension: Subject,
+        reach: Mapping[DesignVariable, float],
+        goals: Sequence[Goal],
+        limits: Sequence[Limit],
     ) -> None:
         self.suspension = suspension
         self.places, self.reach = tuple(reach), np.array([*reach.values()])
-        self.goals = tuple(goals)
+        self.limits, self.goals = tuple(limits), (*goals, *limits)
         self._look = CurveBundle([goal.curves for goal in self.goals])
         self._values: dict[bytes, list[Array] | None] = {}
 
@@ -61,17 +62,25 @@ class Candidates:
         new = {x.tobytes(): x for x in several if x.tobytes() not in self._values}
         if not new:
             return
-        off = np.array([*new.values()]) * self.reach
-        keys = [*new]
+        moved = moved_by(self.places, np.array([*new.values()]) * self.reach)
+        found, _ = curves_of_many(self.suspension, moved, [goal.curves for goal in self.goals])
+        for row, key in enumerate(new):
+            values = [curves[row, 0] for curves in found]
+            finite = all(np.isfinite(one).all() for one in values)
+            self._values[key] = values if finite else None
 
-        def seen(some: slice, found: list[Array], reasons: list[str]) -> None:
-            for row, (key, reason) in enumerate(zip(keys[some], reasons, strict=True)):
-                values = [curves[row, 0] for curves in found]
-                finite = not reason and all(np.isfinite(one).all() for one in values)
-                self._values[key] = values if finite else None
+    def of_limits(self, values: Sequence[Array]) -> Iterator[tuple[Limit, Array]]:
+        """Return each limit with its part of `values`."""
+        return zip(self.limits, values[len(self.goals) - len(self.limits) :], strict=True)
 
-        looks = [goal.curves for goal in self.goals]
-        curves_of_many(self.suspension, moved_by(self.places, off), looks, seen)
+    def room(self, x: Array, margin: float = 0.0) -> Array:
+        """Return the distances to the limits less a margin, in parts of their size."""
+        values = self.values(x)
+        if values is None:
+            sides = (limit.at.size * len(limit.sides) for limit in self.limits)
+            return np.full(sum(sides), -IMPOSSIBLE)
+        rooms = (limit.room(own) for limit, own in self.of_limits(values))
+        return np.concatenate([[], *rooms]) - margin
 
     def ends(self, x: Array, which: int) -> tuple[list[Array] | None, list[Array] | None]:
         """Return `values` at both ends of the range of one free value."""

@@ -106,32 +106,17 @@ def cars(
                     f"values: {frame.size} cars make {numbers:.3g} numbers, and at most "
                     f"{_MOST_NUMBERS:.3g} are allowed. Name fewer, or reductions."
                 )
-    collected = _Collected(curves, kept, frame.size)
-    curves_of_many(
-        suspension, columns, [curves], collected.take, threads=threads, progress=progress
-    )
-    return _dataset(collected, frame)
 
-
-class _Collected:
-    """The curves of a number of cars, or their reductions if there are some."""
-
-    def __init__(self, curves: Curves, kept: tuple[str, ...], count: int) -> None:
-        self.curves, self.kept = curves, kept
-        last = len(kept) or curves.positions.size
-        self.values = np.full((count, len(curves.names), last), np.nan)
-        self.reasons = np.full(count, "", dtype=object)
-
-    def take(self, some: slice, found: list[Array], reasons: list[str]) -> None:
-        """Store the curves and reasons of some cars."""
-        self.reasons[some] = reasons
-        rows = found[0]
-        if not self.kept:
-            self.values[some] = rows
-            return
+    def reduced(rows: Array) -> Array:
+        if not kept:
+            return rows
         with np.errstate(invalid="ignore"):  # a turning circle may be infinite
-            for which, name in enumerate(self.kept):
-                self.values[some, :, which] = _REDUCTIONS[name][1](rows)
+            return np.stack([_REDUCTIONS[name][1](rows) for name in kept], axis=-1)
+
+    [found], reasons = curves_of_many(
+        suspension, columns, [curves], reduced=reduced, threads=threads, progress=progress
+    )
+    return _dataset(curves, kept, found, reasons.astype(str).reshape(frame.shape), frame)
 
 
 def _columns(
@@ -178,25 +163,26 @@ def _places(given: Validator, suspension: Subject, names: Any) -> dict[str, Desi
     return {name: known[name] for name in names if name in known}
 
 
-def _dataset(collected: _Collected, frame: xr.DataArray) -> xr.Dataset:
-    curves, along = collected.curves, collected.curves.along
+def _dataset(
+    curves: Curves, kept: Sequence[str], found: Array, reasons: Array, frame: xr.DataArray
+) -> xr.Dataset:
+    along = curves.along
     shape, dims = frame.shape, tuple(map(str, frame.dims))
     data: dict[str, Any] = {}
     for row, name in enumerate(curves.names):
         attributes = curves.quantity(name).attributes()
-        values = collected.values[:, row]
-        if not collected.kept:
+        values = found[:, row]
+        if not kept:
             data[name] = ((*dims, along.name), values.reshape(*shape, -1), attributes)
-        for which, reduction in enumerate(collected.kept):
+        for which, reduction in enumerate(kept):
             meaning = f"{_REDUCTIONS[reduction][0]} {attributes['long_name']}"
             reduced = attributes | {"long_name": meaning}
             data[f"{name}_{reduction}"] = (dims, values[:, which].reshape(shape), reduced)
-    reasons = collected.reasons.astype(str).reshape(shape)
     data["reason"] = variable(dims, reasons, "why a car has no curves", "1")
     coordinates: dict[Any, Any] = dict(frame.coords)
-    if not collected.kept:
+    if not kept:
         coordinates[along.name] = (along.name, curves.positions, along.attributes())
-    seen = int((collected.reasons == "").sum())
+    seen = int((reasons == "").sum())
     attributes = {
         "title": f"characteristics of {frame.size} cars over {along.long_name}",
         "message": f"{seen} of {frame.size} cars have curves",

@@ -19,20 +19,11 @@ from .sweep_axes import given_axis, sweep_axes_of, sweep_axis
 
 @dataclass(frozen=True)
 class Curves:
-    """The characteristics of a study, and their positions.
+    """The characteristics of a study, and their positions."""
 
-    Attributes
-    ----------
-    over : str
-        One of `sweep_axes.ALL_AXES`, with its options; or the support of the wheel under loads.
-    positions : ndarray
-        [m]; over roll [rad].
-    names : tuple of str
-        The characteristics.
-    """
-
+    # one of `sweep_axes.ALL_AXES`, with its options; or the support of the wheel under loads
     over: str
-    positions: Array
+    positions: Array  # [m]; over roll [rad]
     names: tuple[str, ...]
 
     @property
@@ -45,13 +36,7 @@ class Curves:
         return sweep_axis(self.over).known[name]
 
     def of(self, assembly: Assembly) -> Array:
-        """Return the values, of shape (names, positions), SI units.
-
-        Raises
-        ------
-        PositionError
-            If a position is out of reach.
-        """
+        """Return the values, (names, positions), in SI units, or raise a `PositionError`."""
         found = values_of(assembly, self.over, self.positions, self.names)
         return np.array([found[name] for name in self.names])
 

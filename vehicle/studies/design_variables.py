@@ -127,13 +127,7 @@ def _units_of_points(sections: dict[str, Any]) -> dict[str, float]:
 def matching(given: Validator, suspension: Subject, patterns: Any) -> dict[str, DesignVariable]:
     """Return the numbers whose names match patterns, in the order of the file.
 
-    Parameters
-    ----------
-    given : Validator
-        Collects the errors.
-    suspension : Suspension
-    patterns : sequence of str
-        Names of numbers, sections or points; ``*`` matches any text: ``hardpoints.*.z``.
+    Patterns are names of numbers, sections or points; ``*`` matches any text: ``hardpoints.*.z``.
     """
     known = places_of(suspension)
     lists = _lists_of(suspension)

@@ -11,15 +11,7 @@ Indices = NDArray[np.intp]
 def unbeaten(costs: Array) -> Indices:
     """Return the rows that no other one dominates by being lower in a cost and higher in none.
 
-    Parameters
-    ----------
-    costs : ndarray, shape (candidates, objectives)
-        Lower is better.
-
-    Returns
-    -------
-    ndarray
-        Indices, sorted by their first cost; only the first of equal rows.
+    Indices are sorted by the first cost, with only the first of equal rows.
 
     Examples
     --------
@@ -39,16 +31,7 @@ def unbeaten(costs: Array) -> Indices:
 def spread(costs: Array, count: int) -> Indices:
     """Return rows that represent a front: the best in each cost, then the farthest from these.
 
-    Parameters
-    ----------
-    costs : ndarray, shape (candidates, objectives)
-    count : int
-        Number of rows at most.
-
-    Returns
-    -------
-    ndarray
-        Indices, ascending.
+    Indices are ascending, a number of them at most.
 
     Examples
     --------

@@ -39,21 +39,12 @@ GREATEST, LEAST = 1e9, 1e-9
 
 @dataclass(frozen=True)
 class Goal:
-    """A characteristic at some positions, with a target or a limit.
-
-    Attributes
-    ----------
-    name : str
-        Characteristic.
-    over : str
-        One of `sweep_axes.ALL_AXES`, with its options; or the support of the wheel under loads.
-    at : ndarray, shape (n,)
-        Positions [m]; over roll [rad].
-    """
+    """A characteristic at some positions, with a target or a limit."""
 
     name: str
+    # one of `sweep_axes.ALL_AXES`, with its options; or the support of the wheel under loads
     over: str
-    at: Array
+    at: Array  # positions, (n,) [m]; over roll [rad]
 
     @property
     def quantity(self) -> Quantity:
@@ -197,15 +188,7 @@ def _ways(given: Validator, ways: Any) -> Sequence[str]:
 
 
 def words_of(kind: str, name: str, over: str) -> str:
-    """Return a goal in words: ``limit: scrub radius [mm] over the rack``.
-
-    Parameters
-    ----------
-    kind : str
-        'target' or 'limit'.
-    name, over : str
-        Characteristic, and motion or axis.
-    """
+    """Return a target or limit in words: ``limit: scrub radius [mm] over the rack``."""
     quantity = sweep_axis(over).known[name]
     words = f"{kind}: {bracketed(quantity.long_name, quantity.attributes())}"
     if over in HELD:
@@ -302,12 +285,9 @@ def check_goals(given: Validator, name: str, wanted: Any) -> None:
 
 
 def check_data(given: Validator, suspension: Any, goals: Iterable[Goal]) -> None:
-    """Add errors for goals of characteristics without data in the file, or without a finite value.
+    """Add errors for goals without data in the file, or without a finite value.
 
-    Raises
-    ------
-    PositionError
-        If the suspension does not reach a position.
+    A position out of reach is a `PositionError`.
     """
     assembly = assembly_of(suspension)
     ways = sweep_axes_of(suspension)

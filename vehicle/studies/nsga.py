@@ -24,20 +24,10 @@ def evolve(
     generations: int,
     seed: int,
 ) -> None:
-    """Call a function for the candidates of some generations.
+    """Call a function for the candidates of some generations, from (population, values).
 
-    Parameters
-    ----------
-    judge : callable
-        A function of candidates, of shape (n, values), each value from -1 to 1. It returns their
-        costs and their excess over each limit, positive beyond it.
-    first : ndarray, shape (population, values)
-        The first generation.
-    counts : tuple of int
-        Numbers of costs and limits.
-    generations : int
-    seed : int
-        Seed of the generator of random numbers.
+    Each value is from -1 to 1. The function returns the costs of candidates, (n, values), and their
+    excess over each limit, positive beyond it; `counts` are the numbers of costs and limits.
     """
     nsga2, problems, static, evaluators = (
         require(f"pymoo.{module}", purpose=_PURPOSE, extra=_EXTRA)

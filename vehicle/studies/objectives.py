@@ -21,22 +21,13 @@ _WORDS_OF_ONE = {"deviation": "deviation of {}", "greatest": "{}", "least": "{}"
 
 @dataclass(frozen=True)
 class Objective:
-    """A number of a suspension that is minimised or maximised.
+    """A number of a suspension that is minimised or maximised."""
 
-    Attributes
-    ----------
-    name : str
-        Name of the variable in a dataset: ``toe_deviation``.
-    kind : str
-        'deviation', the root mean square of deviations from a target, and 'greatest', the greatest
-        value at some positions, are minimised; 'least', the least value, is maximised.
-    goal : Goal
-        The characteristic and its positions; a `TargetValue` for a deviation.
-    """
-
-    name: str
+    name: str  # name of the variable in a dataset: ``toe_deviation``
+    # 'deviation', the root mean square of deviations from a target, and 'greatest', the greatest
+    # value at some positions, are minimised; 'least', the least value, is maximised
     kind: Kind
-    goal: Goal
+    goal: Goal  # the characteristic and its positions; a `TargetValue` for a deviation
 
     def of(self, values: Array) -> float:
         """Return the objective from values of the characteristic, SI units."""

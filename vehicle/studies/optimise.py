@@ -204,11 +204,7 @@ def _optimum(
         for target, value in zip(search.targets, values, strict=False)
         if not (np.abs(value - target.value) <= target.within).all()
     ]
-    broken = [
-        limit.name
-        for limit, value in zip(search.limits, values[len(search.targets) :], strict=True)
-        if not limit.kept(value).all()
-    ]
+    broken = [limit.name for limit, own in search.of_limits(values) if not limit.kept(own).all()]
     facts = {
         "the solver gave up": [gave_up] if gave_up else [],
         "not within its limits": broken,

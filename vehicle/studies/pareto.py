@@ -10,7 +10,7 @@ import xarray as xr
 from ...core.errors import InputError
 from ...core.named_types import Array
 from ...core.validator import Validator
-from .candidates import Candidates
+from .candidates import IMPOSSIBLE, Candidates
 from .curves import changed, refuse_bushes
 from .design_variables import DesignVariable, amounts
 from .evaluation import Subject, check_subject
@@ -30,8 +30,6 @@ _LEAST_MEMBERS, _MOST_MEMBERS = 4, 10_000
 _MOST_CARS = 100_000
 # With more objectives nearly all cars are on the front, which then has no meaning.
 _MOST_OBJECTIVES = 6
-# Excess over the limits of a suspension without values, in parts of them.
-_IMPOSSIBLE = 1e6
 # Changes below this part of a number are rounding.
 _ROUNDING = 1e-9
 
@@ -251,8 +249,8 @@ def _first(population: int, values: int, seed: int) -> Array:
     return first
 
 
-class _Judge:
-    """The objectives and limits of candidates, of which a number is expected, and all evaluated."""
+class _Judge(Candidates):
+    """Candidates with objectives and limits, of which a number is expected, and all evaluated."""
 
     def __init__(
         self,
@@ -263,9 +261,8 @@ class _Judge:
         expected: int,
         progress: Callable[[float], None] | None,
     ) -> None:
-        self.objectives, self.limits = tuple(objectives), tuple(limits)
-        goals = [*(objective.goal for objective in objectives), *limits]
-        self.candidates = Candidates(suspension, reach, goals)
+        super().__init__(suspension, reach, [one.goal for one in objectives], limits)
+        self.objectives = tuple(objectives)
         self.seen: list[tuple[Array, Array, Array]] = []
         self._expected, self._progress = expected, progress
         # one more limit, which only impossible suspensions exceed
@@ -274,7 +271,7 @@ class _Judge:
     def __call__(self, generation: Array) -> tuple[Array, Array]:
         """Return the costs of each candidate, and its excess over the limits."""
         found = []
-        self.candidates.look_at(generation)
+        self.look_at(generation)
         for x in generation:
             found.append((x, *self.one(x)))
             self.seen.append(found[-1])
@@ -285,31 +282,27 @@ class _Judge:
 
     def one(self, x: Array) -> tuple[Array, Array]:
         """Return the costs of a candidate, and its excess over the limits."""
-        values = self.candidates.values(x)
+        values = self.values(x)
         if values is None:
             objectives, sides = self.counts
-            return np.zeros(objectives), np.full(sides, _IMPOSSIBLE)
+            return np.zeros(objectives), np.full(sides, IMPOSSIBLE)
         pairs = zip(self.objectives, values, strict=False)
         costs = np.array([objective.sign * objective.of(found) for objective, found in pairs])
-        limited = zip(self.limits, values[len(self.objectives) :], strict=True)
-        rooms = [limit.room(found) for limit, found in limited]
-        return costs, -np.concatenate([np.zeros(1), *rooms])
+        return costs, -np.concatenate([np.zeros(1), self.room(x)])
 
     def idle(self) -> list[str]:
         """Return the names of values without effect from one end of their ranges to the other."""
-        here = np.zeros(len(self.candidates.places))
+        here = np.zeros(len(self.places))
         return [
             place.name
-            for which, place in enumerate(self.candidates.places)
-            if _alike([*self.candidates.ends(here, which), self.candidates.values(here)])
+            for which, place in enumerate(self.places)
+            if _alike([*self.ends(here, which), self.values(here)])
         ]
 
     def broken(self, x: Array) -> list[str]:
         """Return the names of limits that a candidate exceeds."""
-        values = self.candidates.values(x)
-        if values is None:
-            return []
-        pairs = zip(self.limits, values[len(self.objectives) :], strict=True)
+        values = self.values(x)
+        pairs = () if values is None else self.of_limits(values)
         return [limit.name for limit, found in pairs if not limit.kept(found).all()]
 
 
@@ -331,35 +324,33 @@ def _front(judge: _Judge, idle: list[str], most: int) -> Front:
     within = np.flatnonzero((excess <= 0.0).all(axis=1))
     members = within[unbeaten(costs[within])]
     members = members[spread(costs[members], most)] if members.size else members
-    candidates = judge.candidates
     signs = np.array([objective.sign for objective in judge.objectives])
     before, _ = judge.one(np.zeros(x.shape[1]))
     nearest = x[int(np.maximum(excess, 0.0).sum(axis=1).argmin())]
     message = _message(judge, x[members], nearest, idle)
     return Front(
         dataset=_dataset(judge, x[members], costs[members] * signs, message),
-        start=candidates.suspension,
+        start=judge.suspension,
         before=dict(
             zip([o.name for o in judge.objectives], (before * signs).tolist(), strict=True)
         ),
         keeps_limits=not judge.broken(np.zeros(x.shape[1])),
-        places=candidates.places,
+        places=judge.places,
         objectives=judge.objectives,
         limits=judge.limits,
-        moved=tuple(candidates.moved(member) for member in x[members]),
+        moved=tuple(judge.moved(member) for member in x[members]),
         compromise=compromise(costs[members]) + 1 if members.size else 0,
         success=bool(members.size),
         message=message,
-        evaluations=candidates.evaluations,
+        evaluations=judge.evaluations,
     )
 
 
 def _message(judge: _Judge, members: Array, nearest: Array, idle: list[str]) -> str:
-    candidates = judge.candidates
-    ends = [set(candidates.at_the_end(member)) for member in members]
+    ends = [set(judge.at_the_end(member)) for member in members]
     always = set.intersection(*ends) if ends else set()
     broken = [] if len(members) else judge.broken(nearest)
-    lost = [f"{candidates.impossible} suspensions"] if candidates.impossible else []
+    lost = [f"{judge.impossible} suspensions"] if judge.impossible else []
     facts = {
         "no suspension keeps all limits, the nearest one not those of": broken,
         "could not be built, or did not reach a position": lost,
@@ -380,9 +371,8 @@ def _dataset(judge: _Judge, x: Array, numbers: Array, message: str) -> xr.Datase
         objective.name: xr.Variable(MEMBER, numbers[:, which], objective.attributes())
         for which, objective in enumerate(judge.objectives)
     }
-    candidates = judge.candidates
-    for which, place in enumerate(candidates.places):
-        values = place.value * place.to_si + x[:, which] * candidates.reach[which]
+    for which, place in enumerate(judge.places):
+        values = place.value * place.to_si + x[:, which] * judge.reach[which]
         data[place.name] = xr.Variable(MEMBER, values, place.attributes())
     members = xr.Variable(MEMBER, np.arange(1, len(x) + 1), {"long_name": "member of the front"})
     return xr.Dataset(data, {MEMBER: members}, {"title": "Pareto front", "message": message})

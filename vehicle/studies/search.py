@@ -6,7 +6,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from ...core.named_types import Array
-from .candidates import Candidates
+from .candidates import IMPOSSIBLE, Candidates
 from .design_variables import DesignVariable
 from .evaluation import Subject
 from .goals import Limit, TargetValue
@@ -17,8 +17,6 @@ MOST_STEPS, NOTHING_TO_GAIN = 100, 1e-8
 
 TOO_MANY_STEPS = f"no end within {MOST_STEPS} steps"
 
-# Deviation of a suspension without values, in deviations that matter.
-_IMPOSSIBLE = 1e6
 # Margin to a limit against rounding, as a part of it.
 _MARGIN = 1e-7
 # Deviations below this part of what matters end a search; a change of a value over its whole range
@@ -41,20 +39,10 @@ class MetError(Exception):
 class Search(Candidates):
     """Targets and limits as functions of the free values, each from -1 to 1 over its range.
 
-    Parameters
-    ----------
-    suspension : Suspension, Axle or RigidAxle
-    reach : mapping of DesignVariable to float
-        Largest change of each value to either side [SI].
-    targets : sequence of TargetValue
-    limits : sequence of Limit
-    progress : callable or None
-        Called after every step of a solver with the remaining cost, as a part of that at the start.
-    reluctance : float
-        Cost of the largest change of a value, in deviations that matter.
-    enough : float, optional
-        Part of what matters below which deviations end a solver, by `MetError`. By default none is
-        small enough.
+    After every step of a solver `progress` is called with the remaining cost, as a part of that at
+    the start. The reluctance is the cost of the largest change of a value, in deviations that
+    matter. Deviations below the part `enough` of what matters end a solver, by `MetError`; by
+    default none is small enough.
     """
 
     def __init__(
@@ -67,8 +55,8 @@ class Search(Candidates):
         reluctance: float,
         enough: float = -1.0,
     ) -> None:
-        super().__init__(suspension, reach, [*targets, *limits])
-        self.targets, self.limits = tuple(targets), tuple(limits)
+        super().__init__(suspension, reach, targets, limits)
+        self.targets = tuple(targets)
         self._progress, self._reluctance, self._enough = progress, reluctance, enough
         self._slopes: Array | None = None
         self._begin = self.cost(np.zeros(len(reach))) or 1.0
@@ -95,14 +83,7 @@ class Search(Candidates):
         return x - by, x, x + by
 
     def idle(self, x: Array, of: Sequence[str] | None = None) -> list[str]:
-        """Return the names of values without effect on a target, here and over their ranges.
-
-        Parameters
-        ----------
-        x : ndarray
-        of : sequence of str, optional
-            Names of the values in question; by default all of them.
-        """
+        """Return the names of all or some values without effect on a target, near and far."""
         asked = [i for i, place in enumerate(self.places) if of is None or place.name in of]
         self.look_at(at for which in asked for at in self._beside(x, which))
         return [
@@ -127,7 +108,7 @@ class Search(Candidates):
         """Return the deviations from targets, relative to `within`, and the costs of changes."""
         values = self.values(x)
         if values is None:
-            return np.full(sum(t.at.size for t in self.targets) + x.size, _IMPOSSIBLE)
+            return np.full(sum(t.at.size for t in self.targets) + x.size, IMPOSSIBLE)
         pairs = zip(self.targets, values, strict=False)
         missed = [(value - target.value) / target.within for target, value in pairs]
         return np.concatenate([*missed, self._reluctance * x])
@@ -135,10 +116,7 @@ class Search(Candidates):
     def slopes(self, x: Array) -> Array:
         """Return the derivatives of the deviations; called once in every step of a solver.
 
-        Raises
-        ------
-        MetError
-            If all deviations are small enough, and all limits are kept.
+        A `MetError` is raised if all deviations are small enough, and all limits are kept.
         """
         if self._is_enough(x):
             raise MetError(self._shorter(x))
@@ -174,21 +152,15 @@ class Search(Candidates):
         """Return the derivative of the cost."""
         return self.deviations(x) @ self.slopes(x)
 
-    def room(self, x: Array) -> Array:
-        """Return the distances to the limits, in parts of their size; negative beyond one."""
-        values = self.values(x)
-        if values is None:
-            sides = (limit.at.size * len(limit.sides) for limit in self.limits)
-            return np.full(sum(sides), -_IMPOSSIBLE)
-        pairs = zip(self.limits, values[len(self.targets) :], strict=True)
-        return np.concatenate([[], *(limit.room(value) for limit, value in pairs)]) - _MARGIN
+    def room(self, x: Array, margin: float = _MARGIN) -> Array:
+        """Return the distances to the limits less a margin against rounding."""
+        return super().room(x, margin)
 
     def room_slopes(self, x: Array) -> Array:
         """Return the derivatives of the room."""
-        found = self.derivatives(x)[len(self.targets) :]
         slopes = [
             sign * slope / limit.size
-            for limit, slope in zip(self.limits, found, strict=True)
+            for limit, slope in self.of_limits(self.derivatives(x))
             for sign, _ in limit.sides
         ]
         return np.concatenate(slopes)

@@ -117,22 +117,14 @@ def sensitivity(
     soft = curves.over in HELD
     chosen = [place for place in wanted if soft or not place.of_bushes]
     left_out = dict.fromkeys([p.name for p in wanted if p not in chosen], _RIGID)
-    refused: list[InputError] = []
-
-    def alone(suspension: Subject, place: DesignVariable, curves: Curves) -> Array:
-        try:
-            return derivative(suspension, place, curves)
-        except InputError as error:
-            if _is_asked_for(place, places):
-                raise
-            left_out[place.name] = _ALONE
-            refused.append(error)
-            return np.full((len(curves.names), curves.positions.size), np.nan)
-
-    found = derivatives(suspension, chosen, curves, progress, alone)
-    kept = [which for which, place in enumerate(chosen) if place.name not in left_out]
+    found, refused = derivatives(suspension, chosen, curves, progress)
+    for place, error in refused.items():
+        if _is_asked_for(place, places):
+            raise error
+        left_out[place.name] = _ALONE
+    kept = [which for which, place in enumerate(chosen) if place not in refused]
     if not kept:
-        raise refused[0]
+        raise next(iter(refused.values()))
     dataset = _dataset(curves, [chosen[which] for which in kept], found[kept])
     return dataset.assign_attrs(left_out=", ".join(left_out), message=_message(left_out))
 
@@ -163,52 +155,32 @@ def derivatives(
     places: Sequence[DesignVariable],
     curves: Curves,
     progress: Callable[[float], None] | None = None,
-    otherwise: Callable[[Subject, DesignVariable, Curves], Array] | None = None,
-) -> Array:
+) -> tuple[Array, dict[DesignVariable, InputError]]:
     """Return the derivatives of curves in values, (places, names, positions), SI units.
 
-    All neighbours are evaluated together; values without one of them, by `otherwise`.
+    All neighbours are evaluated together; values without one of them have a difference of their
+    own. Derivatives in values without possible neighbours are NaN, with the reason.
     """
     steps = [*_BOTH_SIDES[0]]
     off = np.zeros((len(places) * len(steps), len(places)))
     for which, place in enumerate(places):
         rows = slice(which * len(steps), (which + 1) * len(steps))
         off[rows, which] = step_of(place) * np.array(steps)
-    beside = np.full((len(off), len(curves.names), curves.positions.size), np.nan)
-    there = np.zeros(len(off), dtype=bool)
-
-    def seen(some: slice, found: list[Array], reasons: list[str]) -> None:
-        beside[some], there[some] = found[0], [not reason for reason in reasons]
-
-    curves_of_many(suspension, moved_by(places, off), [curves], seen, progress=progress)
-    shape = len(places), len(steps)
-    pairs = zip(beside.reshape(*shape, *beside.shape[1:]), there.reshape(shape), strict=True)
-    alone = otherwise or derivative
-    found = []
-    for place, (at, possible) in zip(places, pairs, strict=True):
-        if possible.all():
-            beside_it = dict(zip(steps, at, strict=True))
-            found.append(_difference(_BOTH_SIDES, step_of(place), beside_it))
-        else:
-            found.append(alone(suspension, place, curves))
-    return np.array(found)
-
-
-def slopes(suspension: Subject, places: Sequence[DesignVariable], curves: Curves) -> Array:
-    """Return `derivatives`, with NaN for values without possible neighbours."""
-
-    def or_nan(suspension: Subject, place: DesignVariable, curves: Curves) -> Array:
+    moved = moved_by(places, off)
+    [beside], reasons = curves_of_many(suspension, moved, [curves], progress=progress)
+    found = np.full((len(places), *beside.shape[1:]), np.nan)
+    refused = {}
+    for which, place in enumerate(places):
+        rows = slice(which * len(steps), (which + 1) * len(steps))
         try:
-            return derivative(suspension, place, curves)
-        except InputError:
-            return np.full((len(curves.names), curves.positions.size), np.nan)
-
-    return derivatives(suspension, places, curves, otherwise=or_nan)
-
-
-def derivative(suspension: Subject, place: DesignVariable, curves: Curves) -> Array:
-    """Return the derivative of curves in a value, (names, positions), SI units."""
-    return _difference(*_neighbours(suspension, place, curves))
+            if any(reasons[rows]):
+                found[which] = _difference(*_neighbours(suspension, place, curves))
+            else:
+                at = dict(zip(steps, beside[rows], strict=True))
+                found[which] = _difference(_BOTH_SIDES, step_of(place), at)
+        except InputError as error:
+            refused[place] = error
+    return found, refused
 
 
 def _difference(

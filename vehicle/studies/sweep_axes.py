@@ -81,17 +81,8 @@ def given_axis(
 ) -> str:
     """Return the checked name of an axis with its options: ``speed:road=C,seat=driver``.
 
-    Parameters
-    ----------
-    given : Validator
-    title : str
-        Name of the argument in messages.
-    over : str
-        Its name, with or without options.
-    ways : iterable of str
-        The possible names.
-    options : mapping, optional
-        Further options, such as those of a file.
+    Options may be in the name, or further ones such as those of a file; `ways` are the possible
+    names.
     """
     known = tuple(ways)
     name = name_of_axis(over) if isinstance(over, str) else over
@@ -115,13 +106,7 @@ def given_axis(
 
 @lru_cache(maxsize=256)
 def sweep_axis(over: str) -> SweepAxis:
-    """Return an axis by its name with options.
-
-    Raises
-    ------
-    InputError
-        If an option is not allowed.
-    """
+    """Return an axis by its name with options, or raise an `InputError` if one is not allowed."""
     name, _, text = over.partition(":")
     if name not in _FAMILIES:
         return (SWEEP_AXES | UNDER_LOADS)[name]

@@ -1,10 +1,12 @@
 """Characteristics with tolerances of the input file: bands, yield and shares of the variance."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from ...core.named_types import Array, ArrayLike
 from ...core.quantities import variable
@@ -15,8 +17,8 @@ from .batch import curves_of_many, moved_by
 from .curves import Curves, curves_of, refuse_bushes
 from .design_variables import DesignVariable, amounts
 from .evaluation import Subject, check_subject
-from .goals import Limit, check_data, limits_of
-from .sensitivity import PLACE, ROUNDING, slopes
+from .goals import check_data, limits_of
+from .sensitivity import PLACE, ROUNDING, derivatives
 from .sweep_axes import sweep_axes_of
 
 Distribution = Literal["normal", "uniform"]
@@ -127,9 +129,16 @@ def tolerance(
                     f"{_MOST_NUMBERS:.3g} are allowed. Choose fewer characteristics or positions."
                 )
     off = _drawn(distribution, root, count, seed) * np.array([*spread.values()])
-    cars = _Cars(suspension, [*spread], off, curves, bounds)
+    places, nominal = [*spread], curves.of(assembly_of(suspension))
     parts = _parts(suspension, spread, root, distribution, curves)
-    cars.see(progress)
+    looks = [curves, *(limit.curves for limit in bounds)]
+    (values, *limited), reasons = curves_of_many(
+        suspension, moved_by(places, off), looks, progress=progress
+    )
+    seen = within = np.array(reasons == "")
+    for limit, found in zip(bounds, limited, strict=True):
+        within = within & limit.kept(found[:, 0]).all(axis=1)
+    cars = _Cars(places, off, curves, nominal, values, seen, reasons.astype(str), within)
     return _dataset(cars, parts)
 
 
@@ -160,37 +169,18 @@ def _drawn(distribution: str, root: Array, count: int, seed: int) -> Array:
     return random.standard_normal((count, len(root))) @ root.T / SIGMAS
 
 
+@dataclass(frozen=True)
 class _Cars:
-    """The cars of a study, with deviations of values, (cars, places), in SI units."""
+    """The cars of a study with their curves."""
 
-    def __init__(
-        self,
-        suspension: Subject,
-        places: Sequence[DesignVariable],
-        off: Array,
-        curves: Curves,
-        limits: Sequence[Limit],
-    ) -> None:
-        self.suspension, self.places, self.off = suspension, places, off
-        self.curves, self.limits = curves, limits
-        self.nominal = curves.of(assembly_of(suspension))
-        self.values = np.full((len(off), *self.nominal.shape), np.nan)
-        self.reasons = np.full(len(off), "", dtype=object)
-        self.within = np.zeros(len(off), dtype=bool)
-
-    def see(self, progress: Callable[[float], None] | None) -> None:
-        """Evaluate all cars."""
-        looks = [self.curves, *(limit.curves for limit in self.limits)]
-        moved = moved_by(self.places, self.off)
-        curves_of_many(self.suspension, moved, looks, self._seen, progress=progress)
-
-    def _seen(self, some: slice, found: list[Array], reasons: list[str]) -> None:
-        self.values[some], *limited = found
-        self.reasons[some] = reasons
-        within = np.array([not reason for reason in reasons])
-        for limit, values in zip(self.limits, limited, strict=True):
-            within &= limit.kept(values[:, 0]).all(axis=1)
-        self.within[some] = within
+    places: Sequence[DesignVariable]
+    off: Array  # deviations of values, (cars, places), SI units
+    curves: Curves
+    nominal: Array  # curves of the nominal car, (names, positions)
+    values: Array  # of all cars, (cars, names, positions)
+    seen: NDArray[np.bool_]  # whether a car has curves, (cars,)
+    reasons: Array  # why not, (cars,)
+    within: NDArray[np.bool_]  # whether it is within all limits, (cars,)
 
 
 def _parts(
@@ -205,14 +195,14 @@ def _parts(
     Parts of correlated values may be negative.
     """
     sigma = np.array([*spread.values()]) / (np.sqrt(3.0) if distribution == "uniform" else SIGMAS)
-    moved = sigma[:, None, None] * slopes(suspension, [*spread], curves)
+    moved = sigma[:, None, None] * derivatives(suspension, [*spread], curves)[0]
     return moved * np.einsum("ij,jnp->inp", root @ root.T, moved)
 
 
 def _dataset(cars: _Cars, parts: Array) -> xr.Dataset:
     curves = cars.curves
     along = curves.along
-    seen = cars.reasons == ""
+    seen = cars.seen
     nothing = np.full(cars.nominal.shape, np.nan)
     with np.errstate(invalid="ignore", divide="ignore"):  # a turning circle may be infinite
         bands = np.quantile(cars.values[seen], QUANTILES, axis=0) if seen.any() else [nothing] * 5
@@ -232,7 +222,7 @@ def _dataset(cars: _Cars, parts: Array) -> xr.Dataset:
         meaning = f"standard deviation of {quantity.long_name} to first order over that of the cars"
         data[f"{name}_first_order"] = variable(along.name, first_order[i], meaning, "1")
     data["within_limits"] = variable(CAR, cars.within, "whether the car is within all limits", "1")
-    data["reason"] = variable(CAR, cars.reasons.astype(str), "why a car has no curves", "1")
+    data["reason"] = variable(CAR, cars.reasons, "why a car has no curves", "1")
     values = np.array([p.value * p.to_si for p in cars.places]) + cars.off
     data["value_of"] = variable((CAR, PLACE), values, "value that the car has, in place_unit", "SI")
     coordinates = {
