@@ -12,13 +12,6 @@ from .rough import CLASSES, iso8608, isotropic_coherence
 from .shapes import bump, sine
 
 __all__ = [
-    "CLASSES",
-    "Road",
-    "bump",
-    "enveloped",
-    "iso8608",
-    "isotropic_coherence",
-    "kerb",
-    "read",
+    "CLASSES", "Road", "bump", "enveloped", "iso8608", "isotropic_coherence", "kerb", "read",
     "sine",
-]
+]  # fmt: skip

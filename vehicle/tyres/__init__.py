@@ -20,15 +20,6 @@ from .tmeasy import TMeasy
 from .tyre import Tyre, TyreState
 
 __all__ = [
-    "LinearSlip",
-    "MagicFormula",
-    "TMeasy",
-    "Tyre",
-    "TyreFit",
-    "TyreState",
-    "fit",
-    "key_figures",
-    "load",
-    "tabulated",
-    "write_tir",
-]
+    "LinearSlip", "MagicFormula", "TMeasy", "Tyre", "TyreFit", "TyreState", "fit", "key_figures",
+    "load", "tabulated", "write_tir",
+]  # fmt: skip

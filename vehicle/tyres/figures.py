@@ -1,12 +1,11 @@
 """Key figures of a tyre over its load: stiffness, friction, load sensitivity, lengths."""
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...core.named_types import Array
-from ...core.quantities import variable
+from ...core.quantities import Display, display_of, variable
 from ...core.tabulated import Tabulated, significant
 from ...core.validator import Validator
 from .tyre import Tyre
@@ -18,7 +17,6 @@ _POINTS = 1201
 _GREATEST = {"slip_angle": 0.5, "slip": 1.0}  # of the search [rad], [-]
 _SMALL = 1e-4  # inclination of the camber stiffness [rad]
 _SHARES = (0.5, 1.0, 1.5)
-_PER_DEGREE = np.pi / 180.0
 _STEP = 0.05  # of the load, for the load sensitivity
 
 
@@ -133,22 +131,16 @@ def tabulated(found: "xr.Dataset", head: str = "") -> Tabulated:
     loads = [f"{load:.0f} N" for load in found["load"].values]
     rows = []
     for name, data in found.data_vars.items():
-        unit, scale = _SHOWN.get(str(name), (str(data.attrs["units"]), float))
-        cells = [significant(scale(float(value))) for value in data.values]
+        unit, factor = _SHOWN.get(str(name), display_of(data.attrs))
+        cells = [significant(factor * float(value)) for value in data.values]
         rows.append((str(data.attrs["long_name"]), "-" if unit == "1" else unit, *cells))
     title = f"{head}{found.attrs.get('title', 'key figures')}"
     columns = ("at zero camber", "unit", *loads)
     return Tabulated(title, columns, tuple(rows), frozenset({0, 1}))
 
 
-_SHOWN: dict[str, tuple[str, Callable[[float], float]]] = {
-    "cornering_stiffness": ("N/deg", lambda value: value * _PER_DEGREE),
-    "camber_stiffness": ("N/deg", lambda value: value * _PER_DEGREE),
-    "angle_of_friction": ("deg", lambda value: value / _PER_DEGREE),
-    "load_sensitivity": ("1/kN", lambda value: 1e3 * value),
-    "vertical_stiffness": ("N/mm", lambda value: 1e-3 * value),
-    **dict.fromkeys(
-        ("trail", "relaxation_x", "relaxation_y", "loaded_radius", "effective_radius"),
-        ("mm", lambda value: 1e3 * value),
-    ),
+_SHOWN = {
+    "cornering_stiffness": Display("N/deg", np.pi / 180.0),
+    "camber_stiffness": Display("N/deg", np.pi / 180.0),
+    "load_sensitivity": Display("1/kN", 1e3),
 }

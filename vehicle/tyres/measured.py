@@ -26,21 +26,13 @@ _ALL = {**STATES, **FORCES}
 
 @dataclass(frozen=True)
 class Measured:
-    """Rows of a measurement.
+    """Rows of a measurement."""
 
-    Attributes
-    ----------
-    states, forces : dict of str to ndarray, shape (n,)
-        The measured ones of `STATES` and `FORCES`, in SI units and the axes of ISO 8855.
-    source : str
-    left_out : tuple of str
-        Columns that were not read.
-    """
-
+    # the measured ones of `STATES` and `FORCES`, in SI units and the axes of ISO 8855, (n,)
     states: dict[str, Array]
     forces: dict[str, Array]
     source: str
-    left_out: tuple[str, ...] = ()
+    left_out: tuple[str, ...] = ()  # columns that were not read
 
     @property
     def count(self) -> int:

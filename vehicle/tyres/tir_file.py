@@ -51,26 +51,13 @@ _LONGEST = 60
 
 @dataclass(frozen=True)
 class TirFile:
-    """The contents of a property file.
+    """The contents of a property file."""
 
-    Attributes
-    ----------
-    numbers : dict of str to float
-        By key, in SI units.
-    form : Form
-        Version of the formulas.
-    name : str
-        Name of the formulas, such as ``"PAC2002"`` or ``"MF 6.1"``.
-    side : str
-        Side of the vehicle for which it was measured: ``"left"``, ``"right"`` or empty.
-    left_out, assumed : tuple of str
-        Unused keys, and assumptions in place of missing ones: a sentence each.
-    """
-
-    numbers: dict[str, float]
-    form: Form
-    name: str
-    side: str
+    numbers: dict[str, float]  # by key, in SI units
+    form: Form  # version of the formulas
+    name: str  # name of the formulas, such as ``"PAC2002"`` or ``"MF 6.1"``
+    side: str  # side of the vehicle for which it was measured: ``"left"``, ``"right"`` or empty
+    # unused keys, and assumptions in place of missing ones: a sentence each
     left_out: tuple[str, ...]
     assumed: tuple[str, ...]
 

@@ -98,18 +98,10 @@ class States:
 
 @dataclass(frozen=True)
 class ContactTerms:
-    """The contact law of a tyre, without SymPy.
+    """The contact law of a tyre, without SymPy."""
 
-    Attributes
-    ----------
-    name : str
-        Class of `kintrafo.generator`.
-    options : tuple
-        Names and values of its options.
-    """
-
-    name: str
-    options: tuple[tuple[str, Any], ...] = ()
+    name: str  # class of `kintrafo.generator`
+    options: tuple[tuple[str, Any], ...] = ()  # names and values of its options
 
     def law(self, name: str) -> "ContactLaw":
         """Return the law with this prefix of its parameters."""
@@ -321,15 +313,9 @@ class Tyre(ABC):
 
 
 class SymmetricTyre(Tyre):
-    """A tyre that is its own mirror image, and whose contact law has no options.
+    """A tyre that is its own mirror image, and whose contact law has no options."""
 
-    Attributes
-    ----------
-    CONTACT_LAW : str
-        Name of the class of its contact law in `kintrafo.generator`.
-    """
-
-    CONTACT_LAW: ClassVar[str]
+    CONTACT_LAW: ClassVar[str]  # name of the class of its contact law in `kintrafo.generator`
 
     def mirrored(self) -> Self:
         """Return the mirror image, which has the same values."""
@@ -341,20 +327,7 @@ class SymmetricTyre(Tyre):
         return ContactTerms(self.CONTACT_LAW)
 
     def parameters(self, name: str = "tyre", *, relaxing: bool = False) -> dict[str, float]:
-        """Return the values of the parameters of `contact_law`.
-
-        Parameters
-        ----------
-        name : str, optional
-            Prefix of their names.
-        relaxing : bool, optional
-            Without effect: relaxation lengths are known, or follow from the stiffnesses.
-
-        Returns
-        -------
-        dict of str to float
-            By name, such as ``"tyre_friction"``, in SI units.
-        """
+        """Return the values of the parameters of `contact_law`, SI units; lengths are known."""
         del relaxing
         return {f"{name}_{key}": value for key, value in self._values().items()}
 
