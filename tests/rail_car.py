@@ -146,8 +146,16 @@ def car(*, column=False, **parameters):
     )
     reference = (MASS * center + wheels.sum(axis=0)) / total
     return DrivingCar(
-        model, rest, np.array(rest.inputs), Controls(),
-        ReferencePoint(model.state_names, center, reference),
-        WHEELS, tuple(f"{wheel}_spin" for wheel in WHEELS), (0.29,) * 4, FRONT - REAR,
-        FRONT - reference[0], total, rack_state="rack_displacement" if column else None,
-    )  # fmt: skip
+        model=model,
+        wheels=WHEELS,
+        spins=tuple(f"{wheel}_spin" for wheel in WHEELS),
+        radii=(0.29,) * 4,
+        rest=rest,
+        base=np.array(rest.inputs),
+        controls=Controls(),
+        motion=ReferencePoint(model.state_names, center, reference),
+        wheelbase=FRONT - REAR,
+        front=FRONT - reference[0],
+        mass=total,
+        rack_state="rack_displacement" if column else None,
+    )

@@ -147,21 +147,7 @@ def with_compliance(
     held: WheelSupport,
     rack_position: float = 0.0,
 ) -> xr.Dataset:
-    """Return characteristics and compliance over wheel travel.
-
-    Parameters
-    ----------
-    found : xarray.Dataset
-        Characteristics at the same travels.
-    assembly : Assembly
-        Its file has bushes.
-    travels : ndarray
-        Wheel travel, of an axle in parallel [m].
-    held : {'height', 'tyre', 'spring', 'locked'}
-        Support of the wheels under loads.
-    rack_position : float, optional
-        [m]
-    """
+    """Return characteristics and compliance at the same travels, of an axle in parallel [m]."""
     soft = linear(assembly, None, travels, held=held, rack_position=rack_position)
     curves = soft.drop_dims(["moved", "by"])
     return found.assign({str(name): data.variable for name, data in curves.items()})

@@ -36,58 +36,29 @@ PAPER_GEAR_S = 13.0  # IMSL DIVPAG, same machine
 
 @dataclass(frozen=True)
 class PaperKinematics:
-    """Figures 4 and 5: motion of the wheel over its travel, rack held at zero.
+    """Figures 4 and 5: motion of the wheel over its travel, rack held at zero."""
 
-    Attributes
-    ----------
-    x, y, z : ndarray
-        Wheel centre in chassis axes [m].
-    camber, steer : ndarray
-        [rad]; camber positive with the top outboard, steer positive to the left.
-    side : str
-        'left' or 'right'.
-    design : int
-        Index of the design position, which is one of the points.
-    """
-
+    # wheel centre in chassis axes [m]
     x: Array
     y: Array
     z: Array
+    # [rad]; camber positive with the top outboard, steer positive to the left
     camber: Array
     steer: Array
-    side: str
-    design: int
+    side: str  # 'left' or 'right'
+    design: int  # index of the design position, which is one of the points
 
 
 @dataclass(frozen=True)
 class PaperDynamics:
-    """Figure 6: one second from a wheel centre at 0.325 m, with the wheel spinning.
+    """Figure 6: one second from a wheel centre at 0.325 m, with the wheel spinning."""
 
-    Attributes
-    ----------
-    result : Simulation
-        Output every 1e-4 s, as in the paper.
-    seconds : float
-        Wall-clock time of the integration, output included [s].
-    """
-
-    result: "Simulation"
-    seconds: float
+    result: "Simulation"  # output every 1e-4 s, as in the paper
+    seconds: float  # wall-clock time of the integration, output included [s]
 
 
 def kinematics(model: Model, points: int = 121) -> PaperKinematics:
-    """Return the curves of Figures 4 and 5.
-
-    Parameters
-    ----------
-    model : Model
-    points : int, optional
-        Number of equally spaced wheel heights; the design position is added.
-
-    Returns
-    -------
-    PaperKinematics
-    """
+    """Return the curves of Figures 4 and 5, at equally spaced wheel heights and at design."""
     ends = (REST_HEIGHT - TRAVEL, REST_HEIGHT + TRAVEL)
     design_height = float(model.signal("wheel_center_z", model.design_state))
     heights = np.linspace(*ends, points)
@@ -106,16 +77,7 @@ def kinematics(model: Model, points: int = 121) -> PaperKinematics:
 
 
 def dynamics(model: Model) -> PaperDynamics:
-    """Return the simulation of Figure 6 by Gear's method.
-
-    Parameters
-    ----------
-    model : Model
-
-    Returns
-    -------
-    PaperDynamics
-    """
+    """Return the simulation of Figure 6 by Gear's method."""
     from ...simulation.simulate import simulate  # noqa: PLC0415 (slow to import)
 
     start = state_at_height(model, START_HEIGHT, spin_rate=SPIN_RATE)
@@ -127,34 +89,15 @@ def dynamics(model: Model) -> PaperDynamics:
 
 @dataclass(frozen=True)
 class PaperRest:
-    """The state of rest and the wheel-hop mode about it.
+    """The state of rest and the wheel-hop mode about it."""
 
-    Attributes
-    ----------
-    state : ndarray
-        Equilibrium, the wheel spinning at 14.8 revolutions per second.
-    height : float
-        Of the wheel centre [m].
-    hop : Mode
-        The wheel-hop mode.
-    """
-
-    state: Array
-    height: float
+    state: Array  # equilibrium, the wheel spinning at 14.8 revolutions per second
+    height: float  # of the wheel centre [m]
     hop: Mode
 
 
 def rest(model: Model) -> PaperRest:
-    """Return the equilibrium and the wheel-hop mode there.
-
-    Parameters
-    ----------
-    model : Model
-
-    Returns
-    -------
-    PaperRest
-    """
+    """Return the equilibrium and the wheel-hop mode there."""
     state = equilibrium(model, spin_rate=SPIN_RATE)
     height = float(model.signal("wheel_center_z", state))
     return PaperRest(state, height, linearise(model, state).mode_of(model.names.arm))

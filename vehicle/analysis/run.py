@@ -1,7 +1,8 @@
 """A simulation of a car, with the data of pictures of its motion."""
 
 from collections.abc import Sequence
-from typing import NamedTuple, Protocol
+from dataclasses import dataclass
+from typing import Any, NamedTuple, Self
 
 import xarray as xr
 
@@ -11,32 +12,33 @@ from ..assembly.car import CarAssembly
 from ..roads.road import Road
 
 
-class MovingCar(Protocol):
-    """Properties of a car that pictures of its motion and loads on its parts need."""
+@dataclass(frozen=True, kw_only=True)
+class MovingCar:
+    """A car, with the data for pictures of its motion and for loads on its parts."""
 
-    @property
-    def assembly(self) -> CarAssembly | None:
-        """The car with its linkages; None if it has none."""
+    model: System  # its equations of motion
+    # names of the wheels: front ones first, the left one of an axle before the right one
+    wheels: Sequence[str]
+    spins: Sequence[str]  # names of the angles of the wheels among the states
+    radii: Sequence[float]  # heights of the wheel centres above the road at rest [m]
+    body: str = "body"  # its name in the equations; empty for an axle on a rig
+    assembly: CarAssembly | None = None  # the car with its linkages
 
-    @property
-    def model(self) -> System:
-        """Its equations of motion."""
-
-    @property
-    def body(self) -> str:
-        """The name of its body in these equations; empty for an axle on a rig."""
-
-    @property
-    def wheels(self) -> Sequence[str]:
-        """The names of its wheels."""
-
-    @property
-    def spins(self) -> Sequence[str]:
-        """The names of the angles of the wheels among the states."""
-
-    @property
-    def radii(self) -> Sequence[float]:
-        """The heights of the wheel centres above the road at rest [m]."""
+    @classmethod
+    def at_rest(cls, assembly: CarAssembly, state: Array, inputs: Array, **further: Any) -> Self:
+        """Return a car from state and inputs at rest, with further fields."""
+        model, names = assembly.model, [assembly.names_of(wheel) for wheel in assembly.wheels]
+        signals = model.signals(state, inputs)
+        roads = [float(inputs[model.input_names.index(own.road)]) for own in names]
+        radii = tuple(
+            float(signals[f"{own.signals}wheel_center_z"]) - road
+            for own, road in zip(names, roads, strict=True)
+        )
+        spins = tuple(own.spin for own in names)
+        return cls(
+            model=model, wheels=assembly.wheels, spins=spins, radii=radii, assembly=assembly,
+            **further,
+        )  # fmt: skip
 
 
 class Run(NamedTuple):

@@ -197,18 +197,8 @@ def one_page(found: xr.Dataset, title: str) -> list[Tabulated]:
 
     The sign of quantities marked with an asterisk is the opposite in SAE J670 with z down. A car
     whose sides are mirror images has one column for each axle, with the values of the left wheels.
-
-    Parameters
-    ----------
-    found : xarray.Dataset
-        Result of `sheet`.
-    title : str
-
-    Returns
-    -------
-    list of Tabulated
-        The kinematic gradients, a row for each; then the compliances, a row for each load and at
-        most six columns in a table.
+    The kinematic gradients have a row for each; then the compliances have a row for each load, and
+    at most six columns in a table.
     """
     on_car = any(place.startswith(f"_{ENDS[0]}") for place in _columns(found))
     if on_car and found.attrs["sides"] == _MIRRORED:

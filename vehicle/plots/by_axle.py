@@ -15,15 +15,7 @@ SIDE = "side"
 def by_axle(dataset: xr.Dataset) -> xr.Dataset:
     """Return a dataset in which every variable of four wheels is one for each axle.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        Variables over ``wheel`` and another dimension, such as those of `kintrafo.ride.over`.
-
-    Returns
-    -------
-    xarray.Dataset
-        ``load_front`` and ``load_rear`` over ``side`` instead of ``load``; all else unchanged.
+    ``load_front`` and ``load_rear`` over ``side`` replace ``load``; all else is unchanged.
     """
     with Validator("by_axle") as given:
         given.dataset(dataset)

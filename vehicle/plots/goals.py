@@ -26,24 +26,9 @@ def of_curve(goals: Iterable[Goal], name: str, over: str) -> list[Goal]:
 def about(goals: Iterable[Goal], data: xr.DataArray, along: str) -> dict[str, list[Goal]]:
     """Return the goals of the curves of a panel, by side; under '' those of all curves.
 
-    Parameters
-    ----------
-    goals : iterable of Goal
-        Goals of other curves are left out.
-    data : xarray.DataArray
-        The curves; those of both wheels of an axle are over ``wheel``, or of a car over ``side``.
-    along : str
-        The dimension along the axis.
-
-    Returns
-    -------
-    dict of str to list of Goal
-        Equal goals of both wheels are one goal of all curves.
-
-    Raises
-    ------
-    InputError
-        If goals over parallel travel and over that of one wheel have the same axis.
+    Curves of both wheels of an axle are over ``wheel``, or of a car over ``side``; equal goals of
+    both are one goal of all curves. Goals over parallel travel and over that of one wheel have the
+    same axis, and are an `InputError` together.
     """
     own = [goal for goal in goals if sweep_axis(goal.over).along.name == along]
     name = str(data.name)
@@ -86,19 +71,8 @@ def mark(
 ) -> NDArray[np.float64]:
     """Draw targets as points with an error bar of `within`, and limits as lines with arrows beyond.
 
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    goals : iterable of Goal
-    side : str, optional
-        The side of their curve, if it is one of several.
-    colour : str, optional
-        By default that of targets and that of limits.
-
-    Returns
-    -------
-    ndarray
-        The drawn values, in display units.
+    The side is that of their curve, if it is one of several. The drawn values are returned, in
+    display units.
     """
     marked: list[NDArray[np.float64]] = [np.empty(0)]
     whose = f", {side}" if side else ""

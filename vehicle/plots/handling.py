@@ -63,22 +63,7 @@ def write_curves(
     force: bool = False,
     inputs: Paths = (),
 ) -> Path:
-    """Write the main curves of a manoeuvre.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        Curves over ``time``, ``lateral_acceleration`` or ``frequency``.
-    path : str or pathlib.Path
-        Its ending is the format.
-    title, force, inputs
-        Title of the figure; whether a file that kintrafo did not write is replaced; files that are
-        never replaced.
-
-    Returns
-    -------
-    pathlib.Path
-    """
+    """Write the main curves of a manoeuvre."""
     along = _along(dataset)
     # the first dimension is the axis; several runs are lines
     shown, names = for_print(dataset.transpose(along, ...), along), first_names(dataset)
@@ -125,25 +110,7 @@ def write_path(
     force: bool = False,
     inputs: Paths = (),
 ) -> Path:
-    """Write the path of the reference point of a car, with cones if there are some.
-
-    Parameters
-    ----------
-    motion : xarray.Dataset
-        With ``x`` and ``y``, over time, and also over amplitude for several runs.
-    path : str or pathlib.Path
-        Its ending is the format.
-    cones : xarray.Dataset, optional
-        Their positions, and their distances from the car.
-    wanted : ndarray, shape (n, 2), optional
-        Points of the path that the driver follows [m].
-    title, force, inputs
-        As in `kintrafo.plots.write`.
-
-    Returns
-    -------
-    pathlib.Path
-    """
+    """Write the path of the reference point of a car in one run or several, and cones, if any."""
     with rc_context(STYLE):
         x, y = (np.atleast_2d(displayed(motion[name])) for name in ("x", "y"))
         spans = [float(np.nanmax(values) - np.nanmin(values)) + 1.0 for values in (x, y)]

@@ -13,9 +13,9 @@ from matplotlib.patheffects import withStroke
 from matplotlib.text import Annotation
 
 from ...core.files import Paths
+from ...core.named_types import Array
 from ...pictures.figures import BLUE, ORANGE, STYLE, save, written_plainly
 from ..assembly.by_wheel import without_side
-from .columns import in_columns
 from .curves import check_formats
 
 # Chassis axes across and upward in each view, and the sense of the first.
@@ -35,6 +35,9 @@ _ROW, _FRAME, _LABEL = 2.7, 0.8, 0.45
 # Forces and couples below these are not drawn [N], [N m].
 _SMALL_FORCE, _SMALL_MOMENT = 0.5, 1.0
 _FROM_OUTSIDE = ("road", "drive", "gravity")
+# Distance of two labels, and of labels from the edge [points].
+_ROOM = 3.0
+_POINTS = 72.0
 
 
 def write_free_bodies(
@@ -47,29 +50,10 @@ def write_free_bodies(
     force: bool = False,
     inputs: Paths = (),
 ) -> list[Path]:
-    """Write the moving parts of a suspension with the forces on them, in two views.
+    """Write the moving parts of a suspension with the forces on them in a load case, in two views.
 
-    Rods with forces only at their ends are drawn only if they are named.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        Result of `kintrafo.loads.static`.
-    paths : sequence of pathlib.Path
-        The name of the case is appended to each name; the ending is the format.
-    case : str
-        Load case.
-    parts : sequence of str, optional
-        By default all moving parts.
-    title : str, optional
-    force : bool, optional
-        Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
-    inputs : iterable of str or pathlib.Path, optional
-        Files that are never replaced.
-
-    Returns
-    -------
-    list of pathlib.Path
+    Rods with forces only at their ends are drawn only if they are named. The name of the case is
+    appended to the name of each file, whose ending is the format.
     """
     check_formats(paths)
     written = []
@@ -109,7 +93,7 @@ def free_bodies(
     figure.suptitle(title, fontsize=11)
     figure.draw_without_rendering()  # labels are placed after the layout
     for axes, of_view in labels.items():
-        in_columns(axes, of_view)
+        _in_columns(axes, of_view)
     return written_plainly(figure)
 
 
@@ -202,3 +186,53 @@ def _connected(at: np.ndarray) -> list[tuple[int, int]]:
         reached.append(second)
         pairs.append((first, second))
     return pairs
+
+
+def _in_columns(axes: Axes, labels: Sequence[Annotation]) -> None:
+    """Move labels to the sides of a finished drawing, with lines to their points.
+
+    Their offsets are in points.
+    """
+    figure = axes.get_figure(root=True)
+    assert figure is not None
+    pixels = figure.dpi / _POINTS
+    frame = axes.get_window_extent()
+    places = axes.transData.transform([label.xy for label in labels]) / pixels
+    sizes = np.array([one.get_window_extent().size for one in labels]) / pixels + _ROOM
+    order = np.argsort(places[:, 0], kind="stable")
+    half = len(labels) // 2
+    columns = (
+        ("left", order[:half], frame.x0 / pixels + _ROOM, 1.0),
+        ("right", order[half:], frame.x1 / pixels - _ROOM, -1.0),
+    )
+    for side, own, across, inward in columns:
+        rows = own[np.argsort(places[own, 1], kind="stable")]
+        upward = _stacked(places[rows, 1], sizes[rows, 1], frame.y0 / pixels, frame.y1 / pixels)
+        for row, height in zip(rows, upward, strict=True):
+            begin = np.array([across, height]) - places[row]
+            labels[row].set(position=tuple(begin), ha=side, va="center")
+            _join(axes, labels[row], begin + np.array([inward * sizes[row, 0], 0.0]))
+
+
+def _stacked(wanted: Array, heights: Array, low: float, high: float) -> Array:
+    """Return the middles of labels between two limits without overlap, near rising wanted ones."""
+    middles = wanted.copy()
+    edge = low
+    for i, height in enumerate(heights):
+        middles[i] = max(middles[i], edge + 0.5 * height)
+        edge = middles[i] + 0.5 * height
+    edge = high
+    for i in reversed(range(heights.size)):
+        middles[i] = min(middles[i], edge - 0.5 * heights[i])
+        edge = middles[i] - 0.5 * heights[i]
+    return middles
+
+
+def _join(axes: Axes, label: Annotation, offset: Array) -> None:
+    """Draw a line from the edge of a label to its point."""
+    line = {
+        "arrowstyle": "-", "color": label.get_color(), "linewidth": 0.5, "alpha": 0.6,
+        "shrinkA": 0.0, "shrinkB": 0.0,
+    }  # fmt: skip
+    begin = float(offset[0]), float(offset[1])
+    axes.annotate("", label.xy, begin, textcoords="offset points", arrowprops=line, zorder=1)

@@ -26,18 +26,7 @@ _COLOURS = {
 
 
 def write_overview(model: Model, path: Path, travel: float = 0.08, *, force: bool = False) -> None:
-    """Write a picture of the suspension in three positions, with camber and toe over travel.
-
-    Parameters
-    ----------
-    model : Model
-    path : Path
-        The ending is the format.
-    travel : float, optional
-        Wheel travel in bump and rebound [m].
-    force : bool, optional
-        Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
-    """
+    """Write a picture of the suspension at three heights, with camber and toe over travel [m]."""
     with rc_context(STYLE):
         figure = Figure(figsize=(10.0, 5.2), layout="constrained")
         front, camber, toe = figure.subplots(1, 3, width_ratios=(1.15, 1.0, 1.0))
@@ -55,16 +44,7 @@ def write_overview(model: Model, path: Path, travel: float = 0.08, *, force: boo
 
 
 def from_behind(models: Sequence[Model]) -> Figure:
-    """Return a figure of one suspension at design, or both of an axle, seen from behind.
-
-    Parameters
-    ----------
-    models : sequence of Model
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-    """
+    """Return a figure of one suspension at design, or both of an axle, seen from behind."""
     with rc_context(STYLE):
         figure = Figure(figsize=(3.4 * (1 + len(models)), 4.6), layout="constrained")
         axes = figure.subplots()

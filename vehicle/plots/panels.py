@@ -16,21 +16,11 @@ _COLUMNS = 2
 
 
 class FigureOptions(TypedDict, total=False):
-    """Options of all functions that write a figure of panels.
+    """Options of all functions that write a figure of panels."""
 
-    Attributes
-    ----------
-    title : str
-        Title of the figure; none by default.
-    force : bool
-        Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
-    inputs : iterable of str or pathlib.Path
-        Files that are never replaced.
-    """
-
-    title: str
-    force: bool
-    inputs: Paths
+    title: str  # title of the figure; none by default
+    force: bool  # whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`
+    inputs: Paths  # files that are never replaced
 
 
 def write_panels(
@@ -43,26 +33,10 @@ def write_panels(
     force: bool = False,
     inputs: Paths = (),
 ) -> Path:
-    """Write one figure of several panels, two in a row.
+    """Write one figure of several panels, two in a row with a height [in].
 
-    The legend below them is that of panels without a legend.
-
-    Parameters
-    ----------
-    draw : callable
-        A function of the axes of a panel and its name.
-    names : sequence of str
-        The panels.
-    path : str or pathlib.Path
-        The ending is the format: ``.png``, ``.svg`` or ``.pdf``.
-    height : float
-        Height of a row [in].
-    title, force, inputs
-        As in `FigureOptions`.
-
-    Returns
-    -------
-    pathlib.Path
+    `draw` is a function of the axes of a panel and its name. The legend below them is that of
+    panels without a legend.
     """
     check_formats([path])
     columns = min(_COLUMNS, len(names))

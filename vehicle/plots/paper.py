@@ -31,24 +31,7 @@ def write_figures(
     *,
     force: bool = False,
 ) -> list[Path]:
-    """Write the three figures.
-
-    Parameters
-    ----------
-    kinematics : PaperKinematics
-    dynamics : PaperDynamics
-    folder : Path
-        Created if it does not exist.
-    data : str
-        Name of the data set, for the line below each figure.
-    force : bool, optional
-        Whether files that kintrafo did not write are replaced, see `kintrafo.core.files`.
-
-    Returns
-    -------
-    list of Path
-        PNG and SVG files of each figure.
-    """
+    """Write the three figures as PNG and SVG, with the name of the data set below each."""
     files = figure_files(folder)
     refuse(files, force=force)
     with rc_context(STYLE):

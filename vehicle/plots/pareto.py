@@ -19,21 +19,7 @@ _LETTERS = 34
 def write_front(
     found: Front, path: str | Path, *, chosen: int = 0, **how: Unpack[FigureOptions]
 ) -> Path:
-    """Write a picture of a front, with marks at the given suspension and some members.
-
-    Parameters
-    ----------
-    found : Front
-        Result of `kintrafo.variation.pareto`.
-    path, **how
-        File of the figure, and `FigureOptions`.
-    chosen : int, optional
-        A member to mark, in addition to the compromise.
-
-    Returns
-    -------
-    pathlib.Path
-    """
+    """Write a picture of a front, with marks at the given suspension and at members."""
     panels = {f"{a.name} {b.name}": (a, b) for a, b in combinations(found.objectives, 2)}
 
     def draw(axes: Axes, key: str) -> None:

@@ -26,16 +26,8 @@ _BELOW = 0.1
 def response_figures(response: xr.Dataset) -> dict[str, Figure]:
     """Return spectra and responses over frequency, in logarithmic axes, by their headings.
 
-    Parameters
-    ----------
-    response : xarray.Dataset
-        Result of `kintrafo.ride.response`.
-
-    Returns
-    -------
-    dict of str to matplotlib.figure.Figure
-        The spectra, then the responses of the body to the road under each wheel; for one wheel all
-        responses.
+    The spectra are followed by the responses of the body to the road under each wheel; for one
+    wheel by all responses.
     """
     with Validator("response_figures") as given:
         given.dataset(response, over="frequency")

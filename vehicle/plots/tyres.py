@@ -24,23 +24,7 @@ _DASHES = ("-", "--", ":", "-.")
 
 
 def write_tyre(tyre: Tyre, path: str | Path, **how: Unpack[FigureOptions]) -> Path:
-    """Write curves of a tyre: forces and aligning moment over slip, at several loads and cambers.
-
-    Parameters
-    ----------
-    tyre : Tyre
-    path, **how
-        File of the figure, and `FigureOptions`.
-
-    Returns
-    -------
-    pathlib.Path
-
-    Raises
-    ------
-    InputError
-        If the file must not or cannot be written.
-    """
+    """Write curves of a tyre: forces and aligning moment over slip, by load and camber."""
     drawn = _Curves(tyre)
     panels: dict[str, Callable[[Axes], None]] = {
         "side": drawn.side, "along": drawn.along, "moment": drawn.moment,

@@ -42,20 +42,7 @@ def write_bars(
 ) -> Path:
     """Write bars of the largest effects on characteristics, in separate axes for each unit.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        Result of `kintrafo.vehicle.studies.sensitivity`.
-    path, **how
-        File of the figure, and `FigureOptions`.
-    names : sequence of str
-        Characteristics.
-    at : float, optional
-        Position [m].
-
-    Returns
-    -------
-    pathlib.Path
+    They are those of a result of `sensitivity` at a position [m].
     """
     panels = {}
     for name in names:
@@ -79,21 +66,7 @@ def write_bands(
     limits: Sequence[Limit] = (),
     **how: Unpack[FigureOptions],
 ) -> Path:
-    """Write the bands of characteristics over the positions, and their deviations from nominal.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        Result of `kintrafo.vehicle.studies.tolerance`.
-    path, names, **how
-        File of the figure, characteristics, and `FigureOptions`.
-    limits : sequence of Limit, optional
-        Drawn into their curves.
-
-    Returns
-    -------
-    pathlib.Path
-    """
+    """Write the bands of characteristics by `tolerance`, and their deviations from nominal."""
     panels = {key: name for name in names for key in (name, f"{name}, deviation")}
 
     def draw(axes: Axes, key: str) -> None:
@@ -103,19 +76,7 @@ def write_bands(
 
 
 def write_optimum(found: Optimum, path: str | Path, **how: Unpack[FigureOptions]) -> Path:
-    """Write the curves with targets and limits before and after an optimisation.
-
-    Parameters
-    ----------
-    found : Optimum
-        Result of `kintrafo.vehicle.studies.optimise`.
-    path, **how
-        File of the figure, and `FigureOptions`.
-
-    Returns
-    -------
-    pathlib.Path
-    """
+    """Write the curves with targets and limits before and after an optimisation."""
     models = {"before": assembly_of(found.start), "after": assembly_of(found.suspension)}
     goals = [*found.targets, *found.limits]
     panels = {f"{goal.name} over {goal.over}": goal for goal in goals}

@@ -27,16 +27,7 @@ _RADIUS = 0.33  # of wheels without a given radius [m]
 
 
 def views(axle: WholeAxle) -> Figure:
-    """Return a figure of an axle at its design position in three views.
-
-    Parameters
-    ----------
-    axle : WholeAxle
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-    """
+    """Return a figure of an axle at its design position in three views."""
     with Validator("views") as given:
         given.instance("axle", axle, WholeAxle, "an axle such as a RigidAxle is needed")
     result = Figure(figsize=(6.4, 5.6), layout="constrained")

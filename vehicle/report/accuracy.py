@@ -16,24 +16,13 @@ from .poses import Poses, poses
 
 @dataclass(frozen=True)
 class GridAccuracy:
-    """Largest differences, between the points of the grid, where they are largest.
+    """Largest differences, between the points of the grid, where they are largest."""
 
-    Attributes
-    ----------
-    points : float
-        Distance of positions [m].
-    spin_axis : float
-        Angle between the wheel's axes [rad].
-    curves : dict
-        Of each characteristic by its key, in the display unit, within the plotted range.
-    places : int
-        Number of compared positions.
-    """
-
-    points: float
-    spin_axis: float
+    points: float  # distance of positions [m]
+    spin_axis: float  # angle between the wheel's axes [rad]
+    # of each characteristic by its key, in the display unit, within the plotted range
     curves: dict[str, float]
-    places: int
+    places: int  # number of compared positions
 
 
 def measure(
@@ -48,21 +37,8 @@ def measure(
 ) -> GridAccuracy:
     """Return the differences of interpolated from compiled values, with those of the encoding.
 
-    Parameters
-    ----------
-    model : Model
-    grid : Grid
-    sampled : Poses
-        On the grid.
-    drawn : list of CharacteristicCurve
-        On the grid.
-    gaps : list of ndarray
-        Open gaps of the stops, on the grid.
-    ranges : dict
-        Range of plotted values by the key of a curve, in SI units; values beyond, as near a pole,
-        are not compared.
-    report : callable, optional
-        Called with a description of each step.
+    Poses, curves and open gaps of stops are on the grid. Values beyond the plotted range of a
+    curve, SI units, as near a pole, are not compared.
     """
     travel, rack = grid.travel.between, grid.rack.between
     report("accuracy of the interpolation")

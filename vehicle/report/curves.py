@@ -23,35 +23,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class CharacteristicCurve:
-    """One characteristic over wheel travel and rack displacement.
-
-    Attributes
-    ----------
-    name : str
-        Name of the variable.
-    over : {"travel", "rack"}
-        Abscissa of the chart.
-    label, definition, sign : str
-        Words for the reader.
-    group : str
-        Its heading.
-    unit : str
-        Display unit.
-    factor : float
-        Factor from the SI unit to the display unit.
-    values : ndarray, shape (travels, racks)
-        In SI units; NaN where it is not defined.
-    """
+    """One characteristic over wheel travel and rack displacement."""
 
     name: str
-    over: Literal["travel", "rack"]
+    over: Literal["travel", "rack"]  # abscissa of the chart
+    # words for the reader
     label: str
     definition: str
     sign: str
-    group: str
-    unit: str
-    factor: float
-    values: Array
+    group: str  # its heading
+    unit: str  # display unit
+    factor: float  # from the SI unit to the display unit
+    values: Array  # in SI units; NaN where it is not defined, (travels, racks)
 
     @property
     def key(self) -> str:
@@ -92,22 +75,9 @@ def printed(unit: str) -> str:
 def curves(
     model: Model, travel: Array, rack: Array, *, report: Callable[[str], None] = lambda _: None
 ) -> list[CharacteristicCurve]:
-    """Return all characteristics at every combination of travels and rack displacements.
+    """Return all characteristics at every combination of travels and rack displacements [m].
 
-    Parameters
-    ----------
-    model : Model
-    travel : ndarray, shape (n,)
-        Wheel travel [m].
-    rack : ndarray, shape (m,)
-        Rack displacement [m].
-    report : callable, optional
-        Called with a description of each step.
-
-    Returns
-    -------
-    list of CharacteristicCurve
-        Those over travel, then those over rack displacement, without undefined ones.
+    Those over travel are the first, then those over rack displacement, without undefined ones.
     """
     report("characteristics over wheel travel")
     rack = racks_of(model, rack)

@@ -21,12 +21,8 @@ def rounded(values: ArrayLike, design: ArrayLike) -> Array:
 def packed(values: ArrayLike, design: ArrayLike = 0.0) -> dict[str, Any]:
     """Return an array for the page: ``design``, and ``differences`` in base64 and C order.
 
-    Parameters
-    ----------
-    values : array_like
-    design : array_like, optional
-        Value at design, or one for each of the last dimension, with full precision. NaN counts as
-        zero.
+    The value at design, or one for each of the last dimension, has full precision. NaN counts as
+    zero.
     """
     offset = _offset(design)
     text = base64.b64encode(_difference(values, offset).tobytes()).decode("ascii")

@@ -20,19 +20,12 @@ _WORST = 0.5 * (3.0 - 5.0**0.5)
 
 @dataclass(frozen=True)
 class GridAxis:
-    """Equally spaced values of one coordinate.
+    """Equally spaced values of one coordinate."""
 
-    Attributes
-    ----------
-    first, step : float
-        First value and distance of two neighbours, in the coordinate's SI unit.
-    count : int
-        Number of values, at least four.
-    """
-
+    # first value and distance of two neighbours, in the coordinate's SI unit
     first: float
     step: float
-    count: int
+    count: int  # number of values, at least four
 
     @classmethod
     def around_zero(cls, low: float, high: float, step: float) -> "GridAxis":
@@ -103,18 +96,10 @@ class GridAxis:
 
 @dataclass(frozen=True)
 class Grid:
-    """A grid over wheel travel and rack displacement.
+    """A grid over wheel travel and rack displacement."""
 
-    Attributes
-    ----------
-    travel : GridAxis
-        Height of the wheel centre above its design height [m], positive in bump.
-    rack : GridAxis
-        Displacement of the rack along its axis [m].
-    """
-
-    travel: GridAxis
-    rack: GridAxis
+    travel: GridAxis  # height of the wheel centre above its design height [m], positive in bump
+    rack: GridAxis  # displacement of the rack along its axis [m]
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -122,16 +107,7 @@ class Grid:
         return self.travel.count, self.rack.count
 
     def interpolate(self, samples: Array, travel: ArrayLike, rack: ArrayLike) -> Array:
-        """Return samples interpolated at every combination of coordinates, (n, m, ...).
-
-        Parameters
-        ----------
-        samples : ndarray, shape (travels, racks, ...)
-            Values on the grid.
-        travel : array_like, shape (n,)
-        rack : array_like, shape (m,)
-            Coordinates within the grid [m].
-        """
+        """Return samples (travels, racks, ...) at all combinations of coordinates, (n, m, ...)."""
         along = self.travel.interpolate(samples, travel)
         return np.moveaxis(self.rack.interpolate(np.moveaxis(along, 1, 0), rack), 0, 1)
 
@@ -140,19 +116,9 @@ class Grid:
     ) -> Array:
         """Return samples with jumps at closing gaps, interpolated on each side of a jump, (n, m).
 
-        The gaps are smooth, and their signs give the side. Only points of the grid on the same side
-        are used, with extrapolation up to the jump; a part of the grid without points is
-        interpolated across its border.
-
-        Parameters
-        ----------
-        samples : ndarray, shape (travels, racks)
-            Values on the grid.
-        gaps : sequence of ndarray, shape (travels, racks)
-            Positive on one side of a jump, zero or negative on the other.
-        travel : array_like, shape (n,)
-        rack : array_like, shape (m,)
-            Coordinates within the grid [m].
+        The gaps are smooth, positive on one side of a jump, and zero or negative on the other. Only
+        points of the grid on the same side are used, with extrapolation up to the jump; a part of
+        the grid without points is interpolated across its border.
         """
         result = self.interpolate(samples, travel, rack)
         if not gaps:

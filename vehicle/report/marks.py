@@ -26,23 +26,12 @@ _DIGITS = 12
 
 @dataclass(frozen=True)
 class Mark:
-    """The mark of a target, or of one bound of a limit.
-
-    Attributes
-    ----------
-    kind : {'target', 'least', 'most'}
-    at : ndarray, shape (n,)
-        Positions [m].
-    value : ndarray, shape (n,)
-        In SI units.
-    within : float
-        Tolerance of a target; 0 for a limit.
-    """
+    """The mark of a target, or of one bound of a limit."""
 
     kind: Literal["target", "least", "most"]
-    at: Array
-    value: Array
-    within: float = 0.0
+    at: Array  # positions, (n,) [m]
+    value: Array  # in SI units, (n,)
+    within: float = 0.0  # tolerance of a target; 0 for a limit
 
     def described(self, curve: CharacteristicCurve) -> dict[str, Any]:
         """Return the mark for the page's script, in display units."""
@@ -61,21 +50,11 @@ class Mark:
 
 @dataclass(frozen=True)
 class Marks:
-    """Targets and limits on a page.
+    """Targets and limits on a page."""
 
-    Attributes
-    ----------
-    of : dict of str to list of Mark
-        By the key of the curve.
-    beyond : dict of str to list of str
-        Words on goals beyond the ends of a chart, by the same key.
-    elsewhere : list of str
-        Words on goals without a chart.
-    """
-
-    of: dict[str, list[Mark]]
-    beyond: dict[str, list[str]]
-    elsewhere: list[str]
+    of: dict[str, list[Mark]]  # by the key of the curve
+    beyond: dict[str, list[str]]  # words on goals beyond the ends of a chart, by the same key
+    elsewhere: list[str]  # words on goals without a chart
 
     def widened(self, key: str, shown: tuple[float, float]) -> tuple[float, float]:
         """Return the plotted range of a curve, extended to its marks."""
@@ -96,17 +75,9 @@ class Marks:
 def marks(
     drawn: Sequence[CharacteristicCurve], grid: Grid, goals: Sequence[Goal], side: str
 ) -> Marks:
-    """Return the marks of targets and limits in the charts of a suspension.
+    """Return the marks of targets and limits in the charts of a suspension on a side.
 
-    Parameters
-    ----------
-    drawn : sequence of CharacteristicCurve
-        The curves with a chart.
-    grid : Grid
-        The range of the charts.
-    goals : sequence of TargetValue and Limit
-        Goals of the suspension, or of its axle: those of a wheel over parallel travel have charts.
-    side : {'left', 'right'}
+    Goals of its axle over parallel travel have charts, if they are of this wheel.
     """
     found = Marks({}, {}, [])
     keys: dict[tuple[str, str], str] = {(curve.name, curve.over): curve.key for curve in drawn}
@@ -135,13 +106,6 @@ def of_shown_side(axle: Axle, goals: Sequence[Goal], side: str) -> list[Goal]:
 
     This is for characteristics with the same curve of both wheels in parallel travel, if the shown
     wheel has no other goal. Equal goals of both wheels become one.
-
-    Parameters
-    ----------
-    axle : Axle
-    goals : sequence of TargetValue and Limit
-    side : {'left', 'right'}
-        The shown wheel.
     """
     other = next(name for name in SIDES if name != side)
     alike = _alike(axle) if axle.symmetric and goals else set()

@@ -28,26 +28,15 @@ SIGNALS = (
 
 @dataclass(frozen=True)
 class TimeCurve:
-    """One signal over time.
+    """One signal over time."""
 
-    Attributes
-    ----------
-    name, label, sign : str
-        Its name, and words for the reader.
-    unit : str
-        Display unit.
-    factor : float
-        Factor from the SI unit to the display unit.
-    values : ndarray, shape (n,)
-        In SI units.
-    """
-
+    # its name, and words for the reader
     name: str
     label: str
     sign: str
-    unit: str
-    factor: float
-    values: Array
+    unit: str  # display unit
+    factor: float  # from the SI unit to the display unit
+    values: Array  # in SI units, (n,)
 
     @property
     def key(self) -> str:
@@ -57,28 +46,16 @@ class TimeCurve:
 
 @dataclass(frozen=True)
 class ReportedMotion:
-    """One second of motion.
+    """One second of motion."""
 
-    Attributes
-    ----------
-    time : GridAxis
-        Times of the samples [s].
-    travel, rack, spin : ndarray, shape (n,)
-        Wheel travel [m], rack displacement [m], spin angle of the wheel [rad].
-    signals : list of TimeCurve
-    travel_error : float
-        Largest error of the travel interpolated between two samples [m].
-    solver : str
-        The solver with its package.
-    """
-
-    time: GridAxis
+    time: GridAxis  # times of the samples [s]
+    # (n,): wheel travel [m], rack displacement [m], spin angle of the wheel [rad]
     travel: Array
     rack: Array
     spin: Array
     signals: list[TimeCurve]
-    travel_error: float
-    solver: str
+    travel_error: float  # largest error of the travel interpolated between two samples [m]
+    solver: str  # the solver with its package
 
 
 @dataclass(frozen=True)

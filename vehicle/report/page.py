@@ -1,7 +1,7 @@
 """The HTML report: one file that opens anywhere, without a network."""
 
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from importlib.metadata import version
 from pathlib import Path
 
@@ -10,7 +10,6 @@ from jinja2 import Environment
 
 from ...core.files import Paths, refuse, replacing
 from ...core.legible import legible, power_of_ten
-from ...core.named_types import Array
 from ...core.validator import Validator, shown
 from ...pages.embedded import asset, page_environment
 from ...pages.mechanism.page import report_page
@@ -29,28 +28,14 @@ from .chapters.chapter import Chapter
 from .curves import CharacteristicCurve, curves, gaps_on, only_over_rack
 from .grid import Grid
 from .marks import Marks, marks
-from .motion import DROP, NoMotion, ReportedMotion, simulated_second
-from .payload import Look, page_data
+from .motion import DROP, simulated_second
+from .payload import Look, ReportSamples, page_data
 from .plotted import decimals, shown_range
-from .poses import Poses, poses, reachable_grid
+from .poses import poses, reachable_grid
 from .tables import input_tables, summary
 
 ENDINGS = (".html", ".htm")
 """Endings of the names of reports."""
-
-
-@dataclass(frozen=True)
-class _Samples:
-    """All samples of a report."""
-
-    grid: Grid
-    poses: Poses
-    curves: list[CharacteristicCurve]
-    gaps: list[Array]
-    accuracy: GridAccuracy
-    looks: dict[str, Look]
-    marks: Marks
-    motion: ReportedMotion | NoMotion
 
 
 def write(
@@ -169,22 +154,13 @@ def render(
         samples=samples,
         over_travel=_over_travel(samples.curves),
         over_rack=_over_rack(samples.curves, samples.marks),
-        rows=summary(samples.curves, samples.grid, samples.looks, model.suspension),
+        rows=summary(samples, model.suspension),
         inputs=input_tables(model.suspension),
         parts=model.suspension.drawing().legend,
         chapters=chapters,
         drop=DROP,
         spin=SPIN_RATE / (2.0 * np.pi),
-        data=page_data(
-            model.suspension,
-            samples.grid,
-            samples.poses,
-            samples.curves,
-            samples.gaps,
-            samples.looks,
-            samples.marks,
-            samples.motion,
-        ),
+        data=page_data(model.suspension, samples),
         script=asset(__package__, "assets/report.js"),
         style=asset(__package__, "assets/report.css"),
     )
@@ -246,7 +222,7 @@ def write_chapters(
 
 def _sample(
     model: Model, report: Callable[[str], None], without: Collection[str], goals: Sequence[Goal]
-) -> _Samples:
+) -> ReportSamples:
     report("reach of the mechanism")
     grid = reachable_grid(model)
     travel, rack = grid.travel.values, grid.rack.values
@@ -258,7 +234,7 @@ def _sample(
     ranges = {c.key: marked.widened(c.key, shown_range(c.values)) for c in drawn}
     accuracy = measure(model, grid, sampled, drawn, gaps, ranges, report=report)
     report("one second of motion")
-    return _Samples(
+    return ReportSamples(
         grid=grid,
         poses=sampled,
         curves=drawn,

@@ -1,5 +1,6 @@
 """Data of the page's script: samples on the grid, ranges and decimals."""
 
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -9,6 +10,7 @@ from ...core.named_types import Array
 from ...pages.embedded import embedded
 from ..assembly.quantity import displaced_by
 from ..kinds import Suspension
+from .accuracy import GridAccuracy
 from .curves import CharacteristicCurve
 from .encode import packed
 from .grid import Grid, GridAxis
@@ -23,58 +25,51 @@ TYRE_RADIUS = 0.3
 
 
 class Look(NamedTuple):
-    """Appearance of a curve, in its display unit.
+    """Appearance of a curve, in its display unit."""
 
-    Attributes
-    ----------
-    shown : tuple of float
-        Plotted range.
-    decimals : int
-        Number of decimals of written values.
-    error : float
-        Greatest error of interpolated values.
-    """
-
-    shown: tuple[float, float]
-    decimals: int
-    error: float = 0.0
+    shown: tuple[float, float]  # plotted range
+    decimals: int  # number of decimals of written values
+    error: float = 0.0  # greatest error of interpolated values
 
 
-def page_data(
-    suspension: Suspension,
-    grid: Grid,
-    sampled: Poses,
-    drawn: list[CharacteristicCurve],
-    gaps: list[Array],
-    looks: dict[str, Look],
-    marks: Marks,
-    motion: ReportedMotion | NoMotion,
-) -> Markup:
-    """Return the data of the page as JSON that is safe inside an HTML element.
+@dataclass(frozen=True)
+class ReportSamples:
+    """All samples of a report, on a grid."""
 
-    Poses, curves and open gaps of stops are on the grid; looks are by the key of a curve.
-    """
+    grid: Grid
+    poses: Poses
+    curves: list[CharacteristicCurve]
+    gaps: list[Array]  # open gaps of stops
+    accuracy: GridAccuracy
+    looks: dict[str, Look]  # by the key of a curve
+    marks: Marks
+    motion: ReportedMotion | NoMotion
+
+
+def page_data(suspension: Suspension, samples: ReportSamples) -> Markup:
+    """Return the data of the page as JSON that is safe inside an HTML element."""
+    grid, drawn, motion = samples.grid, samples.curves, samples.motion
     stored = _stored_under(drawn)
     data = {
         "grid": {"travel": _axis(grid.travel), "rack": _axis(grid.rack)},
         "steering": displaced_by(suspension.steered_by).long_name,
-        "points": {name: _on_grid(values, grid) for name, values in sampled.points.items()},
-        "spin_axis": _on_grid(sampled.spin_axis, grid),
+        "points": {name: _on_grid(values, grid) for name, values in samples.poses.points.items()},
+        "spin_axis": _on_grid(samples.poses.spin_axis, grid),
         "samples": {c.key: _on_grid(c.smooth, grid) for c in drawn if stored[c.key] == c.key},
-        "gaps": [_on_grid(gap, grid) for gap in gaps],
+        "gaps": [_on_grid(gap, grid) for gap in samples.gaps],
         "curves": [
             {
                 "over": curve.over,
                 "jumps": curve.jumps,
                 "samples": stored[curve.key],
                 "reciprocal": curve.reciprocal,
-                "goals": [mark.described(curve) for mark in marks.of.get(curve.key, ())],
-                **_described(curve, looks[curve.key]),
+                "goals": [mark.described(curve) for mark in samples.marks.of.get(curve.key, ())],
+                **_described(curve, samples.looks[curve.key]),
             }
             for curve in drawn
         ],
         "motion": _motion(motion) if isinstance(motion, ReportedMotion) else None,
-        **_drawing(suspension, grid, sampled),
+        **_drawing(suspension, grid, samples.poses),
     }
     return embedded(data)
 

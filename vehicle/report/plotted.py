@@ -47,16 +47,9 @@ def _widened(low: float, high: float) -> tuple[float, float]:
 
 
 def decimals(low: float, high: float, *, unit: str = "", value: float = 0.0) -> int:
-    """Return the number of decimals of written values.
+    """Return the number of decimals of written values in a range, in the display unit.
 
-    Parameters
-    ----------
-    low, high : float
-        Range of the values, in the display unit.
-    unit : str, optional
-        The display unit.
-    value : float, optional
-        A value with three digits, if its unit has so many decimals.
+    A value has three digits, if its unit has so many decimals.
 
     Examples
     --------

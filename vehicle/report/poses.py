@@ -24,27 +24,17 @@ _MARGIN = 0.002
 
 @dataclass(frozen=True)
 class Poses:
-    """Positions of the moving points, and the axis of the wheel.
+    """Positions of the moving points, and the axis of the wheel."""
 
-    Attributes
-    ----------
-    points : dict
-        Positions of hardpoints by name, chassis axes [m], shape (..., 3).
-    spin_axis : ndarray, shape (..., 3)
-        Unit vector along the axis of the wheel, pointing left at zero camber and toe.
-    """
-
-    points: dict[str, Array]
+    points: dict[str, Array]  # positions of hardpoints by name, chassis axes, (..., 3) [m]
+    # unit vector along the axis of the wheel, pointing left at zero camber and toe, (..., 3)
     spin_axis: Array
 
 
 def reachable_grid(model: Model) -> Grid:
     """Return the grid of usual travel and rack displacement within the reach of a suspension.
 
-    Raises
-    ------
-    PositionError
-        If even a small rectangle around the design position is out of reach.
+    A `PositionError` is raised if a small rectangle around the design position is out of reach.
     """
     design = design_height(model)
     if not model.suspension.steered():

@@ -9,78 +9,40 @@ from ..input.section import Section
 from ..kinds import Suspension
 from ..models.typical import typical_ranges
 from .curves import CharacteristicCurve
-from .grid import Grid
-from .payload import Look
+from .payload import ReportSamples
 
 
 @dataclass(frozen=True)
 class Row:
-    """One characteristic at design.
+    """One characteristic at design."""
 
-    Attributes
-    ----------
-    key, group, label, unit : str
-        Those of the curve.
-    value : float
-        Value at design, in that unit.
-    decimals : int
-        Number of decimals of the written value.
-    typical : str
-        Typical range; empty if unknown.
-    source : str
-        Source of this range.
-    verdict : {"", "within", "outside"}
-        Comparison of the value with the range.
-    """
-
-    key: str
-    group: str
-    label: str
-    unit: str
-    value: float
-    decimals: int
-    typical: str = ""
-    source: str = ""
-    verdict: str = ""
+    curve: CharacteristicCurve
+    value: float  # value at design, in the display unit of the curve
+    decimals: int  # number of decimals of the written value
+    typical: str = ""  # typical range; empty if unknown
+    source: str = ""  # source of this range
+    verdict: str = ""  # comparison of the value with the range
 
 
 @dataclass(frozen=True)
 class InputTable:
-    """One section of the input file.
+    """One section of the input file."""
 
-    Attributes
-    ----------
-    name : str
-        As in the file; empty for keys before the first section.
-    meaning : str
-    rows : list of tuple of str
-        Key, value as text, and meaning.
-    """
-
-    name: str
+    name: str  # as in the file; empty for keys before the first section
     meaning: str
-    rows: list[tuple[str, str, str]]
+    rows: list[tuple[str, str, str]]  # key, value as text, and meaning
 
 
-def summary(
-    drawn: list[CharacteristicCurve], grid: Grid, looks: dict[str, Look], suspension: Suspension
-) -> list[Row]:
+def summary(samples: ReportSamples, suspension: Suspension) -> list[Row]:
     """Return the characteristics over travel at the design position.
 
-    Parameters
-    ----------
-    drawn : list of CharacteristicCurve
-    grid : Grid
-    looks : dict
-        By the key of a curve.
-    suspension : Suspension
-        Typical ranges exist for front wheels, which are steered.
+    Typical ranges exist for front wheels, which are steered.
     """
     usual = typical_ranges(suspension.suspension) if suspension.steered() else {}
-    design = grid.travel.zero, grid.rack.zero
+    design = samples.grid.travel.zero, samples.grid.rack.zero
     return [
-        _row(curve, curve.values[design], looks[curve.key].decimals, usual.get(curve.name))
-        for curve in drawn
+        _row(curve, curve.values[design], samples.looks[curve.key].decimals, usual.get(curve.name))
+        for curve in samples.curves
         if curve.over == "travel"
     ]
 
@@ -89,7 +51,7 @@ def _row(
     curve: CharacteristicCurve, value: float, decimals: int, usual: dict[str, Any] | None
 ) -> Row:
     shown = value * curve.factor
-    plain = Row(curve.key, curve.group, curve.label, curve.unit, shown, decimals)
+    plain = Row(curve, shown, decimals)
     # a range in another unit cannot be compared
     if usual is None or usual["unit"] != curve.unit:
         return plain

@@ -12,10 +12,10 @@ from kintrafo.vehicle.analysis.handling import circle, drive, load_manoeuvre, re
 from kintrafo.vehicle.analysis.handling.circle import Turns, steering_ratio
 from kintrafo.vehicle.analysis.handling.driven import Sampling, driven
 from kintrafo.vehicle.analysis.handling.drivers import OpenLoop, SpeedHeld
-from kintrafo.vehicle.analysis.handling.linear import steering_response
 from kintrafo.vehicle.analysis.handling.manoeuvres import MANOEUVRES
 from kintrafo.vehicle.analysis.handling.manoeuvres.sine_with_dwell import amplitudes_of, judge
 from kintrafo.vehicle.analysis.handling.paths import Lane, Path, through
+from kintrafo.vehicle.analysis.handling.responses import steering_response
 from kintrafo.vehicle.analysis.handling.steady import SteadyCondition
 from kintrafo.vehicle.analysis.handling.subject import driving_car
 from kintrafo.vehicle.data.starter import manoeuvres

@@ -8,7 +8,7 @@ from driving_cars import FILE, light_car
 from kintrafo import variation
 from kintrafo.vehicle.analysis.handling import circle, drive
 from kintrafo.vehicle.analysis.handling.circle import Turns
-from kintrafo.vehicle.analysis.handling.linear import steering_response
+from kintrafo.vehicle.analysis.handling.responses import steering_response
 from kintrafo.vehicle.analysis.handling.steady import SteadyCondition
 from kintrafo.vehicle.analysis.loads.on_a_car import rack_force
 from kintrafo.vehicle.assembly.of import assembly_of

@@ -10,20 +10,9 @@ from ...assembly.by_wheel import AXLE, WHEEL
 
 
 def at_design(dataset: xr.Dataset, title: str) -> list[Tabulated]:
-    """Return tables of all characteristics at the zero of the motion.
+    """Return tables of all characteristics at the zero of the motion, with titles that begin alike.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        Result of `kintrafo.characteristics.over`.
-    title : str
-        Begins the titles.
-
-    Returns
-    -------
-    list of Tabulated
-        One of a corner; of an axle or a car one of the wheels, and one of the axle or axles. Empty
-        tables are left out.
+    A corner has one table; an axle or a car one of the wheels, and one of the axle or axles.
     """
     if WHEEL not in dataset.dims:
         return _tables(title, [("at design", ("value",), [*dataset.values()])])

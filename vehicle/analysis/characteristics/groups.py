@@ -33,17 +33,7 @@ ORDER = (*_PREFIXES, OTHER)
 
 
 def group_of(name: Hashable) -> str:
-    """Return the group of a characteristic over wheel travel.
-
-    Parameters
-    ----------
-    name : str
-        Name of the variable.
-
-    Returns
-    -------
-    str
-        One of `ORDER`.
+    """Return the group of a characteristic over wheel travel, one of `ORDER`.
 
     Examples
     --------

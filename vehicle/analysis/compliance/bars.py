@@ -19,29 +19,16 @@ from .rigid_displacements import (
 
 @dataclass(frozen=True)
 class Foot:
-    """The joint of a drop link on a body.
-
-    Attributes
-    ----------
-    half : HalfBar
-    body : int
-    arm : ndarray, shape (n, 3)
-        From the centre of the body [m].
-    """
+    """The joint of a drop link on a body."""
 
     half: HalfBar
     body: int
-    arm: Array
+    arm: Array  # from the centre of the body, (n, 3) [m]
 
 
 @dataclass(frozen=True)
 class Bars:
-    """The twist of an anti-roll bar by its closed form: the angle of the left half minus the right.
-
-    Attributes
-    ----------
-    left, right : Foot
-    """
+    """The twist of an anti-roll bar in closed form: the angle of the left half minus the right."""
 
     left: Foot
     right: Foot
@@ -60,17 +47,10 @@ class Bars:
 
 @dataclass(frozen=True)
 class Inclinations:
-    """The angle between a direction of a body and the horizontal plane, positive upward.
-
-    Attributes
-    ----------
-    body : int
-    direction : ndarray, shape (n, 3)
-        A unit vector.
-    """
+    """The angle between a direction of a body and the horizontal plane, positive upward."""
 
     body: int
-    direction: Array
+    direction: Array  # a unit vector, (n, 3)
 
     def at(self, places: RigidDisplacements) -> BodyMeasures:
         """Return the angle with derivatives [rad]."""

@@ -12,7 +12,7 @@ from ...assembly.by_wheel import WHEEL, of_wheels, wheel_coordinate
 from ...assembly.quantity import TRAVEL
 from .flexibility import WheelSupport
 from .on_bushes import CURVES, WHEEL_LOAD, Hardpoints, on_bushes
-from .under_load import LOAD, WheelsUnderLoad, amounts_of, assembly_given, load_coordinate
+from .under_load import LOAD, WheelsUnderLoad, load_coordinate
 
 
 def combined(
@@ -75,18 +75,17 @@ def combined(
     [[-0.22, 0.0, 0.21], [0.06, 0.27, 0.46]]
     """
     with Validator("combined") as given:
-        assembly = assembly_given(given, subject, under, held, hardpoints)
-        rack_position = given.number("rack_position", rack_position, "m")
-        wanted = amounts_of(given, amounts)
         if travel is not None:
             travel = given.array("travel", travel, "m", dimensions=[1])
         loaded = WheelsUnderLoad.given(
-            given, assembly, bushings, under, wheels, rack_position, held, hardpoints
-        )
+            given, subject, bushings, under, amounts,
+            wheels=wheels, rack_position=rack_position, held=held, hardpoints=hardpoints,
+        )  # fmt: skip
+    assembly = loaded.assembly
     if travel is None:
-        travel = assembly.usual(assembly.usual_motion, rack=rack_position)
+        travel = assembly.usual(assembly.usual_motion, rack=loaded.rack_position)
     travels = np.asarray(travel)
-    suspension, _, states = loaded.equilibria(travels, wanted)
+    suspension, _, states = loaded.equilibria(travels)
     moved = [
         [on_bushes(suspension, state, which) for state in states]
         for which in range(len(assembly.wheels))
@@ -99,7 +98,7 @@ def combined(
     road = np.moveaxis(np.stack([state.road for state in states]), -1, 0)
     data[WHEEL_LOAD.name] = of_wheels(WHEEL_LOAD, dims, [*road])
     coordinates = {
-        LOAD: load_coordinate(loaded.load, wanted),
+        LOAD: load_coordinate(loaded.load, loaded.amounts),
         TRAVEL.name: xr.Variable(TRAVEL.name, travels, TRAVEL.attributes()),
         WHEEL: wheel_coordinate(assembly.wheels),
     }

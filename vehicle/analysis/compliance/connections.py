@@ -45,46 +45,20 @@ _ACROSS = 2
 
 @dataclass(frozen=True)
 class CompliantJoints:
-    """Bushes and compliant rack of a suspension.
+    """Bushes and compliant rack of a suspension."""
 
-    Attributes
-    ----------
-    bushes : mapping of str to Bush
-        By hardpoint.
-    rack : float
-        Compliance of the rack along its axis [m/N]; zero if it is rigid.
-    carried : mapping
-        Loads on joints at the hardpoints; joints that are left out are relaxed there.
-    """
-
-    bushes: Mapping[str, Bush]
-    rack: float
+    bushes: Mapping[str, Bush]  # by hardpoint
+    rack: float  # compliance of the rack along its axis [m/N]; zero if it is rigid
+    # loads on joints at the hardpoints; joints that are left out are relaxed there
     carried: Carried
 
 
 class Connections:
     """All displacements and angles between the bodies of a suspension or an axle.
 
-    Parameters
-    ----------
-    sides : sequence of tuple of PartPoses and CompliantJoints
-        All in the same positions, with rigid joints. The compliance of their common rack, and the
-        load on it, are those of the first.
-    bar : AnyBar, optional
-        An anti-roll bar between the sides, on a rigid axle, or between two parts of one.
-
-    Attributes
-    ----------
-    start : RigidDisplacements
-        The bodies with rigid joints; the ground is the first.
-    laws : list of Law or None
-        The law of force of each measure; None for a condition.
-    springs : list of int
-        Indices of the measures that are lengths of springs, by wheel.
-    bar : int or None
-        Index of the measure that is the twist of the bar.
-    wheels : list of int
-        Indices of the bodies that are wheels.
+    The sides are in the same positions, with rigid joints; the compliance of their common rack, and
+    the load on it, are those of the first. A bar is between the sides, on a rigid axle, or between
+    two parts of one. Body 0 is the ground.
     """
 
     def __init__(

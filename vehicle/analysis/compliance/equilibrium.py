@@ -42,26 +42,13 @@ _UPWARD = np.array([0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
 
 @dataclass(frozen=True)
 class ElasticState:
-    """Displacements of the parts of a suspension or an axle, and forces on them; n positions.
-
-    Attributes
-    ----------
-    places : RigidDisplacements
-    forces : ndarray, shape (n, conditions)
-        Forces and moments of the conditions [N], [N m].
-    road : ndarray, shape (n, wheels)
-        Vertical force of the road at each contact [N].
-    lock : ndarray, shape (n, wheels)
-        Force that locks each spring [N].
-    found : ndarray of bool, shape (n,)
-        Whether this is a stable equilibrium.
-    """
+    """Displacements of the parts of a suspension or an axle, and forces on them; n positions."""
 
     places: RigidDisplacements
-    forces: Array
-    road: Array
-    lock: Array
-    found: NDArray[np.bool_]
+    forces: Array  # forces and moments of the conditions, (n, conditions) [N], [N m]
+    road: Array  # vertical force of the road at each contact, (n, wheels) [N]
+    lock: Array  # force that locks each spring, (n, wheels) [N]
+    found: NDArray[np.bool_]  # whether this is a stable equilibrium, (n,)
 
 
 class _Rest(NamedTuple):
@@ -74,22 +61,9 @@ class _Rest(NamedTuple):
 class ElasticEquilibrium:
     """Equilibrium of a suspension or an axle on bushes, in many positions, under loads on wheels.
 
-    Parameters
-    ----------
-    sides : sequence of tuple of PartPoses and CompliantJoints
-        Poses with rigid joints, and the compliant joints: of a suspension, of both sides of an
-        axle, or of a rigid axle.
-    bar : AnyBar, optional
-        An anti-roll bar between the sides, or on a rigid axle.
-
-    Attributes
-    ----------
-    poses : list of PartPoses
-        By side.
-    wheels : list of RoadWheel
-        With rigid joints.
-    start : ElasticState
-        The state with rigid joints, which is not an equilibrium.
+    The sides are a suspension, both sides of an axle, or a rigid axle: their poses with rigid
+    joints, and their compliant joints. A bar is between the sides, or on a rigid axle. ``start`` is
+    the state with rigid joints, which is not an equilibrium; ``wheels`` are those of this state.
     """
 
     def __init__(
@@ -142,16 +116,7 @@ class ElasticEquilibrium:
     def moved(
         self, point: Array, since: RigidDisplacements, places: RigidDisplacements, side: int = 0
     ) -> Array:
-        """Return the displacement of a point of a wheel from `since` to `places`, (n, 3) [m].
-
-        Parameters
-        ----------
-        point : ndarray, shape (n, 3)
-            Its position before [m].
-        since, places : RigidDisplacements
-            Before and after.
-        side : int, optional
-        """
+        """Return the displacement of a point of a wheel from `since` to `places`, (n, 3) [m]."""
         wheel = self._connections.wheels[side]
         turned = places.turned[:, wheel] @ since.turned[:, wheel].mT
         arm = np.einsum("nij,nj->ni", turned, point - since.centers[:, wheel])
@@ -192,21 +157,13 @@ class ElasticEquilibrium:
     def under(
         self, load: Array, held: WheelSupport, near: ElasticState, since: ElasticState | None = None
     ) -> ElasticState:
-        """Return the equilibrium under a load.
+        """Return the equilibrium under a load, by iteration from a state that need not be one.
 
-        Parameters
-        ----------
-        load : ndarray, shape (n, wheels, 9)
-            Force and moment on each wheel at its lowest point, and force at its centre, chassis
-            axes [N], [N m].
-        held : {'height', 'tyre', 'spring', 'locked'}
-            Support of the wheels: 'height', a road at the height of the contact with rigid joints;
-            'tyre', a tyre on the road of `since`; 'spring', the force of the road in `near`;
-            'locked', a spring with its length in `since`.
-        near : ElasticState
-            Start of the iteration; it need not be an equilibrium.
-        since : ElasticState, optional
-            The state without the load; by default `near`.
+        The load, (n, wheels, 9), is force and moment on each wheel at its lowest point, and force
+        at its centre, chassis axes [N], [N m]. Wheels are held by 'height', a road at the height of
+        the contact with rigid joints; 'tyre', a tyre on the road of `since`; 'spring', the force of
+        the road in `near`; 'locked', a spring with its length in `since`: the state without the
+        load, by default `near`.
         """
         state = near
         rest = self._rest(since or near)
@@ -225,11 +182,7 @@ class ElasticEquilibrium:
     def rate(self, state: ElasticState, load: Array) -> Array:
         """Return the derivatives of road forces in contact heights, (n, wheels, wheels) [N/m].
 
-        Parameters
-        ----------
-        state : ElasticState
-            An equilibrium under a load, with the road as support of the wheels.
-        load : ndarray, shape (n, wheels, 9)
+        The state is an equilibrium under a load, with the road as support of the wheels.
         """
         wheels = state.road.shape[1]
         matrix, left = self._linear(state, load, "height", self._rest(state))

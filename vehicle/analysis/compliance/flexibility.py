@@ -43,60 +43,40 @@ _RIGID = 1e-12
 
 @dataclass(frozen=True)
 class Side:
-    """A suspension or a rigid axle with its compliant parts; arrays over n positions.
-
-    Attributes
-    ----------
-    poses : PartPoses
-    bushes : sequence of Bush
-    lines : SoftLines or None
-        None with locked springs.
-    bar : sequence of Load
-        Loads of an anti-roll bar on it for a unit torque; empty without one.
-    """
+    """A suspension or a rigid axle with its compliant parts; arrays over n positions."""
 
     poses: PartPoses
     bushes: Sequence[Bush]
-    lines: SoftLines | None
-    bar: Sequence[Load] = ()
+    lines: SoftLines | None  # None with locked springs
+    bar: Sequence[Load] = ()  # loads of an anti-roll bar on it for a unit torque; empty without one
 
 
 def flexibility(
     sides: Sequence[Side], held: WheelSupport, *, rack: float = 0.0, bar: float = 0.0
 ) -> Array:
-    """Return displacement and rotation of the contacts by loads on them.
+    """Return displacement and rotation of the contacts by loads on them, chassis axes.
 
-    Parameters
-    ----------
-    sides : sequence of Side
-        A suspension, both sides of an axle, or a rigid axle.
-    held : {'height', 'tyre', 'spring', 'locked'}
-        Support of the wheels.
-    rack : float, optional
-        Compliance of the rack along its axis [m/N].
-    bar : float, optional
-        Twist of the anti-roll bar for a unit torque [rad/(N m)].
-
-    Returns
-    -------
-    ndarray, shape (n, 6 wheels, 6 wheels)
-        Chassis axes; force and moment on each wheel in turn.
+    The shape is (n, 6 wheels, 6 wheels): force and moment on each wheel in turn, of a suspension,
+    both sides of an axle, or a rigid axle. The rack has a compliance along its axis [m/N], an
+    anti-roll bar a twist for a unit torque [rad/(N m)].
     """
-    energies = [_Energy(side) for side in sides]
+    energies = [_of_side(side) for side in sides]
     wheels = [wheel for side in sides for wheel in side.poses.wheels.values()]
     applied = _COMPONENTS * len(wheels)
     has_bar = any(side.bar for side in sides)
-    size = applied + has_bar + sum(each.tensions for each in energies)
+    # all sides have the torque of the bar in common
+    size = sum(own.shape[-1] for own, _ in energies) - has_bar * (len(sides) - 1)
     energy = np.zeros((len(sides[0].poses.states), size, size))
     on_rack, first, begin = np.zeros((*energy.shape[:1], 1, size)), 0, applied + has_bar
-    for side, each in zip(sides, energies, strict=True):
+    for side, (of_side, of_rack) in zip(sides, energies, strict=True):
         # indices of the unknowns of this side
         count = _COMPONENTS * len(side.poses.wheels)
         own = [*range(first, first + count), *[applied][: int(has_bar)]]
-        own += range(begin, begin + each.tensions)
-        first, begin = first + count, begin + each.tensions
-        energy[:, np.array(own)[:, None], own] += each.energy
-        on_rack[..., own] += each.on_rack
+        tensions = of_side.shape[-1] - len(own)
+        own += range(begin, begin + tensions)
+        first, begin = first + count, begin + tensions
+        energy[:, np.array(own)[:, None], own] += of_side
+        on_rack[..., own] += of_rack
     energy += _energy(on_rack, rack)
     if has_bar:
         energy[:, applied, applied] += bar
@@ -122,53 +102,39 @@ def refuse_without_rate(given: Validator, held: WheelSupport, *tyres: TyreSectio
         )
 
 
-class _Energy:
-    """The energy of the compliant parts of a suspension or a rigid axle under unit loads.
+def _of_side(side: Side) -> tuple[Array, Array]:
+    """Return the energy of the compliant parts of a side, and the force on its rack.
 
     The unknowns are forces and moments at the contacts, the torque of the bar if there is one, and
-    ``tensions`` indeterminate states, those of stops the last. ``energy`` has the shape (n,
-    unknowns, unknowns); ``on_rack`` is the force on the rack along its axis, (n, 1, unknowns).
+    indeterminate tensions, those of stops the last. The energy has the shape (n, unknowns,
+    unknowns), the force along the axis of the rack (n, 1, unknowns).
     """
-
-    def __init__(self, side: Side) -> None:
-        poses, lines = side.poses, side.lines
-        stops = np.zeros((len(poses.states), 0)) if lines is None else lines.stops
-        forces = _Forces(side, poses.structure.dampers[: stops.shape[-1]])
-        self.tensions = forces.tensions
-        self.energy = np.zeros((len(poses.states), *2 * forces.spring.shape[-1:]))
-        self.on_rack = np.zeros_like(forces.spring[:, :1])
-        if lines is not None:
-            self.energy += _energy(forces.spring, lines.springs)
-        by_point = {bush.point: bush for bush in side.bushes}
-        for joint, carried in zip(poses.structure.joints, forces.carried, strict=True):
-            if joint.first == "rack":
-                assert poses.rack_axis is not None  # there is a rack
-                self.on_rack -= np.einsum("c,nkcu->nku", poses.rack_axis, carried[:, :, :3])
-            self.energy += _of_joint(joint, carried, by_point, poses)
-        for which in range(-stops.shape[-1], 0):
-            acting = np.isfinite(stops[:, which])
-            self.energy[acting, which, which] += stops[acting, which]
-            self.energy[~acting, which, :] = self.energy[~acting, :, which] = 0.0
-            self.on_rack[~acting, :, which] = 0.0
+    poses, lines = side.poses, side.lines
+    stops = np.zeros((len(poses.states), 0)) if lines is None else lines.stops
+    springs, every = _forces(side, poses.structure.dampers[: stops.shape[-1]])
+    energy = np.zeros((len(poses.states), *2 * springs.shape[-1:]))
+    on_rack = np.zeros_like(springs[:, :1])
+    if lines is not None:
+        energy += _energy(springs, lines.springs)
+    by_point = {bush.point: bush for bush in side.bushes}
+    for joint, carried in zip(poses.structure.joints, every, strict=True):
+        if joint.first == "rack":
+            assert poses.rack_axis is not None  # there is a rack
+            on_rack -= np.einsum("c,nkcu->nku", poses.rack_axis, carried[:, :, :3])
+        energy += _of_joint(joint, carried, by_point, poses)
+    for which in range(-stops.shape[-1], 0):
+        acting = np.isfinite(stops[:, which])
+        energy[acting, which, which] += stops[acting, which]
+        energy[~acting, which, :] = energy[~acting, :, which] = 0.0
+        on_rack[~acting, :, which] = 0.0
+    return energy, on_rack
 
 
 def shared(equations: BalanceEquations, unknowns: Array, bushes: Sequence[Bush]) -> list[Array]:
-    """Return the loads on the joints in the first position, with parts at design.
+    """Return the loads on each joint in the first position, (touching points, 6), parts at design.
 
     Statically indeterminate loads have the least energy of the bushes, also of curved ones; loads
-    between rigid joints alone are unchanged.
-
-    Parameters
-    ----------
-    equations : BalanceEquations
-    unknowns : ndarray, shape (n, unknowns)
-        From `BalanceEquations.solve`.
-    bushes : sequence of Bush
-
-    Returns
-    -------
-    list of ndarray, each of shape (touching points, 6)
-        Of each joint.
+    between rigid joints alone are unchanged. The unknowns are those of `BalanceEquations.solve`.
     """
     states = np.concatenate([unknowns[..., None], equations.indeterminate], axis=-1)
     tensions = [joint.tensions(equations.poses.points)[0] for joint in equations.joints]
@@ -233,46 +199,42 @@ def _of_joint(
     return total
 
 
-class _Forces:
-    """Loads of joints and springs under unit loads, and in each indeterminate tension.
+def _forces(side: Side, stopped: Sequence[str]) -> tuple[Array, list[Array]]:
+    """Return the forces of springs and the loads of joints under unit loads, and in tensions.
 
-    ``carried`` has the loads on each joint, (n, touching points, 6, loads + tensions): under unit
-    forces and moments in chassis axes and a unit torque of the bar, with springs as supports; then
-    in tensions of one joint, of several, and of stops. ``spring`` has the force of each spring.
+    The loads of a joint, (n, touching points, 6, loads + tensions), are those under unit forces and
+    moments in chassis axes and a unit torque of the bar, with springs as supports; then those in
+    indeterminate tensions of one joint, of several, and of stops.
     """
-
-    def __init__(self, side: Side, stopped: Sequence[str]) -> None:
-        poses, springs = side.poses, side.poses.structure.springs
-        equations, still = BalanceEquations(poses, springs), np.zeros(3)
-        loads = []
-        for part, on_road in poses.wheels.items():
-            at = touching(on_road)
-            loads += [Load(part, CONTACT, "road", axis, still, at) for axis in np.eye(3)]
-            loads += [Load(part, CONTACT, "road", still, axis, at) for axis in np.eye(3)]
-        groups = [*([load] for load in loads), *([[*side.bar]] if side.bar else [])]
-        applied = [equations.applied(group) for group in groups]
-        applied += [equations.applied(equations.pushed(line)) for line in stopped]
-        unknowns = equations.solve(np.stack(applied, axis=-1))
-        tensions = [joint.tensions(poses.points) for joint in equations.joints]
-        count, begin = sum(t.shape[-1] for t in tensions), len(groups)
-        # tensions of several joints follow those of single joints
-        by_loads, by_stops = np.split(unknowns, [begin], axis=-1)
-        further = np.concatenate([equations.indeterminate, by_stops], axis=-1)
-        self.tensions = count + further.shape[-1]
-        nothing = np.zeros((len(poses.states), len(springs), count))
-        of_springs = (each[:, -len(springs) :] for each in (by_loads, further))
-        of_loads, of_further = of_springs
-        self.spring = np.concatenate([of_loads, nothing, of_further], axis=-1)
-        self.carried = []
-        after = len(groups) + count
-        both = zip(equations.at_joints(by_loads), equations.at_joints(further), strict=True)
-        for (at_joint, at_further), own in zip(both, tensions, strict=True):
-            every = np.zeros((*at_joint.shape[:-1], len(groups) + self.tensions))
-            every[..., : len(groups)] = at_joint
-            every[..., after:] = at_further
-            every[..., begin : begin + own.shape[-1]] = own
-            begin += own.shape[-1]
-            self.carried.append(every)
+    poses, springs = side.poses, side.poses.structure.springs
+    equations, still = BalanceEquations(poses, springs), np.zeros(3)
+    loads = []
+    for part, on_road in poses.wheels.items():
+        at = touching(on_road)
+        loads += [Load(part, CONTACT, "road", axis, still, at) for axis in np.eye(3)]
+        loads += [Load(part, CONTACT, "road", still, axis, at) for axis in np.eye(3)]
+    groups = [*([load] for load in loads), *([[*side.bar]] if side.bar else [])]
+    applied = [equations.applied(group) for group in groups]
+    applied += [equations.applied(equations.pushed(line)) for line in stopped]
+    unknowns = equations.solve(np.stack(applied, axis=-1))
+    tensions = [joint.tensions(poses.points) for joint in equations.joints]
+    count, begin = sum(t.shape[-1] for t in tensions), len(groups)
+    after = begin + count
+    # tensions of several joints follow those of single joints
+    by_loads, by_stops = np.split(unknowns, [begin], axis=-1)
+    further = np.concatenate([equations.indeterminate, by_stops], axis=-1)
+    nothing = np.zeros((len(poses.states), len(springs), count))
+    of_loads, of_further = (each[:, -len(springs) :] for each in (by_loads, further))
+    every = []
+    both = zip(equations.at_joints(by_loads), equations.at_joints(further), strict=True)
+    for (at_joint, at_further), own in zip(both, tensions, strict=True):
+        carried = np.zeros((*at_joint.shape[:-1], after + further.shape[-1]))
+        carried[..., : len(groups)] = at_joint
+        carried[..., after:] = at_further
+        carried[..., begin : begin + own.shape[-1]] = own
+        begin += own.shape[-1]
+        every.append(carried)
+    return np.concatenate([of_loads, nothing, of_further], axis=-1), every
 
 
 def _energy(forces: Array, soft: Array | float) -> Array:

@@ -20,24 +20,12 @@ class Law(Protocol):
 
 @dataclass(frozen=True)
 class LinearLaw:
-    """A force in proportion to the displacement.
+    """A force in proportion to the displacement."""
 
-    Attributes
-    ----------
-    rate : float
-        [N/m]; of an angle [N m/rad].
-    carried : float
-        The force at zero displacement [N], [N m].
-    bush : str
-        The hardpoint of the bush; empty for a spring or an angle.
-    start : float
-        The displacement with both parts at the hardpoint [m].
-    """
-
-    rate: float
-    carried: float = 0.0
-    bush: str = ""
-    start: float = 0.0
+    rate: float  # [N/m]; of an angle [N m/rad]
+    carried: float = 0.0  # the force at zero displacement [N], [N m]
+    bush: str = ""  # the hardpoint of the bush; empty for a spring or an angle
+    start: float = 0.0  # the displacement with both parts at the hardpoint [m]
 
     def __call__(self, displacement: Array) -> tuple[Array, Array]:
         """Return force and rate."""
@@ -46,23 +34,12 @@ class LinearLaw:
 
 @dataclass(frozen=True)
 class CurvedLaw:
-    """A force over a displacement by a curve.
-
-    Attributes
-    ----------
-    curve : Curve
-    before : float
-        The displacement along the curve where that of the parts is zero [m].
-    bush : str
-        The hardpoint of the bush.
-    start : float
-        The displacement with both parts at the hardpoint [m].
-    """
+    """A force over a displacement by a curve."""
 
     curve: Curve
-    before: float = 0.0
+    before: float = 0.0  # the displacement along the curve where that of the parts is zero [m]
     bush: str = ""
-    start: float = 0.0
+    start: float = 0.0  # the displacement with both parts at the hardpoint [m]
 
     def __call__(self, displacement: Array) -> tuple[Array, Array]:
         """Return force and rate."""
@@ -72,16 +49,9 @@ class CurvedLaw:
 
 @dataclass(frozen=True)
 class SpringLaw:
-    """The force of a spring over its length.
+    """The force of a spring over its length."""
 
-    Attributes
-    ----------
-    length, force : ndarray, shape (n,)
-        A length of reference [m], and the force that pushes the ends apart there [N].
-    parameters : mapping
-        Parameters of the equations.
-    """
-
+    # a length of reference [m], and the force that pushes the ends apart there, (n,) [N]
     length: Array
     force: Array
     parameters: Mapping[str, float]
@@ -96,20 +66,12 @@ class SpringLaw:
 
 @dataclass(frozen=True)
 class StopLaw:
-    """The force of damper and stops at rest, over the distance of the damper's ends.
+    """The force of damper and stops at rest, over the distance of the damper's ends."""
 
-    Attributes
-    ----------
-    length, force : ndarray, shape (n,)
-        A distance of reference [m], and the force that pushes the ends apart there [N].
-    stroke : ndarray, shape (n,)
-        The stroke at that distance, which decides whether stops are in contact [m].
-    parameters : mapping
-        Parameters of the equations.
-    """
-
+    # a distance of reference [m], and the force that pushes the ends apart there, (n,) [N]
     length: Array
     force: Array
+    # the stroke at that distance, which decides whether stops are in contact, (n,) [m]
     stroke: Array
     parameters: Mapping[str, float]
 

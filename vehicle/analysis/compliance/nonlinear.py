@@ -20,7 +20,7 @@ from .flexibility import WheelSupport
 from .linear import OF_BEAM, linear
 from .on_bushes import WHEEL_LOAD, Hardpoints, gives_way, on_bushes, place_of_beam
 from .rig_loads import RigLoad, give_of_tyre, loadings, sense_of
-from .under_load import LOAD, WheelsUnderLoad, amounts_of, assembly_given, load_coordinate
+from .under_load import LOAD, WheelsUnderLoad, load_coordinate
 
 _QUANTITIES = {
     "toe": Quantity("toe_change", "rad", "change of toe angle", "of the wheel", "positive toe-in"),
@@ -128,15 +128,14 @@ def nonlinear(
     0.0
     """
     with Validator("deflection") as given:
-        assembly = assembly_given(given, subject, under, held, hardpoints)
         travel = given.number("travel", travel, "m")
-        rack_position = given.number("rack_position", rack_position, "m")
-        wanted = amounts_of(given, amounts)
         loaded = WheelsUnderLoad.given(
-            given, assembly, bushings, under, wheels, rack_position, held, hardpoints
-        )
+            given, subject, bushings, under, amounts,
+            wheels=wheels, rack_position=rack_position, held=held, hardpoints=hardpoints,
+        )  # fmt: skip
+    assembly, wanted = loaded.assembly, loaded.amounts
     load, parts, at = loaded.load, loaded.parts, np.array([travel])
-    suspension, base, states = loaded.equilibria(at, wanted)
+    suspension, base, states = loaded.equilibria(at)
     to_first_order = None
     if gives_way(loaded.softs):
         to_first_order = linear(subject, bushings, at, rack_position=rack_position, held=held)

@@ -93,13 +93,7 @@ def carried_at(
 ) -> Carried:
     """Return the loads on the joints at design, the first position, with the wheel on the road.
 
-    Parameters
-    ----------
-    poses : PartPoses
-    pulled : sequence of Load, optional
-        Further loads on the parts.
-    bushes : sequence of Bush, optional
-        Those whose energy decides statically indeterminate loads.
+    Further loads pull at the parts; the energy of bushes decides statically indeterminate loads.
     """
     equations = BalanceEquations(poses)
     every = shared(equations, equations.solve(equations.applied([*known(poses), *pulled])), bushes)
@@ -140,16 +134,7 @@ def on_bushes(suspension: ElasticEquilibrium, state: ElasticState, side: int = 0
 def at_height(
     suspension: ElasticEquilibrium, along: Array, over: Quantity = TRAVEL
 ) -> ElasticState:
-    """Return the equilibria on the road without another load.
-
-    Parameters
-    ----------
-    suspension : ElasticEquilibrium
-    along : ndarray, shape (n,)
-        The positions, for messages.
-    over : Quantity, optional
-        The quantity of the positions.
-    """
+    """Return the equilibria on the road without another load; positions are for messages."""
     nothing = np.zeros((*suspension.start.road.shape, LOADS))
     base = suspension.under(nothing, "height", suspension.start)
     if not base.found.all():

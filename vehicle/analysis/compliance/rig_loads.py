@@ -16,36 +16,19 @@ Vector = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class RigLoad:
-    """A load of a rig on a wheel.
-
-    Attributes
-    ----------
-    name, words : str
-    at : str
-        Point of the force and of the displacement.
-    force, moment : tuple of float
-        Unit load on a left wheel, tyre axes; the mirror image is on a right one.
-    unit : str
-        SI unit of the load.
-    shown : Display
-        Display unit, and its size in SI units.
-    sense : tuple of float
-        Positive direction of displacements of a left wheel.
-    where : str
-        That direction in words; empty without displacements.
-    through : str
-        Attribute of `Vehicle` with the rate of the tyre in that direction; empty if there is none.
-    """
+    """A load of a rig on a wheel."""
 
     name: str
     words: str
-    at: str
+    at: str  # point of the force and of the displacement
+    # unit load on a left wheel, tyre axes; the mirror image is on a right one
     force: Vector
     moment: Vector
-    unit: str
-    shown: Display
-    sense: Vector
-    where: str
+    unit: str  # SI unit of the load
+    shown: Display  # display unit, and its size in SI units
+    sense: Vector  # positive direction of displacements of a left wheel
+    where: str  # that direction in words; empty without displacements
+    # attribute of `Vehicle` with the rate of the tyre in that direction; empty if there is none
     through: str = ""
 
 
@@ -66,18 +49,10 @@ BY_NAME = {load.name: load for load in RIG_LOADS}
 
 @dataclass(frozen=True)
 class Loading:
-    """A distribution of a load on the wheels.
+    """A distribution of a load on the wheels."""
 
-    Attributes
-    ----------
-    name : str
-        "parallel", in one direction, or "opposed"; empty for the wheel of a corner.
-    parts : tuple of float
-        Factors of the load of `RIG_LOADS` on each wheel; that on a right wheel is the mirror image.
-    words : str
-    """
-
-    name: str
+    name: str  # "parallel", in one direction, or "opposed"; empty for the wheel of a corner
+    # factors of the load of `RIG_LOADS` on each wheel; that on a right wheel is the mirror image
     parts: tuple[float, ...]
     words: str
 

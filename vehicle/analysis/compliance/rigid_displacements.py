@@ -28,17 +28,10 @@ _DISPLACED, _ROTATED = (slice(0, 3), slice(6, 9)), (slice(3, 6), slice(9, 12))
 
 @dataclass(frozen=True)
 class RigidDisplacements:
-    """Positions of bodies.
+    """Positions of bodies."""
 
-    Attributes
-    ----------
-    centers : ndarray, shape (n, bodies, 3)
-        [m].
-    turned : ndarray, shape (n, bodies, 3, 3)
-        Rotations from the positions in which points and directions of the bodies are given.
-    """
-
-    centers: Array
+    centers: Array  # (n, bodies, 3) [m]
+    # rotations from the positions in which vectors of the bodies are given, (n, bodies, 3, 3)
     turned: Array
 
     @classmethod
@@ -62,20 +55,12 @@ class RigidDisplacements:
 
 @dataclass(frozen=True)
 class BodyMeasures:
-    """Functions of the positions of two bodies each, with derivatives.
+    """Functions of the positions of two bodies each, with derivatives."""
 
-    Attributes
-    ----------
-    bodies : ndarray, shape (measures, 2)
-    value : ndarray, shape (n, measures)
-    slope : ndarray, shape (n, measures, 12)
-    bend : ndarray, shape (n, measures, 12, 12)
-    """
-
-    bodies: Indices
-    value: Array
-    slope: Array
-    bend: Array
+    bodies: Indices  # (measures, 2)
+    value: Array  # (n, measures)
+    slope: Array  # (n, measures, 12)
+    bend: Array  # (n, measures, 12, 12)
 
     @classmethod
     def together(cls, parts: Sequence["BodyMeasures"]) -> "BodyMeasures":
@@ -110,16 +95,10 @@ class BodyMeasures:
 
 @dataclass(frozen=True)
 class Distances:
-    """Distance from a point of one body to a point of another, along a direction of the first.
+    """Distance from a point of one body to a point of another, along a direction of the first."""
 
-    Attributes
-    ----------
-    bodies : ndarray, shape (measures, 2)
-    along, start, end : ndarray, shape (n, measures, 3)
-        The direction, and the points from the centres of their bodies [m].
-    """
-
-    bodies: Indices
+    bodies: Indices  # (measures, 2)
+    # the direction, and the points from the centres of their bodies, (n, measures, 3) [m]
     along: Array
     start: Array
     end: Array
@@ -141,25 +120,16 @@ class Distances:
 
 @dataclass(frozen=True)
 class Radii:
-    """Distance of a point of one body from a line that is fixed to another.
+    """Distance of a point of one body from a line that is fixed to another."""
 
-    Attributes
-    ----------
-    bodies : ndarray, shape (measures, 2)
-    across, other : ndarray, shape (n, measures, 3)
-        Two directions of the first body across the line.
-    start, end : ndarray, shape (n, measures, 3)
-        A point of the line, and the other point, from the centres of their bodies [m].
-    before : ndarray, shape (n, measures, 2)
-        Offset along both directions where these points coincide [m].
-    """
-
-    bodies: Indices
+    bodies: Indices  # (measures, 2)
+    # two directions of the first body across the line, (n, measures, 3)
     across: Array
     other: Array
+    # a point of the line, and the other one, from the centres of their bodies, (n, measures, 3) [m]
     start: Array
     end: Array
-    before: Array
+    before: Array  # offset along both directions where these points coincide, (n, measures, 2) [m]
 
     def at(self, places: RigidDisplacements) -> BodyMeasures:
         """Return the distances at some places [m]."""
@@ -185,16 +155,10 @@ class Radii:
 
 @dataclass(frozen=True)
 class Angles:
-    """The cosine of the angle between directions of two bodies.
+    """The cosine of the angle between directions of two bodies."""
 
-    Attributes
-    ----------
-    bodies : ndarray, shape (measures, 2)
-    first, second : ndarray, shape (n, measures, 3)
-        Unit vectors.
-    """
-
-    bodies: Indices
+    bodies: Indices  # (measures, 2)
+    # unit vectors, (n, measures, 3)
     first: Array
     second: Array
 
@@ -218,16 +182,11 @@ class Torsions:
     """The relative rotation of two bodies about a common axis.
 
     If they are also tilted, it is the angle of the rotation before the shortest tilt.
-
-    Attributes
-    ----------
-    bodies : ndarray, shape (measures, 2)
-    first, first_other, second, second_other : ndarray, shape (n, measures, 3)
-        Two unit vectors across the axis in each body, whose cross product is the axis; without a
-        twist those of both bodies are parallel.
     """
 
-    bodies: Indices
+    bodies: Indices  # (measures, 2)
+    # two unit vectors across the axis in each body, whose cross product is the axis; without a
+    # twist those of both bodies are parallel, (n, measures, 3)
     first: Array
     first_other: Array
     second: Array
@@ -263,16 +222,10 @@ class Torsions:
 
 @dataclass(frozen=True)
 class Lengths:
-    """Distance of two points.
+    """Distance of two points."""
 
-    Attributes
-    ----------
-    bodies : ndarray, shape (measures, 2)
-    start, end : ndarray, shape (n, measures, 3)
-        From the centres of their bodies [m].
-    """
-
-    bodies: Indices
+    bodies: Indices  # (measures, 2)
+    # from the centres of their bodies, (n, measures, 3) [m]
     start: Array
     end: Array
 

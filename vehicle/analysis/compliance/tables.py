@@ -1,6 +1,6 @@
 """Compliance as tables for the terminal and the report."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 import xarray as xr
@@ -32,84 +32,51 @@ _BESIDE = {"elastokinematic": "on bushes", "linear": "linear"}
 
 
 def compliances(found: xr.Dataset, title: str, at: float = 0.0) -> Tabulated:
-    """Return a table of compliances with a row for each load, as in the summary of a rig.
-
-    Parameters
-    ----------
-    found : xarray.Dataset
-        Result of `linear`.
-    title : str
-    at : float, optional
-        Wheel travel [m].
-    """
-    here = flat(found).sel(wheel_travel=at, method="nearest")
-    names = [str(name) for name in here.data_vars]
-    on_axle = any(without_side(name) != name for name in names)
-    kinds = [kind for kind in _COMPLIANCES if _by(names, [kind])]
-    rows = []
-    for load in _by(names, kinds):
-        cells, name = _cells(here, kinds, load)
-        words = long_name(here[name]).partition(" by ")[2].removeprefix("a ")
-        by, wheel = words.rsplit(", ", 1) if on_axle else (words, "")
-        rows.append((by, *[wheel][: int(on_axle)], _per(here[name]), *cells))
+    """Return a table of compliances at a wheel travel [m], with a row for each load."""
+    heads, every = _by_load(found, _COMPLIANCES, at)
+    on_axle = any(without_side(str(name)) != name for name in flat(found).data_vars)
     first = ("by", "wheel", "per") if on_axle else ("by", "per")
-    columns = (*first, *(_COMPLIANCES[kind] for kind in kinds))
-    return Tabulated(title, columns, tuple(rows), frozenset(range(len(first))))
-
-
-def _by(names: Sequence[str], kinds: Iterable[str]) -> list[str]:
-    """Return the loads in the names of some kinds of compliance, each once."""
-    heads = [f"{kind}_by_" for kind in kinds]
-    loads = (n.removeprefix(head) for n in names for head in heads if n.startswith(head))
-    return list(dict.fromkeys(loads))
-
-
-def _cells(here: xr.Dataset, kinds: Sequence[str], load: str) -> tuple[list[str], str]:
-    """Return the compliances of some kinds under a load, and the name of the first variable."""
-    keys = [f"{kind}_by_{load}" for kind in kinds]
-    cells = [significant(float(displayed(here[k]))) if k in here else "-" for k in keys]
-    return cells, next(key for key in keys if key in here)
-
-
-def _per(data: xr.DataArray) -> str:
-    return display_of(data.attrs).units.partition("/")[2]
+    rows = []
+    for by, *others in every:
+        words = by.removeprefix("a ")
+        rows.append((*(words.rsplit(", ", 1) if on_axle else [words]), *others))
+    return Tabulated(title, (*first, *heads), tuple(rows), frozenset(range(len(first))))
 
 
 def compliances_of_beam(found: xr.Dataset, title: str, at: float = 0.0) -> list[Tabulated]:
-    """Return a table of the compliances of the beam of a rigid axle; none for other assemblies.
+    """Return a table of the compliances of the beam of a rigid axle; none for other assemblies."""
+    heads, rows = _by_load(found, _OF_AXLES, at)
+    columns = ("by", "per, each wheel", *heads)
+    return [Tabulated(title, columns, tuple(rows), frozenset({0, 1}))] if rows else []
 
-    Parameters
-    ----------
-    found : xarray.Dataset
-        Result of `linear`.
-    title : str
-    at : float, optional
-        Wheel travel [m].
+
+def _by_load(
+    found: xr.Dataset, words: Mapping[str, str], at: float
+) -> tuple[list[str], list[tuple[str, ...]]]:
+    """Return headings of the kinds of compliance that are found, and a row for each load.
+
+    A row has the load in words, its unit, and the compliances.
     """
     here = flat(found).sel(wheel_travel=at, method="nearest")
-    names = [str(name) for name in here.data_vars]
-    kinds = [kind for kind in _OF_AXLES if _by(names, [kind])]
+    loads: dict[str, dict[str, xr.DataArray]] = {}
+    for name, data in here.items():
+        kind, by, load = str(name).partition("_by_")
+        if by and kind in words:
+            loads.setdefault(load, {})[kind] = data
+    kinds = [kind for kind in words if any(kind in own for own in loads.values())]
     rows = []
-    for load in _by(names, kinds):
-        cells, name = _cells(here, kinds, load)
-        rows.append((long_name(here[name]).partition(" by ")[2], _per(here[name]), *cells))
-    columns = ("by", "per, each wheel", *(_OF_AXLES[kind] for kind in kinds))
-    return [Tabulated(title, columns, tuple(rows), frozenset({0, 1}))] if rows else []
+    for own in loads.values():
+        first = next(own[kind] for kind in kinds if kind in own)
+        cells = [significant(float(displayed(own[k]))) if k in own else "-" for k in kinds]
+        per = display_of(first.attrs).units.partition("/")[2]
+        rows.append((long_name(first).partition(" by ")[2], per, *cells))
+    return [words[kind] for kind in kinds], rows
 
 
 def deflections(found: xr.Dataset, title: str) -> list[Tabulated]:
     """Return tables of curves on bushes, and with rigid joints or to first order.
 
-    Parameters
-    ----------
-    found : xarray.Dataset
-        Result of `elastokinematics` or `nonlinear`.
-    title : str
-
-    Returns
-    -------
-    list of Tabulated
-        One of each wheel, and one of values of both wheels together.
+    There is one of each wheel, and one of values of both wheels together.
     """
     if WHEEL not in found.dims:
         return [_deflections(found, title)]

@@ -44,49 +44,41 @@ _LEAST_STEP = 1e-3
 
 @dataclass(frozen=True)
 class WheelsUnderLoad:
-    """An assembly on bushes with a load on its wheels.
-
-    Attributes
-    ----------
-    assembly : HeldAssembly
-    under : str
-        Name of the load, see `rig_loads.BY_NAME`.
-    wheels : str or sequence of float, optional
-        The loaded wheels of an axle, see `nonlinear`.
-    rack_position : float
-        Rack displacement [m].
-    held : str
-        Support of each wheel, see `linear`.
-    hardpoints : str
-        See `elastokinematics`.
-    parts : tuple of float
-        Factors of the load on the wheels.
-    softs : dict of str to CompliantJoints
-        Compliant joints by the suffixes of their parts.
-    """
+    """An assembly on bushes with a load on its wheels."""
 
     assembly: HeldAssembly
-    under: str
-    wheels: str | Sequence[float] | None
-    rack_position: float
-    held: WheelSupport
-    hardpoints: Hardpoints
-    parts: tuple[float, ...]
-    softs: Mapping[str, CompliantJoints]
+    under: str  # name of the load, see `rig_loads.BY_NAME`
+    amounts: Array  # of the load, (m,) [N or N m]
+    wheels: str | Sequence[float] | None  # the loaded wheels of an axle, see `nonlinear`
+    rack_position: float  # [m]
+    held: WheelSupport  # support of each wheel, see `linear`
+    hardpoints: Hardpoints  # see `elastokinematics`
+    parts: tuple[float, ...]  # factors of the load on the wheels
+    softs: Mapping[str, CompliantJoints]  # by the suffixes of their parts
 
     @classmethod
     def given(
         cls,
         given: Validator,
-        assembly: HeldAssembly,
+        subject: Any,
         bushings: Mapping[str, Any] | None,
         under: str,
+        amounts: ArrayLike,
+        *,
         wheels: str | Sequence[float] | None,
         rack_position: float,
         held: WheelSupport,
         hardpoints: Hardpoints,
     ) -> Self:
-        """Return the assembly with its load, or add errors."""
+        """Return an assembly with its load, or add errors."""
+        assembly = given_assembly(given, subject)
+        given.among("under", under, BY_NAME)
+        given.among("held", held, HELD)
+        given.among("hardpoints", hardpoints, HARDPOINTS)
+        rack_position = given.number("rack_position", rack_position, "m")
+        wanted = positions_given(given, "amounts", amounts, "N or N m")
+        if not (np.abs(wanted) <= _GREATEST).all():
+            given.fail(f"amounts: numbers of {_GREATEST:g} N or N m or less are needed.")
         parts: tuple[float, ...] = ()
         if not given.failed:
             assembly.refuse_holding(given, assembly.usual_motion, 0.0, rack_position)
@@ -94,7 +86,7 @@ class WheelsUnderLoad:
         softs = softs_of(given, assembly, bushings, hardpoints)
         if not given.failed:
             refuse_without_rate(given, held, *assembly.tyres)
-        return cls(assembly, under, wheels, rack_position, held, hardpoints, parts, softs)
+        return cls(assembly, under, wanted, wheels, rack_position, held, hardpoints, parts, softs)
 
     @cached_property
     def load(self) -> RigLoad:
@@ -108,29 +100,25 @@ class WheelsUnderLoad:
         return {"held": HELD[self.held], "hardpoints": HARDPOINTS[self.hardpoints]}
 
     def equilibria(
-        self, travels: Array, amounts: Array
+        self, travels: Array
     ) -> tuple[ElasticEquilibrium, ElasticState, list[ElasticState]]:
         """Return the equations of equilibrium, the state without the load, and those under it.
 
-        Parameters
-        ----------
-        travels : ndarray, shape (n,)
-            Heights of the wheel centres with rigid joints above design, without the load [m].
-        amounts : ndarray, shape (m,)
-            Amounts of the load, for each a state in n positions [N or N m].
+        Travels, (n,), are those of wheel centres with rigid joints [m]; each amount of the load
+        has a state in n positions.
         """
         poses = self.assembly.poses(self.assembly.at_travel(travels, self.rack_position))
         suspension = on_joints(self.assembly, poses, self.softs)
         base = at_height(suspension, travels)
         of_each = zip(self.parts, suspension.wheels, strict=True)
         unit = np.stack([part * unit_load(self.load, wheel) for part, wheel in of_each], axis=1)
-        states = self._under_amounts(suspension, base, unit, amounts)
-        return suspension, base, states
+        return suspension, base, self._under_amounts(suspension, base, unit)
 
     def _under_amounts(
-        self, suspension: ElasticEquilibrium, base: ElasticState, unit: Array, wanted: Array
+        self, suspension: ElasticEquilibrium, base: ElasticState, unit: Array
     ) -> list[ElasticState]:
-        """Return the equilibria under some amounts of the load, each found from a smaller one."""
+        """Return the equilibria under the amounts of the load, each found from a smaller one."""
+        wanted = self.amounts
         _refuse_on_tyres(suspension, self.load, wanted)
         found: dict[float, ElasticState] = {}
         for sense in (1.0, -1.0):
@@ -167,25 +155,6 @@ class WheelsUnderLoad:
                     "loads or stiffer bushes."
                 )
         return state
-
-
-def assembly_given(
-    given: Validator, subject: Any, under: str, held: WheelSupport, hardpoints: Hardpoints
-) -> HeldAssembly:
-    """Return the assembly of an analysis under a load, or add errors of its names."""
-    assembly = given_assembly(given, subject)
-    given.among("under", under, BY_NAME)
-    given.among("held", held, HELD)
-    given.among("hardpoints", hardpoints, HARDPOINTS)
-    return assembly
-
-
-def amounts_of(given: Validator, amounts: ArrayLike) -> Array:
-    """Return the amounts of a load, or add an error."""
-    wanted = positions_given(given, "amounts", amounts, "N or N m")
-    if not (np.abs(wanted) <= _GREATEST).all():
-        given.fail(f"amounts: numbers of {_GREATEST:g} N or N m or less are needed.")
-    return wanted
 
 
 def load_coordinate(load: RigLoad, amounts: Array) -> xr.Variable:

@@ -32,36 +32,20 @@ QUANTITIES = {
 
 @dataclass(frozen=True)
 class ReferencePoint:
-    """A point of a free body, whose motion it computes.
+    """A point of a free body, whose motion it computes."""
 
-    Parameters
-    ----------
-    names : sequence of str
-        Names of the states.
-    center : ndarray, shape (3,)
-        Centre of mass of the body at design [m].
-    reference : ndarray, shape (3,)
-        The point at design [m].
-    body : str, optional
-        Beginning of the names of the body's states.
-    """
-
-    names: Sequence[str]
-    center: Array
-    reference: Array
-    body: str = "body"
+    names: Sequence[str]  # names of the states
+    center: Array  # centre of mass of the body at design, (3,) [m]
+    reference: Array  # the point at design, (3,) [m]
 
     def rows(self, kinds: Sequence[str]) -> list[int]:
         """Return the indices of states of the body, such as ``x`` or ``e0``."""
-        return [self.names.index(f"{self.body}_{kind}") for kind in kinds]
+        return [self.names.index(f"body_{kind}") for kind in kinds]
 
     def of(self, states: Any, rates: Any) -> dict[str, Any]:
-        """Return the motion by the names of `QUANTITIES`.
+        """Return the motion by the names of `QUANTITIES`, of states (..., states) with their rates.
 
-        Parameters
-        ----------
-        states, rates : ndarray, shape (..., states)
-            States, and their time derivatives. Complex numbers are allowed.
+        Complex numbers are allowed.
         """
         place = np.moveaxis(states[..., self.rows(("x", "y", "z"))], -1, 0)
         turn = _rotation(np.moveaxis(states[..., self.rows(("e0", "e1", "e2", "e3"))], -1, 0))

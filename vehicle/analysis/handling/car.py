@@ -7,83 +7,46 @@ from functools import cached_property
 import numpy as np
 
 from ....core.named_types import Array
-from ....systems.system import System
 from ...assembly.car import CarAssembly
 from ...assembly.controls import Controls
 from ...models.car.equations import CarModel
 from ...models.car.slope import LEVEL, Slope
 from ...roads.road import Road
 from ..loads.on_a_car import rack_force
-from ..run import Run
+from ..run import MovingCar, Run
 from .body_motion import ReferencePoint
-from .column import column_torque, column_twist
 from .road_under import RoadUnder
 
+STEERED_INPUT = "rack_position"
+"""The input that the steering wheel moves, whose rates are inputs, too."""
+OF_STEERING = {
+    "steering_torque": ("torque of the steering wheel, positive to the left", "N m"),
+    "column_twist": (
+        "twist of the steering column, positive with the steering wheel to the left", "rad",
+    ),
+}  # fmt: skip
+"""Meaning and unit."""
 
-@dataclass(frozen=True)
-class DrivingCar:
-    """A car that drives.
 
-    Attributes
-    ----------
-    model : System
-        Its equations of motion.
-    rest : ndarray
-        State at standstill.
-    base : ndarray
-        Inputs without those of the driver.
-    controls : Controls
-    motion : ReferencePoint
-        The centre of gravity of the whole car at design, as a point of the body.
-    wheels : sequence of str
-        Names of the wheels: front ones first, the left one of an axle before the right one.
-    spins : sequence of str
-        Names of the angles of the wheels among the states.
-    radii : sequence of float
-        Rolling radii, a first guess in the search for steady motion [m].
-    wheelbase : float
-        [m]
-    front : float
-        Distance of the front wheel centres from the reference point at design, forward [m].
-    mass : float
-        Mass of the whole car [kg].
-    steering_input : str
-        The input that the steering wheel moves, whose rates are inputs, too.
-    rack_state : str, optional
-        The state that is the displacement of the rack on a compliant column; None if the rack
-        follows the steering wheel.
-    assembly : CarAssembly, optional
-        The car with its linkages, for the forces in them.
-    watched : callable, optional
-        Called with each `Run` of the car.
-    road : Road, optional
-        The road on which it drives; level by default.
-    slope : Slope, optional
-        The slope of its road; level by default.
-    """
+@dataclass(frozen=True, kw_only=True)
+class DrivingCar(MovingCar):
+    """A car that drives; its radii are a first guess in the search for steady motion."""
 
-    model: System
-    rest: Array
-    base: Array
+    rest: Array  # state at standstill
+    base: Array  # inputs without those of the driver
     controls: Controls
+    # the centre of gravity of the whole car at design, as a point of the body
     motion: ReferencePoint
-    wheels: Sequence[str]
-    spins: Sequence[str]
-    radii: Sequence[float]
-    wheelbase: float
+    wheelbase: float  # [m]
+    # distance of the front wheel centres from the reference point at design, forward [m]
     front: float
-    mass: float
-    steering_input: str = "rack_position"
+    mass: float  # mass of the whole car [kg]
+    # the state that is the displacement of the rack on a compliant column; None if the rack follows
+    # the steering wheel
     rack_state: str | None = None
-    assembly: CarAssembly | None = None
-    watched: Callable[[Run], None] | None = None
-    road: Road | None = None
-    slope: Slope = LEVEL
-
-    @property
-    def body(self) -> str:
-        """The name of its body."""
-        return self.motion.body
+    watched: Callable[[Run], None] | None = None  # called with each `Run` of the car
+    road: Road | None = None  # the road on which it drives; level by default
+    slope: Slope = LEVEL  # the slope of its road; level by default
 
     @property
     def steered(self) -> tuple[str, ...]:
@@ -128,14 +91,8 @@ class DrivingCar:
     ) -> Array:
         """Return the inputs of the equations.
 
-        Parameters
-        ----------
-        angle, rate, acceleration : float
-            Motion of the steering wheel, positive to the left [rad, rad/s, rad/s^2].
-        drive : float
-            Torque of all driven wheels together [N m].
-        brake : float
-            Torque of the brakes as a part of the greatest one.
+        The motion of the steering wheel is positive to the left [rad, rad/s, rad/s^2]; the drive is
+        the torque of all driven wheels together [N m], the brake a part of the greatest torque.
         """
         found = self.base + drive * self._drive if drive else self.base.copy()
         if brake:
@@ -144,35 +101,30 @@ class DrivingCar:
             found[self._places[name]] = value
         return found
 
-    def steering_torque(self, angles: Array, states: Array, inputs: Array) -> Array | None:
-        """Return the torque of the steering wheel, positive to the left, (n,) [N m].
+    def of_steering(self, angles: Array, states: Array, inputs: Array) -> dict[str, Array]:
+        """Return the quantities of `OF_STEERING` at angles of the steering wheel [rad], each (n,).
 
-        Its work is that of the prescribed motion of the rack, without friction; a steering column
-        has its own friction and transmits its twist. The result is None for a car without linkages.
-
-        Parameters
-        ----------
-        angles : ndarray, shape (n,)
-            Angles of the steering wheel [rad].
-        states, inputs : ndarray, shape (n, states) and (n, inputs)
+        The work of the torque is that of the prescribed motion of the rack, without friction; that
+        at a steering column twists the column, and overcomes the friction on the side of the
+        steering wheel. A rigid column has no twist, and a car without linkages neither.
         """
         if self.assembly is None:
-            return None
-        travel = self._travel(angles)
-        column = self.assembly.car.column
-        if column is not None:
-            return column_torque(column, self.model, states, inputs, np.sign(travel))
-        return rack_force(self.assembly, states, inputs) * travel
-
-    def column_twist(self, angles: Array, states: Array, inputs: Array) -> Array | None:
-        """Return the twist of the steering column, positive to the left, (n,) [rad].
-
-        Arguments are as of `steering_torque`. The result is None for a rigid column, and for a car
-        without linkages.
-        """
-        if self.rack_state is None or self.assembly is None:
-            return None
-        return column_twist(self.model, states, inputs, np.sign(self._travel(angles)))
+            return {}
+        travel, column = self._travel(angles), self.assembly.car.column
+        if column is None:
+            return {"steering_torque": rack_force(self.assembly, states, inputs) * travel}
+        # 1 where the rack moves in its positive direction as the steering wheel turns left
+        sense = np.sign(travel)
+        twisting = sum(
+            self.model.signal(f"front_column_{law}_moment", states, inputs)
+            for law in ("spring", "damper")
+        )
+        velocity = inputs[:, self.model.input_names.index("rack_velocity")]
+        smoothed = velocity / np.hypot(velocity, column.friction_velocity_m_per_s)
+        return {
+            "steering_torque": sense * (twisting + column.friction_Nm * smoothed),
+            "column_twist": -sense * self.model.signal("front_column_angle", states, inputs),
+        }
 
     def _travel(self, angles: Array) -> Array:
         """Return the travel of the rack per angle of the steering wheel at its angles [m/rad]."""

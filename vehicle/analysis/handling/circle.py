@@ -21,9 +21,8 @@ from ...assembly.quantity import Quantity
 from ...models.car.slope import LEVEL, Slope
 from ...models.reach import PositionError
 from .body_motion import QUANTITIES
-from .car import DrivingCar
-from .column import COLUMN_TWIST
-from .driven import OF_DRIVER, OF_WHEELS, STEER, STEERING_TORQUE
+from .car import OF_STEERING, STEERED_INPUT, DrivingCar
+from .driven import OF_DRIVER, OF_WHEELS, STEER
 from .result import HandlingResult, quantity
 from .steady import NoSteadyMotionError, Steady, SteadyCondition, SteadyMotion
 
@@ -71,19 +70,19 @@ _OF_WHEELS = OF_WHEELS | {
     "camber": ("camber to the vertical along the heading, positive with the top outboard", "rad"),
     "steer": STEER,
 }
-_OF_TORQUE = {
-    "steering_torque": STEERING_TORQUE,
-    "steering_torque_gradient": (
-        "change of the torque of the steering wheel by lateral acceleration", "N m s^2/m",
-    ),
-}  # fmt: skip
+_GRADIENT = "steering_torque_gradient"
+_OF_STEERING = {
+    "steering_torque": OF_STEERING["steering_torque"],
+    _GRADIENT: ("change of the torque of the steering wheel by lateral acceleration", "N m s^2/m"),
+    "column_twist": OF_STEERING["column_twist"],
+}
 
 
 def columns_of_turns(wheels: Sequence[str]) -> dict[str, Quantity]:
     """Return the quantities of steady turns by the names of their columns."""
     every = {**_OF_DRIVER, **{name: QUANTITIES[name] for name in _OF_BODY}}
     every |= {name: (words, _PER) for name, words in _GRADIENTS.items()}
-    every |= {**_OF_TORQUE, "column_twist": COLUMN_TWIST}
+    every |= _OF_STEERING
     found = {name: _column(name, *described) for name, described in every.items()}
     by_wheel = [
         _column(name, *words).of_wheel(wheel)
@@ -103,22 +102,10 @@ _Found = TypeVar("_Found")
 
 
 class Turns:
-    """The branch of steady turns of a car, followed from turn to turn.
+    """The branch of steady turns of a car with one condition in common, followed from turn to turn.
 
-    Parameters
-    ----------
-    car : DrivingCar
-    first : SteadyCondition
-        The condition that holds in all turns.
-    sense : {1, -1}
-        1 for turns to the left.
-
-    Attributes
-    ----------
-    reached : float
-        The greatest lateral acceleration that was found [m/s^2].
-    slope : Slope
-        The steepest slope on which straight running was found.
+    The sense is 1 for turns to the left, else -1; `reached` is the greatest lateral acceleration
+    that was found [m/s^2], `slope` the steepest slope on which straight running was found.
     """
 
     def __init__(self, car: DrivingCar, first: SteadyCondition, sense: int) -> None:
@@ -131,16 +118,10 @@ class Turns:
     def begin(self, acceleration: float) -> Steady:
         """Return the first turn: straight running at a speed, or a gentle turn.
 
-        Parameters
-        ----------
-        acceleration : float
-            Lateral acceleration of the first turn at a given radius or steering wheel angle, more
-            than zero: a car at standstill has no steady turn [m/s^2].
-
-        Raises
-        ------
-        NoSteadyMotionError
-            If none is found; on a slope there is straight running up to `slope`.
+        A turn at a given radius or steering wheel angle has this lateral acceleration, more than
+        zero: a car at standstill has no steady turn [m/s^2].
+        If none is found, a `NoSteadyMotionError` is raised; on a slope there is straight running up
+        to `slope`.
         """
         straight = self.first.kind == "speed"
         begun = 0.0 if straight else self.sense * acceleration
@@ -201,10 +182,7 @@ class Turns:
     def to(self, acceleration: float) -> Steady:
         """Return the turn with a lateral acceleration, beyond those that were found before.
 
-        Raises
-        ------
-        NoSteadyMotionError
-            If there is none; turns up to `reached` exist.
+        If there is none, a `NoSteadyMotionError` is raised; turns up to `reached` exist.
         """
 
         def solve(goal: float) -> Steady:
@@ -217,10 +195,7 @@ class Turns:
     def to_speed(self, speed: float) -> Steady:
         """Return the turn at a speed [m/s], if it is another quantity that all have in common.
 
-        Raises
-        ------
-        NoSteadyMotionError
-            If there is none.
+        If there is none, a `NoSteadyMotionError` is raised.
         """
         # the acceleration by the path is a bound of that across the heading
         near = speed * speed * self.first.value * (1.0 - _OF_SIDESLIP)
@@ -273,31 +248,12 @@ def steady_turns(
     wanted: Array | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> HandlingResult:
-    """Return the steady turns of a car by lateral acceleration (ISO 4138).
+    """Return the steady turns of a car by lateral acceleration (ISO 4138), with their gradients.
 
-    Parameters
-    ----------
-    car : DrivingCar
-    first : SteadyCondition
-        Speed, curvature or steering wheel angle of all turns.
-    sense : {1, -1}, optional
-        1 for turns to the left.
-    step : float, optional
-        Step of lateral accelerations, up to the greatest one of a steady turn [m/s^2].
-    wanted : ndarray, optional
-        Lateral accelerations instead of steps, positive and rising [m/s^2].
-    progress : callable, optional
-        Called with the completed fraction, up to 1.
-
-    Returns
-    -------
-    HandlingResult
-        Curves over ``lateral_acceleration``, and gradients.
-
-    Raises
-    ------
-    InputError
-        If there is no such turn.
+    All turns have the condition `first` in common: speed, curvature or steering wheel angle. They
+    are in steps of lateral acceleration up to the greatest one of a steady turn, or at the wanted
+    ones, positive and rising [m/s^2]; `sense` is 1 for turns to the left, else -1. The error of a
+    car without such a turn is an `InputError`.
     """
     turns = Turns(car, first, sense)
     asked = step * np.arange(1.0, int(_MOST / step), dtype=np.float64) if wanted is None else wanted
@@ -314,25 +270,11 @@ def steady_turns(
 
 
 def turns_at(car: DrivingCar, first: SteadyCondition, accelerations: Array) -> xr.Dataset:
-    """Return steady turns at lateral accelerations of either sign; at a speed also at zero.
+    """Return steady turns at lateral accelerations of either sign, as the curves of `steady_turns`.
 
-    Parameters
-    ----------
-    car : DrivingCar
-    first : SteadyCondition
-        Speed, curvature or steering wheel angle of all turns, with the sign of turns to the left.
-    accelerations : ndarray, shape (n,)
-        Lateral accelerations, positive in turns to the left [m/s^2].
-
-    Returns
-    -------
-    xarray.Dataset
-        Curves over ``lateral_acceleration``, as in `steady_turns`.
-
-    Raises
-    ------
-    PositionError
-        If the tyres do not allow such a turn, or the drive such a speed.
+    The condition `first` has the sign of turns to the left, as positive lateral accelerations, (n,)
+    [m/s^2]; at a speed they may be zero. A turn that the tyres do not allow, or a speed that the
+    drive does not, is a `PositionError`.
     """
     found: dict[float, Steady] = {}
     slowest: Steady | None = None
@@ -408,11 +350,8 @@ def described(
     curves |= {
         name: quantity(along, gradients[name], words, _PER) for name, words in _GRADIENTS.items()
     }
-    twist = _twist(turns.car, steady)
-    if twist is not None:
-        curves["column_twist"] = quantity(along, twist, *COLUMN_TWIST)
-    torques = _torques(turns.car, steady)
-    curves |= {name: quantity(along, torques[name], *_OF_TORQUE[name]) for name in torques}
+    steering = _of_steering(turns.car, steady)
+    curves |= {name: quantity(along, steering[name], *_OF_STEERING[name]) for name in steering}
     model, wheels = turns.car.model, turns.car.wheels
     signals = np.array([model.evaluate("signals", one.state, one.inputs) for one in steady]).T
     for name, words in _OF_WHEELS.items():
@@ -425,8 +364,8 @@ def described(
     title = f"steady-state circle, {_words(turns.first)}"
     dataset = xr.Dataset(curves, coordinates, {"title": title})
     metrics = {name: quantity((), gradients[name][0], _GRADIENTS[name], _PER) for name in gradients}
-    for name in torques.keys() - {"steering_torque"}:
-        metrics[name] = quantity((), torques[name][0], *_OF_TORQUE[name])
+    if steering:
+        metrics[_GRADIENT] = quantity((), steering[_GRADIENT][0], *_OF_STEERING[_GRADIENT])
     metrics["steering_ratio"] = quantity((), ratio, "overall steering ratio, straight ahead", "1")
     if np.isfinite(limit):  # otherwise there may be turns beyond the last one wanted
         metrics["greatest_lateral_acceleration"] = quantity(
@@ -482,8 +421,8 @@ def _of_turn(car: DrivingCar, steady: Steady) -> tuple[dict[str, float], dict[st
     return values, slopes
 
 
-def _torques(car: DrivingCar, steady: Sequence[Steady]) -> dict[str, Array]:
-    """Return the torque of the steering wheel and its gradient; empty without linkages."""
+def _of_steering(car: DrivingCar, steady: Sequence[Steady]) -> dict[str, Array]:
+    """Return `OF_STEERING` and the gradient of the torque; empty without linkages."""
     steps = _STEP * np.array([0.0, 1.0, -1.0])[:, None]
     angles, states, inputs = (
         np.concatenate([np.atleast_1d(value) + steps * slope for value, slope in rows])
@@ -496,29 +435,16 @@ def _torques(car: DrivingCar, steady: Sequence[Steady]) -> dict[str, Array]:
             [(one.inputs, one.input_slope) for one in steady],
         )
     )
-    found = car.steering_torque(angles[:, 0], states, inputs)
-    if found is None:
+    found = car.of_steering(angles[:, 0], states, inputs)
+    if not found:
         return {}
-    here, more, less = found.reshape(-1, 3).T
-    return dict(zip(_OF_TORQUE, (here, (more - less) / (2.0 * _STEP)), strict=True))
-
-
-def _twist(car: DrivingCar, steady: Sequence[Steady]) -> Array | None:
-    """Return the twist of the steering column; None without one."""
-    angles = np.array([one.unknowns["steering_wheel"] for one in steady])
-    states, inputs = (np.array([getattr(one, n) for one in steady]) for n in ("state", "inputs"))
-    return car.column_twist(angles, states, inputs)
+    here, more, less = found["steering_torque"].reshape(-1, 3).T
+    twist = {name: values[::3] for name, values in found.items() if name == "column_twist"}
+    return twist | {"steering_torque": here, _GRADIENT: (more - less) / (2.0 * _STEP)}
 
 
 def steering_ratio(car: DrivingCar, steady: Steady) -> float:
-    """Return the overall steering ratio in a steady motion: steering wheel angle by steer angle.
-
-    Parameters
-    ----------
-    car : DrivingCar
-    steady : Steady
-        The motion, with body and suspensions held in it.
-    """
+    """Return steering wheel angle by steer angle, body and suspensions held in a steady motion."""
     rows = car.signal_rows("steer", car.steered)
     angle = steady.unknowns["steering_wheel"]
     more, less = (car.inputs(angle + d, 0.0, 0.0, 0.0, 0.0) for d in (_SMALL, -_SMALL))
@@ -529,5 +455,5 @@ def steering_ratio(car: DrivingCar, steady: Steady) -> float:
     # the rack moves as far as on a rigid column
     by_state = car.model.evaluate("signals_jacobian", steady.state, steady.inputs)[rows]
     by_rack = by_state[:, car.model.state_names.index(car.rack_state)]
-    travel = moved[car.model.input_names.index(car.steering_input)]
+    travel = moved[car.model.input_names.index(STEERED_INPUT)]
     return float(2.0 * _SMALL / (by_rack * travel).mean())

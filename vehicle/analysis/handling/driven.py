@@ -15,8 +15,7 @@ from ....simulation.validity import bounds_of, excursions
 from ...assembly.by_wheel import WHEEL, wheel_coordinate
 from ..run import Run
 from .body_motion import QUANTITIES
-from .car import DrivingCar
-from .column import COLUMN_TWIST
+from .car import OF_STEERING, DrivingCar
 from .drivers import Observation, Pedals, Pushes, Steers
 from .result import quantity
 
@@ -43,8 +42,6 @@ STEER = ("steer angle of the wheel to the body, positive to the left", "rad")
 ROAD = ("height of the road under the wheel", "m")
 """Meaning and unit."""
 
-STEERING_TORQUE = ("torque of the steering wheel, positive to the left", "N m")
-"""Meaning and unit."""
 
 OF_DRIVER = {
     "steering_wheel_angle": ("steering wheel angle, positive to the left", "rad"),
@@ -55,18 +52,10 @@ OF_DRIVER = {
 
 
 class Sampling(NamedTuple):
-    """Sampling of a simulation.
+    """Sampling of a simulation."""
 
-    Attributes
-    ----------
-    step : float
-        Time between two samples [s].
-    outputs : int
-        Number of samples from output to output.
-    """
-
-    step: float = 1e-3
-    outputs: int = 5
+    step: float = 1e-3  # time between two samples [s]
+    outputs: int = 5  # number of samples from output to output
 
 
 def driven(
@@ -80,39 +69,17 @@ def driven(
     until: Callable[[Observation], bool] | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
-    """Return the motion of a car with a driver.
+    """Return the motion of a car with a driver, from a state, for a duration [s].
 
     Between samples the equations are integrated by the method of Dormand and Prince, with the
     tolerances of `kintrafo.Stepper`. The driver decides at each sample: up to the next one the
-    acceleration of the rack and all torques are constant.
+    acceleration of the rack and all torques are constant. The simulation ends earlier when `until`
+    returns True for an observation of the driver; `progress` is called with the completed fraction.
 
-    Parameters
-    ----------
-    car : DrivingCar
-    start : ndarray
-        State at the beginning.
-    steers, pushes : Steers, Pushes
-        The driver.
-    duration : float
-        [s]
-    samples : Sampling, optional
-    until : callable, optional
-        Ends the simulation when it returns True for an observation of the driver.
-    progress : callable, optional
-        Called with the completed fraction, up to 1.
-
-    Returns
-    -------
-    xarray.Dataset
-        Over ``time``: the motion of the body, the actions of the driver, and forces and slips of
-        each wheel; on a road with heights also these, as ``road``. The attribute ``not_valid``
-        describes where the motion leaves the validity of the equations; the simulation of a car
-        that overturns ends there.
-
-    Raises
-    ------
-    SimulationError
-        If the integration cannot continue; the message has time, state and advice.
+    The result is over ``time``: the motion of the body, the actions of the driver, and forces and
+    slips of each wheel; on a road with heights also these, as ``road``. The attribute ``not_valid``
+    describes where the motion leaves the validity of the equations; the simulation of a car that
+    overturns ends there. The error of an integration that cannot continue is a `SimulationError`.
     """
     how = samples or Sampling()
     count = max(round(duration / how.step), 1)
@@ -198,12 +165,8 @@ def _dataset(car: DrivingCar, rows: list[tuple[float, Array, Array, float, Pedal
     drives, brakes = zip(*pedals, strict=True)
     for name, values in zip(OF_DRIVER, (angles, drives, brakes), strict=True):
         found[name] = quantity("time", np.array(values), *OF_DRIVER[name])
-    torque = car.steering_torque(np.array(angles), every, acting)
-    if torque is not None:
-        found["steering_torque"] = quantity("time", torque, *STEERING_TORQUE)
-    twist = car.column_twist(np.array(angles), every, acting)
-    if twist is not None:
-        found["column_twist"] = quantity("time", twist, *COLUMN_TWIST)
+    for name, values in car.of_steering(np.array(angles), every, acting).items():
+        found[name] = quantity("time", values, *OF_STEERING[name])
     signals = car.model.evaluate("signals", every, acting)
     for name, described in OF_WHEELS.items():
         found[name] = quantity(

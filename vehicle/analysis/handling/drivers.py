@@ -20,47 +20,25 @@ _SLOWEST = 0.1
 
 
 class Observation(NamedTuple):
-    """The motion of the car that a driver sees.
+    """The motion of the car that a driver sees."""
 
-    Attributes
-    ----------
-    time : float
-        [s]
-    x, y : float
-        Position of the reference point [m].
-    yaw : float
-        [rad]
-    speed, lateral_velocity : float
-        Along and across the heading [m/s].
-    yaw_rate : float
-        [rad/s]
-    upright : float
-        Cosine of the tilt of the body.
-    """
-
-    time: float
+    time: float  # [s]
+    # position of the reference point [m]
     x: float
     y: float
-    yaw: float
+    yaw: float  # [rad]
+    # along and across the heading [m/s]
     speed: float
     lateral_velocity: float
-    yaw_rate: float
-    upright: float
+    yaw_rate: float  # [rad/s]
+    upright: float  # cosine of the tilt of the body
 
 
 class Pedals(NamedTuple):
-    """The action of the pedals.
+    """The action of the pedals."""
 
-    Attributes
-    ----------
-    drive : float
-        Torque of all driven wheels together, positive forward [N m].
-    brake : float
-        Part of the greatest torque of the brakes, 0 to 1.
-    """
-
-    drive: float
-    brake: float
+    drive: float  # torque of all driven wheels together, positive forward [N m]
+    brake: float  # part of the greatest torque of the brakes, 0 to 1
 
 
 class Steers(Protocol):
@@ -81,17 +59,10 @@ class Pushes(Protocol):
 
 @dataclass
 class OpenLoop:
-    """Steering by a course over time.
-
-    Parameters
-    ----------
-    course : SteeringCourse
-    offset : float, optional
-        Added to the angles of the course [rad].
-    """
+    """Steering by a course over time."""
 
     course: SteeringCourse
-    offset: float = 0.0
+    offset: float = 0.0  # added to the angles of the course [rad]
     _next: tuple[float, SteeringMotion] | None = field(default=None, init=False)
 
     def decide(self, seen: Observation, step: float) -> SteeringMotion:
@@ -106,15 +77,9 @@ class OpenLoop:
 
 @dataclass
 class Fixed:
-    """A held steering wheel.
+    """A held steering wheel."""
 
-    Parameters
-    ----------
-    angle : float, optional
-        [rad]
-    """
-
-    angle: float = 0.0
+    angle: float = 0.0  # [rad]
 
     def decide(self, seen: Observation, step: float) -> SteeringMotion:
         """Return the constant angle."""
@@ -136,31 +101,16 @@ class PathFollower:
 
     Source: the pure pursuit of R. C. Coulter, Implementation of the Pure Pursuit Path Tracking
     Algorithm, CMU-RI-TR-92-01, Carnegie Mellon University, 1992; the delay is added.
-
-    Parameters
-    ----------
-    path : Path
-    angle_by_curvature : callable
-        A function of speed: steering wheel angle by curvature in steady state [rad m].
-    preview : float
-        [s]
-    anticipation : float
-        Delay of arms and car that the driver compensates [s].
-    bandwidth : float
-        Natural frequency of the filter [Hz].
-    largest : float
-        Limit of the steering wheel angle [rad].
-    fastest : float
-        Limit of the rate of the steering wheel [rad/s].
     """
 
     path: Path
+    # a function of speed: steering wheel angle by curvature in steady state [rad m]
     angle_by_curvature: Callable[[float], float]
-    preview: float
-    anticipation: float
-    bandwidth: float
-    largest: float
-    fastest: float
+    preview: float  # [s]
+    anticipation: float  # delay of arms and car that the driver compensates [s]
+    bandwidth: float  # natural frequency of the filter [Hz]
+    largest: float  # limit of the steering wheel angle [rad]
+    fastest: float  # limit of the rate of the steering wheel [rad/s]
     _along: float = field(default=0.0, init=False)
     _angle: float = field(default=0.0, init=False)
     _rate: float = field(default=0.0, init=False)
@@ -197,22 +147,12 @@ class PathFollower:
 
 @dataclass
 class HeldTorque:
-    """A torque of the drive with a ramp from one value to another.
+    """A torque of the drive with a ramp from one value to another."""
 
-    Parameters
-    ----------
-    before, after : float
-        [N m]
-    at : float
-        Start of the ramp [s].
-    rise : float
-        Duration of the ramp [s].
-    """
-
-    before: float
-    after: float
-    at: float = 0.0
-    rise: float = 0.0
+    before: float  # [N m]
+    after: float  # [N m]
+    at: float = 0.0  # start of the ramp [s]
+    rise: float = 0.0  # duration of the ramp [s]
 
     def decide(self, seen: Observation, step: float) -> Pedals:
         """Return the torque halfway to the next sample."""
@@ -222,24 +162,12 @@ class HeldTorque:
 
 @dataclass
 class Braking:
-    """A change from drive to brakes.
+    """A change from drive to brakes."""
 
-    Parameters
-    ----------
-    before : float
-        Torque of the drive before it [N m].
-    brake : float
-        Torque of the brakes after it, as a part of the greatest one.
-    at : float
-        Start of the change [s].
-    rise : float
-        Duration of the change [s].
-    """
-
-    before: float
-    brake: float
-    at: float
-    rise: float
+    before: float  # torque of the drive before it [N m]
+    brake: float  # torque of the brakes after it, as a part of the greatest one
+    at: float  # start of the change [s]
+    rise: float  # duration of the change [s]
 
     def decide(self, seen: Observation, step: float) -> Pedals:
         """Return drive and brake halfway to the next sample."""
@@ -249,24 +177,12 @@ class Braking:
 
 @dataclass
 class SpeedHeld:
-    """A constant speed by a proportional and integral control of the drive, which may also brake.
+    """A constant speed by a proportional and integral control of the drive, which may brake."""
 
-    Parameters
-    ----------
-    speed : float
-        [m/s]
-    torque : float
-        Torque at the beginning, that of straight running [N m].
-    gain : float
-        Torque by difference of speed [N m s/m].
-    reset : float
-        Time constant of the integral part [s].
-    """
-
-    speed: float
-    torque: float
-    gain: float
-    reset: float
+    speed: float  # [m/s]
+    torque: float  # torque at the beginning, that of straight running [N m]
+    gain: float  # torque by difference of speed [N m s/m]
+    reset: float  # time constant of the integral part [s]
     _lost: float = field(default=0.0, init=False)
 
     def decide(self, seen: Observation, step: float) -> Pedals:

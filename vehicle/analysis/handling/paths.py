@@ -18,15 +18,9 @@ _CLOSE = 0.5
 
 @dataclass(frozen=True)
 class Path:
-    """A smooth path through points.
+    """A smooth path through points."""
 
-    Parameters
-    ----------
-    points : ndarray, shape (n, 2)
-        In order, no two of them coincident [m].
-    """
-
-    points: Array
+    points: Array  # in order, no two of them coincident, (n, 2) [m]
 
     @cached_property
     def _curve(self) -> CubicSpline:
@@ -80,18 +74,11 @@ class Path:
 
 @dataclass(frozen=True)
 class Lane:
-    """A straight lane between cones along the road's x axis.
+    """A straight lane between cones along the road's x axis."""
 
-    Attributes
-    ----------
-    start, end : float
-        [m]
-    right, left : float
-        Lateral positions of its edges, positive to the left [m].
-    """
-
-    start: float
-    end: float
+    start: float  # [m]
+    end: float  # [m]
+    # lateral positions of its edges, positive to the left [m]
     right: float
     left: float
 
@@ -109,14 +96,8 @@ class Lane:
 def through(lanes: Sequence[Lane], *, before: float, after: float) -> Path:
     """Return the path along the centre lines of lanes, with smooth changes from one to the next.
 
-    A change has the shape 10 s^3 - 15 s^4 + 6 s^5, without curvature at its ends.
-
-    Parameters
-    ----------
-    lanes : sequence of Lane
-        In order.
-    before, after : float
-        Straight lengths before the first lane and after the last one [m].
+    A change has the shape 10 s^3 - 15 s^4 + 6 s^5, without curvature at its ends. The path is
+    straight over lengths before the first lane and after the last one [m].
     """
     rows: list[tuple[float, float]] = [(lanes[0].start - before, lanes[0].center)]
 

@@ -1,4 +1,4 @@
-"""Crossings and peaks of curves over time, and their responses to a step and to a frequency."""
+"""Crossings and peaks of curves, and responses of a car to a step and to a frequency."""
 
 from typing import NamedTuple
 
@@ -6,19 +6,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.named_types import Array
+from ....systems.linearisation import linearise
+from .car import STEERED_INPUT, DrivingCar
+from .steady import Steady
 
 Complex = NDArray[np.complex128]
+_IMAGINARY = 1e-30
+# Steering wheel angle in the difference of the ratio [rad].
+_SMALL = 1e-4
 
 
 def first_crossing(time: Array, values: Array, level: float) -> float:
     """Return the time at which values first reach a level from below, by linear interpolation.
 
     It is NaN if they never do.
-
-    Parameters
-    ----------
-    time, values : ndarray, shape (n,)
-    level : float
     """
     above = np.flatnonzero(values >= level)
     if not above.size:
@@ -34,10 +35,6 @@ def peak(time: Array, values: Array) -> tuple[float, float]:
     """Return the time of the greatest value, and this value.
 
     They are those of a parabola through the greatest sample and its neighbours.
-
-    Parameters
-    ----------
-    time, values : ndarray, shape (n,)
     """
     i = int(np.argmax(values))
     if i in (0, values.size - 1):
@@ -52,36 +49,19 @@ def peak(time: Array, values: Array) -> tuple[float, float]:
 
 
 class StepResponse(NamedTuple):
-    """Metrics of a response to a step (ISO 7401).
+    """Metrics of a response to a step (ISO 7401)."""
 
-    Attributes
-    ----------
-    steady : float
-        The value at the end.
-    response_time : float
-        Time from half of the step until 90 % of the steady value is first reached [s].
-    peak_time : float
-        Time from half of the step until the greatest value [s].
-    overshoot : float
-        The greatest value minus the steady one, as a part of the latter.
-    """
-
-    steady: float
+    steady: float  # the value at the end
+    # time from half of the step until 90 % of the steady value is first reached [s]
     response_time: float
-    peak_time: float
-    overshoot: float
+    peak_time: float  # time from half of the step until the greatest value [s]
+    overshoot: float  # the greatest value minus the steady one, as a part of the latter
 
 
 def step_response(time: Array, values: Array, begun: float, settled: float) -> StepResponse:
-    """Return the metrics of a response to a step.
+    """Return the metrics of a response to a step, half of which is done at the time `begun` [s].
 
-    Parameters
-    ----------
-    time, values : ndarray, shape (n,)
-    begun : float
-        Time at half of the step [s].
-    settled : float
-        Time after which the mean of the values is the steady value [s].
+    The steady value is the mean of the values after the time `settled` [s].
     """
     steady = float(np.mean(values[time >= settled]))
     towards = values * np.sign(steady)
@@ -93,13 +73,7 @@ def step_response(time: Array, values: Array, begun: float, settled: float) -> S
 def frequency_response(time: Array, cause: Array, effect: Array, frequency: Array) -> Complex:
     """Return the frequency response of an effect to a cause, by their Fourier integrals.
 
-    Both must be at rest at the beginning and at the end.
-
-    Parameters
-    ----------
-    time, cause, effect : ndarray, shape (n,)
-    frequency : ndarray
-        [Hz]
+    Both must be at rest at the beginning and at the end. Frequencies are in Hz.
     """
     turning = np.exp(-2j * np.pi * np.multiply.outer(frequency, time))
     above, below = (
@@ -107,3 +81,30 @@ def frequency_response(time: Array, cause: Array, effect: Array, frequency: Arra
         for values in (effect, cause)
     )
     return above / below
+
+
+def steering_response(car: DrivingCar, steady: Steady, frequency: Array) -> dict[str, Complex]:
+    """Return the frequency response of the body's motion to the steering wheel angle [SI / rad].
+
+    It follows from the linearised equations in straight running, with a constant torque of the
+    drive, at frequencies in Hz, by the names of `body_motion.QUANTITIES`.
+    """
+    model = car.model
+    linear = linearise(model, steady.state, steady.inputs, outputs=[])
+    size = len(model.state_names)
+    # columns: a state alone, then its rate alone
+    moved = steady.state + 1j * _IMAGINARY * np.concatenate([np.eye(size), np.zeros((size, size))])
+    rates = linear.rate + 1j * _IMAGINARY * np.concatenate([np.zeros((size, size)), np.eye(size)])
+    by_state = {name: np.imag(v) / _IMAGINARY for name, v in car.motion.of(moved, rates).items()}
+    states = linear.state_response(frequency, STEERED_INPUT) * _slope(car, steady)
+    s = 2j * np.pi * frequency[:, None]
+    both = np.concatenate([states, s * states], axis=1)
+    return {name: both @ row for name, row in by_state.items()}
+
+
+def _slope(car: DrivingCar, steady: Steady) -> float:
+    """Return the derivative of the steered input in the steering wheel angle."""
+    place = car.model.input_names.index(STEERED_INPUT)
+    angle = steady.unknowns["steering_wheel"]
+    more, less = (car.inputs(angle + d, 0.0, 0.0, 0.0, 0.0)[place] for d in (_SMALL, -_SMALL))
+    return float((more - less) / (2.0 * _SMALL))

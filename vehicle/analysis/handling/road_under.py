@@ -16,18 +16,8 @@ class RoadUnder:
 
     Both tracks of the road follow the path of the car: a wheel is on the track of its side, at the
     distance that the reference point has travelled, less the distance of the wheel behind the front
-    wheels. A car that stops and rolls back returns along its path. Between two samples heights
+    wheels [m]. A car that stops and rolls back returns along its path. Between two samples heights
     change linearly. The front wheels begin `Road.lead` before the start of the road.
-
-    Parameters
-    ----------
-    road : Road
-    wheels : sequence of str
-        Names of the wheels, which end in their side.
-    behind : sequence of float
-        Distance of each wheel behind the front wheels [m].
-    input_names : sequence of str
-        Inputs of the equations.
     """
 
     def __init__(
@@ -49,17 +39,9 @@ class RoadUnder:
         ]
 
     def advance(self, inputs: Array, velocity: tuple[float, float], step: float) -> None:
-        """Set the heights, and their rates up to the next sample, in the inputs of a step.
+        """Set the heights, and their rates up to the next sample, in the inputs of a step [s].
 
-        Parameters
-        ----------
-        inputs : ndarray
-            Inputs of the equations; those of the road are replaced.
-        velocity : tuple of float
-            Horizontal velocity of the reference point at this sample, along and across the heading
-            [m/s].
-        step : float
-            Time between two samples [s].
+        The velocity is that of the reference point, along and across the heading [m/s].
         """
         if self._last[0] * velocity[0] + self._last[1] * velocity[1] < 0.0:
             self._sense = -self._sense

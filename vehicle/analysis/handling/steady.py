@@ -38,17 +38,9 @@ class NoSteadyMotionError(KintrafoError):
 
 @dataclass(frozen=True)
 class SteadyCondition:
-    """A condition of a steady motion: the value of a function of the unknowns.
+    """A condition of a steady motion: the value of a function of the unknowns."""
 
-    Attributes
-    ----------
-    kind : str
-        ``speed`` [m/s], ``curvature`` [1/m], ``lateral_acceleration`` [m/s^2] or
-        ``steering_wheel`` [rad].
-    value : float
-    """
-
-    kind: str
+    kind: str  # speed, curvature, lateral_acceleration or steering_wheel; SI units
     value: float
 
     def turned(self, sense: int) -> "SteadyCondition":
@@ -73,38 +65,21 @@ class SteadyCondition:
 
 @dataclass(frozen=True)
 class Steady:
-    """A steady motion.
+    """A steady motion."""
 
-    Attributes
-    ----------
-    unknowns : dict of str to float
-        Unknowns of the body and the driver, SI units.
-    slopes : dict of str to float
-        Their derivatives in the value of the last condition.
-    state, inputs : ndarray
-        Above the origin of the road, at yaw angle zero; on a slope the car moves along x.
-    tangent : ndarray
-        Derivatives of all unknowns.
-    state_slope, input_slope : ndarray
-        Derivatives of state and inputs.
-    """
-
-    unknowns: Mapping[str, float]
-    slopes: Mapping[str, float]
+    unknowns: Mapping[str, float]  # unknowns of the body and the driver, SI units
+    slopes: Mapping[str, float]  # their derivatives in the value of the last condition
+    # above the origin of the road, at yaw angle zero; on a slope the car moves along x
     state: Array
     inputs: Array
-    tangent: Array
+    tangent: Array  # derivatives of all unknowns
+    # derivatives of state and inputs
     state_slope: Array
     input_slope: Array
 
 
 class SteadyMotion:
-    """The equations of steady motion of a car.
-
-    Parameters
-    ----------
-    car : DrivingCar
-    """
+    """The equations of steady motion of a car."""
 
     def __init__(self, car: DrivingCar) -> None:
         self._car = car
@@ -182,19 +157,10 @@ class SteadyMotion:
     def solve(
         self, near: Array, first: SteadyCondition, last: SteadyCondition
     ) -> tuple[Array, Steady]:
-        """Return the unknowns, and the motion, that fulfil two conditions.
+        """Return the unknowns, and the motion, that fulfil two conditions, from a first guess.
 
-        Parameters
-        ----------
-        near : ndarray
-            First guess of the unknowns.
-        first, last : SteadyCondition
-            Tangents are derivatives in the value of the last one.
-
-        Raises
-        ------
-        NoSteadyMotionError
-            If none is found.
+        Tangents are derivatives in the value of the last condition. If nothing is found, the error
+        is a `NoSteadyMotionError`.
         """
         unknown = np.array(near)
         left = self._left(unknown, (first, last))

@@ -29,24 +29,12 @@ Shape = Callable[[Array], tuple[Array, Array, Array]]
 
 @dataclass(frozen=True)
 class SteeringCourse:
-    """A steering wheel angle over time.
+    """A steering wheel angle over time."""
 
-    Parameters
-    ----------
-    shape : callable
-        The angle as a function of the eased time, with two derivatives.
-    length : float
-        The eased time at its end [s].
-    start : float
-        Time of its beginning [s].
-    ease : float
-        Time in which the rate rises, and falls [s]; half of it is the delay.
-    """
-
-    shape: Shape
-    length: float
-    start: float = 0.0
-    ease: float = 0.02
+    shape: Shape  # the angle as a function of the eased time, with two derivatives
+    length: float  # the eased time at its end [s]
+    start: float = 0.0  # time of its beginning [s]
+    ease: float = 0.02  # time in which the rate rises, and falls [s]; half of it is the delay
 
     @property
     def eased(self) -> float:
@@ -79,17 +67,7 @@ class SteeringCourse:
 def ramp(
     amplitude: float, rate: float, *, start: float = 0.0, ease: float = 0.02
 ) -> SteeringCourse:
-    """Return a steering wheel angle that rises at a rate to a constant value.
-
-    Parameters
-    ----------
-    amplitude : float
-        The angle at the end [rad].
-    rate : float
-        Positive [rad/s].
-    start, ease : float, optional
-        [s]
-    """
+    """Return a steering wheel angle that rises at a rate [rad/s] to a constant value [rad]."""
 
     def shape(t: Array) -> tuple[Array, Array, Array]:
         slope = np.sign(amplitude) * rate * np.ones_like(t)
@@ -101,19 +79,7 @@ def ramp(
 def sine_with_dwell(
     amplitude: float, frequency: float, dwell: float, *, start: float = 0.0, ease: float = 0.02
 ) -> SteeringCourse:
-    """Return one period of a sine with a dwell at its second peak (FMVSS 126, S7.9).
-
-    Parameters
-    ----------
-    amplitude : float
-        [rad]
-    frequency : float
-        [Hz]
-    dwell : float
-        Duration of the second peak [s].
-    start, ease : float, optional
-        [s]
-    """
+    """Return one period of a sine with a dwell [s] at its second peak (FMVSS 126, S7.9)."""
     omega, peak = 2.0 * np.pi * frequency, 0.75 / frequency
 
     def shape(t: Array) -> tuple[Array, Array, Array]:
@@ -134,20 +100,9 @@ def sine_sweep(
     start: float = 0.0,
     ease: float = 0.02,
 ) -> SteeringCourse:
-    """Return a sine with an exponentially growing frequency.
+    """Return a sine with an exponentially growing frequency, from the first to the last one [Hz].
 
-    It ends with a complete period, and is therefore a little longer than the given duration.
-
-    Parameters
-    ----------
-    amplitude : float
-        [rad]
-    frequencies : tuple of float
-        The first and the last one [Hz].
-    duration : float
-        [s]
-    start, ease : float, optional
-        [s]
+    It ends with a complete period, and is therefore a little longer than the duration [s].
     """
     low, high = frequencies
     growth = np.log(high / low)

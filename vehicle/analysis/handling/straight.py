@@ -34,28 +34,13 @@ _ZERO_OR_KNOWN = ("curvature", "travel_speed", "yaw_rate", "sideslip_angle", "ro
 def straight_running(
     car: DrivingCar, speeds: Array, *, progress: Callable[[float], None] | None = None
 ) -> HandlingResult:
-    """Return straight running of a car by speed, and its response to small steering angles.
+    """Return straight running of a car at rising speeds [m/s], and its response to small angles.
 
-    Parameters
-    ----------
-    car : DrivingCar
-    speeds : ndarray, shape (n,)
-        Rising [m/s].
-    progress : callable, optional
-        Called with the completed fraction, up to 1.
-
-    Returns
-    -------
-    HandlingResult
-        Curves over ``speed``: gradients as of `steady_turns`, gains by the angle of the steering
-        wheel, and ``growth``; as metrics the speed of the greatest gain of the yaw velocity, which
-        is the characteristic speed of a car that understeers there (ISO 8855), or the critical
-        speed, where the gain has no bound.
-
-    Raises
-    ------
-    PositionError
-        If the car does not run straight ahead at a speed.
+    Curves over ``speed`` are gradients as of `steady_turns`, gains by the angle of the steering
+    wheel, and ``growth``; metrics are the speed of the greatest gain of the yaw velocity, which is
+    the characteristic speed of a car that understeers there (ISO 8855), or the critical speed,
+    where the gain has no bound. A speed at which the car does not run straight ahead is a
+    `PositionError`.
     """
     rows = []
     for i, speed in enumerate(speeds.tolist()):

@@ -14,13 +14,7 @@ from .car import DrivingCar
 
 
 def car_that_drives(source: str, subject: Any) -> CarAssembly:
-    """Return a car that drives, or its equations, as an assembly.
-
-    Raises
-    ------
-    InputError
-        If the body is held, or does not travel.
-    """
+    """Return a car that drives as an assembly; an `InputError` if its body does not travel."""
     found = car_assembly_of(source, subject, _NEEDED)
     found.require_driving()
     return found
@@ -29,36 +23,28 @@ def car_that_drives(source: str, subject: Any) -> CarAssembly:
 def driving_car(source: str, subject: Any) -> DrivingCar:
     """Return a car that drives, or its equations, for analyses of handling.
 
-    Raises
-    ------
-    InputError
-        If the body is held, or does not travel.
-    PositionError
-        If the car does not rest on its wheels.
+    An `InputError` is raised if the body is held or does not travel, a `PositionError` if the car
+    does not rest on its wheels.
     """
     if isinstance(subject, DrivingCar):
         return subject
     found = car_that_drives(source, subject)
     rest = equilibrium(found.model)
     assert rest.inputs is not None
-    car, names = found.car, found.model.state_names
-    center = center_of_gravity(car)
-    heights = found.model.signals(rest)
-    axles = car.axle_positions
-    return DrivingCar(
-        model=found.model,
-        rest=np.asarray(rest),
-        base=np.array(rest.inputs),
+    car, state, base = found.car, np.asarray(rest), np.array(rest.inputs)
+    center, axles = center_of_gravity(car), car.axle_positions
+    return DrivingCar.at_rest(
+        found,
+        state,
+        base,
+        rest=state,
+        base=base,
         controls=found.controls,
-        motion=ReferencePoint(names, car.com, center),
-        wheels=found.wheels,
-        spins=tuple(found.names_of(wheel).spin for wheel in found.wheels),
-        radii=tuple(float(heights[f"{wheel}_wheel_center_z"]) for wheel in found.wheels),
+        motion=ReferencePoint(found.model.state_names, car.com, center),
         wheelbase=axles["front"] - axles["rear"],
         front=float(axles["front"] - center[0]),
         mass=sum(mass for mass, _ in masses(car)),
         rack_state=found.rack_state,
-        assembly=found,
     )
 
 

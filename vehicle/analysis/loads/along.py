@@ -21,7 +21,7 @@ from ...assembly.of import given_assembly
 from ...assembly.part_poses import CENTER, CONTACT, PartPoses, touching, wheel_axes
 from ...corner.corner import RoadWheel
 from .applied_loads import WHEEL, of_wheel
-from .balanced import BalancedLoads
+from .dataset import BalancedLoads
 from .inertia import PartTwists
 from .on_a_car import of_car
 
@@ -103,15 +103,9 @@ def along(model: System, result: Simulation) -> xr.Dataset:
 def over_time(
     find: Callable[[Array, Array], xr.Dataset], times: Array, states: Array, inputs: Array
 ) -> xr.Dataset:
-    """Return the loads along a motion, computed in one thread per core.
+    """Return the loads along a motion at times, (n,) [s], computed in one thread per core.
 
-    Parameters
-    ----------
-    find : callable
-        Returns the loads in some states with inputs.
-    times : ndarray, shape (n,)
-        [s]
-    states, inputs : ndarray, shape (n, states) and (n, inputs)
+    `find` returns the loads in some states with inputs.
     """
     size = times.size
     parts = [slice(begin, begin + _TOGETHER) for begin in range(0, size, _TOGETHER)]

@@ -19,20 +19,12 @@ WHEEL = "wheel"
 
 @dataclass(frozen=True)
 class AppliedLoads:
-    """Loads on k wheels in n load cases.
+    """Loads on k wheels in n load cases."""
 
-    Attributes
-    ----------
-    racks : ndarray, shape (n,)
-        Displacements of the rack [m].
-    travels : ndarray, shape (n, k)
-        Heights above design at which wheels are held [m]; NaN for a free wheel.
-    vectors : ndarray, shape (n, k, 12), or None
-        As in `Case.vector`; None for the forces of the tyres on the road at z = 0.
-    """
-
-    racks: Array
+    racks: Array  # displacements of the rack, (n,) [m]
+    # heights above design at which wheels are held, (n, k) [m]; NaN for a free wheel
     travels: Array
+    # (n, k, 12), as in `Case.vector`; None for the forces of the tyres on the road at z = 0
     vectors: Array | None
 
     @classmethod
@@ -62,14 +54,7 @@ class AppliedLoads:
         return np.isnan(self.travels)
 
     def at(self, poses: Mapping[str, PartPoses], rows: NDArray[np.int64]) -> Array:
-        """Return the loads in some positions, as in `Case.vector`, (positions, k, 12).
-
-        Parameters
-        ----------
-        poses : mapping
-        rows : ndarray, shape (positions,)
-            The case of each position.
-        """
+        """Return the loads in positions, each of a case, as in `Case.vector`, (rows, k, 12)."""
         if self.vectors is not None:
             return self.vectors[rows]
         found = np.zeros((len(rows), self.travels.shape[1], 12))
@@ -92,16 +77,7 @@ def of_wheel(part: str, loads: Sequence[Load]) -> list[Load]:
 
 
 def road_and_drive(part: str, wheel: RoadWheel, vectors: Array) -> list[Load]:
-    """Return the loads of road and drive on a wheel.
-
-    Parameters
-    ----------
-    part : str
-        Name of the wheel's part.
-    wheel : RoadWheel
-    vectors : ndarray, shape (n, 12)
-        As in `Case.vector`.
-    """
+    """Return the loads of road and drive on a wheel, from vectors, (n, 12), as in `Case.vector`."""
     force, moment, at_center, center_moment = np.einsum(
         "nij,nki->knj", wheel_axes(wheel), vectors.reshape(-1, 4, 3)
     )

@@ -20,21 +20,10 @@ DEAD_POINT = "the linkage is at a dead point, where the loads on the joints have
 
 
 def balanced(matrix: Array, applied: Array) -> tuple[Array, NDArray[np.bool_]]:
-    """Return the unknowns that balance loads, and where they are sound.
+    """Return the unknowns that balance loads, NaN at dead points, and where they are sound.
 
-    Parameters
-    ----------
-    matrix : ndarray, shape (..., m, m)
-        The effect of a unit of each unknown, as columns.
-    applied : ndarray, shape (..., m) or (..., m, cases)
-        Loads.
-
-    Returns
-    -------
-    unknowns : ndarray
-        Of the shape of `applied`; NaN at dead points.
-    sound : ndarray of bool, shape (...)
-        False at dead points.
+    The columns of the matrix, (..., m, m), are the effects of units of the unknowns; loads have the
+    shape (..., m) or (..., m, cases).
     """
     several = applied.ndim == matrix.ndim
     found = _solution(matrix, _with_probes(applied if several else applied[..., None]))
@@ -43,14 +32,9 @@ def balanced(matrix: Array, applied: Array) -> tuple[Array, NDArray[np.bool_]]:
 
 
 def balanced_at_many(entries: Entries, applied: Array) -> tuple[Array, NDArray[np.bool_]]:
-    """Return the same as `balanced` for sparse equations at many positions.
+    """Return the same as `balanced` for sparse equations at n positions.
 
-    Parameters
-    ----------
-    entries : mapping
-        Non-zero entries of the matrix at n positions, each of shape (n,).
-    applied : ndarray, shape (n, m) or (n, m, cases)
-        Loads.
+    Non-zero entries of the matrix have the shape (n,), loads (n, m) or (n, m, cases).
     """
     several = applied.ndim == 3
     right = _with_probes(applied if several else applied[..., None])

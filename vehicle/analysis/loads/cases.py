@@ -34,27 +34,18 @@ class Case:
 
     Forces and moments are in the axes of the tyre (ISO 8855): x forward in the plane of the wheel,
     y left, z up, x and y horizontal.
-
-    Attributes
-    ----------
-    name : str
-    contact, contact_moment : ndarray, shape (3,)
-        At the lowest point of the wheel, whose brake holds it [N], [N m].
-    center, center_moment : ndarray, shape (3,)
-        At the wheel centre, such as the traction of a wheel with a drive shaft [N], [N m].
-    rack : float
-        Displacement of the rack [m].
-    travel : float or None
-        Wheel travel [m], with the vertical force at the contact that holds it there. None: the
-        suspension is in equilibrium under the loads.
     """
 
     name: str
+    # at the lowest point of the wheel, whose brake holds it, (3,) [N], [N m]
     contact: Array = field(default_factory=lambda: np.zeros(3))
     contact_moment: Array = field(default_factory=lambda: np.zeros(3))
+    # at the wheel centre, such as the traction of a wheel with a drive shaft, (3,) [N], [N m]
     center: Array = field(default_factory=lambda: np.zeros(3))
     center_moment: Array = field(default_factory=lambda: np.zeros(3))
-    rack: float = 0.0
+    rack: float = 0.0  # displacement of the rack [m]
+    # wheel travel [m], with the vertical force at the contact that holds it there. None: the
+    # suspension is in equilibrium under the loads.
     travel: float | None = None
 
     @property
@@ -91,16 +82,9 @@ def cases_of(
 ) -> list[tuple[Case, ...]]:
     """Return load cases, each with a `Case` for every wheel.
 
-    Parameters
-    ----------
-    given : Validator
-        Collects the errors.
-    assembly : HeldAssembly
-    described : mapping
-        By name, each with keys of `docs/suspension/loads.md` for every wheel; one of several wheels
-        may have further ones under its name.
-    static_loads : sequence of float
-        The static load of each wheel, the unit of keys that end in ``_g`` [N].
+    Cases are described by name, each with keys of `docs/suspension/loads.md` for every wheel; one
+    of several wheels may have further ones under its name. Static loads are the unit of keys that
+    end in ``_g`` [N].
     """
     if not described:
         given.fail("cases: one or more are needed.")

@@ -3,17 +3,18 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import product
+from typing import NamedTuple, Self
 
 import numpy as np
 import xarray as xr
 
 from ....core.named_types import Array
-from ....core.quantities import variable
+from ....core.quantities import attributes, variable
 from ....core.validator import Validator
 from ....core.vectors import cross
 from ....datasets.recording import TIME
 from ...assembly.assembly import HeldAssembly
-from ...assembly.by_wheel import WHEEL, flat, wheel_coordinate
+from ...assembly.by_wheel import WHEEL, flat, stacked, wheel_coordinate
 from ...assembly.coupling import BodyPose
 from ...assembly.load import Load
 from ...assembly.part_poses import PartPoses
@@ -33,6 +34,36 @@ AXES = {
 
 _ENDS = "min", "min_case", "max", "max_case"
 _NEEDED = "a result of kintrafo.loads.static or along is needed"
+
+
+class BalancedLoads(NamedTuple):
+    """The loads in n states of equations of motion, in the axes of the assembly's file."""
+
+    assembly: HeldAssembly
+    poses: Mapping[str, PartPoses]  # by suffix
+    # all loads on each group of parts, by suffix, those of the joints first
+    loads: dict[str, list[Load]]
+    holding: list[Array]  # residual vertical force on each wheel, (n,) [N]
+
+    @classmethod
+    def of(
+        cls, assembly: HeldAssembly, poses: Mapping[str, PartPoses], known: Mapping[str, list[Load]]
+    ) -> Self:
+        """Return the known loads by suffix, with inertia, and those of the joints."""
+        loads: dict[str, list[Load]] = {}
+        holding: list[Array] = []
+        for suffix, group in poses.items():
+            equations = BalanceEquations(group)
+            unknowns = equations.solve(equations.applied(known[suffix]))
+            loads[suffix] = [*equations.carried(unknowns), *known[suffix]]
+            holding += [*unknowns[:, -len(group.wheels) :].T]
+        return cls(assembly, poses, loads, holding)
+
+    def dataset(self) -> xr.Dataset:
+        """Return the loads over time, as in `kintrafo.loads.along`."""
+        found = loads_of(TIME, self.assembly, self.poses, self.loads)
+        meaning = "residual vertical force at the wheel"
+        return found.assign(holding_force=stacked(TIME, self.holding, attributes(meaning, "N")))
 
 
 def loads_of(
@@ -101,18 +132,9 @@ def dataset_of(
     design: Mapping[str, Array],
     mounted: Mapping[str, str],
 ) -> xr.Dataset:
-    """Return loads over a dimension.
+    """Return loads over a dimension, with poses of parts and their centres at design, (3,) [m].
 
-    Parameters
-    ----------
-    over : str
-    loads : sequence of Load
-    places : mapping
-        Poses of the parts in equilibrium.
-    design : mapping
-        Their centres at design, (3,) [m].
-    mounted : mapping of str to str
-        As in `Structure`.
+    Points belong to mounts as in `Structure`.
     """
     count = max(len(place.center) for place in places.values())
     fields = {name: _columns(loads, name, count) for name in ("force", "moment", "at")}
@@ -158,18 +180,9 @@ def dataset_of(
 def over_cases(
     found: xr.Dataset, names: Sequence[str], carried: Sequence[int], reasons: Sequence[str]
 ) -> xr.Dataset:
-    """Return the loads over all cases, from those of cases with an equilibrium.
+    """Return the loads over all named cases, from those of cases with an equilibrium, by index.
 
-    Parameters
-    ----------
-    found : xarray.Dataset
-        Over the cases with an equilibrium.
-    names : sequence of str
-        Of all cases.
-    carried : sequence of int
-        Indices of the cases with an equilibrium.
-    reasons : sequence of str
-        The reason why a case has no equilibrium; empty if it has.
+    The reasons why a case has no equilibrium are empty if it has.
     """
     found = found.assign_coords({CASE: [names[i] for i in carried]}).reindex({CASE: [*names]})
     found["reason"] = variable(CASE, np.array(reasons), "reason for no equilibrium", "1")

@@ -19,16 +19,10 @@ _WEIGHTS = {-2: 1 / 12, -1: -8 / 12, 1: 8 / 12, 2: -1 / 12}
 
 @dataclass(frozen=True)
 class PartTwists:
-    """Velocities and accelerations of the parts of a system in many states.
-
-    Attributes
-    ----------
-    bodies : tuple of str
-    twists, rates : ndarray, shape (n, bodies, 6)
-        Angular velocity and velocity of the centre of mass, and their time derivatives.
-    """
+    """Velocities and accelerations of the parts of a system in many states."""
 
     bodies: tuple[str, ...]
+    # (n, bodies, 6): angular velocity and velocity of the centre of mass, and their rates
     twists: Array
     rates: Array
 

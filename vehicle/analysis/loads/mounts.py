@@ -30,23 +30,11 @@ _MEANINGS = {
 def totals(
     over: str, loads: Sequence[Load], mounted: Mapping[str, str], count: int
 ) -> dict[str, xr.Variable]:
-    """Return the total loads on each mount, as variables.
+    """Return the total loads on each mount at a number of positions, as variables.
 
-    Parameters
-    ----------
-    over : str
-        Dimension of the positions.
-    loads : sequence of Load
-    mounted : mapping of str to str
-        Points that belong to a mount at another one, or to none (an empty text).
-    count : int
-        Number of positions.
-
-    Returns
-    -------
-    dict of str to xarray.Variable
-        ``total_force``, ``total_moment`` and ``total_at`` over the positions, ``mount`` and axis;
-        the names of the mounts, and in ``total_by`` those of the loads.
+    They are ``total_force``, ``total_moment`` and ``total_at`` over the positions, ``mount`` and
+    axis; the names of the mounts, and in ``total_by`` those of the loads. Points may belong to a
+    mount at another one, or to none (an empty text).
     """
     groups = _groups([load for load in loads if load.part == CHASSIS], mounted)
     found = np.empty((3, count, len(groups), 3))
@@ -71,12 +59,7 @@ def totals(
 def with_totals(dataset: xr.Dataset, *, several: bool = False) -> xr.Dataset:
     """Return loads with the totals at the mounts as further loads, on the part ``total``.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        Result of `static` or `along`.
-    several : bool, optional
-        Whether to leave out mounts with one load.
+    Those at mounts with one load may be left out.
     """
     if MOUNT not in dataset.dims:
         return dataset

@@ -23,8 +23,7 @@ from ...corner.corner import RoadWheel
 from ...corner.structure import GROUND
 from ...models.sides import SIDES
 from .applied_loads import WHEEL, of_wheel
-from .balanced import BalancedLoads
-from .dataset import AXIS, LOAD, PART
+from .dataset import AXIS, LOAD, PART, BalancedLoads
 from .inertia import PartTwists
 from .mounts import ALL, MOUNT
 
@@ -35,13 +34,7 @@ _AT = ("at", "at_in_part", "total_at")
 
 
 class CarInMotion:
-    """A car that drives, in n states.
-
-    Parameters
-    ----------
-    assembly : CarAssembly
-    states, inputs : ndarray, shape (n, states) and (n, inputs)
-    """
+    """A car that drives, in n states with inputs."""
 
     def __init__(self, assembly: CarAssembly, states: Array, inputs: Array) -> None:
         self.assembly, self.states, self.inputs = assembly, states, inputs
@@ -94,13 +87,7 @@ class CarInMotion:
         return found.reshape(twists.shape)
 
     def axle(self, end: str) -> BalancedLoads:
-        """Return the loads on an axle, in the axes of its file.
-
-        Raises
-        ------
-        PositionError
-            If the motion reaches a dead point.
-        """
+        """Return the loads on an axle in its own axes; a dead point is a `PositionError`."""
         axle, begin = self.assembly.held[end], f"{end}_"
         own = (begin, "rack_") if end == "front" else (begin,)  # a rear rack is fixed to the body
         values = {
@@ -175,14 +162,7 @@ class CarInMotion:
 
 
 def rack_force(assembly: CarAssembly, states: Array, inputs: Array) -> Array:
-    """Return the force of the steering on the rack along its axis, see `steering_force`, (n,) [N].
-
-    Parameters
-    ----------
-    assembly : CarAssembly
-        A car that drives, with a rack.
-    states, inputs : ndarray, shape (n, states) and (n, inputs)
-    """
+    """Return the force of the steering along the rack, see `steering_force`, (n,) [N]."""
     front = CarInMotion(assembly, states, inputs).axle("front")
     loads = [load for own in front.loads.values() for load in own]
     return steering_force(next(iter(front.poses.values())), loads)

@@ -25,23 +25,12 @@ _MANY = 200
 class BalanceEquations:
     """Equilibrium of all parts in many positions, for any loads.
 
-    Parameters
-    ----------
-    poses : PartPoses
-    holding : sequence of str, optional
-        The lines along which forces hold the suspension: its springs. By default a vertical force
-        at the contact of each wheel holds it.
+    The lines along which forces hold the suspension are its springs; by default a vertical force at
+    the contact of each wheel holds it. The unknowns are the loads of the joints, then the forces
+    that hold the suspension, which are zero if the loads are in equilibrium.
 
-    Attributes
-    ----------
-    indeterminate : ndarray, shape (n, unknowns, k)
-        Unknowns in equilibrium without loads, if supports are redundant, as the five rods of a
-        rigid axle. Solutions have no part in these directions.
-
-    Notes
-    -----
-    The unknowns are the loads of the joints, then the forces that hold the suspension, which are
-    zero if the loads are in equilibrium.
+    ``indeterminate``, (n, unknowns, k), are unknowns in equilibrium without loads, if supports are
+    redundant, as the five rods of a rigid axle. Solutions have no part in these directions.
     """
 
     def __init__(self, poses: PartPoses, holding: Sequence[str] = ()) -> None:
@@ -92,17 +81,10 @@ class BalanceEquations:
         }
 
     def solve(self, applied: Array) -> Array:
-        """Return the unknowns under loads on the parts.
+        """Return the unknowns under loads on the parts, (n, 6 parts) or (n, 6 parts, cases).
 
-        Parameters
-        ----------
-        applied : ndarray, shape (n, 6 parts) or (n, 6 parts, cases)
-            Force and moment about the centre of mass of each part.
-
-        Raises
-        ------
-        PositionError
-            At a dead point, where loads are unbounded.
+        Loads are force and moment about the centre of mass of each part. A dead point, where loads
+        are unbounded, is a `PositionError`.
         """
         found, sound = self.solved(applied)
         if not sound.all():

@@ -18,16 +18,10 @@ def acts(by: str) -> bool:
 
 
 def overview(found: xr.Dataset, title: str, parts: Sequence[str] = ()) -> Tabulated:
-    """Return the size of every force in every case.
+    """Return the size of every force in every case of a result of `static`.
 
-    Parameters
-    ----------
-    found : xarray.Dataset
-        Result of `static`.
-    title : str
-    parts : sequence of str, optional
-        Parts whose loads are all shown; by default the table has each joint once. The part
-        ``total`` has the sums at all mounts.
+    All loads of chosen parts are shown; by default the table has each joint once. The part
+    ``total`` has the sums at all mounts.
     """
     found = flat(found)
     rows = [

@@ -58,17 +58,8 @@ _UNSTABLE = (
 def static_equilibrium(assembly: HeldAssembly, loads: AppliedLoads) -> tuple[Array, list[str]]:
     """Return the equilibrium positions of wheels under loads, or reasons why there is none.
 
-    Parameters
-    ----------
-    assembly : HeldAssembly
-    loads : AppliedLoads
-
-    Returns
-    -------
-    coordinates : ndarray, shape (n, wheels)
-        As in `HeldAssembly.at_wheel_coordinates`; NaN in cases without equilibrium.
-    reasons : list of str
-        Empty for cases with an equilibrium.
+    Positions, (n, wheels), are as in `HeldAssembly.at_wheel_coordinates`, and NaN in cases without
+    equilibrium; reasons are empty for the others.
     """
     found, why, first = [], [], 0
     for one in assembly.independent:

@@ -14,21 +14,12 @@ from ...corner.structure import GROUND
 
 @dataclass(frozen=True)
 class VirtualWork:
-    """Power of loads in n positions and in k motions at unit rate, for an assembly with k wheels.
+    """Power of loads in n positions and k motions at unit rate, for an assembly with k wheels."""
 
-    Attributes
-    ----------
-    own : ndarray, shape (n, k)
-        Power of all loads but those on the wheels.
-    units : ndarray, shape (n, k, k, 12)
-        By wheel and motion, power of unit loads on a wheel as in `Case.vector`.
-    rise : ndarray, shape (n, k, k)
-        By wheel and motion, power of a vertical unit force at its contact.
-    """
-
-    own: Array
+    own: Array  # power of all loads but those on the wheels, (n, k)
+    # by wheel and motion, power of unit loads on a wheel as in `Case.vector`, (n, k, k, 12)
     units: Array
-    rise: Array
+    rise: Array  # by wheel and motion, power of a vertical unit force at its contact, (n, k, k)
 
     @classmethod
     def of(

@@ -25,7 +25,7 @@ from ...assembly.by_wheel import WHEEL, wheel_coordinate
 from ...assembly.car import CarAssembly
 from ...assembly.equilibrium import equilibrium
 from ...roads.rough import isotropic_coherence, roughness_of, spectrum
-from .outputs import OUTPUTS_OF_WHEELS, body_outputs, upward, wheel_outputs
+from .outputs import OUTPUTS_OF_WHEELS, body_outputs, upward
 from .subject import car_assembly
 from .weighting import weighting
 
@@ -223,7 +223,14 @@ def _outputs(
             for k in body
         }
         found[name] = sum((arms[k] * s2 * position[k] for k in body), np.zeros_like(s2))
-    rows = wheel_outputs(assembly, signals, position, assembly.travel_slopes(linear.state))
+    slopes = assembly.travel_slopes(linear.state)
+    rows = {
+        "load": [signals[f"{assembly.names_of(w).signals}tyre_force"] for w in assembly.wheels],
+        "travel": [
+            np.sum([slope * position[k] for k, slope in slopes[w].items()], axis=0)
+            for w in assembly.wheels
+        ],
+    }
     single = len(assembly.wheels) == 1
     return found | {name: (row[0] if single else np.stack(row)) for name, row in rows.items()}
 

@@ -1,6 +1,6 @@
 """Outputs of a ride: accelerations of the body, loads and travels of the wheels."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -25,41 +25,11 @@ def body_outputs(assembly: CarAssembly) -> dict[str, tuple[str, str]]:
     return {name: (text, "m/s^2") for name, text in words.items()}
 
 
-def wheel_outputs(
-    assembly: CarAssembly,
-    signals: Mapping[str, Any],
-    coordinates: Mapping[str, Any],
-    slopes: Mapping[str, Mapping[str, float]],
-) -> dict[str, Sequence[Any]]:
-    """Return first-order loads and travels of the wheels, each in the order of the wheels.
-
-    Parameters
-    ----------
-    assembly : CarAssembly
-    signals, coordinates : mapping
-        Changes of signals and coordinates, by name.
-    slopes : mapping
-        Derivatives of the travel of each wheel in the coordinates.
-    """
-    names = {wheel: assembly.names_of(wheel).signals for wheel in assembly.wheels}
-    return {
-        "load": [signals[f"{names[wheel]}tyre_force"] for wheel in assembly.wheels],
-        "travel": [
-            np.sum([slope * coordinates[k] for k, slope in slopes[wheel].items()], axis=0)
-            for wheel in assembly.wheels
-        ],
-    }
-
-
 def upward(motion: Mapping[str, tuple[Any, Any, Any]], place: Array) -> Any:
     """Return the upward acceleration of a point of a body that heaves, pitches and rolls.
 
-    Parameters
-    ----------
-    motion : mapping of str to tuple of ndarray or float
-        Position, rate and acceleration of ``heave``, and of ``pitch`` and ``roll`` if they exist.
-    place : ndarray, shape (3,)
-        The point relative to the centre of mass, axes of the body [m].
+    The motion is position, rate and acceleration of ``heave``, and of ``pitch`` and ``roll`` if
+    they exist; the point is relative to the centre of mass, in the axes of the body, (3,) [m].
     """
     none = 0.0 * motion["heave"][0]
     pitch, d_pitch, dd_pitch = motion.get("pitch", (none, none, none))

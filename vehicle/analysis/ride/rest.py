@@ -73,13 +73,7 @@ def of_state(assembly: CarAssembly, state: Any) -> xr.Dataset:
 
 
 def wheels_and_body(found: xr.Dataset) -> tuple[list[xr.DataArray], list[xr.DataArray]]:
-    """Return the variables of the wheels, and those of the body.
-
-    Parameters
-    ----------
-    found : xarray.Dataset
-        Result of `at_rest`, or the motion of a car on a road.
-    """
+    """Return the variables of the wheels, and those of the body, of a car at rest or on a road."""
     of_wheels = {*_OF_WHEELS, "road"}
     variables = found.data_vars.items()
     return (

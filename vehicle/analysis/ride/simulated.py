@@ -13,9 +13,9 @@ from ...assembly.by_wheel import WHEEL, wheel_coordinate
 from ...assembly.car import CarAssembly
 from ...assembly.equilibrium import equilibrium
 from ...roads import Road
-from ..run import Run
+from ..run import MovingCar, Run
 from .outputs import OUTPUTS_OF_WHEELS, body_outputs, upward
-from .subject import car_assembly, riding_car
+from .subject import car_assembly
 from .weighting import weighted
 
 # More outputs would fill the memory: the step is probably wrong.
@@ -125,23 +125,13 @@ def run(
     result = _simulated(assembly, road, speed, end, step, options)
     motion = _judged(_dataset(assembly, result), begin)
     states, inputs = result.y.T, result.inputs
-    car = riding_car(assembly, states[0], inputs[0])
+    car = MovingCar.at_rest(assembly, states[0], inputs[0])
     way = speed * result.t
     return Run(car, motion, states, inputs, np.stack([way, 0.0 * way], axis=-1), way, road)
 
 
 def check_times(duration: float, settle: float, output_step: float) -> None:
-    """Refuse times of a simulation that do not go together.
-
-    Parameters
-    ----------
-    duration, settle, output_step : float
-        Duration, time before the results, and interval of the outputs [s].
-
-    Raises
-    ------
-    InputError
-    """
+    """Refuse durations and intervals [s] of a simulation that do not go together."""
     least, finest = _FEWEST_OUTPUTS * output_step, duration / _MOST_OUTPUTS
     step = f"output_step = {output_step:g} s"
     with Validator("ride") as given:

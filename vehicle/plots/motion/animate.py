@@ -83,13 +83,7 @@ def animate(
 
 
 def played(result: HandlingResult | Run) -> Markup:
-    """Return the part of a page that plays a motion; see `page.player`.
-
-    Parameters
-    ----------
-    result : HandlingResult or Run
-        A manoeuvre or a ride.
-    """
+    """Return the part of a page that plays a manoeuvre or a ride; see `page.player`."""
     run, cones = _shown(result)
     rows = frames(run.motion["time"].values, _per_second(run, _MOST_POSITIONS))[1]
     return player(scene_of(run, rows, cones=cones), charts_of(run.motion, rows))

@@ -28,33 +28,17 @@ _DIGITS = 4  # of the greatest value
 
 @dataclass(frozen=True)
 class Chart:
-    """A curve over time as a picture, and the positions of its values in it.
+    """A curve over time as a picture, and the positions of its values in it."""
 
-    Attributes
-    ----------
-    source : str
-        The picture, as the address of an image.
-    words : str
-        Description of the picture.
-    box : list of float
-        Left, right, top and bottom end of its axes, as parts of its width and height.
-    times : list of float
-        Times at the left and the right end of its axes [s].
-    lines : list of tuple
-        Name, empty for a single line, and the values at the times of the scene.
-    decimals : int
-        Number of decimals of the values as text.
-    unit : str
-        Unit of the values.
-    """
-
-    source: str
-    words: str
+    source: str  # the picture, as the address of an image
+    words: str  # description of the picture
+    # left, right, top and bottom end of its axes, as parts of its width and height
     box: list[float]
-    times: list[float]
+    times: list[float]  # times at the left and the right end of its axes [s]
+    # name, empty for a single line, and the values at the times of the scene
     lines: list[tuple[str, list[float | None]]]
-    decimals: int
-    unit: str
+    decimals: int  # number of decimals of the values as text
+    unit: str  # unit of the values
 
     @property
     def data(self) -> dict[str, Any]:
@@ -65,17 +49,7 @@ class Chart:
 def charts_of(
     motion: xr.Dataset, rows: NDArray[np.intp], names: Sequence[str] | None = None
 ) -> list[Chart]:
-    """Return curves of a motion.
-
-    Parameters
-    ----------
-    motion : xarray.Dataset
-        Curves over time.
-    rows : ndarray of int
-        Indices of the outputs in the scene.
-    names : sequence of str, optional
-        The curves; by default the main ones of a car.
-    """
+    """Return curves of a motion at outputs of a scene; by default the main ones of a car."""
     dataset = for_print(by_axle(motion.transpose("time", ...)), "time")
     with rc_context(STYLE):
         shown = shown_names(dataset) if names is None else names

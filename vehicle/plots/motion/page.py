@@ -27,14 +27,9 @@ def motion_page(scene: CarScene, charts: Sequence[Chart], title: str) -> str:
 
 
 def player(scene: CarScene, charts: Sequence[Chart] = ()) -> Markup:
-    """Return the part of a page that shows a scene; the page has `player_script` once.
+    """Return the part of a page that shows a scene, with a line in curves at the shown time.
 
-    Parameters
-    ----------
-    scene : CarScene
-        A scene of one position has no controls of time.
-    charts : sequence of Chart, optional
-        Curves with a line at the shown time.
+    The page has `player_script` once. A scene of one position has no controls of time.
     """
     text = page_environment(__package__).get_template("player.html.jinja").render(
         moves=len(scene.times) > 1,

@@ -39,32 +39,13 @@ _FAR = 4.0
 
 
 def write_gif(path: Path, scene: CarScene, title: str, fps: float) -> None:
-    """Write a motion as a GIF.
-
-    Parameters
-    ----------
-    path : pathlib.Path
-    scene : CarScene
-    title : str
-    fps : float
-        Frames per second.
-    """
+    """Write a motion as a GIF, with a number of frames per second."""
     drawer = Drawer(scene, title)
     save_frames(path, drawer.figure, drawer.draw, len(scene.times), fps)
 
 
 class Drawer:
-    """Frames of one motion on one figure.
-
-    Parameters
-    ----------
-    scene : CarScene
-    title : str
-
-    Attributes
-    ----------
-    figure : matplotlib.figure.Figure
-    """
+    """Frames of one motion on one figure."""
 
     def __init__(self, scene: CarScene, title: str) -> None:
         self._scene, self._title = scene, title

@@ -1,7 +1,7 @@
 """An axle that moves on a rig: its motions one after the other, for a player."""
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -11,12 +11,10 @@ from markupsafe import Markup
 from ....core.named_types import Array
 from ....core.quantities import display_of, displayed, long_name
 from ....pictures.curves import dimension_along
-from ....systems.system import System
 from ...analysis.characteristics.datasets import dataset
-from ...analysis.run import Run
+from ...analysis.run import MovingCar, Run
 from ...assembly.assembly import Assembly
 from ...assembly.by_wheel import WHEEL
-from ...assembly.car import CarAssembly
 from .charts import charts_of
 from .page import player
 from .scene import scene_of
@@ -29,18 +27,6 @@ _DURATION, _POSITIONS = 3.0, 75
 _RADIUS = 0.3
 
 
-@dataclass(frozen=True)
-class _AxleOnRig:
-    """An axle on a fixed body, with the properties that pictures of a moving car need."""
-
-    model: System
-    wheels: Sequence[str]
-    spins: Sequence[str]
-    radii: Sequence[float]
-    body: str = ""
-    assembly: CarAssembly | None = None
-
-
 class _RigMotion(NamedTuple):
     """A motion of the rig: states, inputs, curves over time, and the text at each position."""
 
@@ -51,12 +37,9 @@ class _RigMotion(NamedTuple):
 
 
 def rig_player(assembly: Assembly) -> Markup:
-    """Return the part of a page that plays parallel travel, roll and steering of an axle.
+    """Return the part of a page that plays parallel travel, roll and steering of a whole axle.
 
-    Parameters
-    ----------
-    assembly : Assembly
-        A rigid axle or a twist beam that can move with rigid joints.
+    It can move with rigid joints.
     """
     motions = list(_motions(assembly))
     states = np.concatenate([motion.states for motion in motions])
@@ -70,11 +53,12 @@ def rig_player(assembly: Assembly) -> Markup:
         for name in _CHARTS
     }
     over_time = xr.Dataset(curves, {"time": ("time", times, {"units": "s", "long_name": "time"})})
-    axle = _AxleOnRig(
-        assembly.model,
-        assembly.wheels,
-        [assembly.names_of(wheel).spin for wheel in assembly.wheels],
-        [radius or _RADIUS for radius in assembly.tyre_radii],
+    axle = MovingCar(
+        model=assembly.model,
+        wheels=assembly.wheels,
+        spins=[assembly.names_of(wheel).spin for wheel in assembly.wheels],
+        radii=[radius or _RADIUS for radius in assembly.tyre_radii],
+        body="",
     )
     rows = np.arange(count)
     scene = scene_of(Run(axle, over_time, states, inputs, np.zeros((count, 2))), rows)

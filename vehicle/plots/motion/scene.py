@@ -36,48 +36,26 @@ _ALONG, _BEYOND = 0.05, 12.0
 
 @dataclass(frozen=True)
 class CarScene:
-    """A car with w wheels in n positions, in the axes of the road [m].
+    """A car with w wheels in n positions, in the axes of the road [m]."""
 
-    Attributes
-    ----------
-    times : ndarray, shape (n,)
-        [s]
-    parts : dict of str to ndarray, shape (n, points, 3)
-        Points of links, arms and other parts between body and wheels.
-    springs : list of ndarray, shape (n, 2, 3)
-        Ends of springs and struts.
-    outline : ndarray, shape (n, 2, points, 3)
-        Outline of the body, on the left and on the right.
-    centers, axes, spokes : ndarray, shape (n, w, 3)
-        Centres of wheels; unit vectors along their axes, to the left, and across them, fixed to the
-        wheels.
-    radii : ndarray, shape (w,)
-        Heights of the centres above the road at rest.
-    contacts, forces : ndarray, shape (n, w, 3)
-        Lowest points of wheels, and the forces of the road on them [N].
-    places : ndarray, shape (n, 2)
-        Positions of the reference point on the road.
-    cones : ndarray, shape (cones, 2)
-    tracks : list of ndarray, shape (m, 3)
-        The road under the left and the right wheels; empty for a level road.
-    words : list of str
-        Numbers at each position, as text.
-    """
-
-    times: Array
+    times: Array  # (n,) [s]
+    # points of links, arms and other parts between body and wheels, (n, points, 3)
     parts: dict[str, Array]
-    springs: list[Array]
-    outline: Array
+    springs: list[Array]  # ends of springs and struts, (n, 2, 3)
+    outline: Array  # outline of the body, on the left and on the right, (n, 2, points, 3)
+    # centres of wheels; unit vectors along their axes, to the left, and across, (n, w, 3)
     centers: Array
     axes: Array
     spokes: Array
-    radii: Array
+    radii: Array  # heights of the centres above the road at rest, (w,)
+    # lowest points of wheels, and the forces of the road on them, (n, w, 3) [N]
     contacts: Array
     forces: Array
-    places: Array
-    cones: Array
+    places: Array  # positions of the reference point on the road, (n, 2)
+    cones: Array  # (cones, 2)
+    # the road under the left and the right wheels; empty for a level road, (m, 3)
     tracks: list[Array]
-    words: list[str]
+    words: list[str]  # numbers at each position, as text
 
     @property
     def has_body(self) -> bool:
@@ -99,15 +77,7 @@ class CarScene:
 
 
 def scene_of(run: Run, rows: NDArray[np.intp], *, cones: xr.Dataset | None = None) -> CarScene:
-    """Return the scene of a simulation.
-
-    Parameters
-    ----------
-    run : Run
-    rows : ndarray of int
-        Indices of the shown outputs.
-    cones : xarray.Dataset, optional
-    """
+    """Return the scene of a simulation at some outputs."""
     car, motion = run.car, run.motion.isel(time=rows)
     states, inputs = run.states[rows], run.inputs[rows]
     skeleton = Skeleton(car.model)

@@ -11,20 +11,3 @@
 `ride`              modes and responses of a car, and its motion over a bump
 `handling`          steady turns of a car that drives, and its motion in a step steer
 """
-
-from .axle import axle_chapter
-from .chapter import Chapter
-from .compliance import compliance_chapter
-from .elastokinematics import elastokinematics_chapter
-from .goals import goals_chapter
-from .handling import steady_turns_chapter, step_steer_chapter
-from .loads import loads_chapter
-from .rest import rest_chapter
-from .ride import ride_chapter
-from .sheet import sheet_chapter
-
-__all__ = [
-    "Chapter", "axle_chapter", "compliance_chapter", "elastokinematics_chapter", "goals_chapter",
-    "loads_chapter", "rest_chapter", "ride_chapter", "sheet_chapter", "steady_turns_chapter",
-    "step_steer_chapter",
-]  # fmt: skip

@@ -13,17 +13,9 @@ from ....pictures.figures import data_uri
 
 @dataclass(frozen=True)
 class ChapterPicture:
-    """A picture of a chapter.
+    """A picture of a chapter."""
 
-    Attributes
-    ----------
-    source : str
-        The picture, as the address of an image.
-    words : str
-        Its description.
-    """
-
-    source: str
+    source: str  # the picture, as the address of an image
     words: str
 
     @classmethod

@@ -27,19 +27,9 @@ _MOST_BEYOND = 1000
 def pictures(
     dataset: xr.Dataset, names: Sequence[str], title: str, words: str, *, goals: Sequence[Goal] = ()
 ) -> tuple[ChapterPicture, ...]:
-    """Return pictures of some curves, eight in each.
+    """Return pictures of some curves, eight in each, with a title and a description.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        Curves of both wheels of an axle are over ``wheel``.
-    names : sequence of str
-    title : str
-        Title of each picture.
-    words : str
-        Description of the pictures.
-    goals : sequence of Goal, optional
-        Goals of other curves are left out.
+    Curves of both wheels of an axle are over ``wheel``. Goals of other curves are left out.
     """
     count = -(-len(names) // _MOST)
     found = []
@@ -60,14 +50,8 @@ def small_pictures(
 ) -> tuple[ChapterPicture, ...]:
     """Return a small picture of each curve, for the panels of a chapter.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-    names : sequence of str
-    words : str, optional
-        The motion of the curves, in a chapter with several motions.
-    goals : sequence of Goal, optional
-        Goals of other curves are left out.
+    The motion of the curves is described in a chapter with several motions. Goals of other curves
+    are left out.
     """
     found = []
     with rc_context(STYLE):
@@ -81,10 +65,7 @@ def small_pictures(
 def with_wanted(dataset: xr.Dataset, usual: Iterable[str], goals: Iterable[Goal]) -> list[str]:
     """Return the names of the usual curves with data, and of curves with goals.
 
-    Raises
-    ------
-    InputError
-        If a goal is that of another curve.
+    A goal of another curve is an `InputError`.
     """
     there = [name for name in usual if name in dataset.data_vars]
     names = dict.fromkeys(n for n in there if bool(np.isfinite(dataset[n]).any()))

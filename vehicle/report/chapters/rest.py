@@ -8,8 +8,8 @@ import xarray as xr
 from ....core.quantities import displayed, heading_of, names_in_words
 from ....core.tabulated import Tabulated, number
 from ...analysis.ride.rest import of_state, wheels_and_body
-from ...analysis.ride.subject import car_assembly, riding_car
-from ...analysis.run import Run
+from ...analysis.ride.subject import car_assembly
+from ...analysis.run import MovingCar, Run
 from ...assembly.by_wheel import WHEEL
 from ...assembly.equilibrium import equilibrium
 from ...plots.motion.page import player
@@ -42,7 +42,7 @@ def rest_chapter(subject: Any) -> Chapter:
         {"load": (("time", WHEEL), loads[None]), "road": (("time", WHEEL), 0.0 * loads[None])},
         {"time": [0.0]},
     )
-    car = riding_car(assembly, state, inputs)
+    car = MovingCar.at_rest(assembly, state, inputs)
     run = Run(car, motion, state[None], inputs[None], np.zeros((1, 2)))
     facts = tuple(assembly.described().items())
     return Chapter(

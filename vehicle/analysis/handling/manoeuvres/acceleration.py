@@ -13,8 +13,7 @@ from ..drivers import Fixed, HeldTorque
 from ..responses import first_crossing
 from ..result import HandlingResult
 from .manoeuvre import Number, Progress
-from .simulated import greatest
-from .until_speed import UntilSpeed
+from .simulated import UntilSpeed, greatest
 
 
 class Acceleration(UntilSpeed):

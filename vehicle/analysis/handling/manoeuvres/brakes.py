@@ -9,11 +9,14 @@ from ....input.section import NonNegative, Positive
 from ....models.car.car import Car
 from ..car import DrivingCar
 from ..subject import require_controls
-from .simulated import SimulatedManoeuvre
+from .simulated import UntilSpeed
 
 
-class BrakingManoeuvre(SimulatedManoeuvre):
-    """A manoeuvre with braking."""
+class BrakingManoeuvre(UntilSpeed):
+    """A manoeuvre with braking down to a speed."""
+
+    until_km_per_h: Positive = Field(default=5.0, description="speed at which it ends")
+    start_s: NonNegative = Field(default=0.5, description="time at which the brakes are applied")
 
     pedal: Positive | None = Field(
         default=None, description="position of the pedal; 1: the whole torque of the brakes"
@@ -59,12 +62,12 @@ class BrakingManoeuvre(SimulatedManoeuvre):
             raise InputError([problem], self.TITLE)
         return found
 
-    def refuse_without_end(self, motion: xr.Dataset, key: str, speed: float) -> None:
-        """Raise an error for a motion whose last speed is above a limit [m/s]."""
+    def refuse_without_end(self, motion: xr.Dataset) -> None:
+        """Raise an error for a motion whose last speed is above that of its end."""
         last = float(motion["speed"][-1])
-        if last > speed:
+        if last > self.end_speed:
             problem = (
-                f"{key}: after duration_s = {self.duration_s:g} s the speed is "
+                f"until_km_per_h: after duration_s = {self.duration_s:g} s the speed is "
                 f"{KM_PER_H * last:.1f} km/h. Raise duration_s, or brake more."
             )
             raise InputError([problem], self.TITLE)

@@ -5,7 +5,6 @@ from typing import ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
-from ....input.section import NonNegative, Positive
 from ..car import DrivingCar
 from ..drivers import Braking, Fixed
 from ..responses import first_crossing
@@ -13,18 +12,15 @@ from ..result import HandlingResult
 from .brakes import BrakingManoeuvre
 from .manoeuvre import Number, Progress
 from .simulated import greatest
-from .until_speed import UntilSpeed
 
 
-class StraightBraking(UntilSpeed, BrakingManoeuvre):
+class StraightBraking(BrakingManoeuvre):
     """A car brakes straight ahead, with the steering wheel held."""
 
     TITLE: ClassVar[str] = "braking in a straight line"
     SLOPES: ClassVar[bool] = True
 
     manoeuvre: Literal["braking"] = Field(description="name of the manoeuvre")
-    until_km_per_h: Positive = Field(default=5.0, description="speed at which it ends")
-    start_s: NonNegative = Field(default=0.5, description="time at which the brakes are applied")
 
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
         """Return the braking distance and decelerations, and the motion."""
@@ -35,7 +31,7 @@ class StraightBraking(UntilSpeed, BrakingManoeuvre):
             car, straight, Fixed(straight.unknowns["steering_wheel"]), pushes, self.duration_s,
             until=self.ended, progress=progress,
         )  # fmt: skip
-        self.refuse_without_end(motion, "until_km_per_h", end)
+        self.refuse_without_end(motion)
         time, speed, x = (motion[name].values for name in ("time", "speed", "x"))
         begun = float(np.interp(self.start_s, time, x))
         slowed = first_crossing(time, -speed, -end)

@@ -7,7 +7,7 @@ import xarray as xr
 from pydantic import Field
 
 from .....core.errors import InputError
-from ....input.section import NonNegative, Positive
+from ....input.section import Positive
 from ..car import DrivingCar
 from ..circle import Turns
 from ..drivers import Braking, Fixed
@@ -16,21 +16,18 @@ from ..steady import NoSteadyMotionError, Steady, SteadyCondition
 from .brakes import BrakingManoeuvre
 from .manoeuvre import Number, Progress
 from .simulated import TurningManoeuvre, at_time, greatest
-from .until_speed import UntilSpeed
 
 # Time of the comparison after the start of braking [s].
 _AFTER = 1.0
 
 
-class BrakingInTurn(UntilSpeed, BrakingManoeuvre, TurningManoeuvre):
+class BrakingInTurn(BrakingManoeuvre, TurningManoeuvre):
     """A car brakes in a steady turn, with the steering wheel held."""
 
     TITLE: ClassVar[str] = "braking in a turn"
 
     manoeuvre: Literal["braking_in_turn"] = Field(description="name of the manoeuvre")
     radius_m: Positive = Field(default=100.0, description="radius of the steady turn")
-    until_km_per_h: Positive = Field(default=5.0, description="speed at which it ends")
-    start_s: NonNegative = Field(default=0.5, description="time at which the brakes are applied")
 
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
         """Return metrics of the motion relative to the steady turn, and the motion."""
@@ -40,7 +37,7 @@ class BrakingInTurn(UntilSpeed, BrakingManoeuvre, TurningManoeuvre):
             car, turn, Fixed(turn.unknowns["steering_wheel"]), pushes, self.duration_s,
             until=self.ended, progress=progress,
         )  # fmt: skip
-        self.refuse_without_end(motion, "until_km_per_h", self.end_speed)
+        self.refuse_without_end(motion)
         return HandlingResult(self.judged(self._numbers(motion) | greatest(motion)), {"": motion})
 
     def _steady(self, car: DrivingCar) -> Steady:

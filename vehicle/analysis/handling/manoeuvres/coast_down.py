@@ -13,7 +13,7 @@ from ..drivers import Fixed, HeldTorque
 from ..responses import first_crossing
 from ..result import HandlingResult
 from .manoeuvre import Number, Progress
-from .until_speed import UntilSpeed
+from .simulated import UntilSpeed
 
 
 class CoastDown(UntilSpeed):

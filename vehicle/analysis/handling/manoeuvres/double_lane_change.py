@@ -15,8 +15,8 @@ from ....models.car.car import Car
 from ..car import DrivingCar
 from ..circle import Turns, steering_ratio
 from ..drivers import HeldTorque, Observation, PathFollower
-from ..linear import steering_response
 from ..paths import Lane, Path, through
+from ..responses import steering_response
 from ..result import HandlingResult, quantity
 from ..steady import Steady
 from .manoeuvre import Number as Judged

@@ -22,8 +22,8 @@ from .....core.named_types import Array
 from ....assembly.by_wheel import WHEEL, wheel_coordinate
 from ....assembly.equilibrium import equilibrium
 from ....input.section import Number, Positive, Remedy
-from ..car import DrivingCar
-from ..driven import OF_DRIVER, OF_WHEELS, STEER, STEERING_TORQUE
+from ..car import OF_STEERING, STEERED_INPUT, DrivingCar
+from ..driven import OF_DRIVER, OF_WHEELS, STEER
 from ..result import HandlingResult, quantity
 from .manoeuvre import Manoeuvre, Progress
 
@@ -41,7 +41,7 @@ _Friction = Annotated[
 ]
 
 _DESCRIBED = {
-    "steering_torque": STEERING_TORQUE,
+    "steering_torque": OF_STEERING["steering_torque"],
     "lifting_torque": ("torque of the steering wheel that lifts the car and leans it", "N m"),
     "friction_torque": ("torque of the steering wheel that turns the tyres on the road", "N m"),
     "steering_friction_torque": (
@@ -62,17 +62,10 @@ _GREATEST = {
 
 
 class _Column(NamedTuple):
-    """The steering column in slow motion; a rigid one without friction has zeros.
+    """The steering column in slow motion; a rigid one without friction has zeros."""
 
-    Attributes
-    ----------
-    compliance : float
-        Twist by torque [rad/(N m)].
-    at_rack, at_wheel : float
-        Torques by friction of the rack, which twist the column, and of the column itself [N m].
-    """
-
-    compliance: float = 0.0
+    compliance: float = 0.0  # twist by torque [rad/(N m)]
+    # torques by friction of the rack, which twist the column, and of the column itself [N m]
     at_rack: float = 0.0
     at_wheel: float = 0.0
 
@@ -168,14 +161,9 @@ class Parking(Manoeuvre):
         return HandlingResult(xr.Dataset(metrics, attrs={"title": title}), {"": found})
 
     def moments(self, steer: Array, loads: Array) -> Array:
-        """Return the friction moments of wheels on the road, positive to the left [N m].
+        """Return the friction moments of wheels on the road, positive left, (wheels, n) [N m].
 
-        Parameters
-        ----------
-        steer : ndarray, shape (wheels, n)
-            Successive steer angles, the first one with relaxed contacts [rad].
-        loads : ndarray, shape (wheels, n)
-            Vertical forces of the road [N].
+        Steer angles [rad] follow one another, from relaxed contacts, under vertical forces [N].
         """
         radii = np.sqrt(loads / (np.pi * 1e3 * self.pressure_kPa))
         sliding = 2.0 / 3.0 * self.friction * loads * radii
@@ -195,7 +183,7 @@ class Parking(Manoeuvre):
         The tyres have no forces along the road.
         """
         assert car.assembly is not None  # a car from a file has linkages
-        racks = car.controls.rack(angles)[car.steering_input]
+        racks = car.controls.rack(angles)[STEERED_INPUT]
         states, inputs = [], []
         for i, (angle, rack) in enumerate(zip(angles.tolist(), racks.tolist(), strict=True)):
             try:
@@ -210,8 +198,7 @@ class Parking(Manoeuvre):
             states.append(np.asarray(rest))
             inputs.append(np.asarray(rest.inputs))
             progress((i + 1) / angles.size)
-        torque = car.steering_torque(angles, np.array(states), np.array(inputs))
-        assert torque is not None
+        torque = car.of_steering(angles, np.array(states), np.array(inputs))["steering_torque"]
         signals = car.model.evaluate("signals", np.array(states), np.array(inputs))
         steer, loads = (signals[:, car.signal_rows(n, car.steered)].T for n in ("steer", "fz"))
         return steer, loads, torque

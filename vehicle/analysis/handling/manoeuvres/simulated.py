@@ -1,7 +1,7 @@
-"""The base of simulated manoeuvres: common keys of their files, and steady starts."""
+"""Bases of simulated manoeuvres: common keys of their files, and steady starts."""
 
 from collections.abc import Callable
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 import xarray as xr
@@ -153,6 +153,68 @@ class TurningManoeuvre(SimulatedManoeuvre):
     def sense(self) -> int:
         """1 for turns to the left, -1 to the right."""
         return 1 if self.turn == "left" else -1
+
+
+class SteeredManoeuvre(TurningManoeuvre):
+    """A manoeuvre whose steering wheel angle is given, or follows from a lateral acceleration."""
+
+    lateral_acceleration_m_per_s2: Positive | None = Field(
+        default=None,
+        description="lateral acceleration of the steady turn whose steering wheel angle is used",
+    )
+    steering_wheel_deg: Positive | None = Field(
+        default=None, description="steering wheel angle, in place of a lateral acceleration"
+    )
+
+    def problems(self) -> list[str]:
+        """Return the problems of the values together."""
+        found = super().problems()
+        if (self.lateral_acceleration_m_per_s2 is None) == (self.steering_wheel_deg is None):
+            found.append("lateral_acceleration_m_per_s2, steering_wheel_deg: give one of the two.")
+        return found
+
+    def amplitude(self, turns: Turns, straight: Steady) -> float:
+        """Return the steering wheel angle relative to straight running, positive left [rad]."""
+        wanted = self.lateral_acceleration_m_per_s2
+        if wanted is None:
+            return float(self.sense * np.deg2rad(self.steering_wheel_deg or 0.0))
+        turn = self.turned(turns, "lateral_acceleration_m_per_s2", wanted)
+        return float(turn.unknowns["steering_wheel"] - straight.unknowns["steering_wheel"])
+
+
+class UntilSpeed(SimulatedManoeuvre):
+    """A manoeuvre that ends at a speed."""
+
+    SLOWS: ClassVar[bool] = True
+    """Whether the end speed is less than the speed at the beginning."""
+
+    until_km_per_h: Positive = Field(description="speed at which it ends")
+
+    def problems(self) -> list[str]:
+        """Return the problems of the values together."""
+        found = super().problems()
+        first, last = self.speed_km_per_h, self.until_km_per_h
+        if first <= last if self.SLOWS else first >= last:
+            found.append(
+                f"until_km_per_h = {last:g} km/h: "
+                f"{'less' if self.SLOWS else 'more'} than speed_km_per_h = "
+                f"{first:g} km/h is needed."
+            )
+        return found
+
+    @property
+    def end_speed(self) -> float:
+        """Speed at which it ends [m/s]."""
+        return self.until_km_per_h / KM_PER_H
+
+    @property
+    def greatest_distance(self) -> float:
+        """The distance that the car travels at most, from its greatest speed and duration [m]."""
+        return super().greatest_distance * max(1.0, self.end_speed / self.speed)
+
+    def ended(self, seen: Observation) -> bool:
+        """Return whether the car has reached the end speed."""
+        return seen.speed <= self.end_speed if self.SLOWS else seen.speed >= self.end_speed
 
 
 def greatest(motion: xr.Dataset) -> dict[str, Number]:

@@ -11,14 +11,12 @@ from .....datasets.columns import AS_COLUMNS
 from ....input.section import Positive
 from ..car import DrivingCar
 from ..drivers import HeldTorque, OpenLoop
-from ..linear import steering_response
-from ..responses import frequency_response
+from ..responses import frequency_response, steering_response
 from ..result import HandlingResult, quantity
 from ..steady import Steady
 from ..steering import sine_sweep
 from .manoeuvre import Number, Progress
-from .simulated import greatest
-from .steered import SteeredManoeuvre
+from .simulated import SteeredManoeuvre, greatest
 
 _SOURCES = ("simulated", "linear")
 

@@ -138,12 +138,7 @@ _DESCRIBED = {
 
 
 def amplitudes_of(reference: float) -> list[float]:
-    """Return the amplitudes of the standard [deg].
-
-    Parameters
-    ----------
-    reference : float
-        Reference angle A [deg].
+    """Return the amplitudes of the standard, from the reference angle A [deg].
 
     Examples
     --------

@@ -13,8 +13,7 @@ from ..responses import step_response
 from ..result import HandlingResult
 from ..steering import SteeringCourse, ramp
 from .manoeuvre import Number, Progress
-from .simulated import greatest
-from .steered import SteeredManoeuvre
+from .simulated import SteeredManoeuvre, greatest
 
 
 class StepSteer(SteeredManoeuvre):

@@ -1,6 +1,6 @@
 """Load cards for strength programs: one file for each part, in equilibrium.
 
-`part`     loads on a part, point by point
+`sheet`    loads on a part, point by point
 `nastran`  bulk data
 `abaqus`   keywords
 `write`    the files

@@ -26,7 +26,7 @@ def lines_of(sheet: CardSheet) -> Iterator[str]:
     for node in nodes:
         yield f"*Transform, nset={_label(node.name)}"
         yield "1., 0., 0., 0., 1., 0."
-    for place, case in enumerate(sheet.loaded.cases):
+    for place, case in enumerate(sheet.cases):
         yield f"*Step, name={_label(case)}"
         yield "*Static"
         yield "*Cload, op=NEW"

@@ -20,7 +20,7 @@ _ON_Z, _IN_XZ = np.array([0.0, 0.0, 1.0]), np.array([1.0, 0.0, 0.0])
 
 def lines_of(sheet: CardSheet) -> Iterator[str]:
     """Yield the lines of the file of a part."""
-    cases, numbers = sheet.loaded.cases, sheet.loaded.numbers
+    cases, numbers = sheet.cases, sheet.numbers
     nodes = sheet.nodes()
     for remark in sheet.remarks(DIGITS):
         yield f"$ {remark}"

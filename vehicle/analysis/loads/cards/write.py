@@ -14,7 +14,6 @@ from .....datasets.recording import TIME
 from ....assembly.by_wheel import flat
 from ..dataset import AXES, AXIS, CASE, LOAD, PART
 from . import abaqus, nastran
-from .part import LoadedPart
 from .sheet import LENGTHS, CardSheet
 
 _MOST_CASES = 1000
@@ -105,7 +104,7 @@ def write_cards(
     with ExitStack() as stack:
         for part, file in files.items():
             temporary = stack.enter_context(replacing(file, force=force, inputs=inputs))
-            sheet = CardSheet(LoadedPart.of(dataset, part, axes), length, source)
+            sheet = CardSheet.of(dataset, part, axes, length, source)
             # strength programs read ASCII
             text = "".join(f"{line}\n" for line in of_format.lines(sheet))
             temporary.write_bytes(text.encode("ascii", "replace"))
