@@ -18,11 +18,13 @@ from weakref import WeakKeyDictionary
 import sympy as sp
 
 from ..program.functions import Component, Frozen, Guarded, IsPositive, Iterated, Positive, SignOf
+from ..program.symbols import symbols_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from ..program.function import Function
+    from ..program.steps import Step
 
 T = TypeVar("T", "Operation", "tuple[Operation, bool]")
 
@@ -78,6 +80,8 @@ class Schedule:
 
 
 _orders: WeakKeyDictionary[Function, Schedule] = WeakKeyDictionary()
+# of steps, which functions have in common: times at which their symbols are known, and the value
+_values: WeakKeyDictionary[Step, tuple[list[int], Operation]] = WeakKeyDictionary()
 
 
 def ordered(function: Function) -> Schedule:
@@ -103,7 +107,13 @@ def _ordered(function: Function) -> Schedule:
 
     for step in function.steps:
         name = step.symbol.name
-        value = value_of(step.expression, name, step.section)
+        known = [ready.get(symbol, 0) for symbol in symbols_of(step.expression)]
+        at, value = _values.get(step, (None, _ONE))
+        if at != known:
+            before = len(steps)
+            value = value_of(step.expression, name, step.section)
+            if len(steps) == before:
+                _values[step] = known, value
         steps.append(Assignment(name, value, step.section))
         ready[step.symbol] = value.ready
     results = [

@@ -173,6 +173,7 @@ class _Values:
     """The values of several functions, each with a number."""
 
     taken: set[str]  # names that no value may have
+    several: bool  # functions
     # numbers, by operation and the numbers of its operands
     found: dict[Hashable, int] = field(default_factory=dict)
     # each with the numbers of its operands, in the order of numbers
@@ -181,6 +182,8 @@ class _Values:
     # numbers of the steps of each function, by their names
     steps: dict[Function, dict[str, int]] = field(default_factory=dict)
     parts: dict[str, Iterator[int]] = field(default_factory=dict)
+    # names that a step reads with their numbers, and its number, by the id of its value
+    known: dict[int, tuple[tuple[tuple[str, int | None], ...], int]] = field(default_factory=dict)
     # steps of all, and the results of one behind those of the other
     schedule: Schedule = field(init=False)
 
@@ -190,7 +193,8 @@ class _Values:
     ) -> _Values:
         """Return the numbered values of functions, with their steps in order."""
         members = [member for function in functions for member in function.members]
-        values = cls({s.name for member in members for s in member.free_symbols})
+        taken = {s.name for member in members for s in member.free_symbols}
+        values = cls(taken, several=len(members) > 1)
         steps: list[tuple[int, Assignment]] = []
         results: list[int] = []
         for member in members:
@@ -213,11 +217,22 @@ class _Values:
     ) -> None:
         order, values = ordered(function), self.steps.setdefault(function, {})
         for step in order.steps:
-            value = values[step.name] = self._number(step.value, values)
+            value = values[step.name] = self._of_step(step, values)
             steps.append((value, step))
             if not step.name.startswith(LOCAL) and self.operations[value][0].operands:
                 self._name(value, step.name)
         results += [self._number(result, values) for result in order.results]
+
+    def _of_step(self, step: Assignment, values: dict[str, int]) -> int:
+        """Return the number of a step, which other functions may have with equal operands."""
+        if not self.several:
+            return self._number(step.value, values)
+        reads, number = self.known.get(id(step.value), ((), -1))
+        if number < 0 or any(values.get(name) != operand for name, operand in reads):
+            number = self._number(step.value, values)
+            reads = tuple([(name, values.get(name)) for name in {*symbols_in(step.value)}])
+            self.known[id(step.value)] = reads, number
+        return number
 
     def _number(self, operation: Operation, values: dict[str, int]) -> int:
         """Return the number of a value; a name of a step is that of the value it has."""

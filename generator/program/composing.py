@@ -6,17 +6,15 @@ time of a derivation; here, most sums and products have none.
 
 from __future__ import annotations
 
-from functools import cmp_to_key
 from typing import TYPE_CHECKING
 
 import sympy as sp
 
 from ..memory import remembered
+from .orders import by_class
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
-
-_in_order = cmp_to_key(sp.Basic.compare)
 
 
 def composed(kind: Callable[..., sp.Expr], parts: Iterable[sp.Expr]) -> sp.Expr:
@@ -43,38 +41,36 @@ def _composed(kind: Callable[..., sp.Expr], parts: tuple[sp.Expr, ...]) -> sp.Ex
 
 
 def _product(parts: Sequence[sp.Expr]) -> sp.Expr | None:
-    """Return a product of different bases and at most one number; None if it is another one."""
-    factors = [factor for part in parts for factor in (part.args if part.is_Mul else (part,))]
-    numbers = [factor for factor in factors if factor.is_Number]
-    others = [factor for factor in factors if not factor.is_Number]
-    bases = {factor.base if _is_power(factor) else factor for factor in others}
-    alike = len(bases) < len(others) or not all(base.is_Symbol or base.is_Add for base in bases)
-    if alike or len(others) < 2 or len(numbers) > 1 or not all(map(_is_factor, numbers)):
+    """Return a product of different bases and a number; None if it is another one."""
+    number, others = sp.S.One, []
+    for factor in [f for part in parts for f in (part.args if part.is_Mul else (part,))]:
+        if not factor.is_Number:
+            others.append(factor)
+        elif factor is not sp.S.One:
+            number = factor if number is sp.S.One else number * factor
+    if len(others) == 1 and number is sp.S.One:
+        return others[0]
+    bases = {f.base if f.is_Pow and f.exp.is_Number else f for f in others}
+    apart = len(bases) == len(others) > 1 and all(b.is_Symbol or b.is_Add for b in bases)
+    if not apart or not number.is_Rational or number is sp.S.Zero:
         return None
-    return _in_form(sp.Mul, numbers, others)
+    return _in_form(sp.Mul, [] if number is sp.S.One else [number], others)
 
 
 def _sum(terms: Sequence[sp.Expr]) -> sp.Expr | None:
     """Return a sum of different symbols and products; None if it is another one."""
+    if len(terms) == 1:
+        return terms[0]
     apart = all(term.is_Symbol or term.is_Mul for term in terms)
-    if len(terms) < 2 or not apart or len(set(map(_without_number, terms))) < len(terms):
+    if not terms or not apart or len(set(map(_without_number, terms))) < len(terms):
         return None
-    return _in_form(sp.Add, (), terms)
+    return _in_form(sp.Add, [], terms)
 
 
-def _in_form(kind: type[sp.Expr], numbers: Sequence[sp.Expr], others: Sequence[sp.Expr]) -> sp.Expr:
+def _in_form(kind: type[sp.Expr], numbers: list[sp.Expr], others: Sequence[sp.Expr]) -> sp.Expr:
     """Return a sum or a product of parts in the order of SymPy."""
-    parts = [*numbers, *sorted(others, key=_in_order)]
+    parts = [*numbers, *sorted(others, key=by_class)]
     return kind._from_args(parts, is_commutative=True)  # noqa: SLF001 (others search, too)
-
-
-def _is_power(factor: sp.Expr) -> bool:
-    return bool(factor.is_Pow and factor.exp.is_Number)
-
-
-def _is_factor(number: sp.Expr) -> bool:
-    """Return whether a number stays in a product: zero and one do not."""
-    return bool(number.is_Rational and number not in (0, 1))
 
 
 def _without_number(term: sp.Expr) -> tuple[sp.Expr, ...]:

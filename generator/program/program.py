@@ -13,7 +13,7 @@ from __future__ import annotations
 import re
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
-from operator import attrgetter
+from operator import attrgetter, is_
 from typing import TYPE_CHECKING, Any
 
 import sympy as sp
@@ -35,6 +35,9 @@ if TYPE_CHECKING:
 
     from .constants import ConstantStage
     from .function import Function, IterationBlock
+
+
+_SIGNS = (sp.S.NegativeOne, sp.S.One)
 
 
 @dataclass
@@ -375,7 +378,7 @@ class Program:
         if expression in self._varying:
             return expression
         hoisted = self._without_constant_parts(expression)
-        if hoisted == expression:
+        if hoisted is expression:
             self._varying.add(expression)
         return hoisted
 
@@ -384,10 +387,10 @@ class Program:
             return self.constants.collect(expression)
         arguments = [self._hoist(a) for a in expression.args]
         if isinstance(expression, sp.Add | sp.Mul):
-            constant = [a for a in arguments if self.constants.contains(a) and a not in (-1, 1)]
+            constant = [a for a in arguments if self.constants.contains(a) and a not in _SIGNS]
             if len(constant) > 1:
                 rest = [a for a in arguments if a not in constant]
                 group = self.constants.collect(expression.func(*constant))
                 return expression.func(group, *rest)
-        unchanged = all(new is old for new, old in zip(arguments, expression.args, strict=True))
+        unchanged = all(map(is_, arguments, expression.args))
         return expression if unchanged else composed(expression.func, arguments)

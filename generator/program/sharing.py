@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from .composing import composed
+from .orders import by_size
 from .regrouping import regrouped
 from .steps import Step
 from .symbols import symbols_of, with_symbols
@@ -131,4 +132,4 @@ class _Common:
         if not isinstance(expression, sp.Add | sp.Mul):
             return parts
         several = sum(map(self._is_changed, parts)) > 1
-        return sp.ordered(parts) if several else parts
+        return by_size(parts) if several else parts

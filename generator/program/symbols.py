@@ -27,7 +27,7 @@ def symbols_of(expression: sp.Expr) -> frozenset[sp.Symbol]:
 
 def with_symbols(expression: sp.Expr, others: Mapping[sp.Symbol, sp.Expr]) -> sp.Expr:
     """Return an expression with other expressions for some of its symbols."""
-    if others.keys().isdisjoint(symbols_of(expression)):
+    if not others or others.keys().isdisjoint(symbols_of(expression)):
         return expression  # without the traversal of `xreplace`
     return expression.xreplace(others)
 

