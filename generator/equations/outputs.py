@@ -589,9 +589,15 @@ class _Builder:
         self.program.section("signals")
         results: dict[str, sp.Expr] = {}
         declared = (s for o in self.mechanism.outputs for s in signals_of(self.dynamics, o))
+        taken = {e.name: "an element of the state" for e in self.states.entries}
+        taken |= {i.name: "an input" for i in self._inputs()}
         for shown in (*self.dynamics.signals(), *declared):
             if shown.name in results:
                 problem = f"two signals are named {shown.name!r}; give the output another name"
+                raise DeclarationError(self.formulation.name, [problem])
+            if shown.name in taken:
+                owner = taken[shown.name]
+                problem = f"{shown.name!r} is the name of {owner} and of a signal; rename one"
                 raise DeclarationError(self.formulation.name, [problem])
             self.signals.append(shown)
             results[shown.name] = shown.value

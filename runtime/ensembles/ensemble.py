@@ -28,7 +28,16 @@ from .output_spec import OutputSpec, asked_of
 from .results import dataset_of
 from .room import Room
 from .stiff_fallback import StiffFallback
-from .variants import Variants, impossible_sets, variants_of
+from .variants import (
+    BOUND,
+    FREQUENCY,
+    RESULTS,
+    STATE,
+    TIME,
+    Variants,
+    impossible_sets,
+    variants_of,
+)
 
 _OUTPUTS = 201
 # Steps in lanes that take about the time of BDF for a system (``make benchmark-stiff``): after as
@@ -244,14 +253,25 @@ def _check_rows(given: Validator, model: System, y0: Any, names: set[str]) -> No
 
 
 def _check_results(given: Validator, asked: OutputSpec, own: Variants) -> None:
-    """Refuse results with the name of a variant."""
-    varied = {*own.parameters, *own.inputs, *own.labels, *map(str, own.coordinates)}
-    results = {*asked.signals, *(reduced.name for reduced in asked.reduced)}
-    for name in sorted(varied & results):
-        given.fail(
-            f"{name!r} is both a variant and a result: keep another result, such "
-            "as the signal itself over time."
-        )
+    """Refuse results with the name of a variant, or with that of another result."""
+    spectra = any(reduced.kind == "psd" for reduced in asked.reduced)
+    coordinates = {*map(str, own.coordinates), *map(str, own.shape)}
+    starts = {f"{name}_at_start" for name in own.states if name not in own.coordinates}
+    kinds = {
+        "a variable of every result": [TIME, STATE, BOUND, *RESULTS, *[FREQUENCY] * spectra],
+        "a variant": {*own.parameters, *own.inputs, *own.labels, *coordinates, *starts},
+        "a signal": asked.signals,
+        "a reduction": [reduced.name for reduced in asked.reduced],
+    }
+    owners: dict[str, str] = {}
+    for kind, names in kinds.items():
+        for name in sorted(names):
+            if name in owners:
+                given.fail(
+                    f"the results would have two variables {name!r}, {owners[name]} and {kind}: "
+                    "leave one of them out, or rename it in the declaration."
+                )
+            owners.setdefault(name, kind)
 
 
 def _span(given: Validator, t_span: Any) -> tuple[float, float]:

@@ -173,5 +173,12 @@ def test_mistakes() -> None:
     clash = replace(mechanism, outputs=(ForceOf("spring_length", mechanism.elements[0], "f"),))
     with pytest.raises(DeclarationError, match="two signals are named 'spring_length'"):
         generate(replace(model, mechanism=clash))
+    for name, owner in (
+        ("drive_angle_rate", "an element of the state"),
+        ("tilt_position", "an input"),
+    ):
+        clash = replace(mechanism, outputs=(ForceOf(name, mechanism.elements[0], "f"),))
+        with pytest.raises(DeclarationError, match=f"'{name}' is the name of {owner} and of a"):
+            generate(replace(model, mechanism=clash))
     with pytest.raises(DeclarationError, match="first"):
         AngleBetween("a", (rod, POINT), (rod, UP), UP, "a")

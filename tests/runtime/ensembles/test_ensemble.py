@@ -4,6 +4,7 @@ import _thread
 import shutil
 import threading
 from collections.abc import Callable
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from c_text import EMITTED
+from changes import changed
 from kintrafo import (
     Axle,
     AxleModel,
@@ -28,6 +30,8 @@ from kintrafo import (
 from kintrafo.core.physical import impossible, inertia_of_no_body, out_of_range
 from kintrafo.datasets import export
 from kintrafo.datasets.recording import statistics
+from kintrafo.generator import ForceOf
+from kintrafo.generator.mechanisms.four_bar import FOUR_BAR, SPRING
 from kintrafo.simulation.lanes import library, run
 from kintrafo.simulation.lanes.problem import Problem
 from kintrafo.simulation.solvers import native_available
@@ -740,6 +744,23 @@ def test_levels_that_look_alike_have_names_of_their_own(car: Model) -> None:
 def test_what_cannot_be_used(car: Model, wrong: dict[str, Any], refused: Any) -> None:
     given = {"model": car, "variants": None, "t_span": (0.0, 1.0)} | wrong
     refused(InputError, lambda: ensemble(**given))
+
+
+def test_a_mechanism_with_the_names_of_results() -> None:
+    """No result replaces another one of its name, and none is missing after the computation."""
+    named = changed(FOUR_BAR, (SPRING.rate, replace(SPRING.rate, name="steps")))
+    force, highest = (ForceOf(n, named.elements[0], "force") for n in ("success", "success_max"))
+    system = System(kintrafo.compile(replace(named, outputs=(force, highest))))
+    cases: list[tuple[str, dict[str, Any]]] = [
+        ("steps", {"variants": {"steps": [300.0, 500.0]}}),
+        ("success", {"signals": ["success"]}),
+        ("success_max", {"signals": ["success_max"], "reductions": {"success": "max"}}),
+    ]
+    for name, asked in cases:
+        with pytest.raises(InputError, match=f"would have two variables '{name}'"):
+            ensemble(**{"model": system, "variants": None, "t_span": SPAN} | asked)
+    found = ensemble(system, None, SPAN, signals=["success_max"], reductions={"success": "min"})
+    assert found["success"].dtype == bool
 
 
 def test_own_mechanisms_are_compiled_in_lanes() -> None:
