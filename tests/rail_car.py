@@ -10,6 +10,7 @@ from dataclasses import replace
 
 from kintrafo import generator as g
 from kintrafo.generator.mechanisms.steering_column import on_a_column
+from kintrafo.vehicle.assembly import controls
 
 MASS, CARRIER, WHEEL = 1200.0, 20.0, 20.0
 FRONT, REAR, HALF_TRACK = 1.2, -1.5, 0.75
@@ -117,9 +118,10 @@ class Controls:
     RATIO = 100.0  # of the steering wheel by the rack [rad/m]
 
     def rack(self, angle, rate=0.0, acceleration=0.0):
-        values = (angle, rate, acceleration)
-        names = (f"rack_{what}" for what in ("position", "velocity", "acceleration"))
-        return dict(zip(names, (value / self.RATIO for value in values), strict=True))
+        return dict(zip(controls.RACK, self.rack_at(angle, rate, acceleration), strict=True))
+
+    def rack_at(self, *values):
+        return tuple(value / self.RATIO for value in values)
 
     def brakes(self, pedal):
         return {f"{wheel}_brake_torque": -1500.0 * pedal for wheel in WHEELS}

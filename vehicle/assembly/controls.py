@@ -13,6 +13,9 @@ from ..models.sides import SIDES
 from .axle_of import axle_assembly
 from .steering_wheel import SteeringWheel
 
+RACK = ("rack_position", "rack_velocity", "rack_acceleration")
+"""Names of the inputs of a rack."""
+
 
 class Controls:
     """Inputs of the equations of a driving car, from steering wheel and pedals.
@@ -67,10 +70,23 @@ class Controls:
                 "as [steering] of the axle."
             )
             raise InputError([problem], self.car.heading())
-        turned, rates, accelerations = np.broadcast_arrays(*values)
-        found = self._steering_wheel.motion(turned, rates, accelerations)
-        names = ("rack_position", "rack_velocity", "rack_acceleration")
-        return {name: _plain(value) for name, value in zip(names, found, strict=True)}
+        found = self._steering_wheel.motion(*np.broadcast_arrays(*values))
+        return {name: _plain(value) for name, value in zip(RACK, found, strict=True)}
+
+    def rack_at(self, angle: float, rate: float, acceleration: float) -> tuple[Array, Array, Array]:
+        """Return the values of `rack` for one angle, for each step of a simulation.
+
+        The files of the car are checked once.
+        """
+        values = np.array([angle, rate, acceleration], dtype=np.float64)
+        if not np.isfinite(values).all():
+            self.rack(*values)  # which raises
+        return self._known_steering_wheel.motion(*values)
+
+    @cached_property
+    def _known_steering_wheel(self) -> SteeringWheel:
+        self.rack(0.0)
+        return self._steering_wheel
 
     def brakes(self, pedal: ArrayLike) -> dict[str, Any]:
         """Return the torques of the brakes [N m], half of an axle's at each of its wheels.

@@ -8,7 +8,7 @@ import numpy as np
 
 from ....core.named_types import Array
 from ...assembly.car import CarAssembly
-from ...assembly.controls import Controls
+from ...assembly.controls import RACK, Controls
 from ...models.car.equations import CarModel
 from ...models.car.slope import LEVEL, Slope
 from ...roads.road import Road
@@ -83,8 +83,8 @@ class DrivingCar(MovingCar):
         return [self.model.signal_names.index(f"{wheel}_{what}") for wheel in wheels]
 
     @cached_property
-    def _places(self) -> dict[str, int]:
-        return {name: i for i, name in enumerate(self.model.input_names)}
+    def _rack(self) -> list[int]:
+        return [self.model.input_names.index(name) for name in RACK]
 
     def inputs(
         self, angle: float, rate: float, acceleration: float, drive: float, brake: float
@@ -97,8 +97,7 @@ class DrivingCar(MovingCar):
         found = self.base + drive * self._drive if drive else self.base.copy()
         if brake:
             found += brake * self._brakes
-        for name, value in self.controls.rack(angle, rate, acceleration).items():
-            found[self._places[name]] = value
+        found[self._rack] = self.controls.rack_at(angle, rate, acceleration)
         return found
 
     def of_steering(self, angles: Array, states: Array, inputs: Array) -> dict[str, Array]:
@@ -143,5 +142,5 @@ class DrivingCar(MovingCar):
     def _by_name(self, values: Mapping[str, float]) -> Array:
         found = np.zeros_like(self.base)
         for name, value in values.items():
-            found[self._places[name]] = value
+            found[self.model.input_names.index(name)] = value
         return found
