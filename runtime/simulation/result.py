@@ -24,26 +24,38 @@ class SimulationError(KintrafoError, RuntimeError):
     Attributes
     ----------
     reason : str
-        The cause, and advice.
+        The cause.
     time : float
         Time at which it ended [s].
     state : ndarray, shape (number of state elements,)
         State at which it ended, SI units.
     partial : Simulation or None
         The result until then.
+    advice : str
+        What to do about it, in the names of the arguments of `simulate`.
     """
 
     def __init__(
-        self, reason: str, time: float, state: Array, partial: "Simulation | None" = None
+        self,
+        reason: str,
+        time: float,
+        state: Array,
+        partial: "Simulation | None" = None,
+        advice: str = "",
     ) -> None:
         self.reason = reason
+        self.advice = advice
         self.time = time
         self.state = state
         self.partial = partial
-        super().__init__(reason, time, state, partial)
+        super().__init__(reason, time, state, partial, advice)
 
     def __str__(self) -> str:
-        return f"at t = {self.time:.6g} s: {self.reason}"
+        return " ".join(filter(None, [f"at t = {self.time:.6g} s: {self.reason}.", self.advice]))
+
+    def advising(self, advice: str) -> "SimulationError":
+        """Return the same error with other advice, for those who cannot pass these arguments."""
+        return SimulationError(self.reason, self.time, self.state, self.partial, advice)
 
 
 class Simulation(OptimizeResult):

@@ -474,41 +474,71 @@ class _Run:
         refused = piece.refused_state
         if piece.outcome == "state" and refused is not None and np.isfinite(refused).all():
             time, state = piece.refused_time, refused
-        reason = self._reason(segment, piece, time, state)
-        raise SimulationError(reason, time, state, self._assembled(reason))
+        reason, advice = self._reason(segment, piece, time, state)
+        partial = self._assembled(f"{reason}. {advice}")
+        raise SimulationError(reason, time, state, partial, advice)
 
-    def _reason(self, segment: Segment, piece: SolvedSegment, time: float, state: Array) -> str:
+    def _reason(
+        self, segment: Segment, piece: SolvedSegment, time: float, state: Array
+    ) -> tuple[str, str]:
+        """Return the cause, without its point, and advice."""
         options = self._options
         if piece.outcome == "state":
             try:
                 self._refuse(piece.refused_guard, state, self._inputs.at(time, segment))
             except ModelError as error:
-                return (
-                    f"{error}. Try another initial state, smaller forces, or a simulation that "
-                    "ends earlier."
+                return str(error), (
+                    "Try another initial state, smaller forces, or a simulation that ends earlier."
                 )
         texts = {
             # the refused state is not finite
-            "state": "the motion overflows double precision. Try another initial state, or smaller "
-            "forces.",
-            "too_many_steps": f"more than {options.max_steps} steps. Raise max_steps, or loosen "
-            f"rtol = {options.rtol:g}.",
-            "too_accurate": f"rtol = {options.rtol:g} and the given atol ask for more accuracy "
-            "than the arithmetic has. Loosen them.",
-            "unstable": f"steps of {options.max_step:g} s are not stable: the fastest motion here "
-            f"needs steps of {0.99 * piece.longest_step:.3g} s or less. Give such a step, or "
-            "another method: RODASP and BDF are for stiff equations.",
-            "jumps": f"rates alternate from step to step of {options.max_step:g} s, as those of "
-            "friction that sticks, and the result would be wrong. Give a shorter step, or method "
-            "'BDF'.",
-            "singular": f"the linear equations of a step of {options.max_step:g} s have no one "
-            "solution here. Give another step.",
-            "bad_table": f"method {options.method!r} is not in SUNDIALS {native_version()}.",
-            "flat_event": "the function of an event stays at zero. Watch another level, or another "
-            "signal.",
-            "memory": "out of memory. Ask for fewer outputs with t_eval.",
+            "state": (
+                "the motion overflows double precision",
+                "Try another initial state, or smaller forces.",
+            ),
+            "too_many_steps": (
+                f"more than {options.max_steps} steps",
+                f"Raise max_steps, or loosen rtol = {options.rtol:g}.",
+            ),
+            "too_accurate": (
+                (
+                    f"rtol = {options.rtol:g} and the given atol ask for more accuracy than the "
+                    "arithmetic has"
+                ),
+                "Loosen them.",
+            ),
+            "unstable": (
+                (
+                    f"steps of {options.max_step:g} s are not stable: the fastest motion here "
+                    f"needs steps of {0.99 * piece.longest_step:.3g} s or less"
+                ),
+                "Give such a step, or another method: RODASP and BDF are for stiff equations.",
+            ),
+            "jumps": (
+                (
+                    f"rates alternate from step to step of {options.max_step:g} s, as those of "
+                    "friction that sticks, and the result would be wrong"
+                ),
+                "Give a shorter step, or method 'BDF'.",
+            ),
+            "singular": (
+                (
+                    f"the linear equations of a step of {options.max_step:g} s have no one "
+                    "solution here"
+                ),
+                "Give another step.",
+            ),
+            "bad_table": (
+                f"method {options.method!r} is not in SUNDIALS {native_version()}",
+                "Give another method.",
+            ),
+            "flat_event": (
+                "the function of an event stays at zero",
+                "Watch another level, or another signal.",
+            ),
+            "memory": ("out of memory", "Ask for fewer outputs with t_eval."),
         }
-        failed = f"the solver failed ({piece.detail}). Loosen rtol, or try another method."
+        failed = f"the solver failed ({piece.detail})", "Loosen rtol, or try another method."
         return texts.get(piece.outcome, failed)
 
     def _refuse(self, guard: int | None, state: Array, inputs: Array) -> None:

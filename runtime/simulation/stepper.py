@@ -247,9 +247,15 @@ class Stepper:
         span = start, start + self.length
         how = {"step": self.length} if self._method in FIXED_STEP_METHODS else vars(self._accuracy)
         courses = _courses(self.model, self.inputs, span)
-        simulate(self.model, span, self.state, inputs=courses, method=self._method, **how)
+        try:
+            simulate(self.model, span, self.state, inputs=courses, method=self._method, **how)
+        except SimulationError as error:
+            if "max_steps" in error.advice:  # not an argument of a stepper
+                raise error.advising("Give a shorter step, or loosen rtol.") from None
+            raise
         state = self.state.copy()
-        raise SimulationError("the step could not be taken. Try a shorter one.", start, state, None)
+        reason, advice = "the step could not be taken", "Try a shorter one."
+        raise SimulationError(reason, start, state, None, advice)
 
 
 def _copy(name: str, values: ArrayLike, into: Array) -> None:

@@ -11,6 +11,12 @@ from ...systems.system import System
 from ..assembly.car import CarAssembly
 from ..roads.road import Road
 
+CAR_ADVICE = (
+    "Choose a lower speed or a shorter duration, and check masses, stiffnesses and dampings in the "
+    "files of the car."
+)
+"""Advice for a simulation of a car that could not be finished, without options of the solver."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class MovingCar:

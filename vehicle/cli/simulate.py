@@ -137,8 +137,11 @@ def _played(
             motion = scenario.motion_of(run.model, error.partial)
             written = _written(run, motion, outputs, f"{title_of(run.file)}, unfinished")
             name_files(() if silent else written)
-        reason = error.reason.replace("max_steps", "--max-steps").replace("rtol", "--rtol")
-        raise SimulationError(reason, error.time, error.state, error.partial) from error
+        reason, advice = (
+            text.replace("max_steps", "--max-steps").replace("rtol", "--rtol")
+            for text in (error.reason, error.advice)
+        )
+        raise SimulationError(reason, error.time, error.state, error.partial, advice) from error
 
 
 def _written(run: _Run, motion: "Dataset", outputs: Outputs, title: str) -> list[Path]:

@@ -6,7 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from driving_cars import light_car
-from kintrafo import CarModel, InputError, road_profiles, simulate
+from kintrafo import CarModel, InputError, SimulationError, road_profiles, simulate
+from kintrafo.simulation import stepper
 from kintrafo.vehicle.analysis.handling import drive
 from kintrafo.vehicle.analysis.handling.driven import driven
 from kintrafo.vehicle.analysis.handling.drivers import Fixed, HeldTorque
@@ -194,6 +195,19 @@ def test_a_deceleration_is_that_of_brakes_and_grade(model) -> None:
 def test_a_coast_down_without_a_result_is_refused(model, grade, changes, words) -> None:
     with pytest.raises(InputError, match=words):
         drive(model, "coast_down", changes, grade=grade)
+
+
+def test_advice_about_a_simulation_names_no_argument_that_a_manoeuvre_lacks(
+    model, monkeypatch
+) -> None:
+    """A stepper with fewer steps than it needs has the error of a motion that is too fast."""
+    monkeypatch.setattr(stepper, "_MOST_STEPS", 1)
+    with pytest.raises(SimulationError, match="more than 1 steps") as caught:
+        drive(model, "straight", {"duration_s": 0.1}, road=road_profiles.bump(0.03, 0.01, at=0.0))
+    assert "Choose a lower speed" in str(caught.value)
+    assert "max_steps" not in str(caught.value)
+    with pytest.raises(SimulationError, match=r"Give a shorter step, or loosen rtol\.$"):
+        stepper.Stepper(model, 0.1, method="DormandPrince").step()  # falls from design
 
 
 def test_a_model_on_a_slope_is_refused_where_a_car_rests() -> None:

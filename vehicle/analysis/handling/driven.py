@@ -10,10 +10,11 @@ import xarray as xr
 from ....core.named_types import Array
 from ....core.quantities import variable
 from ....core.validator import Validator
+from ....simulation.result import SimulationError
 from ....simulation.stepper import Stepper
 from ....simulation.validity import bounds_of, excursions
 from ...assembly.by_wheel import WHEEL, wheel_coordinate
-from ..run import Run
+from ..run import CAR_ADVICE, Run
 from .body_motion import QUANTITIES
 from .car import OF_STEERING, DrivingCar
 from .drivers import Observation, Pedals, Pushes, Steers
@@ -105,7 +106,10 @@ def driven(
             rows.append((seen.time, stepper.state.copy(), stepper.inputs.copy(), angle, pedals))
         if ended:
             break
-        stepper.step()
+        try:
+            stepper.step()
+        except SimulationError as error:
+            raise error.advising(CAR_ADVICE) from error
         if progress is not None and sample % 100 == 0:
             progress(sample / count)
     found = _dataset(car, rows)

@@ -7,13 +7,13 @@ import xarray as xr
 
 from ....core.quantities import variable
 from ....core.validator import Validator
-from ....simulation.result import Simulation
+from ....simulation.result import Simulation, SimulationError
 from ....simulation.simulate import simulate
 from ...assembly.by_wheel import WHEEL, wheel_coordinate
 from ...assembly.car import CarAssembly
 from ...assembly.equilibrium import equilibrium
 from ...roads import Road
-from ..run import MovingCar, Run
+from ..run import CAR_ADVICE, MovingCar, Run
 from .outputs import OUTPUTS_OF_WHEELS, body_outputs, upward
 from .subject import car_assembly
 from .weighting import weighted
@@ -122,7 +122,12 @@ def run(
             begin = usual if settle is None else given.number("settle", settle, "s", least=0.0)
             if not given.failed:
                 check_times(end, begin, step)
-    result = _simulated(assembly, road, speed, end, step, options)
+    try:
+        result = _simulated(assembly, road, speed, end, step, options)
+    except SimulationError as error:
+        if options:
+            raise
+        raise error.advising(CAR_ADVICE) from error
     motion = _judged(_dataset(assembly, result), begin)
     states, inputs = result.y.T, result.inputs
     car = MovingCar.at_rest(assembly, states[0], inputs[0])

@@ -89,8 +89,13 @@ def _values(given: list[str]) -> dict[str, float]:
 def _motion(file: str, name: str | None, values: dict[str, float], duration: float) -> "Simulation":
     import numpy as np
 
+    from ....simulation.result import SimulationError
     from ....simulation.simulate import simulate
 
     system = system_of(file, name) if file.endswith(".py") else model_of(file)
     times = np.linspace(0.0, duration, max(201, round(500 * min(duration, 20.0)) + 1))
-    return simulate(system, (0.0, duration), system.state(**values), t_eval=times)
+    try:
+        return simulate(system, (0.0, duration), system.state(**values), t_eval=times)
+    except SimulationError as error:
+        advice = "Choose a shorter --duration or another --start, and check the values of the file."
+        raise error.advising(advice) from error
