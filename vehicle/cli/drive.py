@@ -181,7 +181,8 @@ def _write(
         written += outputs.write_data(curves, suffix)
     if not outputs.pages:
         return written
-    from ..plots.handling import runs_straight, write_curves, write_path
+    from ..analysis.handling.driven import runs_straight
+    from ..plots.handling import write_curves, write_path
 
     for suffix in _drawn(chosen):
         curves = found.curves[suffix]

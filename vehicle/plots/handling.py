@@ -47,8 +47,6 @@ _ROUNDING = 1e-6
 _COLUMNS = 3
 # Least drawn width of a path [m].
 _LEAST = 2.0
-# Lateral extent below which a path is not drawn [m].
-_STRAIGHT = 0.1
 # Time between two outlines of the car [s].
 _BETWEEN = 0.5
 # Width of the picture of a path, and its greatest height [in].
@@ -93,11 +91,6 @@ def for_print(dataset: xr.Dataset, along: str) -> xr.Dataset:
         turned = np.unwrap(angle.values, axis=angle.get_axis_num(along))
         dataset = dataset.assign({_SIDESLIP: angle.copy(data=turned)})
     return dataset
-
-
-def runs_straight(motion: xr.Dataset) -> bool:
-    """Return whether a car remains within 0.1 m of a straight line along x."""
-    return float(np.ptp(motion["y"].values[np.isfinite(motion["y"].values)])) < _STRAIGHT
 
 
 def write_path(

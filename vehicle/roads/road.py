@@ -135,8 +135,7 @@ class Road:
         with Validator("Road.over_distance") as given:
             given.among("side", side, ("left", "right"))
         heights = (self.left if side == "left" else self.right) - self.datum
-        share = np.linspace(0.0, 1.0, self._before, endpoint=False)
-        rising = heights[0] * share * share * (3.0 - 2.0 * share)
+        rising = heights[0] * smooth_step(np.linspace(0.0, 1.0, self._before, endpoint=False))
         every = np.concatenate([rising, heights, heights[-1:]])
         places = self.spacing * (np.arange(every.size) - self._before)
         return CubicSpline(places, every, bc_type="clamped")
@@ -153,6 +152,11 @@ class Road:
         words = f"{self.words}, and {other.words}"
         left, right = self.left + other.left, self.right + other.right
         return Road(self.spacing, left, right, words, self.stationary and other.stationary)
+
+
+def smooth_step(share: Array) -> Array:
+    """Return a rise from 0 to 1 over shares from 0 to 1, level at both ends."""
+    return share * share * (3.0 - 2.0 * share)
 
 
 def points(length: float, spacing: float) -> Array:

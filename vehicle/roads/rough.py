@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from ...core.named_types import Array, ArrayLike
 from ...core.validator import Validator
-from .road import MOST_POINTS, Road
+from .road import MOST_POINTS, Road, smooth_step
 
 REFERENCE = 0.1
 """Spatial frequency n0 of the definition of a class [1/m]."""
@@ -115,7 +115,7 @@ def iso8608(
 def _grown(x: NDArray[Any], fade: float) -> Array:
     """Return the factor of the heights at a distance, from 0 to 1 over the fade."""
     part = np.ones_like(x) if fade == 0.0 else np.clip(x / fade, 0.0, 1.0)
-    return part * part * (3.0 - 2.0 * part)
+    return smooth_step(part)
 
 
 def roughness_of(given: Validator, roughness: str | float) -> float:

@@ -49,8 +49,8 @@ class DrivingCar(MovingCar):
     slope: Slope = LEVEL  # the slope of its road; level by default
 
     @property
-    def steered(self) -> tuple[str, ...]:
-        """The wheels that are steered."""
+    def front_wheels(self) -> tuple[str, ...]:
+        """The wheels of the front axle, which are steered."""
         return tuple(wheel for wheel in self.wheels if wheel.startswith("front"))
 
     @property
@@ -62,7 +62,7 @@ class DrivingCar(MovingCar):
         """Return its road under the wheels from the start on; None for a level one."""
         if self.road is None:
             return None
-        behind = [0.0 if wheel in self.steered else self.wheelbase for wheel in self.wheels]
+        behind = [0.0 if wheel in self.front_wheels else self.wheelbase for wheel in self.wheels]
         return RoadUnder(self.road, self.wheels, behind, self.model.input_names)
 
     def on_slope(self, slope: Slope) -> "DrivingCar":

@@ -411,7 +411,7 @@ def _of_turn(car: DrivingCar, steady: Steady) -> tuple[dict[str, float], dict[st
     for name, unknown in names.items():
         values[name] = steady.unknowns[unknown]
         slopes[name] = steady.slopes[unknown]
-    rows = car.signal_rows("steer", car.steered)
+    rows = car.signal_rows("steer", car.front_wheels)
     signals = car.model.evaluate("signals", steady.state, steady.inputs)[rows]
     by_state = car.model.evaluate("signals_jacobian", steady.state, steady.inputs)[rows]
     by_input = car.model.evaluate("signals_input_jacobian", steady.state, steady.inputs)[rows]
@@ -445,7 +445,7 @@ def _of_steering(car: DrivingCar, steady: Sequence[Steady]) -> dict[str, Array]:
 
 def steering_ratio(car: DrivingCar, steady: Steady) -> float:
     """Return steering wheel angle by steer angle, body and suspensions held in a steady motion."""
-    rows = car.signal_rows("steer", car.steered)
+    rows = car.signal_rows("steer", car.front_wheels)
     angle = steady.unknowns["steering_wheel"]
     more, less = (car.inputs(angle + d, 0.0, 0.0, 0.0, 0.0) for d in (_SMALL, -_SMALL))
     moved = more - less

@@ -21,7 +21,7 @@ from .drivers import Observation, Pedals, Pushes, Steers
 from .result import quantity
 
 _METHOD: Literal["DormandPrince"] = "DormandPrince"
-# Greatest lateral displacement of a straight path; pictures show the road under no other [m].
+# Greatest lateral displacement of a straight path [m].
 _STRAIGHT = 0.5
 # Below this cosine of the tilt of the body the car overturns.
 _FALLEN = 0.5
@@ -118,9 +118,14 @@ def driven(
     if car.watched is not None:
         states, inputs = (np.array(each) for each in zip(*(row[1:3] for row in rows), strict=True))
         places = np.stack([found["x"].values, found["y"].values], axis=-1)
-        straight = np.ptp(places[:, 1]) <= _STRAIGHT
-        car.watched(Run(car, found, states, inputs, places, road=car.road if straight else None))
+        road = car.road if runs_straight(found) else None  # which pictures show
+        car.watched(Run(car, found, states, inputs, places, road=road))
     return found
+
+
+def runs_straight(motion: xr.Dataset) -> bool:
+    """Return whether a car remains within 0.5 m across a straight line along x."""
+    return float(np.ptp(motion["y"].values[np.isfinite(motion["y"].values)])) <= _STRAIGHT
 
 
 def _look(car: DrivingCar) -> Callable[[float, Array], Observation]:

@@ -149,7 +149,7 @@ class Parking(Manoeuvre):
             curves[name] = quantity((WHEEL, ALONG), of_wheels[name], *words)
         coordinates = {
             ALONG: quantity(ALONG, pinion[path] + at_rack * column.compliance, *OF_DRIVER[ALONG]),
-            WHEEL: wheel_coordinate(car.steered),
+            WHEEL: wheel_coordinate(car.front_wheels),
         }
         title = f"{self.TITLE}, stationary"
         found = xr.Dataset(curves, coordinates, {"title": title})
@@ -200,5 +200,5 @@ class Parking(Manoeuvre):
             progress((i + 1) / angles.size)
         torque = car.of_steering(angles, np.array(states), np.array(inputs))["steering_torque"]
         signals = car.model.evaluate("signals", np.array(states), np.array(inputs))
-        steer, loads = (signals[:, car.signal_rows(n, car.steered)].T for n in ("steer", "fz"))
+        steer, loads = (signals[:, car.signal_rows(n, car.front_wheels)].T for n in ("steer", "fz"))
         return steer, loads, torque
