@@ -32,7 +32,7 @@ def command(
         list[str] | None,
         option(
             "Values of the file: hardpoints.ball_joint.z; a hardpoint or a section, for all of its "
-            "values; * for any text. Default: all hardpoints.",
+            "values; * for any text. Default: all points of the linkage.",
             "PLACE,...",
         ),
     ] = None,
@@ -53,7 +53,7 @@ def command(
     with progress_bar("sensitivity") as progress:
         dataset = variation.sensitivity(
             subject,
-            place or ("hardpoints",),
+            place or None,
             **look.how,
             names=None if outputs.data else look.names,
             progress=progress,

@@ -31,6 +31,8 @@ _SI = {"mm": "m", "deg": "rad", "N/mm^3": "N/m^3", "N/mm": "N/m", "N m/deg": "N 
 _SIDE, _APART = "side.", re.compile(r"(front\.|rear\.|)(right|left)\.")
 # Sections of points in the unit of the hardpoints: of a file, and of each rod of a rigid axle.
 _POINTS, _RODS = ("hardpoints.", "left_hardpoints.", "drag_link."), "rods."
+# Points on which the motion of the wheels depends, by section; those of a Pitman arm are keys.
+_LINKAGE = ("hardpoints", "left_hardpoints", "rods", "drag_link", "pitman_arm.*_mm")
 _OF_A_BAR = ("bush", "link_top", "link_foot")
 # Ends of other keys of three numbers, and keys of directions.
 _PLACES, _AXES = ("com_mm", "pivot_mm", "ball_mm"), ("axis", "idler_axis")
@@ -159,6 +161,16 @@ def matching(given: Validator, suspension: Subject, patterns: Any) -> dict[str, 
             stacklevel=2,
         )
     return {name: place for name, place in known.items() if name in wanted}
+
+
+def linkage_of(subject: Subject) -> list[str]:
+    """Return the patterns of `matching` for all points of a linkage."""
+    known = places_of(subject)
+    return [
+        pattern
+        for pattern in _LINKAGE
+        if any(_fits(name, each) for name in known for each in (pattern, f"*.{pattern}"))
+    ]
 
 
 def _is_meant(name: str, pattern: str, known: Mapping[str, DesignVariable]) -> bool:

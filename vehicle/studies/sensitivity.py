@@ -14,7 +14,7 @@ from ..analysis.compliance.flexibility import HELD, WheelSupport
 from ..assembly.of import assembly_of
 from .batch import curves_of_many, moved_by
 from .curves import Curves, changed, curves_of, refuse_bushes
-from .design_variables import DesignVariable, matching, names_bushes
+from .design_variables import DesignVariable, linkage_of, matching, names_bushes
 from .evaluation import Subject, check_subject
 from .sweep_axes import known_anywhere
 
@@ -43,7 +43,7 @@ ROUNDING = 1e-12
 
 def sensitivity(
     suspension: Subject,
-    places: Sequence[str] = ("hardpoints",),
+    places: Sequence[str] | None = None,
     *,
     over: str | None = None,
     positions: ArrayLike | None = None,
@@ -59,7 +59,8 @@ def sensitivity(
     places : sequence of str, optional
         The values, named by section and key with dots between them, such as
         ``hardpoints.ball_joint.z``. The name of a hardpoint or of a section represents all of its
-        numbers, ``*`` any text.
+        numbers, ``*`` any text. Default: all points of the linkage, which are the hardpoints and
+        those of rods, a drag link and a Pitman arm.
     over : str, optional
         Motion along the curves, of which the first is the default. Of a corner 'travel' or 'rack';
         of axles 'bump' (both wheels), 'roll', 'left' or 'right'; of a car 'heave', 'pitch' or
@@ -111,15 +112,16 @@ def sensitivity(
         given.function("progress", progress)
         if not given.failed:
             curves = curves_of(given, suspension, over, positions, names, held)
-            wanted = [*matching(given, suspension, places).values()]
-            asked = [place for place in wanted if _is_asked_for(place, places)]
+            patterns = linkage_of(suspension) if places is None else places
+            wanted = [*matching(given, suspension, patterns).values()]
+            asked = [place for place in wanted if _is_asked_for(place, patterns)]
             refuse_bushes(given, asked, [curves.over])
     soft = curves.over in HELD
     chosen = [place for place in wanted if soft or not place.of_bushes]
     left_out = dict.fromkeys([p.name for p in wanted if p not in chosen], _RIGID)
     found, refused = derivatives(suspension, chosen, curves, progress)
     for place, error in refused.items():
-        if _is_asked_for(place, places):
+        if _is_asked_for(place, patterns):
             raise error
         left_out[place.name] = _ALONE
     kept = [which for which, place in enumerate(chosen) if place not in refused]

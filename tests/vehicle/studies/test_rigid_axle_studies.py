@@ -8,9 +8,21 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import Axle, InputError, Model, RigidAxle, characteristics, rig, roads, variation
+from kintrafo import (
+    Axle,
+    InputError,
+    Model,
+    RigidAxle,
+    characteristics,
+    load,
+    rig,
+    roads,
+    variation,
+)
+from kintrafo.core.validator import Validator
 from kintrafo.vehicle.analysis.scenario import Scenario, run
 from kintrafo.vehicle.models.rigid_axle.model import RigidAxleModel
+from kintrafo.vehicle.studies.design_variables import linkage_of, matching
 from rigid_axles import AXLE, Found
 
 Array = np.ndarray
@@ -40,6 +52,22 @@ def test_sensitivities_are_differences_of_what_the_root_finder_finds() -> None:
         slope = (beside[1] - beside[0]) / 2e-3
         np.testing.assert_allclose(ours["axle_steer"].sel(place=place), slope, rtol=2e-4)
     assert (ours["axle_steer"].sel(place=places[2]) == 0.0).all()
+
+
+def test_all_points_of_a_linkage_vary_by_default() -> None:
+    """Those of rods and of the steering, too, which are no hardpoints of their file."""
+    steered = load("steered_rigid_axle").to_dict()
+    points = {f"hardpoints.{name}" for name in steered["hardpoints"] if name != "unit"}
+    points |= {f"rods.{name}.{end}" for name in steered["rods"] for end in ("chassis", "axle")}
+    points |= {"drag_link.knuckle", "pitman_arm.pivot_mm", "pitman_arm.ball_mm"}
+    for axle, wanted in (
+        (load("steered_rigid_axle"), points),
+        (AXLE, {f"hardpoints.{name}" for name in AXLE.hardpoints.given()}
+         | {f"rods.{name}.{end}" for name in AXLE.rods for end in ("chassis", "axle")}),
+    ):  # fmt: skip
+        with Validator("test") as given:
+            found = matching(given, axle, linkage_of(axle))
+        assert {name.rpartition(".")[0] for name in found} == wanted
 
 
 def test_what_a_rig_measured_is_explained(kintrafo: Any, tmp_path: Path) -> None:
