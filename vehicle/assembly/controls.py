@@ -11,6 +11,7 @@ from ...core.validator import Validator
 from ..models.car.car import Car
 from ..models.sides import SIDES
 from .axle_of import axle_assembly
+from .steered import SteerableAssembly
 from .steering_wheel import SteeringWheel
 
 RACK = ("rack_position", "rack_velocity", "rack_acceleration")
@@ -39,9 +40,13 @@ class Controls:
         self.car = car
 
     @cached_property
+    def _front(self) -> SteerableAssembly:
+        """The front axle, cached as the sense of its steering wheel needs its kinematics."""
+        return axle_assembly(self.car.axles["front"])
+
+    @property
     def _steering_wheel(self) -> SteeringWheel:
-        """The steering wheel of the front axle, cached as its sense needs the axle's kinematics."""
-        return axle_assembly(self.car.axles["front"]).steering_wheel
+        return self._front.steering_wheel
 
     def rack(
         self, angle: ArrayLike, rate: ArrayLike = 0.0, acceleration: ArrayLike = 0.0
@@ -64,12 +69,7 @@ class Controls:
             problem = "the front axle is not steered. Leave the angle out."
             raise InputError([problem], self.car.heading())
         if not self._steering_wheel.known:
-            problem = (
-                f"{self._steering_wheel.gear.TURN_KEY} is missing in the file of the front axle's "
-                "side: how far the rack moves for a turn of the steering wheel. Add it, or a curve "
-                "as [steering] of the axle."
-            )
-            raise InputError([problem], self.car.heading())
+            raise InputError([f"front: {self._front.missing_ratio}"], self.car.heading())
         found = self._steering_wheel.motion(*np.broadcast_arrays(*values))
         return {name: _plain(value) for name, value in zip(RACK, found, strict=True)}
 

@@ -52,6 +52,17 @@ class SteerableAssembly(HeldAssembly):
         }
 
     @property
+    def missing_ratio(self) -> str:
+        """The problem of a file without the ratio of the steering wheel, and what to add."""
+        key, own = self.steering_wheel.gear.TURN_KEY, "the file of the axle"
+        if self.subject.whole:
+            return f"the ratio of the steering wheel is missing: add {key} to {own}."
+        return (
+            f"the ratio of the steering wheel is missing: add {key} to the file of the axle's "
+            f"side, or a curve as [steering] to {own}."
+        )
+
+    @property
     def steering_motion(self) -> str | None:
         """The motion of the steering wheel, or of the rack if no file has the steering's ratio."""
         turns = self.steered and self.steering_wheel.known
@@ -74,9 +85,7 @@ class SteerableAssembly(HeldAssembly):
         wheel = self.steering_wheel
         if not wheel.known:
             given.fail(
-                "along: the ratio of steering wheel and rack is missing. Give "
-                f"{wheel.gear.TURN_KEY} in the hardpoint file, or [steering] in "
-                "the axle's; or take the motion 'rack', over displacements of it."
+                f"along: {self.missing_ratio} Or take the motion 'rack', over displacements of it."
             )
         elif wheel.curve is not None:
             problem = wheel.curve.beyond(along)

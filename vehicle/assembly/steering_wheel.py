@@ -61,11 +61,16 @@ class SteeringWheel:
                 return None
             ends = -2.0 * np.pi * most / per_turn, 2.0 * np.pi * most / per_turn
         if not -_MOST_TURNS < ends[0] <= 0.0 <= ends[1] < _MOST_TURNS:
+            correct = (
+                self.gear.TURN_KEY
+                if self.curve is None
+                else "[steering] angle_deg and rack_mm (0 mm in the middle)"
+            )
             problem = (
                 f"the steering wheel turns from {np.degrees(ends[0]):.4g} deg to "
                 f"{np.degrees(ends[1]):.4g} deg for the {1e3 * most:.4g} mm to either side that "
                 "the rack goes; that must have 0 deg within, and 20 turns at most. Correct "
-                f"[steering] angle_deg and rack_mm (0 mm in the middle), or {self.gear.TURN_KEY}."
+                f"{correct}."
                 if inside is None or inside.size
                 else f"[steering] rack_mm has nothing within the {1e3 * most:.4g} mm to either "
                 "side that the rack goes. Count it from the middle position."

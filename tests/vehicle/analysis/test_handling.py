@@ -454,7 +454,7 @@ def test_what_a_car_cannot_do_is_named(car, name, changes, words) -> None:
     ("obstacle_avoidance", {"car_length_mm": 3000.0}, {}, "in front of its rear wheel centres"),
     ("braking", {}, {"brakes": None}, "[brakes] is missing"),
     ("coast_down", {}, {"front.drive": None}, "no axle is driven"),
-    ("circle", {}, {"front.side.rack.travel_per_turn_mm": None}, "travel_per_turn_mm is missing"),
+    ("circle", {}, {"front.side.rack.travel_per_turn_mm": None}, "ratio of the steering wheel"),
 ])  # fmt: skip
 def test_a_car_is_checked_before_its_equations_are_derived(name, changes, of_car, words) -> None:
     model = load_manoeuvre(name, changes)

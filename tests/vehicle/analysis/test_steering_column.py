@@ -10,9 +10,12 @@ from kintrafo.vehicle.analysis.handling import circle, drive
 from kintrafo.vehicle.analysis.handling.circle import Turns
 from kintrafo.vehicle.analysis.handling.responses import steering_response
 from kintrafo.vehicle.analysis.handling.steady import SteadyCondition
+from kintrafo.vehicle.analysis.handling.subject import driving_car
 from kintrafo.vehicle.analysis.loads.on_a_car import rack_force
+from kintrafo.vehicle.assembly.controls import Controls
 from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.models.car import Car
+from kintrafo.vehicle.models.car.car import masses
 from kintrafo.vehicle.models.car.equations import declared, name_of
 
 STIFFNESS = 1.5  # N m/deg
@@ -194,6 +197,32 @@ def test_forces_on_the_rack_are_those_of_the_loads(column) -> None:
     np.testing.assert_allclose(torque, -(moment + 0.5 * smoothed), atol=1e-12)
 
 
+def test_a_rack_of_either_sense_is_the_same_steering(column) -> None:
+    """But for the inertia of the pinion, which turns about one axis in the sense of the rack."""
+    rack = column.axles["front"].right.rack.axis
+    other = column.with_changes({"front.side.rack.axis": [-each for each in rack]})
+    assert (
+        Controls(other).rack(1.0)["rack_position"] == -Controls(column).rack(1.0)["rack_position"]
+    )
+    here, there = (
+        circle(car, speed=20.0, lateral_acceleration=[4.0]).curves[""] for car in (column, other)
+    )
+    for name in ("steering_torque", "column_twist", "steering_wheel_angle", "yaw_rate"):
+        np.testing.assert_allclose(there[name], here[name], rtol=1e-8)
+    changes = {"duration_s": 1.1, "step_ms": 2.0, "output_step_ms": 4.0}
+    here, there = (drive(car, "step_steer", changes).curves[""] for car in (column, other))
+    yaw = np.gradient(here["yaw_rate"].values, here["time"].values)
+    torque = 2.0 * INERTIA * np.abs(yaw).max()
+    assert 1e-3 < torque < 0.02
+    assert np.abs(here["steering_torque"]).max() > 1.0
+    for name, most in (
+        ("steering_torque", torque),
+        ("column_twist", torque * np.deg2rad(1.0) / STIFFNESS),
+        ("yaw_rate", 1e-4),
+    ):
+        assert np.abs(there[name] - here[name]).max() < 1.5 * most
+
+
 def test_a_parked_rack_rests_where_the_steering_turns_back(column) -> None:
     changes = {"largest_deg": 180.0, "step_deg": 30.0}
     found = drive(column, "parking", changes).curves[""]
@@ -311,6 +340,47 @@ def test_a_drag_link_has_a_column() -> None:
     assert "front_rack_guide" in {joint.name for joint in found.independent}
     assert [joint.name for joint in found.prescribed] == ["front_wheel_guide"]
     assert state in {coordinate.name for coordinate in found.mechanism.coordinates}
+
+
+def test_a_car_on_a_steered_beam_rests_runs_straight_and_turns_by_its_column() -> None:
+    """Loads carry the weight; the balance of all parts has the torque of the twisted column."""
+    assembly = assembly_of(kintrafo.CarModel(on_a_beam()))
+    model, car = assembly.model, assembly.car
+    weight = 9.81 * sum(mass for mass, _ in masses(car))
+    assert float(kintrafo.ride.at_rest(assembly)["load"].sum()) == pytest.approx(weight, rel=1e-9)
+    start = assembly.running(20.0)
+    assert np.abs(model.evaluate("rhs", start)[model.layout.positions :]).max() < 1e-8
+    turns = Turns(driving_car("test", assembly), SteadyCondition("speed", 20.0), 1)
+    turns.begin(0.0)
+    turn = turns.to(3.0)
+    states, inputs = turn.state[None], turn.inputs[None]
+    signals = model.signals(states, inputs)
+    moment = float(signals["front_column_spring_moment"][0])
+    (force,) = rack_force(assembly, states, inputs)
+    travel = car.axles["front"].steering_gear.travel_per_turn() / (2.0 * np.pi)
+    assert force * travel == pytest.approx(moment, rel=1e-8)
+    assert abs(moment) > 1.0
+    twist = float(signals["front_column_angle"][0])
+    assert -twist * STIFFNESS / np.deg2rad(1.0) == pytest.approx(moment, rel=1e-12)
+    # the centripetal force of 3 m/s^2
+    across = sum(
+        float(signals[f"{w}_fy"][0] * np.cos(steer) + signals[f"{w}_fx"][0] * np.sin(steer))
+        for w in car.wheels
+        for steer in [float(signals[f"{w}_steer"][0])]
+    )
+    assert across == pytest.approx(3.0 * weight / 9.81, rel=5e-3)
+
+
+def test_a_missing_ratio_is_one_of_the_file_that_lacks_it() -> None:
+    """An axle without sides has one file, and no curve of its steering."""
+    beam = on_a_beam().with_changes({"steering_column": None, "front.pitman_arm.gear_ratio": None})
+    sided = light_car(**{"front.side.rack.travel_per_turn_mm": None})
+    for car, words in (
+        (beam, r"add \[pitman_arm\] gear_ratio to the file of the axle\.$"),
+        (sided, r"add \[rack\] travel_per_turn_mm .*side, or a curve as \[steering\]"),
+    ):
+        with pytest.raises(kintrafo.InputError, match=words):
+            Controls(car).rack(0.1)
 
 
 def test_a_pitman_arm_has_a_column() -> None:

@@ -514,13 +514,13 @@ def _problems_of_column(front: AnyAxle) -> list[str]:
     elif front.steering is not None:
         problem = (
             "front: [steering]: the rack follows the angle by a curve, and a column that twists "
-            "needs a constant ratio. Replace [steering] by travel_per_turn_mm, or remove this "
-            "section."
+            f"needs a constant ratio. Replace [steering] by {front.steering_gear.TURN_KEY}, or "
+            "remove this section."
         )
     elif front.steering_gear.travel_per_turn() is None:
         problem = (
-            f"front: {front.steering_gear.TURN_KEY} is missing: the travel of the rack for one "
-            "turn of the steering wheel, which a column needs. Add it."
+            f"front: {front.steering_gear.TURN_KEY} is missing: the ratio by which the column "
+            "moves the steering. Add it."
         )
     else:
         return []
