@@ -41,13 +41,13 @@ def system_named(name: str) -> kintrafo.System:
     if name in ("quarter_car", "rigid_axle"):
         return kintrafo.model_of(kintrafo.load(name))
     if name == "prescribed":
-        return kintrafo.System(own(_prescribed()))
+        return kintrafo.System(own(prescribed()))
     if name == "pendulum":
         return kintrafo.System(own(_pendulum()))
     return kintrafo.System(importlib.import_module(f"kintrafo.generated.{name}"))
 
 
-def _prescribed() -> Formulation:
+def prescribed() -> Formulation:
     """Return the four-bar linkage with a prescribed angle of its rocker."""
     plain = tuple(f for f in four_bar.FOUR_BAR.forces if not isinstance(f, JointForce))
     given = {four_bar.D: Motion("drive", "rad", "angle of the rocker")}

@@ -12,7 +12,7 @@ from functools import cache
 import kintrafo
 import numpy as np
 import pytest
-from exported import CC, compiled, system_named
+from exported import CC, compiled, prescribed, system_named
 from folders import ROOT
 from free_bodies import thrown
 from kintrafo.generator.backends.arrays import differentiable
@@ -37,6 +37,8 @@ def system_of(name):
     """Return a mechanism; of one that is declared here, its program over NumPy arrays."""
     if name == "thrown":  # a body that moves freely, with a quaternion
         return kintrafo.System(kintrafo.compile(thrown(), backend="numpy"))
+    if name == "prescribed":  # no states: some results are empty
+        return kintrafo.System(kintrafo.compile(prescribed(), backend="numpy"))
     return system_named(name)
 
 
@@ -79,7 +81,9 @@ def assert_close(found, wanted):
 # -- CasADi ---------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", ["four_bar", "slider_crank", "reference_car", "thrown"])
+@pytest.mark.parametrize(
+    "name", ["four_bar", "slider_crank", "reference_car", "thrown", "prescribed"]
+)
 def test_casadi_has_the_values_and_derivatives_of_c(module_of, name):
     system, module = system_of(name), module_of(name, "casadi")
     constants = module.prepare(parameters=module.parameters())["constants"]
@@ -394,9 +398,9 @@ def test_jax_warns_of_many_operations(tmp_path, monkeypatch):
 
 
 def test_equations_must_be_those_of_their_declaration(tmp_path, monkeypatch):
-    prescribed = system_named("prescribed")  # compiled before, or elsewhere
+    held = system_named("prescribed")  # compiled before, or elsewhere
     with pytest.raises(kintrafo.InputError, match=r"Call kintrafo\.compile first"):
-        kintrafo.export_model(prescribed, tmp_path / "a.py", "jax")
+        kintrafo.export_model(held, tmp_path / "a.py", "jax")
     system = kintrafo.System(kintrafo.compile(FOUR_BAR, backend="numpy"))
     monkeypatch.setattr(system.equations, "MECHANISM_HASH", "another")
     with pytest.raises(kintrafo.InputError, match="now has other equations"):
