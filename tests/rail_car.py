@@ -109,7 +109,16 @@ def declared(*, column: bool = False) -> g.Formulation:
         massive=(BODY, *(b for corner in corners for b in corner[4])),
         prescribed={RACK_GUIDE: RACK_MOTION},
     )
-    return replace(on_a_column(found), name="rail_car_column") if column else found
+    if not column:
+        return found
+    found = on_a_column(found)
+    # as in other cars, signals of the rack do not have the names of its inputs
+    forces = [
+        replace(force, name="front_rack") if getattr(force, "name", "") == "rack" else force
+        for force in found.mechanism.forces
+    ]
+    mechanism = replace(found.mechanism, forces=tuple(forces))
+    return replace(found, name="rail_car_column", mechanism=mechanism)
 
 
 class Controls:
