@@ -60,6 +60,14 @@ def test_links_do_the_work_of_the_bar(axle: Axle) -> None:
         assert np.linalg.norm(np.cross(along, force)) < 1e-9 * np.linalg.norm(force)
 
 
+def test_the_steering_holds_both_tie_rods() -> None:
+    """The axis of the rack points to the left, and the rods push it across only."""
+    found = loads.static(AXLE, PUSHED)
+    rods = of(found, "rack", "tie_rod")["force"].values
+    assert rods.shape == (2, 3)
+    assert float(found["rack_force"][0]) == pytest.approx(-rods[:, 1].sum(), abs=1e-9)
+
+
 def test_a_bar_bends_where_one_wheel_is_held() -> None:
     """The free wheel goes along with the held one, less than it, and the road holds the other."""
     case = {"one": {"left": {"contact_g": [0.0, 0.0, 1.0]}, "right": {"travel_mm": 30.0}}}

@@ -208,6 +208,21 @@ def _force(heights: Array, side: str) -> float:
     return float(_at(heights).wheel_force(side)[0])
 
 
+def test_the_beam_resists_a_difference_of_the_wheel_loads() -> None:
+    """Twist by travel: twice the half distance of pivots over the rise of a wheel by its arm."""
+    rise = (skew(SHEAR - PIVOT) @ (WHEEL - PIVOT))[2]
+    by_travel = 2.0 * PIVOT[1] / rise  # up on the left and down on the right
+    more, rates = 10.0, []
+    for part in (0.0, 1.0):
+        axle = UPRIGHT.with_changes({"beam.rate_Nm_per_deg": part * AXLE.beam.rate_Nm_per_deg})
+        even = float(loads.static(axle, {"held": {"travel_mm": 0.0}})["wheel_load"][0, 0])
+        case = {s: {"contact_N": [0.0, 0.0, even + sign * more]} for s, sign in SIDES.items()}
+        travel = loads.static(axle, {"uneven": case})["travel"].sel(wheel=[*SIDES])
+        rates.append(2.0 * more / (travel[0] - travel[1]).item())
+    # the second order of 0.5 mm of travel over arms of some 0.4 m
+    assert rates[1] - rates[0] == pytest.approx(0.5 * RATE * by_travel**2, rel=1e-6)
+
+
 def test_it_rests_at_design() -> None:
     assert abs(equilibrium(MODEL)[0]) < 5e-3
 
