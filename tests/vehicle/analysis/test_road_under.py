@@ -9,9 +9,11 @@ from driving_cars import light_car
 from kintrafo import CarModel, InputError, SimulationError, road_profiles, simulate
 from kintrafo.simulation import stepper
 from kintrafo.vehicle.analysis.handling import drive
+from kintrafo.vehicle.analysis.handling.circle import Turns
 from kintrafo.vehicle.analysis.handling.driven import driven
 from kintrafo.vehicle.analysis.handling.drivers import Fixed, HeldTorque
 from kintrafo.vehicle.analysis.handling.road_under import RoadUnder
+from kintrafo.vehicle.analysis.handling.steady import NoSteadyMotionError
 from kintrafo.vehicle.analysis.handling.subject import driving_car
 from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.models.car.car import center_of_gravity
@@ -171,6 +173,16 @@ def test_a_car_climbs_until_its_driven_wheels_slide(model) -> None:
     (named,) = re.findall(r"about ([\d.]+) %", str(refused.value))
     # found to 1 % of the slope; the slipping tyres approach their friction
     assert float(named) == pytest.approx(100.0 * steepest, rel=0.03)
+
+
+def test_a_slope_that_is_level_in_words_is_not_named(model, monkeypatch) -> None:
+    def begin(turns, _acceleration):
+        turns.slope = Slope(0.0004)
+        raise NoSteadyMotionError("")
+
+    monkeypatch.setattr(Turns, "begin", begin)
+    with pytest.raises(InputError, match=r"at this speed\. Choose a lower one\.$"):
+        drive(model, "straight", grade=0.03)
 
 
 def test_a_deceleration_is_that_of_brakes_and_grade(model) -> None:

@@ -334,7 +334,7 @@ def test_positions_out_of_reach_are_refused() -> None:
         characteristics.over(AXLE, "rack", [-0.3])
     with pytest.raises(PositionError, match="its steering at -300 mm"):
         MODEL.states_at(0.0, 0.0, -0.3)
-    with pytest.raises(InputError, match="steering wheel and rack is missing"):
+    with pytest.raises(InputError, match="ratio of the steering wheel is missing"):
         characteristics.over(AXLE.with_changes({"pitman_arm.gear_ratio": None}), "steer", [0.1])
 
 

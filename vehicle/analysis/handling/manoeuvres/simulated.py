@@ -85,8 +85,9 @@ class SimulatedManoeuvre(Manoeuvre):
             problem = (
                 f"{begin} this car does not run straight ahead at this speed. Choose a lower one."
             )
-            if any(turns.slope):
-                steepest = Slope(*(float(np.trunc(1e3 * part) / 1e3) for part in turns.slope))
+            # a car that hardly runs straight on a level road needs a lower speed
+            steepest = Slope(*(float(np.trunc(1e3 * part) / 1e3) for part in turns.slope))
+            if any(steepest):
                 problem = (
                     f"{begin} at this speed the tyres of this car carry it straight ahead up to "
                     f"about {steepest.words}, and the road has {car.slope.words}. Choose less "
