@@ -9,6 +9,7 @@ import csv
 import dataclasses
 import re
 
+import kintrafo
 import numpy as np
 import pytest
 from benches import SKEWED, UP, Strut, Wishbones
@@ -309,6 +310,34 @@ def test_parallel_wheels_and_wheels_straight_ahead():
     assert np.isnan(part[2])
     assert np.isinf(axle.turning_circle(parallel, parallel, 2.6)[2])
     assert np.isinf(axle.steering_ratio(np.zeros(1), np.zeros(1), 0.05)[0])
+
+
+STEERED = {
+    "a side": (MODEL, 2.6, 1.52),
+    "an axle": (Axle.from_dict({"axle": "front", "side": CAR}), 2.6, 1.52),
+    "a steered rigid axle": (kintrafo.load("steered_rigid_axle"), 3.0, 1.64),
+}
+
+
+@pytest.mark.parametrize("name", STEERED)
+def test_ackermann_and_turning_circle_are_those_of_the_steer_angles(name):
+    """Of wheels a track apart, each with its own angle from that of the rack in its middle."""
+    subject, wheelbase, track = STEERED[name]
+    found = flat(characteristics.over(subject, "rack", [-0.05, 0.0, 0.02]))
+    left, right = (
+        (found[f"steer_{side}"] - found[f"steer_{side}"][1]).values for side in ("left", "right")
+    )
+    inner, outer = np.where(left > 0.0, left, -right), np.where(left > 0.0, right, -left)
+    for place in (0, 2):
+        ideal = np.arctan(wheelbase / (wheelbase / np.tan(inner[place]) + track))
+        wanted = {
+            "ackermann_error": outer[place] - ideal,
+            "ackermann": (inner[place] - outer[place]) / (inner[place] - ideal),
+            "turning_circle": 2.0 * wheelbase / np.sin(outer[place]),
+        }
+        for key, value in wanted.items():
+            # the poses of a steered rigid axle are iterated: 1e-12 rad of differences of 1e-3 rad
+            assert float(found[key][place]) == pytest.approx(value, rel=1e-8), key
 
 
 @pytest.mark.parametrize("name", ["reference_car", "double_wishbone_car", "multi_link_car"])
