@@ -70,6 +70,21 @@ def test_every_part_is_in_equilibrium(subject: Any) -> None:
 
 
 @each
+def test_a_case_alone_is_carried_as_among_others(subject: Any) -> None:
+    """Also where no wheel is free, so that no case is left for the search of an equilibrium."""
+    every = cases_of(subject)
+    together = loads.static(subject, every)
+    for name, case in every.items():
+        alone = loads.static(subject, {name: case})
+        chosen = together.sel(case=[name])
+        for quantity in ("force", "moment", "travel"):
+            size = float(np.nanmax(np.abs(chosen[quantity])))
+            np.testing.assert_allclose(
+                alone[quantity].values, chosen[quantity].values, rtol=0.0, atol=1e-9 * size
+            )
+
+
+@each
 def test_what_two_parts_exert_on_each_other_is_there_twice(subject: Any) -> None:
     found = loads.static(subject, cases_of(subject))
     names = {str(name) for name in found["load"].values}

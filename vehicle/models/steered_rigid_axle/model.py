@@ -59,7 +59,7 @@ class SteeredRigidAxleModel(RigidAxleModel):
         left, right, racks = np.broadcast_arrays(left, right, rack)
         wanted = np.stack([left, right], axis=-1).reshape(-1, len(SIDES)) + self.axle.center[2]
         inputs = self.inputs_at(racks.ravel())
-        states = super().placed(left, right).reshape(len(wanted), -1)
+        states = super().placed(left, right).reshape(len(wanted), len(self.state_names))
         columns = [self.state_names.index(name) for name in self.COORDINATES]
         missing = np.full(len(wanted), np.inf)
         for _ in range(_MOST_STEPS):
@@ -71,20 +71,22 @@ class SteeredRigidAxleModel(RigidAxleModel):
             with np.errstate(all="ignore"):
                 states[:, columns] += solved_for_two(slopes, off)
         states[~(missing < _ROUNDING)] = np.nan
-        return states.reshape(*left.shape, -1)
+        return states.reshape(*left.shape, len(self.state_names))
 
     def moved(self, states: Array, left: Array, right: Array, inputs: Array | None = None) -> Array:
         """Return states with the rates for velocities of the wheels, and of the steering [m/s]."""
         lead = states.shape[:-1]
         rows = self.with_rates(states.reshape(-1, states.shape[-1]), 0.0)
         acting = self.inputs_at(np.zeros(lead)) if inputs is None else inputs
-        acting = np.broadcast_to(acting, (*lead, acting.shape[-1])).reshape(len(rows), -1)
+        acting = np.broadcast_to(acting, (*lead, acting.shape[-1])).reshape(
+            len(rows), acting.shape[-1]
+        )
         _, slopes = self._heights(rows, acting)
         still = self._of_wheels("wheel_velocity", rows, acting)
         wanted = np.stack(np.broadcast_arrays(left, right, np.empty(lead))[:2], axis=-1)
         with np.errstate(all="ignore"):
             rates = solved_for_two(slopes, wanted.reshape(still.shape) - still)
-        return self.with_rates(rows, rates).reshape(*lead, -1)
+        return self.with_rates(rows, rates).reshape(states.shape)
 
     def _of_wheels(self, name: str, states: Array, inputs: Array) -> Array:
         """Return a signal of both wheels, (n, 2); NaN where a loop does not close."""
