@@ -314,7 +314,7 @@ def test_what_cannot_be_is_refused(given: dict[str, Any], refused: Any) -> None:
 def test_motions_that_cannot_be_are_refused() -> None:
     for motion, along, words in (
         ("jump", None, "motion"),
-        ("steer", None, "rack"),
+        ("steer", None, "not steered"),
         ("roll", [2.0], "45 deg"),
     ):
         with pytest.raises(InputError, match=words):

@@ -121,7 +121,7 @@ def test_motions_start_with_the_wheels_at_given_heights(name: str) -> None:
         rates = np.asarray(start)[len(start) // 2 :]
         assert sorted(rates)[-len(both) :] == [30.0] * len(both)
         assert np.count_nonzero(rates) == len(both)
-    with pytest.raises(PositionError, match=r"9000 mm is out of reach|cannot be with its left"):
+    with pytest.raises(PositionError, match=r"9000 mm is out of reach|cannot have its left"):
         started(model, Scenario(height=9.0))
     with pytest.raises(InputError, match="wheel 'middle' is not known"):
         started(model, Scenario(height={"middle": 0.3}))
