@@ -23,7 +23,8 @@ def by_class(expression: sp.Basic) -> tuple[Any, ...]:
     """Return a key of the order of SymPy's ``compare``, in which it writes terms and factors."""
     name = type(expression).__name__
     known = _CLASSES.get(name)
-    content = expression._hashable_content()  # noqa: SLF001 (which ``compare`` compares)
+    # ``compare`` compares this content, for which SymPy has no public name
+    content = expression._hashable_content()  # noqa: SLF001
     return (
         *((len(_CLASSES) + 1, name) if known is None else (known, "")),
         len(content),

@@ -23,9 +23,8 @@ def unbroken(
     if 0 < len(text) <= width - len(initial_indent) and text.isprintable() and text.strip() == text:
         return [initial_indent + text]
     words = text.split(" ")
-    if text.isprintable() and all(
-        words
-    ):  # what `wrap` does with single spaces, in a tenth of its time
+    # words with single spaces between them: the lines of `wrap`, in a tenth of its time
+    if text.isprintable() and all(words):
         lines = [initial_indent + words[0]]
         for word in words[1:]:
             if len(lines[-1]) + 1 + len(word) <= width:
