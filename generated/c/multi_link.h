@@ -518,7 +518,7 @@ struct multi_link_constants {
 
 /* Status bits. */
 enum multi_link_status {
-    MULTI_LINK_STATUS_KNUCKLE_CLOSURE = 1 << 0, /* the loops of knuckle through sensor_rod, front_upper_link, rear_upper_link, front_lower_link, rear_lower_link, tie_rod cannot close, or an iteration has not found how in 400 steps on the way from the design position: the rods cannot reach knuckle, or they have no hold on it */
+    MULTI_LINK_STATUS_KNUCKLE_CLOSURE = 1 << 0, /* the loops of knuckle through sensor_rod, front_upper_link, rear_upper_link, front_lower_link, rear_lower_link, tie_rod cannot close, or the iteration from the design position did not converge within 400 steps: the rods cannot reach knuckle, or do not hold it */
     MULTI_LINK_STATUS_SENSOR_ROD_CROSS_SQUARED = 1 << 1, /* the shaft sensor_rod lies along the first axis of universal joint sensor_cross */
     MULTI_LINK_STATUS_FRONT_UPPER_LINK_CROSS_SQUARED = 1 << 2, /* the shaft front_upper_link lies along the first axis of universal joint front_upper_link_cross */
     MULTI_LINK_STATUS_REAR_UPPER_LINK_CROSS_SQUARED = 1 << 3, /* the shaft rear_upper_link lies along the first axis of universal joint rear_upper_link_cross */

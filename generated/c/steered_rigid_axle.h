@@ -850,7 +850,7 @@ struct steered_rigid_axle_constants {
 
 /* Status bits. */
 enum steered_rigid_axle_status {
-    STEERED_RIGID_AXLE_STATUS_SWAY_FRAME_CLOSURE = 1 << 0, /* the loops through sway_frame, shift_frame, yaw_frame, roll_frame, beam cannot close, or an iteration has not found how in 400 steps on the way from the design position: rod_1, rod_2, rod_3, rod_4 cannot meet with any coordinates of sway_guide, shift_guide, yaw_hinge, pitch_hinge */
+    STEERED_RIGID_AXLE_STATUS_SWAY_FRAME_CLOSURE = 1 << 0, /* the loops through sway_frame, shift_frame, yaw_frame, roll_frame, beam cannot close, or the iteration from the design position did not converge within 400 steps: rod_1, rod_2, rod_3, rod_4 cannot meet with any coordinates of sway_guide, shift_guide, yaw_hinge, pitch_hinge */
     STEERED_RIGID_AXLE_STATUS_ROD_1_CROSS_SQUARED = 1 << 1, /* the shaft rod_1 lies along the first axis of universal joint rod_1_cross */
     STEERED_RIGID_AXLE_STATUS_ROD_2_CROSS_SQUARED = 1 << 2, /* the shaft rod_2 lies along the first axis of universal joint rod_2_cross */
     STEERED_RIGID_AXLE_STATUS_ROD_3_CROSS_SQUARED = 1 << 3, /* the shaft rod_3 lies along the first axis of universal joint rod_3_cross */

@@ -298,7 +298,7 @@ static const km_event events[] = {
     {"events.damper_reaches_bump_stop", "the damper touches its bump stop", 3, -1, 0x0.0p+0, 266, 0x1.0000000000000p+0, 267},
     {"events.damper_reaches_rebound_stop", "the damper touches its rebound stop", 3, -1, 0x0.0p+0, 269, 0x1.0000000000000p+0, 270},
     {"events.wheel_leaves_ground", "the tyre force falls to nothing", 17, -1, 0x1.0624dd2f1a9fcp-10, -1, 0x1.0000000000000p+0, -1},
-    {"margins.knuckle_closure", "the loops of knuckle through sensor_rod, front_upper_link, rear_upper_link, front_lower_link, rear_lower_link, tie_rod cannot close, or an iteration has not found how in 400 steps on the way from the design position: the rods cannot reach knuckle, or they have no hold on it", -1, 0, 0x0.0p+0, -1, 0x1.0000000000000p+0, -1},
+    {"margins.knuckle_closure", "the loops of knuckle through sensor_rod, front_upper_link, rear_upper_link, front_lower_link, rear_lower_link, tie_rod cannot close, or the iteration from the design position did not converge within 400 steps: the rods cannot reach knuckle, or do not hold it", -1, 0, 0x0.0p+0, -1, 0x1.0000000000000p+0, -1},
     {"margins.rear_lower_link_cross_squared", "the shaft rear_lower_link lies along the first axis of universal joint rear_lower_link_cross", -1, 5, 0x0.0p+0, -1, 0x1.0000000000000p+0, -1},
     {"margins.spring_length_squared", "the ends of spring coincide", -1, 7, 0x0.0p+0, -1, 0x1.0000000000000p+0, -1},
     {"margins.damper_length_squared", "the ends of damper coincide", -1, 8, 0x0.0p+0, -1, 0x1.0000000000000p+0, -1},
@@ -307,7 +307,7 @@ static const km_event events[] = {
 };
 
 static const km_guard guards[] = {
-    {"knuckle_closure", "1", "the loops of knuckle through sensor_rod, front_upper_link, rear_upper_link, front_lower_link, rear_lower_link, tie_rod cannot close, or an iteration has not found how in 400 steps on the way from the design position: the rods cannot reach knuckle, or they have no hold on it", 3},
+    {"knuckle_closure", "1", "the loops of knuckle through sensor_rod, front_upper_link, rear_upper_link, front_lower_link, rear_lower_link, tie_rod cannot close, or the iteration from the design position did not converge within 400 steps: the rods cannot reach knuckle, or do not hold it", 3},
     {"sensor_rod_cross_squared", "1", "the shaft sensor_rod lies along the first axis of universal joint sensor_cross", 0},
     {"front_upper_link_cross_squared", "1", "the shaft front_upper_link lies along the first axis of universal joint front_upper_link_cross", 0},
     {"rear_upper_link_cross_squared", "1", "the shaft rear_upper_link lies along the first axis of universal joint rear_upper_link_cross", 0},

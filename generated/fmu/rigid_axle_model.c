@@ -427,7 +427,7 @@ static const km_event events[] = {
     {"events.left_damper_reaches_bump_stop", "the left damper touches its bump stop", 21, -1, 0x0.0p+0, 393, 0x1.0000000000000p+0, 394},
     {"events.left_damper_reaches_rebound_stop", "the left damper touches its rebound stop", 21, -1, 0x0.0p+0, 396, 0x1.0000000000000p+0, 397},
     {"events.left_axle_wheel_leaves_ground", "the tyre force falls to nothing", 35, -1, 0x1.0624dd2f1a9fcp-10, -1, 0x1.0000000000000p+0, -1},
-    {"margins.sway_frame_closure", "the loops through sway_frame, shift_frame, yaw_frame, roll_frame, beam cannot close, or an iteration has not found how in 400 steps on the way from the design position: rod_1, rod_2, rod_3, rod_4 cannot meet with any coordinates of sway_guide, shift_guide, yaw_hinge, pitch_hinge", -1, 0, 0x0.0p+0, -1, 0x1.0000000000000p+0, -1},
+    {"margins.sway_frame_closure", "the loops through sway_frame, shift_frame, yaw_frame, roll_frame, beam cannot close, or the iteration from the design position did not converge within 400 steps: rod_1, rod_2, rod_3, rod_4 cannot meet with any coordinates of sway_guide, shift_guide, yaw_hinge, pitch_hinge", -1, 0, 0x0.0p+0, -1, 0x1.0000000000000p+0, -1},
     {"margins.right_spring_length_squared", "the ends of right_spring coincide", -1, 5, 0x0.0p+0, -1, 0x1.0000000000000p+0, -1},
     {"margins.right_damper_length_squared", "the ends of right_damper coincide", -1, 6, 0x0.0p+0, -1, 0x1.0000000000000p+0, -1},
     {"margins.right_axle_cos_camber_squared", "the wheel lies flat on the road", -1, 7, 0x0.0p+0, -1, 0x1.0000000000000p+0, -1},
@@ -439,7 +439,7 @@ static const km_event events[] = {
 };
 
 static const km_guard guards[] = {
-    {"sway_frame_closure", "1", "the loops through sway_frame, shift_frame, yaw_frame, roll_frame, beam cannot close, or an iteration has not found how in 400 steps on the way from the design position: rod_1, rod_2, rod_3, rod_4 cannot meet with any coordinates of sway_guide, shift_guide, yaw_hinge, pitch_hinge", 3},
+    {"sway_frame_closure", "1", "the loops through sway_frame, shift_frame, yaw_frame, roll_frame, beam cannot close, or the iteration from the design position did not converge within 400 steps: rod_1, rod_2, rod_3, rod_4 cannot meet with any coordinates of sway_guide, shift_guide, yaw_hinge, pitch_hinge", 3},
     {"rod_1_cross_squared", "1", "the shaft rod_1 lies along the first axis of universal joint rod_1_cross", 0},
     {"rod_2_cross_squared", "1", "the shaft rod_2 lies along the first axis of universal joint rod_2_cross", 0},
     {"rod_3_cross_squared", "1", "the shaft rod_3 lies along the first axis of universal joint rod_3_cross", 0},

@@ -524,7 +524,7 @@ static const km_event events[] = {
     {"events.left_damper_reaches_bump_stop", "the left damper touches its bump stop", 21, -1, 0x0.0p+0, 426, 0x1.0000000000000p+0, 427},
     {"events.left_damper_reaches_rebound_stop", "the left damper touches its rebound stop", 21, -1, 0x0.0p+0, 429, 0x1.0000000000000p+0, 430},
     {"events.left_axle_wheel_leaves_ground", "the tyre force falls to nothing", 35, -1, 0x1.0624dd2f1a9fcp-10, -1, 0x1.0000000000000p+0, -1},
-    {"margins.sway_frame_closure", "the loops through sway_frame, shift_frame, yaw_frame, roll_frame, beam cannot close, or an iteration has not found how in 400 steps on the way from the design position: rod_1, rod_2, rod_3, rod_4 cannot meet with any coordinates of sway_guide, shift_guide, yaw_hinge, pitch_hinge", -1, 0, 0x0.0p+0, -1, 0x1.0000000000000p+0, -1},
+    {"margins.sway_frame_closure", "the loops through sway_frame, shift_frame, yaw_frame, roll_frame, beam cannot close, or the iteration from the design position did not converge within 400 steps: rod_1, rod_2, rod_3, rod_4 cannot meet with any coordinates of sway_guide, shift_guide, yaw_hinge, pitch_hinge", -1, 0, 0x0.0p+0, -1, 0x1.0000000000000p+0, -1},
     {"margins.left_knuckle_reach_squared", "the loop chassis - rod_1 - beam - left_knuckle - drag_link - pitman_arm: point pitman_ball lies on the line of left_knuckle, whose rotation is undetermined", -1, 5, 0x0.0p+0, -1, 0x1.0000000000000p+0, -1},
     {"margins.left_knuckle_closure", "the loop chassis - rod_1 - beam - left_knuckle - drag_link - pitman_arm cannot close: the rod drag_link cannot reach left_knuckle, beyond its dead point", -1, 6, 0x0.0p+0, -1, 0x1.0000000000000p+0, -1},
     {"margins.right_knuckle_reach_squared", "the loop beam - right_knuckle - track_rod - left_knuckle: point track_rod_left lies on the line of right_knuckle, whose rotation is undetermined", -1, 8, 0x0.0p+0, -1, 0x1.0000000000000p+0, -1},
@@ -540,7 +540,7 @@ static const km_event events[] = {
 };
 
 static const km_guard guards[] = {
-    {"sway_frame_closure", "1", "the loops through sway_frame, shift_frame, yaw_frame, roll_frame, beam cannot close, or an iteration has not found how in 400 steps on the way from the design position: rod_1, rod_2, rod_3, rod_4 cannot meet with any coordinates of sway_guide, shift_guide, yaw_hinge, pitch_hinge", 3},
+    {"sway_frame_closure", "1", "the loops through sway_frame, shift_frame, yaw_frame, roll_frame, beam cannot close, or the iteration from the design position did not converge within 400 steps: rod_1, rod_2, rod_3, rod_4 cannot meet with any coordinates of sway_guide, shift_guide, yaw_hinge, pitch_hinge", 3},
     {"rod_1_cross_squared", "1", "the shaft rod_1 lies along the first axis of universal joint rod_1_cross", 0},
     {"rod_2_cross_squared", "1", "the shaft rod_2 lies along the first axis of universal joint rod_2_cross", 0},
     {"rod_3_cross_squared", "1", "the shaft rod_3 lies along the first axis of universal joint rod_3_cross", 0},

@@ -280,9 +280,9 @@ def _corrected(kin: Kinematics, held: _BodyOnRods) -> _Solved:
         body,
         found,
         left,
-        f"the loops of {body} through {held.step.rod_names} cannot close, or an iteration has "
-        f"not found how in {{iterations}} steps on the way from the design position: the rods "
-        f"cannot reach {body}, or they have no hold on it",
+        f"the loops of {body} through {held.step.rod_names} cannot close, or the iteration "
+        f"from the design position did not converge within {{iterations}} steps: the rods cannot "
+        f"reach {body}, or do not hold it",
     )
     step = [
         program.define(f"{body}_correction_{i}", value)

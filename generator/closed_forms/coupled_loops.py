@@ -323,8 +323,8 @@ def _corrected(kin: Kinematics, step: CoupledLoops, geometry: Geometry) -> _Solv
         name,
         results,
         left,
-        f"the loops through {', '.join(step.bodies)} cannot close, or an iteration has not found "
-        f"how in {{iterations}} steps on the way from the design position: {step.closing_names} "
+        f"the loops through {', '.join(step.bodies)} cannot close, or the iteration from the "
+        f"design position did not converge within {{iterations}} steps: {step.closing_names} "
         f"cannot meet with any coordinates of {step.joint_names}",
     )
     unknowns = [

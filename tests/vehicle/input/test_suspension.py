@@ -76,7 +76,7 @@ class TestReferenceCar:
     def test_file_says_whose_numbers_these_are(self):
         header = CAR_TEXT.split("[vehicle]")[0]
         assert "gives\n# neither hardpoints nor masses" in header
-        assert "THESE DATA ARE MADE UP" in header
+        assert "the data are invented" in header
 
 
 class TestCentresOfMass:
