@@ -16,7 +16,9 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .core.errors import InputError, KintrafoError
+    from .core.optional import MissingPackageError
     from .ensembles import ensemble
+    from .ensembles.chunks.queue import ClusterError
     from .equations.errors import ClosureError, ModelError, ParameterError
     from .pages.animation import animate
     from .simulation.backwards import MotionGradient, motion_gradient
@@ -64,11 +66,13 @@ __all__ = [
     "Car",
     "CarModel",
     "ClosureError",
+    "ClusterError",
     "CompilerError",
     "InputError",
     "KintrafoError",
     "Linearisation",
     "MechanismError",
+    "MissingPackageError",
     "Mode",
     "Model",
     "ModelError",
@@ -115,6 +119,8 @@ _MODULES = {
     ".vehicle.assembly.equilibrium": ("equilibrium",),
     ".vehicle.assembly.of": ("model_of",),
     ".core.errors": ("InputError", "KintrafoError"),
+    ".core.optional": ("MissingPackageError",),
+    ".ensembles.chunks.queue": ("ClusterError",),
     ".simulation.events": ("SignalEvent",),
     ".equations.errors": ("ClosureError", "ModelError", "ParameterError"),
     ".vehicle.models.axle": ("Axle",),

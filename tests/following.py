@@ -404,7 +404,7 @@ def trials(family: Family, random: Random, along: int = 4) -> Iterator[Trial]:
 
 @dataclass
 class Judged:
-    """How positions on paths were answered.
+    """Results at positions on paths.
 
     Attributes
     ----------

@@ -56,7 +56,7 @@ each_axle = pytest.mark.parametrize("axle", AXLES.values(), ids=AXLES)
 
 
 class Found:
-    """Where a root finder puts the beam: six equations in its shift and a turn."""
+    """Poses of the beam by a root finder: six equations in its displacement and rotation."""
 
     def __init__(self, axle: RigidAxle) -> None:
         self.axle, self.center, self.half = axle, axle.center, axle.half_track

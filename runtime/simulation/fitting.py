@@ -27,8 +27,8 @@ _SHORTEST = 1e-20
 # Calls are at irregular times, so that no periodic function looks like a constant: multiples of
 # the golden section leave no gaps.
 _GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
-# A velocity jumps if it changes by this part of its range between two knots, and these are closer
-# than this part of the distance of calls.
+# A velocity jumps if it changes by the fraction _JUMP of its range between two knots whose distance
+# is less than the fraction _CLOSE of that between two calls.
 _JUMP, _CLOSE = 0.1, 0.01
 
 

@@ -82,7 +82,7 @@ class Mode:
     def text(self) -> str:
         """Frequency and damping as text."""
         if 0.0 in self.eigenvalues:
-            return "neither swings nor returns: an eigenvalue is zero"
+            return "neither oscillates nor decays: an eigenvalue is zero"
         text = f"{self.natural_frequency:.2f} Hz, damping ratio {self.damping_ratio:.3f}"
         if self.oscillates:
             return text
@@ -94,7 +94,7 @@ class Mode:
             f"{'grows' if value.real > 0.0 else 'decays'} by the factor e in {time}"
             for value, time in zip(self.eigenvalues, times, strict=True)
         ]
-        return f"does not swing: {', '.join(words)}"
+        return f"does not oscillate: {', '.join(words)}"
 
 
 def eigenvalues_of(matrix: Array) -> Complex:

@@ -57,7 +57,7 @@ def note(text: str) -> None:
 
 @contextmanager
 def progress_bar(text: str) -> Iterator[Callable[[float], None]]:
-    """Show on stderr the finished part of a task, from 0 to 1."""
+    """Show on stderr the completed fraction of a task, from 0 to 1."""
     columns = TextColumn("{task.description}"), BarColumn(), TimeRemainingColumn()
     with Progress(*columns, console=problems, transient=True) as progress:
         task = progress.add_task(text, total=1.0)

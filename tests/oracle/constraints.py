@@ -28,7 +28,7 @@ ARM, KNUCKLE, TIE_ROD, RACK, UPPER_STRUT, WHEEL = range(1, 7)
 
 @dataclass(frozen=True)
 class Pose:
-    """Where the moving bodies are.
+    """Positions of the moving bodies.
 
     Attributes
     ----------

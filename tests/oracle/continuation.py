@@ -38,7 +38,7 @@ ITERATIONS, ROUNDED = 6, 1e-12
 
 @dataclass
 class Poses:
-    """Where bodies are: their points' reference [m], and rotations from design."""
+    """Poses of bodies: their reference points [m], and rotations from design."""
 
     center: Array
     rotation: Array

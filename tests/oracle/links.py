@@ -31,7 +31,7 @@ ROUNDED = 1e-15
 
 @dataclass(frozen=True)
 class Pose:
-    """Where a carrier is: its wheel centre [m] and its rotation from design."""
+    """Pose of a carrier: its wheel centre [m] and its rotation from design."""
 
     center: Array
     rotation: Array

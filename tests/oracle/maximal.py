@@ -154,7 +154,7 @@ def stacked(jets: list[Jet], size: int) -> Jet:
 
 @dataclass(frozen=True)
 class Motion:
-    """Where the bodies are and how they move.
+    """Positions and velocities of the bodies.
 
     Attributes
     ----------

@@ -300,7 +300,7 @@ class CarAssembly(Assembly):
             found = np.asarray(rest(model, self._on_its_tyres(held), acting))
         except (InputError, ModelError) as error:
             problem = (
-                "the car has no rest near design: its springs and tyres do not carry it there. "
+                "the car has no equilibrium near design: its springs and tyres do not carry it. "
                 "Check [body] mass_kg, the springs, and free_height_mm of the tyres. "
                 f"The search ended with: {error}"
             )

@@ -68,12 +68,12 @@ class SteeringWheel:
             )
             problem = (
                 f"the steering wheel turns from {np.degrees(ends[0]):.4g} deg to "
-                f"{np.degrees(ends[1]):.4g} deg for the {1e3 * most:.4g} mm to either side that "
-                "the rack goes; that must have 0 deg within, and 20 turns at most. Correct "
+                f"{np.degrees(ends[1]):.4g} deg as the rack moves {1e3 * most:.4g} mm to either "
+                "side; the range must contain 0 deg, and have 20 turns at most. Correct "
                 f"{correct}."
                 if inside is None or inside.size
-                else f"[steering] rack_mm has nothing within the {1e3 * most:.4g} mm to either "
-                "side that the rack goes. Count it from the middle position."
+                else f"[steering] rack_mm has no displacement within the {1e3 * most:.4g} mm that "
+                "the rack moves to either side. Measure it from the middle position."
             )
             raise InputError([problem], "axle")
         return grid(*ends, _USUAL_STEP)

@@ -71,7 +71,7 @@ def write(
         `compliance_chapter` and `elastokinematics_chapter`.
     without : collection of str, optional
         Characteristics to leave out, such as those of front axles on a rear axle.
-    goals : sequence of Target and Limit, optional
+    goals : sequence of TargetValue and Limit, optional
         Result of `kintrafo.variation.goals`, also those of an axle for the report of its side. They
         are marked in the charts of their characteristics, and the page lists those without a chart,
         see `kintrafo.report.goals_chapter`.

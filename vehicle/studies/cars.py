@@ -55,8 +55,8 @@ def cars(
         the dimension ``car``; of a dataset, all combinations along its dimensions are cars.
     over, positions, names, held, progress
         Motion, positions along it, characteristics, support of the wheels for compliance, and a
-        function of the finished part; see `sensitivity`. Travel is measured from each car's own
-        design position.
+        function of the completed fraction; see `sensitivity`. Travel is measured from the design
+        position of each car.
     reductions : sequence of str, optional
         'min', 'max', 'mean' or 'range' of the curves over the positions, instead of the curves.
     threads : int, optional

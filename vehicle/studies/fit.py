@@ -153,7 +153,7 @@ def fit(
     Raises
     ------
     InputError
-        If an argument cannot be used, or no uncertain value moves a curve.
+        If an argument cannot be used, or no uncertain value has an effect on a curve.
     PositionError
         If the given suspension does not reach a position.
 
@@ -195,7 +195,8 @@ def fit(
     search = Search(suspension, reach, targets, (), progress, SIGMAS)
     idle = search.idle(np.zeros(len(reach)))
     if len(idle) == len(reach):
-        raise InputError([f"tolerances: nothing of {', '.join(idle)} moves a curve."], "fit")
+        problem = f"tolerances: nothing of {', '.join(idle)} has an effect on a curve."
+        raise InputError([problem], "fit")
     return _fit(search, *least(search))
 
 

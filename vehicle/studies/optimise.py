@@ -114,7 +114,7 @@ def optimise(
     Raises
     ------
     InputError
-        If an argument cannot be used, or no free value moves a target.
+        If an argument cannot be used, or no free value has an effect on a target.
     PositionError
         If the given suspension does not reach a position.
 
@@ -155,7 +155,8 @@ def optimise(
     search = Search(suspension, reach, aims, bounds, progress, _RELUCTANCE, ENOUGH)
     idle = search.idle(np.zeros(len(reach)))
     if len(idle) == len(reach):
-        raise InputError([f"free: nothing of {', '.join(idle)} moves a target."], "optimise")
+        problem = f"free: nothing of {', '.join(idle)} has an effect on a target."
+        raise InputError([problem], "optimise")
     try:
         return _optimum(search, *_solved(search), idle)
     except MetError as end:
@@ -210,7 +211,7 @@ def _optimum(
         "not within its limits": broken,
         "targets missed by more than within": missed,
         "at the end of its range": search.at_the_end(x),
-        "moves no target": search.idle(x, idle) if idle else [],
+        "without effect on a target": search.idle(x, idle) if idle else [],
     }
     return Optimum(
         suspension=search.at(x),

@@ -160,7 +160,7 @@ def pareto(
     Raises
     ------
     InputError
-        If an argument cannot be used, or no free value moves an objective.
+        If an argument cannot be used, or no free value has an effect on an objective.
     PositionError
         If the given suspension does not reach a position.
     MissingPackageError
@@ -216,7 +216,8 @@ def pareto(
     judge = _Judge(suspension, reach, objectives, bounds, population * generations, progress)
     idle = judge.idle()
     if len(idle) == len(reach):
-        raise InputError([f"free: nothing of {', '.join(idle)} moves an objective."], "pareto")
+        problem = f"free: nothing of {', '.join(idle)} has an effect on an objective."
+        raise InputError([problem], "pareto")
     evolve(judge, _first(population, len(reach), seed), judge.counts, generations, seed)
     return _front(judge, idle, population)
 

@@ -74,7 +74,7 @@ def tolerance(
         Seed of the generator of random numbers: the same cars for the same seed.
     over, positions, names, held, progress
         Motion, positions along it, characteristics, support of the wheels for compliance, and a
-        function of the finished part; see `sensitivity`.
+        function of the completed fraction; see `sensitivity`.
 
     Returns
     -------

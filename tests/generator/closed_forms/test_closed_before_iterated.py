@@ -75,7 +75,7 @@ def turned(vector: Array, angle: float) -> Array:
 
 @dataclass(frozen=True)
 class Drive:
-    """Where the drive of the crank is.
+    """Position of the drive of the crank.
 
     Attributes
     ----------

@@ -231,7 +231,7 @@ def test_anywhere_it_closes_or_says_so(
 def test_a_chain_that_moves_by_its_dimensions_alone_is_refused_with_others(
     built: Callable[[Formulation], Built],
 ) -> None:
-    """Where Bricard's symmetry is broken, the design position is the only one that closes."""
+    """Without Bricard's symmetry the loop closes at the design position alone."""
     compiled = built(BRICARD)
     parameters = dict(compiled.parameters)
     parameters["place_3_x"] += 1e-3

@@ -329,7 +329,7 @@ def reads(model: ModuleType, function: str) -> set[str]:
 @pytest.mark.parametrize("wrong", [np.nan, np.inf, -np.inf])
 @each_model
 def test_nan_and_infinity_are_named(model, wrong: float) -> None:
-    """Where a function reads an element it refuses it, and else ignores it."""
+    """A function rejects such an element if it reads it, and ignores it otherwise."""
     for function in COMMON[model.NAME]:
         names = (*model.STATE, *model.INPUTS)
         arrays = Instant(BETA1_DESIGN, 0.0, 0.01).arrays(model)

@@ -110,7 +110,7 @@ def test_equal_values_of_other_names_are_one() -> None:
 
 
 def test_a_result_refuses_for_its_own_guards_only() -> None:
-    """Where a crank too long cannot turn, the derivative that is zero everywhere has no guard."""
+    """A derivative that is zero everywhere has no guard, also if the crank is too long to turn."""
     parameters = {n: entry["default"] for n, entry in four_bar.PARAMETERS.items()}
     constants = four_bar.prepare(parameters | {"crank_pin_y": 0.25})
     states = np.zeros((629, 2))

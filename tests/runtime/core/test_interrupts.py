@@ -157,7 +157,7 @@ def test_files_are_whole_and_nothing_is_left(tmp_path, monkeypatch, step):
 
 
 def test_nothing_is_written_after_an_interrupt(tmp_path, monkeypatch):
-    """Where something has taken it."""
+    """Other code has caught the interrupt."""
     monkeypatch.setattr(interrupts._heard, "any", True)
     with pytest.raises(KeyboardInterrupt), replacing(tmp_path / "a.csv") as temporary:
         temporary.write_text("all")

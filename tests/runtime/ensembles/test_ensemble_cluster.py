@@ -123,7 +123,7 @@ def test_rows_and_grids(client: Any, car: Model, start: Any, tmp_path: Path) -> 
 
 
 def test_equations_that_were_compiled_here(client: Any, tmp_path: Path, monkeypatch: Any) -> None:
-    """Where a worker finds neither their folder nor a cache with them, it is sent them."""
+    """A worker receives the equations if it finds neither their folder nor a cache with them."""
     model = System(kintrafo.compile(FOUR_BAR))
     crank = {"crank_mass": np.linspace(0.5, 2.0, 5)}
     options = {"signals": model.signal_names[:1]}

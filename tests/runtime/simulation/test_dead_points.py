@@ -176,7 +176,7 @@ def test_what_is_open_from_the_beginning_ends_there(method, rack):
 
 
 def test_steps_that_gain_nothing_before_a_dead_point_end():
-    """Where the error of a step is that of rounding, it does not shrink with the step."""
+    """A rounding error does not become smaller with the step."""
     model = Model("double_wishbone_car")
     start = np.array([2.186686, 0.520921, 0.0, 0.0])
     with pytest.raises(SimulationError, match="too small") as caught:

@@ -189,7 +189,7 @@ def test_it_is_of_fourth_order(road: Callable[[float], float] | None) -> None:
 
 
 def test_it_is_of_fourth_order_backward_from_kinks() -> None:
-    """How inputs move at a kink is taken from the side to which the step goes."""
+    """The rate of an input at a kink is that on the side of the step."""
     times = np.linspace(0.0, 0.2, 5)
     road = kintrafo.Samples(times, np.array([0.0, 0.01, -0.005, 0.008, 0.0]), "linear")
     inputs, span, start = {"road_height": road}, (0.2, 0.0), equilibrium(MODEL)

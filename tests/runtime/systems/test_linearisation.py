@@ -194,7 +194,7 @@ def test_an_eigenvalue_that_is_zero_has_words():
     """The turn of the wheel about its axis: nothing holds it, and it has no time constant."""
     hop, *spin = linearise(HELD, equilibrium(HELD)).modes
     assert hop.text == "12.35 Hz, damping ratio 0.233"
-    assert {mode.text for mode in spin} == {"neither swings nor returns: an eigenvalue is zero"}
+    assert {mode.text for mode in spin} == {"neither oscillates nor decays: an eigenvalue is zero"}
 
 
 @pytest.mark.parametrize(
@@ -206,12 +206,12 @@ def test_an_eigenvalue_that_is_zero_has_words():
         (
             3.0,
             -4.0,
-            "does not swing: grows by the factor e in 1 s, grows by the factor e in 333 ms",
+            "does not oscillate: grows by the factor e in 1 s, grows by the factor e in 333 ms",
         ),
         (
             -3.0,
             2.0,
-            "does not swing: decays by the factor e in 333 ms, grows by the factor e in 1 s",
+            "does not oscillate: decays by the factor e in 333 ms, grows by the factor e in 1 s",
         ),
     ],
 )
@@ -301,7 +301,7 @@ def test_what_rounding_leaves_of_a_zero_neither_grows_nor_decays():
         turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
         mode = mode_of_states(turn @ matrix @ turn.T, ("q", "q_rate"), [0, 1])
         assert mode.natural_frequency == 0.0
-        assert mode.text == "neither swings nor returns: an eigenvalue is zero"
+        assert mode.text == "neither oscillates nor decays: an eigenvalue is zero"
 
 
 def test_a_real_eigenvalue_makes_no_pair_with_one_of_an_oscillation():

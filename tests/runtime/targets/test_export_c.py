@@ -136,7 +136,7 @@ def test_a_folder_with_other_files_is_left_alone(tmp_path):
 
 
 def test_nothing_is_half_written(tmp_path):
-    """Where one file must not be replaced, none appears; again by the same program, all do."""
+    """No file appears if one must not be replaced; a later export replaces all of them."""
     system, folder = system_named("four_bar"), tmp_path / "c"
     folder.mkdir()
     (folder / "four_bar.h").write_text("by hand")

@@ -816,7 +816,7 @@ def test_another_processor_has_no_library(tmp_path, monkeypatch):
 
 
 def test_tables_of_shipped_models_are_committed():
-    """Where this fails, run ``make generate``."""
+    """If this test fails, run ``make generate``."""
     wanted = {
         f"{name}_{file}": text
         for name, module in EMITTED.items()

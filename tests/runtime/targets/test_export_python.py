@@ -137,7 +137,7 @@ def test_casadi_has_nan_where_a_loop_cannot_close(module_of):
 
 
 def test_casadi_names_conditions_of_parameters(module_of):
-    """Where a rod has no length, constants are NaN and so is what is computed with them."""
+    """With a rod of zero length the constants are NaN, and so are all results of them."""
     module = module_of(CLOSED, "casadi")
     flat = module.parameters(rocker_pin_x=0.3, rocker_pin_y=0.0)  # on the bearing of the rocker
     fulfilled = module.conditions(flat).full().ravel()

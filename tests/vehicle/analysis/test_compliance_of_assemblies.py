@@ -142,7 +142,7 @@ def test_loaded_bushes_leave_the_design_as_it_is(of: Any, bushes: Any) -> None:
 def test_many_positions_are_looked_at_in_parts(
     of: Any, bushes: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Which of two bearings holds an arm along its axis does not depend on the positions either."""
+    """The bearing that holds an arm along its axis does not depend on the positions either."""
     places = np.linspace(-0.05, 0.05, 7)
     whole = compliance.elastokinematics(of, bushes, along=places)
     # the function has the name of its module

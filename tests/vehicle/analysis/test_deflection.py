@@ -196,7 +196,7 @@ def test_a_radial_curve_is_the_same_to_all_sides(hardpoints: Any) -> None:
 
 
 def test_a_curve_goes_on_as_its_last_points_rise() -> None:
-    """Where a monotone cubic would end flat, which would carry nothing more."""
+    """A monotone cubic would end with a zero slope, and carry no further force."""
     places, forces = 1e-3 * np.arange(-2.0, 2.5), np.array([-9, -8, 0.0, 8, 9.0])
     curve = Curve(places, forces, "cubic", as_secants=True)
     outside = np.array([-5e-3, 3e-3])

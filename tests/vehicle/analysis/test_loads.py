@@ -301,7 +301,7 @@ def test_what_is_carried_without_bound_is_not_carried(monkeypatch: pytest.Monkey
 
 
 def test_a_spring_without_leverage_is_no_dead_point() -> None:
-    """Where the leverage of the damper passes zero, joints are as sound as anywhere."""
+    """The forces in joints are finite where the leverage of the damper passes through zero."""
     odd = WISHBONES.with_changes({f"hardpoints.spring_top.{a}": v for a, v in
                                   zip("xyz", (-30.0, -500.0, 320.0), strict=True)})  # fmt: skip
     kerb = {"contact_g": [0.0, 1.5, 2.0]}

@@ -86,7 +86,7 @@ def test_the_work_of_a_turn_is_that_of_the_friction(found) -> None:
     ({"step_deg": 1e-3}, "0.24 to 60 deg are allowed"),
     ({"pressure_kPa": 2.3}, "pressure_kPa = 2.3 kPa is out of range"),
     ({"friction": 80.0}, "friction = 80.0 is out of range"),
-    ({"largest_deg": 2000.0, "step_deg": 500.0}, "the car has no rest"),
+    ({"largest_deg": 2000.0, "step_deg": 500.0}, "the car has no equilibrium"),
 ])  # fmt: skip
 def test_mistakes_are_named(car, changes, words) -> None:
     with pytest.raises(kintrafo.InputError, match=words):

@@ -500,8 +500,8 @@ def test_what_is_out_of_reach_is_refused(refused: Any) -> None:
     refused(InputError, lambda: characteristics.over(AXLE, "roll", [3.0]))
     for racks, words in (
         ([-10.0, 10.0], "rises with the angle, and that steers to the right"),
-        ([200.0, 100.0], "nothing within the 60 mm"),
-        ([100.0, 40.0], "must have 0 deg within"),
+        ([200.0, 100.0], "no displacement within the 60 mm"),
+        ([100.0, 40.0], "the range must contain 0 deg"),
     ):
         wrong = {"angle_deg": [-90.0, 90.0], "rack_mm": racks}
         axle = Axle.from_dict({"axle": "front", "side": CAR, "steering": wrong})

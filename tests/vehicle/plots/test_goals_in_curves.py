@@ -185,7 +185,7 @@ def test_what_is_marked_is_in_sight_however_far_from_the_curve(goals: Path) -> N
 
 
 def test_arrows_at_the_end_of_an_axis_are_in_sight() -> None:
-    """Where a curve is constant its axis ends a tenth of a unit from it, as this limit does."""
+    """The axis of a constant curve ends a tenth of a unit beside it, at these limits."""
     dataset = characteristics.over(Model("reference_car"), "travel", np.linspace(-0.05, 0.05, 11))
     flat = dataset.assign(toe=dataset["toe"].copy(data=np.zeros(11)))
     wanted = variation.goals({"limits": {"toe": {"least": -0.1, "most": 0.1}}})

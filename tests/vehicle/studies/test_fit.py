@@ -127,7 +127,7 @@ def test_what_cannot_be_is_refused() -> None:
     measured = rig(AS_BUILT)
     for arguments, words in (
         ({"tolerances": {}}, "one or more are needed"),
-        ({"tolerances": {"bodies.wheel.mass_kg": 1.0}}, "moves a curve"),
+        ({"tolerances": {"bodies.wheel.mass_kg": 1.0}}, "has an effect on a curve"),
         ({"tolerances": {ROD: 1.0}, "accuracy": {"toes": 1.0}}, "toe"),
         ({"tolerances": {ROD: 1.0}, "accuracy": {"toe": 0.0}}, "deg"),
         ({"tolerances": {ROD: 1.0}, "names": ["x"]}, "x"),

@@ -52,7 +52,7 @@ def axle_chapter(axle: Any, goals: Sequence[Goal] = ()) -> Chapter:
     Parameters
     ----------
     axle : Axle, AxleModel, RigidAxle, RigidAxleModel, Car or CarModel
-    goals : sequence of Target and Limit, optional
+    goals : sequence of TargetValue and Limit, optional
         Result of `kintrafo.variation.goals`: those over the motions are drawn into the curves.
 
     Returns

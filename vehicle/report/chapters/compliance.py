@@ -20,7 +20,7 @@ def compliance_chapter(found: xr.Dataset, goals: Sequence[Goal] = ()) -> Chapter
     ----------
     found : xarray.Dataset
         Result of `kintrafo.compliance.linear`.
-    goals : sequence of Target and Limit, optional
+    goals : sequence of TargetValue and Limit, optional
         Result of `kintrafo.variation.goals`: those with the same support of the wheels are drawn
         into the curves. They are for the middle position of the rack.
 

@@ -22,7 +22,7 @@ def elastokinematics_chapter(*found: xr.Dataset, goals: Sequence[Goal] = ()) -> 
     ----------
     *found : xarray.Dataset
         Result of `kintrafo.compliance.elastokinematics`, each over another motion.
-    goals : sequence of Target and Limit, optional
+    goals : sequence of TargetValue and Limit, optional
         Result of `kintrafo.variation.goals`: those of these curves are drawn into them. They are
         for rigid joints and the middle position of the rack.
 

@@ -84,5 +84,5 @@ class Manoeuvre(Section):
         car : DrivingCar
             A car and its equations.
         progress : callable
-            It is called with the finished part, up to 1.
+            Called with the completed fraction, up to 1.
         """

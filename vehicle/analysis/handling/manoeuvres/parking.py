@@ -191,7 +191,8 @@ class Parking(Manoeuvre):
             except KintrafoError as error:
                 problem = (
                     f"largest_deg = {self.largest_deg:g} deg: at a steering wheel angle of "
-                    f"{np.rad2deg(angle):.1f} deg the car has no rest: {error}. Choose less."
+                    f"{np.rad2deg(angle):.1f} deg the car has no equilibrium: {error}. "
+                    "Choose a smaller angle."
                 )
                 raise InputError([problem], self.TITLE) from None
             assert rest.inputs is not None

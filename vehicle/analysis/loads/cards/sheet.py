@@ -25,14 +25,14 @@ LENGTHS = {"mm": 1e3, "m": 1.0}
 FIRST_NODE = 99_000_001
 
 _AXES = {
-    "part": "Axes of the part, which is where it is at design",
-    "vehicle": "Axes of the vehicle, in which the part is where each case has it",
+    "part": "Axes of the part, at its design position",
+    "vehicle": "Axes of the vehicle, with the part at its position in each case",
 }
 _DIRECTIONS = "x forward, y left, z up, with the origin of the hardpoints"
 _CHASSIS = (
-    "These are the totals at the mounts; the mass of the body and its other suspensions hold it."
+    "These are the totals at the mounts; the body is held by its inertia and other suspensions."
 )
-_MASSES = "Weight and inertia are among them, at the centre of mass."
+_MASSES = "Weight and inertia are included, at the centre of mass."
 _WIDTH = 70
 
 
