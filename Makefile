@@ -147,10 +147,10 @@ format-page: build ## The input file's JSON Schema, and its page in docs/
 benchmark-bits: build ## Which results are the same bits on another processor
 	@$(PYTHON) -m benchmarks.same_bits --page docs/reference/conventions.md
 
-benchmark-axles: build ## How long the motions of an axle take; the picture of docs/suspension/axles.md
+benchmark-axles: build ## How long the motions of an axle take; a picture of docs/suspension/characteristics.md
 	@$(PYTHON) -m benchmarks.axles
 
-benchmark-loads: build ## How long the loads on all parts take; the picture of docs/suspension/loads.md
+benchmark-loads: build ## How long the loads on all parts take; pictures of docs/suspension/loads.md and compliance.md
 	@$(PYTHON) -m benchmarks.loads
 
 benchmark-bushes: build ## Suspensions on bushes beside Exudyn, an independent program
