@@ -35,7 +35,7 @@ needs_library = pytest.mark.skipif(
 
 @cache
 def system_named(name: str) -> kintrafo.System:
-    """Return a small mechanism, one without states, one without guards, a suspension or a car."""
+    """Return a small mechanism, without states, guards or signals, a suspension or a car."""
     if name == "reference_car":
         return kintrafo.Model("reference_car")
     if name in ("quarter_car", "rigid_axle"):
@@ -44,6 +44,8 @@ def system_named(name: str) -> kintrafo.System:
         return kintrafo.System(own(prescribed()))
     if name == "pendulum":
         return kintrafo.System(own(_pendulum()))
+    if name == "moved":
+        return kintrafo.System(own(_moved()))
     return kintrafo.System(importlib.import_module(f"kintrafo.generated.{name}"))
 
 
@@ -63,6 +65,14 @@ def _pendulum() -> Formulation:
     angle = turn.angle("angle", "angle of the pendulum")
     mechanism = Mechanism("pendulum", "A pendulum", (turn,), (weight,), (angle,))
     return Formulation("pendulum", "A pendulum", mechanism, (turn,))
+
+
+def _moved() -> Formulation:
+    """Return the pendulum with a prescribed angle: no states, no signals."""
+    free = _pendulum()
+    mechanism = replace(free.mechanism, forces=())
+    given = {free.independent[0]: Motion("drive", "rad", "angle of the pendulum")}
+    return Formulation("moved", "A pendulum that is turned", mechanism, (), prescribed=given)
 
 
 def compiled(folder: Path, *flags: str) -> Path:

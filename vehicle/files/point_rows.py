@@ -29,10 +29,11 @@ _NAMES = (
 _KEYS = {key(name): "point" for name in _NAMES} | {axis: axis for axis in AXES}
 _LOOKED_AT = 50  # first rows in which the names of the columns are searched
 _UNITS_ABOVE = {key(name) for name in ("unit", "units", "length", "length unit", "length units")}
-_NUMBER = r"([-+]?\d+(?:\.\d*)?|[-+]?\.\d+)"
+_NUMBER = r"([-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?)"
 _LOTUS = re.compile(
     rf"\s*{_NUMBER}\s+{_NUMBER}\s+{_NUMBER}\s+POINT\s*(?:\(\s*(\d+)\s*\)\s*=|:\s*(\d+)\b)(.*)"
 )
+_NAME_OF_LOTUS = re.compile(r"\bPOINT\s*(?:\(\s*\d+\s*\)|:\s*\d+)")
 _UNITS_OF_LOTUS = re.compile(r"\s*\((\w+)\)\s+\(\1\)\s+\(\1\)\s*")
 
 
@@ -61,7 +62,22 @@ def found_in(file: Path, sheet: str | None) -> NamedColumns:
     rows, comments, commas = csv_rows(file, MOST_OF_DATA)
     if not rows:
         raise InputError(["the table is empty: the first row names the columns."], str(file))
-    return _of_rows(str(file), rows, comments, commas=commas)
+    found = _of_rows(str(file), rows, comments, commas=commas)
+    _refuse_further_values(found.table)
+    return found
+
+
+def _refuse_further_values(table: Table) -> None:
+    """Refuse rows with values beyond the last column: a decimal comma may separate columns."""
+    count = len(table.headings)
+    problems = [
+        f"row {number} has {len(cells)} values, and there are {count} columns. Separate columns by "
+        "semicolons if numbers have decimal commas, and give a column of remarks a name."
+        for number, cells in table.rows
+        if any(cells[count:])
+    ]
+    if problems:
+        raise InputError(problems, table.source)
 
 
 def _of_workbook(file: Path, pages: Sequence[Page], wanted: str | None) -> NamedColumns:
@@ -164,6 +180,8 @@ def _check(
         for axis, those in zip(AXES, found, strict=True)
         if len(those) != 1
     ]
+    if "" in columns and len(columns) > 1:
+        problems.append("columns x, y and z below no side are beside those of a side. Keep one.")
     if problems:
         text = legible(", ".join(str(cell) for cell in heading if cell is not None))
         raise InputError([*problems, f"the first row is: {short(text, 500)}."], source)
@@ -184,13 +202,18 @@ def _of_lotus(file: Path) -> NamedColumns | None:
     """Return the points of a text of Lotus Suspension Analysis; None for another text."""
     lines = text_of(file).splitlines()
     rows: list[Row] = []
+    problems = []
     for number, line in enumerate(lines, 1):
         found = _LOTUS.fullmatch(line[:500])
+        if found is None and _NAME_OF_LOTUS.search(line[:500]):
+            problems.append(f"line {number}: three numbers are needed before POINT.")
         if found:
             name = found[6].strip() or f"POINT {found[4] or found[5]}"
             rows.append((number, [name, *found.group(1, 2, 3)]))
     if not rows:
         return None
+    if problems:
+        raise InputError(problems, str(file))
     units = [
         unit_of(found[1]) for line in lines if (found := _UNITS_OF_LOTUS.fullmatch(line[:100]))
     ]

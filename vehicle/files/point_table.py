@@ -152,8 +152,6 @@ def read_points(
     }
     first = next(iter(sides)) if SIDES[0] not in sides else SIDES[0]
     right = sides.get(SIDES[1]) if first != SIDES[1] else None
-    if set(sides) == {SIDES[1]}:
-        raise InputError(["the table has columns of the right side alone."], str(path))
     return PointTable(str(path), length, sides[first], right, turned.words, found.left_out)
 
 
@@ -284,7 +282,7 @@ def merged(
         table.unit,
     )
     if not mirrored:
-        _refuse_other_side(old, document["hardpoints"], read, table.source)
+        _refuse_other_side(old, document["hardpoints"], read, table)
     text = tomlkit.dumps(document)
     source = (
         f"{file} with the points of {table.source} (unit {table.unit}; x, y, z: {table.axes}; "
@@ -314,16 +312,23 @@ def put_points(document: Any, points: Mapping[str, Iterable[float]], unit: str) 
         section[name] = [length_in(value, unit, section["unit"]) + 0.0 for value in point]
 
 
-def _refuse_other_side(old: Suspension, section: Any, read: Iterable[str], source: str) -> None:
+def _refuse_other_side(
+    old: Suspension, section: Any, read: Iterable[str], table: PointTable
+) -> None:
     """Refuse points that are all on the other side of the car."""
     moved = [(float(section[name][1]), float(getattr(old.hardpoints, name)[1])) for name in read
              if getattr(old.hardpoints, name) is not None]  # fmt: skip
     if moved and all(new * before < 0.0 for new, before in moved):
+        remedy = (
+            "Mirror them: --mirror (mirrored=True)."
+            if table.right is None
+            else "Interchange Left and Right in the table, or give its axes: --axes (axes=)."
+        )
         problem = (
             f"all of its points are on the other side of the car, and the file is of the "
-            f"{old.vehicle.side} side. Mirror them: --mirror (mirrored=True)."
+            f"{old.vehicle.side} side. {remedy}"
         )
-        raise InputError([problem], source)
+        raise InputError([problem], table.source)
 
 
 def write_merged(

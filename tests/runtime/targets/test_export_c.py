@@ -10,7 +10,7 @@ from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.targets.c_folder import STEP, STEPS
 
 needs_compiler = pytest.mark.skipif(find_compiler() is None, reason="no C compiler")
-NAMES = ("four_bar", "slider_crank", "prescribed", "reference_car")
+NAMES = ("four_bar", "slider_crank", "prescribed", "pendulum", "moved", "reference_car")
 
 
 def printed(program):

@@ -84,7 +84,7 @@ def variables_of(system):
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-@pytest.mark.parametrize("name", [*NAMES, "slider_crank", "prescribed"])
+@pytest.mark.parametrize("name", [*NAMES, "slider_crank", "prescribed", "moved"])
 def test_fmpy_finds_nothing_wrong(tmp_path, name, version):
     validation = pytest.importorskip("fmpy.validation")
     path = tmp_path / "a.fmu"
