@@ -5,7 +5,7 @@ import subprocess
 import kintrafo
 import numpy as np
 import pytest
-from exported import compiled, system_named
+from exported import CC, compiled, system_named
 from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.targets.c_folder import STEP, STEPS
 
@@ -55,6 +55,17 @@ def test_the_example_prints_what_python_computes(name, tmp_path):
     if system.signal_names:
         wanted["signal"] = {k: float(v) for k, v in system.signals(start, inputs).items()}
     assert found == wanted
+
+
+@needs_compiler
+@pytest.mark.parametrize("name", ["moved", "prescribed", "pendulum", "four_bar"])
+def test_sources_for_jax_compile_silently(name, tmp_path):
+    """Also where there is nothing that they could evaluate."""
+    header = pytest.importorskip("jax").ffi.include_dir()
+    folder = kintrafo.export_model(system_named(name), tmp_path / "c", "c")
+    for end in ("ffi", "lanes"):
+        source, target = str(folder / f"{name}_{end}.c"), str(tmp_path / "a.o")
+        subprocess.run([*CC, "-isystem", header, "-c", source, "-o", target], check=True)
 
 
 @needs_compiler
