@@ -185,7 +185,8 @@ def fit(
         )
         if not given.failed:
             given.among("held", held, HELD)
-            targets = _targets(given, suspension, measured, names, (accuracies, held, over))
+            how = (accuracies, held, over)
+            targets, foreign = _targets(given, suspension, measured, names, how)
         if not given.failed:
             check_data(given, suspension, targets)
             by_pattern = given.mapping("tolerances", tolerances, "places and numbers")
@@ -197,7 +198,7 @@ def fit(
     if len(idle) == len(reach):
         problem = f"tolerances: nothing of {', '.join(idle)} has an effect on a curve."
         raise InputError([problem], "fit")
-    return _fit(search, *least(search))
+    return _fit(search, *least(search), foreign)
 
 
 def _targets(
@@ -206,8 +207,8 @@ def _targets(
     measured: xr.Dataset,
     names: Any,
     how: tuple[Mapping[str, Any], WheelSupport, Any],
-) -> list[TargetValue]:
-    """Return the measured curves as targets, without empty cells."""
+) -> tuple[list[TargetValue], list[str]]:
+    """Return the measured curves as targets, without empty cells, and names of others."""
     accuracies, held_by, asked = how
     # parallel travel is the first of the axes over wheel travel
     ways = {sweep_axis(way).along.name: way for way in reversed(sweep_axes_of(suspension))}
@@ -217,7 +218,7 @@ def _targets(
             "measured: a result of kintrafo.rig.measured_curves is needed, over "
             f"{' or '.join(reversed(ways))}."
         )
-        return []
+        return [], []
     (along,) = over
     way = ways[along]
     if asked is not None:
@@ -236,17 +237,20 @@ def _targets(
     ]
     under_loads = UNDER_LOADS[held_by].known if way == "travel" else {}
     known = [name for name in there if name in sweep_axis(way).known or name in under_loads]
+    foreign = [name for name in there if name not in known] if names is None else []
     chosen = known if names is None else given.names("names", names, known)
     if not chosen and not given.failed:
-        given.fail("measured: one curve or more is needed.")
+        words = f"; not computed over {way}: {', '.join(foreign)}" if foreign else ""
+        given.fail(f"measured: one curve or more is needed{words}.")
     for name in accuracies:
         given.among("accuracy of", name, known)
-    return [
+    targets = [
         target
         for name in chosen
         for over in [held_by if name in under_loads else way]
         if (target := _target(given, measured[name], over, accuracies.get(name))) is not None
     ]
+    return targets, foreign
 
 
 def _target(given: Validator, curve: xr.DataArray, over: str, accuracy: Any) -> TargetValue | None:
@@ -278,7 +282,7 @@ def _repeated(points: int) -> float:
     return float(np.sqrt(max(1.0, points / _INDEPENDENT)))
 
 
-def _fit(search: Search, x: Array, gave_up: str) -> Fit:
+def _fit(search: Search, x: Array, gave_up: str, foreign: list[str]) -> Fit:
     """Return the result with its uncertainty and message."""
     slopes = search.slopes(x)
     variances = np.diag(np.linalg.inv(slopes.T @ slopes))
@@ -293,6 +297,7 @@ def _fit(search: Search, x: Array, gave_up: str) -> Fit:
         "the curves do not determine": [
             name for name, part in zip(names, determined, strict=True) if part < _LEAST_DETERMINED
         ],
+        "not computed, and not fitted": foreign,
     }
     return Fit(
         suspension=search.at(x),

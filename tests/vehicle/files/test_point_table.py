@@ -100,6 +100,9 @@ WRONG = {
     "twice": HEAD + "a,1,2,3\na,1,2,3\n",
     "unknown": HEAD + "bal_joint,1,2,3\n",
     "none that is needed": HEAD + "spring_seat,1,2,3\na,1,2,3\n",
+    "decimal commas": HEAD + "ball_joint,5,0,-711,5,180,0\n",
+    "a further value": HEAD + "ball_joint,5,-711.5,180\narm_front,160,5,-360,195\n",
+    "a side beside none": ",,,,Left\n" + HEAD[:-1] + ",x [mm],y [mm],z [mm]\na,1,2,3,4,5,6\n",
     "impossible": HEAD + "ball_joint,170,-350,205\n",
 }
 
@@ -250,6 +253,11 @@ def test_a_text_of_lotus_suspension_analysis(tmp_path: Path) -> None:
     assert new == Suspension.load("double_wishbone_car")
     with pytest.raises(InputError, match="x, y and z have no unit"):
         read_points(table(tmp_path, LOTUS.replace("(mm)", ""), "front.txt"))
+    for y in ("360,00", "3 60.00", "nan"):
+        with pytest.raises(InputError, match="line 5: three numbers are needed before POINT"):
+            read_points(table(tmp_path, LOTUS.replace("360.00", y, 1), "front.txt"))
+    exponents = read_points(table(tmp_path, LOTUS.replace("360.00", "3.6E+02"), "front.txt"))
+    assert exponents.points == points.points
     with pytest.raises(InputError, match="text with its points"):
         read_points(table(tmp_path, LOTUS, "front.shk"))
 
@@ -290,6 +298,24 @@ def test_a_workbook_of_optimumk(tmp_path: Path) -> None:
     assert new.hardpoints.lower_arm_front == (170.0, 350.0, 190.0)
     with pytest.raises(InputError, match="has both sides"):
         merged(points, "double_wishbone_car", mirrored=True)
+    swapped = [[{"Left": "Right", "Right": "Left"}.get(c, c) for c in row] for row in SIDES]
+    points = read_points(workbook(tmp_path, {"Front": swapped}))
+    with pytest.raises(InputError, match="Interchange Left and Right"):
+        merged(points, "double_wishbone_car")
+
+
+@pytest.mark.parametrize("side", ["Left", "Right"])
+def test_a_table_of_one_side(side: str, tmp_path: Path) -> None:
+    """It is that of a suspension of this side, and mirrored that of the other."""
+    y = {"Left": 711.5, "Right": -711.5}[side]
+    text = f",{side}\n{HEAD}ball_joint,5,{y},180\n"
+    points = read_points(table(tmp_path, text))
+    if side == "Left":
+        with pytest.raises(InputError, match="Mirror them: --mirror"):
+            merged(points, "reference_car")
+    found = merged(points, "reference_car", mirrored=side == "Left")
+    new = Suspension.load(write_merged(found, tmp_path / "new.toml"))
+    assert new.hardpoints.ball_joint == (5.0, -711.5, 180.0)
 
 
 def test_sheets_of_a_workbook(tmp_path: Path) -> None:

@@ -123,6 +123,17 @@ def test_empty_cells_count_nothing() -> None:
     assert found.moved[ROD] == pytest.approx(1.5, abs=0.1)
 
 
+def test_curves_of_an_axle_are_named_beside_a_suspension() -> None:
+    """A file has no characteristics of another assembly: none is left out without a word."""
+    measured = rig(AS_BUILT, names=["toe"])
+    measured["camber_left"] = measured["toe"]
+    found = variation.fit(CAR, measured, {ROD: 3.0})
+    assert "not computed, and not fitted: camber_left" in found.message
+    assert [curve.name for curve in found.curves] == ["toe"]
+    with pytest.raises(InputError, match="not computed over travel: camber_left"):
+        variation.fit(CAR, measured[["camber_left"]], {ROD: 3.0})
+
+
 def test_what_cannot_be_is_refused() -> None:
     measured = rig(AS_BUILT)
     for arguments, words in (
