@@ -235,7 +235,8 @@ def _difference(name: str, data: xr.DataArray, label: str, at: float) -> Differe
     other = np.asarray(data.sel({DATA_SET: label}).values, dtype=np.float64)
     both = np.isfinite(first) & np.isfinite(other)
     change = np.subtract(other, first, out=np.full(first.shape, np.nan), where=both)
-    design = int(np.argmin(np.where(both, np.abs(positions - at), np.inf)))
+    defined = both if both.any() else np.isfinite(first) | np.isfinite(other)
+    design = int(np.argmin(np.where(defined, np.abs(positions - at), np.inf)))
     worst = int(np.nanargmax(np.abs(change))) if both.any() else design
     if not abs(positions[design] - at) <= _AT_DESIGN:
         first, other = np.full((2, positions.size), np.nan)

@@ -196,9 +196,14 @@ def beside(
             for label, assembly in assemblies.items():
                 _refuse_other_motions(given, label, assembly, measured)
     found = [measured]
-    for assembly in assemblies.values():
+    for label, assembly in assemblies.items():
         whole = flat(_curves(assembly, measured, held))
-        found.append(whole[[n for n in map(str, measured) if n in whole]])
+        computed = [n for n in map(str, measured) if n in whole]
+        if not computed:
+            curves = ", ".join(map(str, measured))
+            problem = f"measured: {label} has no characteristic of the measured ones: {curves}."
+            raise InputError([problem], "beside")
+        found.append(whole[computed])
     attributes = {"long_name": "data set", "measured": 1}  # the first one is measured
     return side_by_side(found, xr.Variable(DATA_SET, [name, *assemblies], attributes))
 

@@ -150,6 +150,19 @@ def test_differences_are_where_both_are_known(tmp_path: Path) -> None:
         rig.beside(rig.measured_curves(path), {"measured": MODEL})
 
 
+def test_curves_of_another_assembly(tmp_path: Path) -> None:
+    """A curve that is not computed keeps its values; without any other one, it is refused."""
+    path = tmp_path / "rig.csv"
+    text = "wheel_travel [mm],toe [deg],toe_left [deg]\n-40,0.1,0.3\n0,0,0.2\n40,-0.1,0.1\n"
+    path.write_text(text, encoding="utf-8")
+    _, found = compare.differences(rig.beside(rig.measured_curves(path), {"car": MODEL}))
+    assert (found.name, found.where) == ("toe_left", 0.0)
+    assert found.first == pytest.approx(np.deg2rad(0.2), rel=1e-15)
+    assert np.isnan([found.other, found.largest]).all()
+    with pytest.raises(InputError, match="axle has no characteristic of the measured ones: toe"):
+        rig.beside(rig.measured_curves(path)[["toe"]], {"axle": AXLE})
+
+
 def test_points_with_gaps_are_drawn() -> None:
     values = np.array([1.0, np.nan, 2.0, 3.0, np.nan, 4.0])
     assert _alone(values).tolist() == [True, False, False, False, False, True]
