@@ -68,7 +68,6 @@ class CarrierOnRods(Iteration):
         cls, known: Known, driven: Collection[str], waiting: Sequence[Cycle]
     ) -> Attempt | None:
         """Return the first body that rods hold together, with the loops that they close."""
-        del driven
         for body in known.mechanism.bodies:
             step = cls._at(known, body)
             if step is None:

@@ -26,7 +26,6 @@ class PlaceFree(Follower):
     @classmethod
     def follow(cls, known: Known, joint: Joint, parent: str, child: str) -> Self | None:
         """Return the step, where the joint is driven."""
-        del parent
         if not isinstance(joint, Free) or joint.second.name != child or known.unknowns_of(joint):
             return None
         return cls(joint)

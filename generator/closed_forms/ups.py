@@ -109,7 +109,6 @@ class PlaceByGuide(Follower):
     @classmethod
     def follow(cls, known: Known, joint: Joint, parent: str, child: str) -> Self | None:
         """Return the step that waits for the first link, at the guide of a strut."""
-        del parent
         step = known.guided.get(joint.name)
         return step if isinstance(step, cls) and step.about == child else None
 

@@ -28,7 +28,6 @@ class PlaceWelded(Follower):
     @classmethod
     def follow(cls, known: Known, joint: Joint, parent: str, child: str) -> Self | None:
         """Return the step for a welded body."""
-        del known
         return cls(child, parent) if isinstance(joint, Weld) else None
 
     @property

@@ -41,7 +41,6 @@ class SpeedConstraint(ABC):
 
     def signals(self, at: Surroundings) -> Iterator[Shown]:
         """Yield signals of its deviation."""
-        del at
         yield from ()
 
 

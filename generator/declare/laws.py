@@ -93,7 +93,6 @@ class AnyLaw(ABC):
 
     def events_of_length(self, element: str) -> tuple[Event, ...]:
         """Return events at certain lengths of an element of this name."""
-        del element
         return ()
 
     def describe(self) -> str:
@@ -106,12 +105,10 @@ class AnyLaw(ABC):
 
     def rates(self, at: Stretch) -> dict[str, sp.Expr]:
         """Return the rates of its internal states, by name."""
-        del at
         return {}
 
     def problems(self, path: AnyPath) -> list[str]:
         """Return problems of the law on a path."""
-        del path
         return []
 
 

@@ -83,12 +83,10 @@ class AnyPath(ABC):
 
     def ranges_of_length(self, name: str) -> tuple[Range, ...]:
         """Return the valid lengths of an element of this name."""
-        del name
         return ()
 
     def events_of_length(self, name: str) -> tuple[Event, ...]:
         """Return events at certain lengths of an element of this name."""
-        del name
         return ()
 
     @abstractmethod

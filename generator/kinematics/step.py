@@ -41,7 +41,6 @@ class KinematicStep(ABC):
 
     def origin_on(self, ground: str) -> Point | None:
         """Return the point of the ground that is the best origin of positions, if there is one."""
-        del ground
         return None
 
     def lines(self) -> Iterator[Ends]:

@@ -213,7 +213,6 @@ class Assembly(ABC):
 
     def held_in(self, motion: str, travel: float, rack: float) -> dict[Quantity, float]:
         """Return the constant quantities of a motion, for the coordinates of its results."""
-        del motion, travel
         return {self.steering_displacement: rack} if self.steered else {}
 
     @abstractmethod
@@ -446,12 +445,10 @@ class HeldAssembly(Assembly):
 
     def reached(self, coordinates: Array, racks: Array) -> NDArray[np.bool_]:
         """Return whether the loops close, for wheels within the range of each, (n,)."""
-        del racks
         return np.ones(len(coordinates), dtype=bool)
 
     def locked(self, coordinates: Array, racks: Array) -> NDArray[np.bool_]:
         """Return whether a linkage is at the end of its range, where it carries any load, (n,)."""
-        del racks
         return np.zeros(len(coordinates), dtype=bool)
 
     # -- loads -------------------------------------------------------------------------------------
@@ -478,7 +475,6 @@ class HeldAssembly(Assembly):
         The parts are rack and anti-roll bar. `poses` are by suffix; `loads` are all others, with
         the suffixes in their names.
         """
-        del poses, loads
         return [], {}
 
     def further(
@@ -488,7 +484,6 @@ class HeldAssembly(Assembly):
 
         `over` is the dimension of the positions, and `found` has the loads.
         """
-        del found
         if self.bar is None:
             return {}
         words = f"torque of the anti-roll bar, {self.BAR_SIGN}"
@@ -528,12 +523,10 @@ class HeldAssembly(Assembly):
 
     def bar_loads(self, poses: Mapping[str, PartPoses]) -> dict[str, list[Load]]:
         """Return the loads of a unit torque of the bar on each group; empty without a bar."""
-        del poses
         return {}
 
     def bar_twist(self, poses: Mapping[str, PartPoses]) -> dict[str, Array]:
         """Return the part of each group in the twist of the bar, (n,) [rad]; empty without one."""
-        del poses
         return {}
 
     def bar_torque(self, poses: Mapping[str, PartPoses]) -> Array:

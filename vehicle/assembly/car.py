@@ -177,7 +177,6 @@ class CarAssembly(Assembly):
         self, motion: str, ends: SweepRange | None = None, *, travel: float = 0.0, rack: float = 0.0
     ) -> Array:
         """Return the default positions of a motion, zero included [m] or [rad]."""
-        del travel, rack
         far = ends or SweepRange()
         if motion == "pitch":
             return grid(-_MOST_PITCH, _MOST_PITCH, _PITCH_STEP)
@@ -197,7 +196,6 @@ class CarAssembly(Assembly):
         distance from the body's centre of mass times the tangent of the angle. In roll each axle
         has the opposite travels that incline the line through its wheel centres by the angle.
         """
-        del travel
         travels: dict[str, Array] = {}
         for end, part in self.held.items():
             if motion == "roll":
@@ -214,7 +212,6 @@ class CarAssembly(Assembly):
 
     def refuse_holding(self, given: Validator, motion: str, travel: float, rack: float) -> None:
         """Refuse a travel: the body moves over all wheels."""
-        del rack
         if travel:
             given.fail(f"travel: the motion {motion!r} moves the body by along. Leave it out.")
 
@@ -545,7 +542,6 @@ class CarAssembly(Assembly):
 
     def coordinates_at(self, position: RigPosition) -> Array:
         """Raise an `InputError`: a car begins at rest, or in a state of its equations."""
-        del position
         problem = (
             "heights of wheels: the body of a car moves too; it begins at rest. Leave them out."
         )

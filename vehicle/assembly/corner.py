@@ -93,12 +93,10 @@ class CornerAssembly(HeldAssembly):
 
     def names_of(self, wheel: str) -> WheelNames:
         """Return the names of its wheel in the equations."""
-        del wheel
         return WheelNames("", "", self.model.names.spin, self.model.names.actuator)
 
     def wheel_equations(self, wheel: str) -> tuple[Model, str, Mapping[str, str]]:
         """Return its own equations."""
-        del wheel
         arm = self.model.names.arm
         return self.model, "", {arm: arm}
 
@@ -132,12 +130,10 @@ class CornerAssembly(HeldAssembly):
 
     def coordinates_of(self, suffix: str) -> dict[str, str]:
         """Return the name of the arm's angle."""
-        del suffix
         return {self.model.names.arm: "arm_angle"}
 
     def joints(self, suffix: str) -> tuple[str, ...]:
         """Return the moving hardpoints."""
-        del suffix
         return self.subject.hardpoints.JOINTS
 
     def measures(self, motion: str) -> tuple[Measure, ...]:
@@ -202,7 +198,6 @@ class CornerAssembly(HeldAssembly):
 
     def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
         """Return whether its wheel has a stop."""
-        del wheel
         return getattr(self.subject, which) is not None
 
     def torque_on(self, what: Literal["brakes", "drive"]) -> TorqueReaction:

@@ -92,7 +92,6 @@ class PartPoses(ABC):
 
     def carried_by(self, part: str, point: str) -> Array:
         """Return the position of a hardpoint on a part, if its joints were apart, (n, 3) [m]."""
-        del part
         return self.points[point]
 
     @abstractmethod
@@ -189,12 +188,10 @@ class CornerParts(PartPoses):
 
     def parameters_of(self, line: LineForce) -> Mapping[str, float]:
         """Return the parameters of the spring or the stops on a line."""
-        del line
         return self.model.parameters
 
     def counted_by(self, line: LineForce) -> str:
         """Return the length that determines the force of the stops."""
-        del line
         return f"{self.model.suspension.STOPPED}_length"
 
     def allowed_lengths(self) -> Sequence[LengthLimit]:

@@ -87,7 +87,6 @@ class RigidAxleParts(WholeAxleParts):
 
     def carrier(self, side: str) -> str:
         """Return the beam, which carries both wheels."""
-        del side
         return BEAM
 
     def carried_by(self, part: str, point: str) -> Array:

@@ -98,7 +98,6 @@ class SteerableAssembly(HeldAssembly):
         self, motion: str, ends: SweepRange | None = None, *, travel: float = 0.0, rack: float = 0.0
     ) -> Array:
         """Return the default positions of a motion, zero included [m] or [rad]."""
-        del travel, rack
         far = ends or SweepRange()
         if motion not in STEERING:
             return self.usual_travel(motion, far)

@@ -117,7 +117,6 @@ class WholeAxleAssembly(SteerableAssembly):
 
     def travels_in(self, motion: str, along: Array, rack: float) -> tuple[Array, Array]:
         """Return the travels of the left and the right wheel in a motion of the wheels [m]."""
-        del rack
         if motion == "roll" and np.abs(along).max(initial=0.0) >= MOST_ROLL:
             worst = np.degrees(np.abs(along).max())
             message = f"roll of {worst:.4g} deg: less than 45 deg is needed; Python's unit is rad."
@@ -163,12 +162,10 @@ class WholeAxleAssembly(SteerableAssembly):
 
     def coordinates_of(self, suffix: str) -> dict[str, str]:
         """Return the names of the coordinates."""
-        del suffix
         return {name: name for name in self.coordinates}
 
     def joints(self, suffix: str) -> tuple[str, ...]:
         """Return the moving points."""
-        del suffix
         return self.axle.joint_names
 
     def kinematics(self, position: RigPosition) -> WholeAxleKinematics:
@@ -203,7 +200,6 @@ class WholeAxleAssembly(SteerableAssembly):
 
     def wheel_reach(self, rack: float) -> None:
         """Return None: the range of a wheel depends on the other one."""
-        del rack
 
     def at_wheel_coordinates(self, coordinates: Array, racks: Array) -> dict[str, PartPoses]:
         """Return the parts at rest; the coordinates are the travels of both wheels [m]."""
@@ -232,7 +228,6 @@ class WholeAxleAssembly(SteerableAssembly):
 
     def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
         """Return whether both wheels have a stop."""
-        del wheel
         return getattr(self.axle, which) is not None
 
     @property

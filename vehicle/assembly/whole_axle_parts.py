@@ -57,7 +57,6 @@ class WholeAxleParts(PartPoses):
     @classmethod
     def bodies(cls, axle: Any) -> Mapping[str, str]:
         """Return the names in the equations of their parts, by part."""
-        del axle
         return cls.MASSIVE
 
     @classmethod

@@ -432,7 +432,6 @@ class Suspension(WheeledSection):
     @classmethod
     def further_problems(cls, sections: Mapping[str, Any]) -> list[str]:
         """Return the problems of several sections together, from those that are valid alone."""
-        del sections
         return []
 
 

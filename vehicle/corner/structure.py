@@ -45,7 +45,6 @@ class PartJoint(ABC):
 
     def axis(self, points: Points) -> Array | None:
         """Return the default axis of its bushes, if any."""
-        del points
         return None
 
     def tensions(self, points: Points) -> Array:
@@ -63,7 +62,6 @@ class PartJoint(ABC):
 
         Arguments are as in `unit_loads`; `spin` is the spin axis of the wheel at design, (3,).
         """
-        del points, turned, design, spin
         return []
 
 
@@ -79,7 +77,6 @@ class SphericalJoint(PartJoint):
 
     def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
         """Return the three forces."""
-        del turned, design
         return _spread(np.eye(6)[:, :3], points[self.at[0]])
 
 
@@ -88,14 +85,12 @@ class FixedJoint(PartJoint):
 
     def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
         """Return three forces and three moments."""
-        del turned, design
         return _spread(np.eye(6), points[self.at[0]])
 
     def right_angles(
         self, points: Points, turned: Mapping[str, Array], design: Points, spin: Array
     ) -> list[tuple[Array, Array]]:
         """Return the spin axis with both directions normal to it, and these two."""
-        del design
         shape = points[self.at[0]].shape
         along, across, other = (
             np.broadcast_to(turned.get(self.first, np.eye(3)) @ direction, shape)
@@ -127,7 +122,6 @@ class UniversalJoint(PartJoint):
         self, points: Points, turned: Mapping[str, Array], design: Points, spin: Array
     ) -> list[tuple[Array, Array]]:
         """Return its axes."""
-        del points, spin
         first, second = self._axes(turned, design)
         return [(np.broadcast_to(_unit(first), second.shape), _unit(second))]
 
@@ -148,7 +142,6 @@ class HingeJoint(PartJoint):
 
     def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
         """Return two forces normal to the axis at each bearing, and one along it at both."""
-        del turned, design
         along, across, other = frame(points[self.at[1]] - points[self.at[0]])
         loads = np.zeros((*along.shape[:-1], 2, 6, 5))
         for bearing in (0, 1):
@@ -179,7 +172,6 @@ class TelescopeJoint(PartJoint):
 
     def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
         """Return two forces and two moments."""
-        del turned, design
         (center,) = self.at
         _, across, other = frame(points[self.end] - points[center])
         loads = np.zeros((*across.shape[:-1], 1, 6, 4))
@@ -197,7 +189,6 @@ class TelescopeJoint(PartJoint):
         self, points: Points, turned: Mapping[str, Array], design: Points, spin: Array
     ) -> list[tuple[Array, Array]]:
         """Return both directions normal to its axis with the axis."""
-        del turned, design, spin
         along, across, other = frame(points[self.end] - points[self.at[0]])
         return [(across, along), (other, along)]
 

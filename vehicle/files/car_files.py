@@ -17,7 +17,6 @@ class _Sections:
     data: dict[str, Any]
 
     def to_dict(self, *, exclude_defaults: bool = False) -> dict[str, Any]:
-        del exclude_defaults  # as they were made
         return self.data
 
 

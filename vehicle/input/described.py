@@ -139,7 +139,6 @@ class Described:
     @classmethod
     def _of_file(cls, data: Mapping[str, Any], source: str, folder: Path) -> Self:
         """Return an object from the content of a file in a folder."""
-        del folder
         return cls.from_dict(data, source)
 
     def save(self, path: str | Path, *, force: bool = False) -> Path:

@@ -63,7 +63,6 @@ class PitmanArmSection(Section):
 
     def direction_of(self, arm: str) -> Vector:
         """Return the unit vector along the axis of an arm, ``pitman_arm``."""
-        del arm
         return unit_vector(self.axis)
 
     def length(self) -> float:

@@ -92,7 +92,6 @@ class Section(BaseModel):
     @classmethod
     def unit_of_key(cls, key: str, table: Mapping[str, Any]) -> str:
         """Return the printed unit of a key, or "", from the unchecked content of its section."""
-        del table  # only sections with one unit for all keys need it
         return unit_of(key)
 
     def problems(self) -> list[str]:

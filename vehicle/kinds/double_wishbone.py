@@ -254,7 +254,6 @@ curve; the stops depend on its length."""
 
     def links_at(self, points: Mapping[str, Array], travel: CarrierMotion) -> tuple[Plane, Plane]:
         """Return the planes of the lower and of the upper arm."""
-        del travel
         lower, upper = (
             Plane(points[ball], cross(points[front] - points[rear], points[ball] - points[rear]))
             for ball, (front, rear) in self.hardpoints.ARMS.items()

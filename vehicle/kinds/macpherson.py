@@ -368,7 +368,6 @@ spring a rate in `[strut]` or a curve in `[spring]`."""
 
     def links_at(self, points: Mapping[str, Array], travel: CarrierMotion) -> tuple[Plane, Plane]:
         """Return the plane of the control arm, and the plane normal to the strut at its mount."""
-        del travel
         ball, front, rear = points["ball_joint"], points["arm_front"], points["arm_rear"]
         top, bottom = points["strut_top"], points["strut_lower"]
         return Plane(ball, cross(front - rear, ball - rear)), Plane(top, top - bottom)

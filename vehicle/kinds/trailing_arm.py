@@ -194,7 +194,6 @@ force at the design position (`force_at_design_N`). The stops depend on the leng
 
     def links_at(self, points: Mapping[str, Array], travel: CarrierMotion) -> tuple[Plane, Plane]:
         """Return two planes through the hinge, about which the arm turns."""
-        del travel
         inner, outer = (points[name] for name in _BEARINGS)
         _, across, other = frame(outer - inner)
         return Plane(inner, across), Plane(inner, other)

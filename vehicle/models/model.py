@@ -95,7 +95,6 @@ class Model(System):
 
     def of(self, some: NDArray[np.int64]) -> "Model":
         """Return the model of some rows of an array of positions, which is the same for all."""
-        del some
         return self
 
     def allowed_lengths(self) -> tuple[LengthLimit, ...]:

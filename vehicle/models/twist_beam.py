@@ -288,7 +288,6 @@ class BeamJoint(PartJoint):
 
     def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
         """Return three forces and two moments."""
-        del turned, design
         loads = np.zeros((*points[self.at[0]].shape[:-1], 1, 6, 5))
         loads[..., 0, :3, :3] = np.eye(3)
         loads[..., 0, 3:, 3:] = _UPRIGHT.T
@@ -298,7 +297,6 @@ class BeamJoint(PartJoint):
         self, points: Points, turned: Mapping[str, Array], design: Points, spin: Array
     ) -> list[tuple[Array, Array]]:
         """Return the direction of the pivots with both perpendicular directions."""
-        del turned, design, spin
         shape = points[self.at[0]].shape
         return [
             (np.broadcast_to(ACROSS, shape), np.broadcast_to(across, shape)) for across in _UPRIGHT
@@ -337,7 +335,6 @@ class TwistBeamModel(WholeAxleModel):
         the pivots after the rotation about the line to the shear centre. Newton's method solves
         for both angles from design.
         """
-        del rack
         states = np.broadcast_to(self.design_state, (*left.shape, self.design_state.size)).copy()
         wanted = np.stack(np.broadcast_arrays(left, right), axis=-1)
         with np.errstate(all="ignore"):
@@ -348,7 +345,6 @@ class TwistBeamModel(WholeAxleModel):
 
     def moved(self, states: Array, left: Array, right: Array, inputs: Array | None = None) -> Array:
         """Return states with the rates for velocities of the wheels [m/s]."""
-        del inputs
         lift, twist = (states[..., self.state_names.index(name)] for name in self.COORDINATES)
         with np.errstate(all="ignore"):
             _, slopes = _heights(self.axle, lift, twist)

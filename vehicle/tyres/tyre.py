@@ -328,7 +328,6 @@ class SymmetricTyre(Tyre):
 
     def parameters(self, name: str = "tyre", *, relaxing: bool = False) -> dict[str, float]:
         """Return the values of the parameters of `contact_law`, SI units; lengths are known."""
-        del relaxing
         return {f"{name}_{key}": value for key, value in self._values().items()}
 
     @abstractmethod

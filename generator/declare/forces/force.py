@@ -96,7 +96,6 @@ class Force(ABC):
         action
             Its action.
         """
-        del at, action
         yield from ()
 
 

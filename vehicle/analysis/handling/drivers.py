@@ -83,7 +83,6 @@ class Fixed:
 
     def decide(self, seen: Observation, step: float) -> SteeringMotion:
         """Return the constant angle."""
-        del seen, step
         return SteeringMotion(self.angle, 0.0, 0.0)
 
 

@@ -171,7 +171,6 @@ class RackPinion(_File):
 
         Its origin `at` has no effect.
         """
-        del at
         most = np.deg2rad(self.pinion.greatest) * self.pinion.radius
         section = {
             "axis": direction(turned @ [0.0, 1.0, 0.0]),

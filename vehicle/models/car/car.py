@@ -77,7 +77,6 @@ class Car(DescribedParts):
 
     @classmethod
     def _without_key(cls, data: Mapping[str, Any]) -> str:
-        del data
         return f'{CAR} is missing: how the body moves. Add a line `{CAR} = "roll"`.'
 
     @classmethod

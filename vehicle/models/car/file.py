@@ -50,7 +50,6 @@ class CarBody(RigidBody):
 
     def default_centre_of_mass(self, points: Hardpoints) -> Vector:
         """Return the origin: a quarter car, which only heaves, has no use for the point."""
-        del points
         return np.zeros(3)
 
     def problems_with(self, coordinates: tuple[str, ...]) -> list[str]:

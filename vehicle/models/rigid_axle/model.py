@@ -94,7 +94,6 @@ class RigidAxleModel(WholeAxleModel):
         ndarray, shape (..., 8)
             NaN if the wheels would have to be farther apart than at design.
         """
-        del rack
         states = np.broadcast_to(self.design_state, (*left.shape, self.design_state.size)).copy()
         states[..., self.state_names.index(HEAVE)] = 0.5 * (left + right)
         with np.errstate(invalid="ignore"):
@@ -113,7 +112,6 @@ class RigidAxleModel(WholeAxleModel):
         inputs : ndarray, optional
             Without effect.
         """
-        del inputs
         found = states.copy()
         with np.errstate(all="ignore"):  # of an axle that is inclined too far
             leaning = np.cos(states[..., self.state_names.index(ROLL)])
