@@ -78,12 +78,10 @@ class CardanShaft(ClosedForm):
 
     @property
     def about(self) -> str:
-        """The driven body."""
         return self.shaft.end_body
 
     @property
     def title(self) -> str:
-        """Its title in the derivation."""
         return f"transformer: {self.about} turned through the shaft of {self.shaft.links}"
 
     @property

@@ -102,17 +102,14 @@ class CarrierOnRods(Iteration):
 
     @property
     def about(self) -> str:
-        """The body."""
         return self.body
 
     @property
     def title(self) -> str:
-        """Its title in the derivation."""
         return f"transformers with iteration: {self.body} held by {len(self.rods)} rods"
 
     @property
     def closing(self) -> Sequence[Closing]:
-        """The rods, which close the loops."""
         return self.rods
 
     @property
@@ -130,11 +127,9 @@ class CarrierOnRods(Iteration):
         return known.add_all([*at_rods, *at_body])
 
     def lines(self) -> Iterator[Ends]:
-        """Yield the rods, each along its line."""
         yield from ((rod.rod, rod.anchor, rod.end) for rod in self.rods)
 
     def words(self, closing: Closing | None) -> tuple[str, str]:
-        """Return the closure equation of a loop and its solution."""
         assert closing is not None
         return closing.closure, (
             f"no closed form: {len(self.rods)} equations for the pose of {self.body}, by Newton's "

@@ -91,17 +91,14 @@ class CoupledLoops(Tree, Iteration):
 
     @property
     def about(self) -> str:
-        """The first body that is placed."""
         return self.body
 
     @property
     def title(self) -> str:
-        """Its title in the derivation."""
         return f"transformers with iteration: {self.joint_names}"
 
     @property
     def closing(self) -> Sequence[Closing]:
-        """The joints and rods that close the loops, one each."""
         return *self.cuts, *self.rods
 
     def accept(self, known: Known) -> set[Coordinate]:
@@ -114,11 +111,9 @@ class CoupledLoops(Tree, Iteration):
         return known.add_all(joints)
 
     def lines(self) -> Iterator[Ends]:
-        """Yield the rods, each along its line."""
         yield from ((rod.rod, rod.anchor, rod.end) for rod in self.rods)
 
     def words(self, closing: Closing | None) -> tuple[str, str]:
-        """Return the closure equation of a loop and its solution."""
         assert closing is not None
         return closing.closure, (
             f"no closed form: {self.equations} equations for the {len(self.unknowns)} coordinates "

@@ -62,7 +62,6 @@ class PlaceByJoint(Follower):
 
     @property
     def title(self) -> str:
-        """Its title in the derivation."""
         return f"{self.body}: {self.joint.kind} joint"
 
     def emit(self, kin: Kinematics) -> None:

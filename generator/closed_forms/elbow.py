@@ -103,18 +103,15 @@ class Elbow(Leg):
 
     @property
     def links(self) -> tuple[str, ...]:
-        """Both links, from the anchor to the end."""
         joint = self.pair.joint
         return self.rod, joint.other(self.rod)
 
     @property
     def placing(self) -> PlannedStep:
-        """The step that places its links by their pins."""
         return PlaceElbow(self.pair)
 
     @property
     def measure(self) -> str:
-        """Its length, for the report."""
         return f"{' and '.join(self.links)} at {self.pair.joint.name}.angle"
 
     def stretched(self, kin: Kinematics, design: Vector, extent: sp.Expr) -> RodLeg:
@@ -155,12 +152,10 @@ class PlaceElbow(PlannedStep):
 
     @property
     def about(self) -> str:
-        """The first link."""
         return self.pair.first
 
     @property
     def title(self) -> str:
-        """Its title in the derivation."""
         return f"{self.pair.first}: bent at {self.pair.joint.name}"
 
     def accept(self, known: Known) -> set[Coordinate]:
@@ -280,7 +275,6 @@ class _BentEnd(TargetPoint):
         return [*super().coordinates, *([coordinates.of(self.bend)] if moves else ())]
 
     def rates(self, k: str) -> Moving:
-        """Return the velocity less that of the bend."""
         seen, coordinates = super().rates(k), self.kin.coordinates
         if k != coordinates.of(self.bend):
             return seen

@@ -25,19 +25,16 @@ class PlaceFree(Follower):
 
     @classmethod
     def follow(cls, known: Known, joint: Joint, parent: str, child: str) -> Self | None:
-        """Return the step, where the joint is driven."""
         if not isinstance(joint, Free) or joint.second.name != child or known.unknowns_of(joint):
             return None
         return cls(joint)
 
     @property
     def about(self) -> str:
-        """The body."""
         return self.joint.second.name
 
     @property
     def title(self) -> str:
-        """Its title in the derivation."""
         return f"{self.about}: free in the world"
 
     def emit(self, kin: Kinematics) -> None:

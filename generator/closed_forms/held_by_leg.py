@@ -32,21 +32,17 @@ class HeldByLeg(ClosedForm):
 
     @property
     def about(self) -> str:
-        """The body that is held."""
         return self.leg.body
 
     @property
     def title(self) -> str:
-        """Its title in the derivation."""
         return f"transformer: {self.leg.body} held by {self.leg.rod}"
 
     @property
     def points(self) -> tuple[Point, ...]:
-        """The ends of the leg."""
         return self.leg.points
 
     def lines(self) -> Iterator[Ends]:
-        """Yield the rod, along its line."""
         yield self.leg.rod, self.leg.anchor, self.leg.end
 
     @override

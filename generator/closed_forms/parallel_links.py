@@ -102,12 +102,10 @@ class ParallelLinks(ClosedForm):
 
     @property
     def about(self) -> str:
-        """The link that follows."""
         return self.link.name
 
     @property
     def title(self) -> str:
-        """Its title in the derivation."""
         return f"{self.link.name}: parallel to {self.leader.name}"
 
     @override

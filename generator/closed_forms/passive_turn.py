@@ -36,7 +36,6 @@ class PlacePassive(Leftover):
 
     @property
     def title(self) -> str:
-        """Its title in the derivation."""
         return f"{self.body}: passive turn about its line"
 
     def emit(self, kin: Kinematics) -> None:

@@ -37,7 +37,6 @@ class PlaceByPin(Placement):
 
     @property
     def title(self) -> str:
-        """Its title in the derivation."""
         return f"{self.body}: pinned to {self.pin_body}"
 
     def emit(self, kin: Kinematics) -> None:

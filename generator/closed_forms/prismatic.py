@@ -44,7 +44,6 @@ class PrismaticByLength(HeldOnJoint):
 
     @property
     def solution(self) -> str:
-        """Solution of the equation, for the report."""
         return f"quadratic in the slide of {self.joint.name}, branch as at design"
 
     def emit(self, kin: Kinematics) -> None:

@@ -44,7 +44,6 @@ class RigidRod(Leg):
 
     @property
     def links(self) -> tuple[str, ...]:
-        """The link."""
         return (self.rod,)
 
     @property

@@ -65,12 +65,10 @@ class _OnPins(PlannedStep):
 
     @property
     def about(self) -> str:
-        """The link at the anchor."""
         return self.telescope.near
 
     @property
     def points(self) -> tuple[Point, ...]:
-        """The two pins."""
         return self.telescope.points
 
     def accept(self, known: Known) -> set[Coordinate]:
@@ -98,7 +96,6 @@ class RPR(_OnPins, ClosedForm):
 
     @property
     def title(self) -> str:
-        """Its title in the derivation."""
         return f"transformer: telescope of {self.telescope.links}"
 
     @override
@@ -138,7 +135,6 @@ class PlaceTelescope(_OnPins):
 
     @property
     def title(self) -> str:
-        """Its title in the derivation."""
         return f"{self.telescope.links}: telescope"
 
     def emit(self, kin: Kinematics) -> None:
@@ -163,17 +159,14 @@ class PinnedTelescope(Leg):
 
     @property
     def links(self) -> tuple[str, ...]:
-        """Both links."""
         return self.telescope.near, self.telescope.far
 
     @property
     def placing(self) -> PlannedStep:
-        """The step that places its links by their pins."""
         return PlaceTelescope(self.telescope)
 
     @property
     def measure(self) -> str:
-        """Its length, for the report."""
         return f"{self.telescope.links} at {self.telescope.joint.name}.slide"
 
     def stretched(self, kin: Kinematics, design: Vector, extent: sp.Expr) -> RodLeg:

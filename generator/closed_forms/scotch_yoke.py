@@ -78,12 +78,10 @@ class ScotchYoke(ClosedForm):
 
     @property
     def about(self) -> str:
-        """The yoke."""
         return self.yoke
 
     @property
     def title(self) -> str:
-        """Its title in the derivation."""
         return f"transformer: {self.block} in the slot of {self.yoke}"
 
     @property

@@ -56,12 +56,10 @@ class SingleCross(ClosedForm):
 
     @property
     def about(self) -> str:
-        """The driven body."""
         return self.yoke.body
 
     @property
     def title(self) -> str:
-        """Its title in the derivation."""
         return f"transformer: {self.about} turned through {self.yoke.cross.name}"
 
     def accept(self, known: Known) -> set[Coordinate]:

@@ -68,7 +68,6 @@ class TargetPoint(PlacedBody):
     of: PointMotion
 
     def rates(self, k: str) -> Moving:
-        """Return its velocity per unit rate of a coordinate."""
         return Moving(velocity=self._seen(k, self.of.motion.get(k, ZERO)))
 
     def biases(self) -> Moving:
@@ -82,7 +81,6 @@ class TargetBody(PlacedBody):
     of: BodyMotion
 
     def rates(self, k: str) -> Moving:
-        """Return its angular velocity per unit rate of a coordinate."""
         return Moving(omega=self._carried(k, self.of.motion.get(k, NO_TWIST)))
 
     def biases(self) -> Moving:

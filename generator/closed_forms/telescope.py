@@ -63,12 +63,10 @@ class Telescope(ClosedForm):
 
     @property
     def about(self) -> str:
-        """The link at the end."""
         return self.ends.end_link
 
     @property
     def title(self) -> str:
-        """Its title in the derivation."""
         return f"transformer: telescope {self.ends.joint.name}"
 
     @property

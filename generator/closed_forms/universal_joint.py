@@ -46,14 +46,12 @@ class PlaceByUniversalJoint(Follower):
 
     @classmethod
     def follow(cls, known: Known, joint: Joint, parent: str, child: str) -> Self | None:
-        """Return the step for a shaft whose line is known."""
         if isinstance(joint, Universal) and child == joint.second.name and child in known.on_line:
             return cls(joint, parent, child)
         return None
 
     @property
     def title(self) -> str:
-        """Its title in the derivation."""
         return f"{self.body}: cross of the universal joint"
 
     def emit(self, kin: Kinematics) -> None:

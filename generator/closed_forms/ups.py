@@ -55,17 +55,14 @@ class UPS(ClosedForm):
 
     @property
     def about(self) -> str:
-        """The link at the anchor."""
         return self.strut.near
 
     @property
     def title(self) -> str:
-        """Its title in the derivation."""
         return f"transformer: strut of {self.strut.links}"
 
     @property
     def points(self) -> tuple[Point, ...]:
-        """The two ends."""
         return self.strut.points
 
     def accept(self, known: Known) -> set[Coordinate]:
@@ -108,13 +105,11 @@ class PlaceByGuide(Follower):
 
     @classmethod
     def follow(cls, known: Known, joint: Joint, parent: str, child: str) -> Self | None:
-        """Return the step that waits for the first link, at the guide of a strut."""
         step = known.guided.get(joint.name)
         return step if isinstance(step, cls) and step.about == child else None
 
     @property
     def title(self) -> str:
-        """Its title in the derivation."""
         return f"{self.body}: on the guide of {self.strut.near}"
 
     def emit(self, kin: Kinematics) -> None:
@@ -144,12 +139,10 @@ class StrutLeg(Leg):
 
     @property
     def links(self) -> tuple[str, ...]:
-        """Both links."""
         return self.strut.near, self.strut.far
 
     @property
     def measure(self) -> str:
-        """Its length, for the report."""
         return f"{self.strut.links} at {self.strut.joint.name}.slide"
 
     def record(self, known: Known, joint: Joint) -> set[Coordinate]:

@@ -27,12 +27,10 @@ class PlaceWelded(Follower):
 
     @classmethod
     def follow(cls, known: Known, joint: Joint, parent: str, child: str) -> Self | None:
-        """Return the step for a welded body."""
         return cls(child, parent) if isinstance(joint, Weld) else None
 
     @property
     def title(self) -> str:
-        """Its title in the derivation."""
         return f"{self.body}: welded to {self.parent}"
 
     def emit(self, kin: Kinematics) -> None:

@@ -29,7 +29,6 @@ class Inertia(Owner):
 
     @cached_property
     def numbers(self) -> tuple[Parameter, ...]:
-        """The elements."""
         return tuple(
             (ProductOfInertia if element in ELEMENTS[3:] else MomentOfInertia)(
                 f"{self.body}_inertia_{element}", value, meaning
@@ -39,7 +38,6 @@ class Inertia(Owner):
 
     @property
     def turned(self) -> tuple[int, ...]:
-        """Signs of the elements in the mirror, the plane y = 0."""
         return tuple(-1 if element in _MIRRORED else 1 for element, *_ in self.given)
 
 

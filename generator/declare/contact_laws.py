@@ -67,7 +67,6 @@ class AnyContactLaw(Owner):
 
     @cached_property
     def numbers(self) -> tuple[Parameter, ...]:
-        """All of them."""
         return tuple(
             Parameter(
                 f"{self.name}_{what}",
@@ -178,7 +177,6 @@ class LinearContact(AnyContactLaw):
             yield what, default, *described
 
     def load(self, deflection: sp.Expr) -> sp.Expr:
-        """Return the load of a deflection [N]."""
         return self.symbol("vertical_stiffness") * deflection
 
     @override
@@ -198,7 +196,6 @@ class LinearContact(AnyContactLaw):
         return self.symbol("relaxation_x"), self.symbol("relaxation_y")
 
     def describe(self) -> str:
-        """Return its description in reports."""
         return "linear at small slip, limited by friction"
 
 
@@ -262,7 +259,6 @@ class MagicFormulaContact(AnyContactLaw):
 
     @property
     def turned(self) -> tuple[int, ...]:
-        """Sign of every number in the mirror."""
         return tuple(-1 if key in ODD else 1 for key in (*self._SIZES, *self._keys))
 
     @property
@@ -285,7 +281,6 @@ class MagicFormulaContact(AnyContactLaw):
 
     @property
     def radius(self) -> sp.Expr:
-        """Radius of the disc, without load [m]."""
         return self._coefficients["UNLOADED_RADIUS"] * self._coefficients["Q_RE0"]
 
     def load(self, deflection: sp.Expr) -> sp.Expr:
@@ -331,7 +326,6 @@ class MagicFormulaContact(AnyContactLaw):
         return vertical.relaxation_by_stiffness(p, dfz, self._pressure, *stiff)
 
     def describe(self) -> str:
-        """Return its description in reports."""
         return "the Magic Formula" + ("" if self.newer else " of PAC2002")
 
 
@@ -361,11 +355,9 @@ class TMeasyContact(AnyContactLaw):
 
     @property
     def radius(self) -> sp.Expr:
-        """Radius of the disc, without load [m]."""
         return self.symbol("radius")
 
     def load(self, deflection: sp.Expr) -> sp.Expr:
-        """Return the load of a deflection [N]."""
         return tmeasy.load_of(self._coefficients, deflection)
 
     @override
@@ -403,7 +395,6 @@ class TMeasyContact(AnyContactLaw):
         return x, y
 
     def describe(self) -> str:
-        """Return its description in reports."""
         return "TMeasy"
 
 

@@ -74,7 +74,6 @@ class Point(Owner):
 
     @cached_property
     def numbers(self) -> tuple[Parameter, ...]:
-        """The coordinates."""
         what = self.meaning or self.name
         return tuple(
             Displacement(
@@ -89,7 +88,6 @@ class Point(Owner):
 
     @property
     def turned(self) -> tuple[int, ...]:
-        """Signs of the coordinates in the mirror, the plane y = 0."""
         return tuple(-1 if axis == "y" else 1 for axis in self._axes)
 
     @cached_property
@@ -143,7 +141,6 @@ class Direction(Owner):
 
     @cached_property
     def numbers(self) -> tuple[Parameter, ...]:
-        """The components, if they are parameters."""
         what = self.meaning or self.name
         return tuple(
             Parameter(f"{self.name}_{axis}", value, "1", f"{what}, {axis} component")

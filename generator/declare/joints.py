@@ -277,7 +277,6 @@ class Universal(Joint):
 
     @property
     def center(self) -> Point:
-        """The centre of the cross."""
         return self.at
 
     def azimuth(self, name: Name, meaning: str) -> RelativeCoordinate:
@@ -379,7 +378,6 @@ class Spherical(Joint):
 
     @property
     def center(self) -> Point:
-        """The centre of the ball."""
         return self.at
 
 

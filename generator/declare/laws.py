@@ -148,7 +148,6 @@ class LinearSpring(AnyLaw):
     meaning = "spring force"
 
     def describe(self) -> str:
-        """Return its name and its formula."""
         return _with_formula(self)
 
     def problems(self, path: AnyPath) -> list[str]:
@@ -158,7 +157,6 @@ class LinearSpring(AnyLaw):
         return _of_either_sign(self.free_length, path)
 
     def force(self, at: Stretch) -> sp.Expr:
-        """Return the force on the ends."""
         if self.free_slide is not None:
             return self.rate.symbol * (at.slide - self.free_slide.symbol)
         assert self.free_length is not None
@@ -182,11 +180,9 @@ class LinearDamper(AnyLaw):
     meaning = "damper force"
 
     def describe(self) -> str:
-        """Return its name and its formula."""
         return _with_formula(self)
 
     def force(self, at: Stretch) -> sp.Expr:
-        """Return the force on the ends."""
         return -self.rate.symbol * at.velocity
 
 
@@ -267,7 +263,6 @@ class AnyTable(AnyLaw, Owner):
         return self._symbol("knot_0"), self._symbol(f"knot_{self.segments}")
 
     def force(self, at: Stretch) -> sp.Expr:
-        """Return the force on the ends."""
         program, symbol = at.program, self._symbol
         passed = []
         for i in range(self.segments + 1):
@@ -313,7 +308,6 @@ class DamperTable(AnyTable):
         return -at.velocity - knot
 
     def ranges_of_rate(self) -> tuple[Range, ...]:
-        """Return the ends of the table."""
         first, last = self._end_knots()
         words = "the damper is faster in {} than its table goes, and is taken to go on straight"
         below, above = words.format("bump"), words.format("rebound")
@@ -356,7 +350,6 @@ class SpringTable(AnyTable):
         return knot - at.length
 
     def ranges_of_length(self) -> tuple[Range, ...]:
-        """Return the ends of the table."""
         longest, shortest = self._end_knots()
         words = "the spring is {} than its table goes, and is taken to go on straight"
         below, above = words.format("shorter"), words.format("longer")
@@ -383,7 +376,6 @@ class Friction(AnyLaw):
     meaning = "friction force"
 
     def force(self, at: Stretch) -> sp.Expr:
-        """Return the force on the ends."""
         v = at.velocity
         smoothed = at.program.define(
             f"{at.name}_sliding_speed", sp.sqrt(v**2 + self.speed.symbol**2)
@@ -415,12 +407,10 @@ class Stop(AnyLaw):
 
     @property
     def signal(self) -> str:
-        """Name of the signal that shows the force."""
         return f"{self.side}_stop_force"
 
     @property
     def meaning(self) -> str:
-        """The meaning of that signal."""
         return f"force of the {self.side} stop"
 
     def problems(self, path: AnyPath) -> list[str]:
@@ -434,7 +424,6 @@ class Stop(AnyLaw):
         return (Event(name, self.length.symbol, rising, meaning, needs=self.rate),)
 
     def force(self, at: Stretch) -> sp.Expr:
-        """Return the force on the ends."""
         sense = 1 if self.side == "bump" else -1
         gap = at.program.define(
             f"{at.name}_{self.side}_gap", sense * (self.length.symbol - at.length)
@@ -500,7 +489,6 @@ class LaggingDamper(AnyLaw):
         return self.state.symbol
 
     def rates(self, at: Stretch) -> dict[str, sp.Expr]:
-        """Return the rate of the force."""
         behind = -self.rate.symbol * at.velocity - self.state.symbol
         return {self.state.name: behind / self.lag.symbol}
 

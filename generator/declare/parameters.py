@@ -115,7 +115,6 @@ class Parameter(Owner):
 
     @property
     def numbers(self) -> tuple[Parameter, ...]:
-        """Itself."""
         return (self,)
 
 

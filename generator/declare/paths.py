@@ -121,7 +121,6 @@ class AlongTelescope(AnyPath):
     has_slide: ClassVar[bool] = True
 
     def ranges_of_length(self, name: str) -> tuple[Range, ...]:
-        """Return its valid lengths."""
         most = self.longest and self.longest.symbol
         below, above = (
             f"{words_of(name)} is {than} than it can be" for than in ("shorter", "longer")

@@ -162,7 +162,6 @@ class FreeBase(Base):
 
     @property
     def body(self) -> str:
-        """Its name."""
         return self.joint.second.name
 
     @cached_property
@@ -175,7 +174,6 @@ class FreeBase(Base):
 
     @property
     def point(self) -> Point:
-        """Its centre of mass."""
         return self.joint.second.center
 
     @cached_property
@@ -191,18 +189,15 @@ class FreeBase(Base):
 
     @property
     def position(self) -> Vector:
-        """Position of its centre of mass in the world."""
         x, y, z = self._positions[:3]
         return self.center + Vector(x, y, z)
 
     @property
     def velocity(self) -> Vector:
-        """Velocity of its centre of mass, in its own axes."""
         return Vector(*list(self._speeds.values())[:3])
 
     @property
     def omega(self) -> Vector:
-        """Its angular velocity, in its own axes."""
         return Vector(*list(self._speeds.values())[3:])
 
     # -- positions and speeds ---------------------------------------------------------------------

@@ -57,12 +57,10 @@ class JointedBase(Base):
 
     @property
     def body(self) -> str:
-        """Its name."""
         return self.name
 
     @property
     def point(self) -> Point:
-        """Its centre of mass."""
         return self.com
 
     @property
@@ -79,12 +77,10 @@ class JointedBase(Base):
 
     @cached_property
     def position(self) -> Vector:
-        """Position of its centre of mass in the world."""
         return self.root.place_in_world(self.root.position(self._placed, self.com))
 
     @cached_property
     def twists(self) -> Mapping[str, Twist]:
-        """The twist of its centre of mass per unit rate of each coordinate."""
         found = {}
         for k, twist in self._placed.motion.items():
             linear = self._own(twist.linear + twist.angular.cross(self._local))
@@ -106,12 +102,10 @@ class JointedBase(Base):
 
     @property
     def velocity(self) -> Vector:
-        """Velocity of its centre of mass."""
         return self._total.linear
 
     @property
     def omega(self) -> Vector:
-        """Its angular velocity."""
         return self._total.angular
 
     @cached_property

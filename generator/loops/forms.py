@@ -33,11 +33,9 @@ class Placement(PlannedStep):
 
     @property
     def about(self) -> str:
-        """The body."""
         return self.body
 
     def accept(self, known: Known) -> set[Coordinate]:
-        """Record the body."""
         known.place(self.about)
         return set()
 

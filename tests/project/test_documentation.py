@@ -1,11 +1,13 @@
 """Pages, links and names of the documentation, without building it (`make docs` does that)."""
 
+import importlib
 import inspect
 import pydoc
 import re
 import runpy
 import tomllib
 from collections import Counter
+from functools import cached_property
 
 import kintrafo
 import pytest
@@ -109,6 +111,36 @@ def test_functions_of_two_arguments_say_what_these_are(name):
     for function in functions:
         arguments = set(inspect.signature(function).parameters) - {"self", "cls"}
         assert len(arguments) < 2 or "Parameters\n" in (inspect.getdoc(function) or ""), function
+
+
+def modules():
+    """Yield the modules of the package; those of the runtime are its top."""
+    for above, top in ((ROOT / "runtime", ""), (ROOT, "generator"), (ROOT, "vehicle")):
+        for path in sorted((above / top).rglob("*.py")):
+            parts = path.relative_to(above).with_suffix("").parts
+            if parts[-1] not in ("__init__", "__main__"):
+                yield importlib.import_module(".".join(["kintrafo", *parts]))
+
+
+def test_every_public_method_is_described():
+    """It has the description of its base class where it has none of its own."""
+    kinds = {
+        kind
+        for module in modules()
+        for name, kind in vars(module).items()
+        if inspect.isclass(kind) and kind.__module__.startswith("kintrafo") and name[0] != "_"
+    }
+    methods = (property, cached_property, classmethod, staticmethod, type(modules))
+    missing = [
+        f"{kind.__module__}.{kind.__name__}.{name}"
+        for kind in kinds
+        for name, member in vars(kind).items()
+        if isinstance(member, methods) and name[0] != "_"
+        if getattr(member, "__name__", "") != "<lambda>"  # the default of a field
+        if not any(getattr(vars(base).get(name), "__doc__", None) for base in kind.__mro__)
+    ]
+    assert len(kinds) > 500
+    assert missing == []
 
 
 @pytest.mark.parametrize("name", sorted(kintrafo.__all__))

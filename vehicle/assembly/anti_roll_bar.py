@@ -25,7 +25,6 @@ class Bar(_Elastic):
     free_twist: float  # the twist without a torque [rad]
 
     def torque(self, twist: Array) -> Array:
-        """Return the torque at a twist [N m]."""
         return super().torque(twist - self.free_twist)
 
 

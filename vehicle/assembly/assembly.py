@@ -368,7 +368,6 @@ class HeldAssembly(Assembly):
         """Return the moving hardpoints of a group of parts, by their names in `poses`."""
 
     def coordinates_at(self, position: RigPosition) -> Array:
-        """Return the coordinates with rigid joints at positions of a rig, (n, coordinates)."""
         found = [
             poses.states[..., poses.model.state_names.index(state)]
             for suffix, poses in self.poses(position).items()

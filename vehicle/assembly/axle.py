@@ -69,17 +69,14 @@ class AxleAssembly(SteerableAssembly):
 
     @property
     def wheeled(self) -> Sequence[Suspension]:
-        """The data of both sides, the left one first."""
         return [*self.axle.sides.values()]
 
     @property
     def symmetric(self) -> bool:
-        """Whether both sides have the same data."""
         return self.axle.symmetric
 
     @property
     def words(self) -> str:
-        """A description in sentences."""
         by = f", {self.axle.steering_gear.WORDS}" if self.steered else ""
         words = [
             f"Both wheels of the {self.axle.heading()}{by}.",
@@ -90,24 +87,20 @@ class AxleAssembly(SteerableAssembly):
 
     @property
     def own_sections(self) -> Mapping[str, Any]:
-        """The sections of its own file."""
         names = {"anti_roll_bar": "bar", "drive": "drive", "brakes": "brakes"}
         found = {name: getattr(self.axle, own) for name, own in names.items()}
         found["steering"] = self.axle.steering
         return {name: section for name, section in found.items() if section is not None}
 
     def usual_travel(self, motion: str, far: SweepRange) -> Array:
-        """Return the default positions of a motion of the wheels, zero included [m] or [rad]."""
         if motion == "roll":
             return motions.rolls(self.axle, far)
         return motions.travels(self.axle, far, (motion,) if motion in SIDES else SIDES)
 
     def usual_racks(self, far: SweepRange) -> Array:
-        """Return default displacements of the rack within its range, zero included [m]."""
         return motions.racks(self.axle, far)
 
     def travels_in(self, motion: str, along: Array, rack: float) -> tuple[Array, Array]:
-        """Return the travels of the left and the right wheel in a motion of the wheels [m]."""
         if motion == "roll":
             return motions.opposite(self.axle, along, rack)
         left, right = (
@@ -122,17 +115,14 @@ class AxleAssembly(SteerableAssembly):
 
     @property
     def coordinates(self) -> tuple[str, ...]:
-        """The angles of the arms."""
         return tuple(f"{side}_{model.names.arm}" for side, model in self.axle.models.items())
 
     def names_of(self, wheel: str) -> WheelNames:
-        """Return the names of a wheel in the equations."""
         names, prefix = self.axle.models[wheel].names, f"{wheel}_"
         signals = f"{prefix}{self.axle.end}_"
         return WheelNames(prefix, signals, f"{prefix}{names.spin}", f"{prefix}{names.actuator}")
 
     def wheel_equations(self, wheel: str) -> tuple[Model, str, Mapping[str, str]]:
-        """Return the equations of one side."""
         model = self.axle.models[wheel]
         return model, "", {model.names.arm: f"{wheel}_{model.names.arm}"}
 
@@ -146,24 +136,19 @@ class AxleAssembly(SteerableAssembly):
         return settled(self, held, near, _NO_REST)
 
     def refuse_unsteered(self, what: str) -> None:
-        """Refuse an option that needs a rack if there is none."""
         self.axle.right.refuse_without_rack(what)
 
     def coordinates_of(self, suffix: str) -> dict[str, str]:
-        """Return the name of the arm's angle of a side."""
         return {self.axle.models[suffix.removeprefix("_")].names.arm: "arm_angle"}
 
     def joints(self, suffix: str) -> tuple[str, ...]:
-        """Return the moving hardpoints of a side."""
         return self.axle.sides[suffix.removeprefix("_")].hardpoints.JOINTS
 
     def kinematics(self, position: RigPosition) -> AxleKinematics:
-        """Return positions and first derivatives of both wheels."""
         left, right = (position.travels[side] for side in SIDES)
         return AxleKinematics.at(self.axle, left, right, position.rack, position.per_turn)
 
     def poses(self, position: RigPosition) -> dict[str, PartPoses]:
-        """Return the parts of both sides with rigid joints."""
         found: dict[str, PartPoses] = {}
         for side, model in self.axle.models.items():
             poses = poses_of(model, position.travels[side], position.rack)
@@ -174,7 +159,6 @@ class AxleAssembly(SteerableAssembly):
         return found
 
     def soft_lines(self, poses: Mapping[str, PartPoses]) -> dict[str, SoftLines]:
-        """Return the flexibilities of springs and stops of both sides."""
         return {suffix: lines_of(each) for suffix, each in poses.items()}
 
     @cached_property
@@ -188,11 +172,9 @@ class AxleAssembly(SteerableAssembly):
 
     @property
     def design_wheel_coordinates(self) -> Array:
-        """The coordinates of both sides."""
         return np.concatenate([one.design_wheel_coordinates for one in self._corners.values()])
 
     def wheel_coordinates(self, travels: Sequence[float | None], rack: float) -> Array:
-        """Return the coordinates for heights of some wheels above design."""
         found = []
         for (side, one), travel in zip(self._corners.items(), travels, strict=True):
             try:
@@ -202,11 +184,9 @@ class AxleAssembly(SteerableAssembly):
         return np.concatenate(found)
 
     def wheel_reach(self, rack: float) -> list[WheelReach]:
-        """Return the range of each wheel."""
         return [reach for one in self._corners.values() for reach in one.wheel_reach(rack)]
 
     def at_wheel_coordinates(self, coordinates: Array, racks: Array) -> dict[str, PartPoses]:
-        """Return the parts at rest; the coordinates are those of the sides."""
         sides = enumerate(self._corners.items())
         return {f"_{side}": one.at_angles(coordinates[:, i], racks) for i, (side, one) in sides}
 
@@ -219,17 +199,14 @@ class AxleAssembly(SteerableAssembly):
         return found
 
     def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
-        """Return whether a wheel has a stop."""
         return getattr(self.axle.sides[wheel], which) is not None
 
     @property
     def rules(self) -> tuple[str, ...]:
-        """The assumptions that resolve statical indeterminacy."""
         own = [rule for side in self.axle.sides.values() for rule in side.structure().rules]
         return tuple(dict.fromkeys([*own, *rules_of(self.axle)]))
 
     def acting(self, poses: Mapping[str, Any]) -> dict[str, list[Load]]:
-        """Return the applied loads on both sides, those of the drop links included."""
         found = super().acting(poses)
         if self.axle.halves:
             torque = self.bar_torque(poses)
@@ -241,7 +218,6 @@ class AxleAssembly(SteerableAssembly):
     def between(
         self, poses: Mapping[str, PartPoses], loads: Sequence[Load]
     ) -> tuple[list[Load], dict[str, BodyPose]]:
-        """Return the loads on the anti-roll bar with its drop links, and on what steers it."""
         bar, places = on_the_bar(self.axle, poses, loads) if self.axle.halves else ([], {})
         steering, of_steering = on_the_steering(poses[f"_{LEFT}"], loads, "rack_middle")
         return [*bar, *steering], places | of_steering
@@ -249,7 +225,6 @@ class AxleAssembly(SteerableAssembly):
     def further(
         self, over: str, poses: Mapping[str, PartPoses], found: "xr.Dataset"
     ) -> "dict[str, xr.Variable]":
-        """Return the force of the steering on the rack, and the torque of the bar."""
         of_bar = super().further(over, poses, found)
         if not self.steered:
             return of_bar
@@ -258,7 +233,6 @@ class AxleAssembly(SteerableAssembly):
     def in_motion(
         self, states: Array, inputs: Array
     ) -> tuple[dict[str, PartPoses], dict[str, Array]]:
-        """Return the parts of both sides in states of the whole axle, and the rates of these."""
         model = self.model
         by_time = model.evaluate("rhs", states, inputs)
         poses: dict[str, PartPoses] = {}
@@ -275,7 +249,6 @@ class AxleAssembly(SteerableAssembly):
         return poses, rates
 
     def parts_with(self, values: Mapping[str, Array], count: int) -> dict[str, PartPoses]:
-        """Return the parts of both sides, by the names of states and inputs of the axle."""
         return {
             f"_{side}": CornerParts.of(corner, *states_with(corner, values, count, f"{side}_"))
             for side, corner in self.axle.models.items()
@@ -301,33 +274,28 @@ class AxleAssembly(SteerableAssembly):
         return {one: described, other: {} if with_one.failed else mirrored_bushings(described)}
 
     def with_bushings(self, bushings: Mapping[str, Any]) -> Axle:
-        """Return the axle with other bushes than those of its files."""
         with Validator("compliance") as given:
             described = self.described_bushings(given, bushings)
         changes = {f"{side}.bushings": described[side] for side in SIDES}
         return self.axle.with_changes(changes)
 
     def bushes(self, given: Validator, bushings: Mapping[str, Any] | None) -> Bushings:
-        """Return the bushes of both sides, and the flexibility of the rack."""
         described = self.described_bushings(given, bushings)
         found = {f"_{side}": self.axle.sides[side].bushes(given, described[side]) for side in SIDES}
         return Bushings(found, softness_of_rack(given, described[self.axle.bar_side]))
 
     @property
     def corners(self) -> Mapping[str, Model]:
-        """The models of both sides, or of one if the other is its mirror image."""
         if self.axle.symmetric:
             return {self.axle.bar_side: self.axle.models[self.axle.bar_side]}
         return {side: self.axle.models[side] for side in SIDES}
 
     def plausibility(self) -> Plausibility:
-        """Return a note on an anti-roll bar that is twisted at design."""
         bent = self.axle.bar is not None and self.axle.bar.free_twist_deg
         note = "the anti-roll bar is bent at design: the sides' equilibrium is without it"
         return Plausibility((), (note,) if bent else ())
 
     def described(self) -> dict[str, str]:
-        """Return the rate of the anti-roll bar as text."""
         bar = self.axle.bar
         if bar is None:
             return {}
@@ -337,26 +305,22 @@ class AxleAssembly(SteerableAssembly):
         return {"anti-roll bar": f"{rate:.4g} N m/deg{soft}, drop links on the {part}"}
 
     def without_friction(self) -> "AxleAssembly":
-        """Return the axle without friction."""
         left, right = (one.without_friction() for one in self.axle.sides.values())
         return AxleAssembly(replace(self.axle, left=left, right=right))
 
     @property
     def bar(self) -> Bar | None:
-        """The anti-roll bar, if it has one."""
         if self.axle.bar is None:
             return None
         halves = self.axle.halves[LEFT], self.axle.halves[RIGHT]
         return Bar(self.axle.bar.rate(), halves, self.axle.bar.free_twist())
 
     def bar_loads(self, poses: Mapping[str, Any]) -> dict[str, list[Load]]:
-        """Return the pull of the drop link of each side for a unit torque of the bar."""
         if not self.axle.halves:
             return {}
         return {f"_{side}": [pull_of_bar(self.axle, side, poses[f"_{side}"])] for side in SIDES}
 
     def bar_twist(self, poses: Mapping[str, Any]) -> dict[str, Array]:
-        """Return the contribution of each side to the twist of the bar, (n,) [rad]."""
         return {
             f"_{side}": SENSE[side] * turn_of_half(self.axle, side, poses[f"_{side}"])[1]
             for side in self.axle.halves

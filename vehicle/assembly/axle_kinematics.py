@@ -102,11 +102,9 @@ class AxleKinematics(TwoWheels):
     # -- forces and rates -------------------------------------------------------------------------
 
     def contact(self, side: str) -> Array:
-        """Return the lowest point of a wheel as a thin disc, (n, 3) [m]."""
         return wheel.contact(self.corners[side])
 
     def wheel_force(self, side: str) -> Array:
-        """Return the vertical force of spring, stops and bar at the wheel [N]."""
         force = wheel.wheel_force(self.corners[side])
         if side in self.halves:
             force = force + SENSE[side] * self.torque * self.halves[side].slope
@@ -114,12 +112,10 @@ class AxleKinematics(TwoWheels):
 
     @property
     def springs(self) -> Array:
-        """The stiffness of springs and stops at both wheels, (n, 2, 2) [N/m]."""
         return _diagonal(*(wheel.wheel_rate(corner) for corner in self.corners.values()))
 
     @property
     def bar(self) -> Array:
-        """The stiffness of the anti-roll bar at both wheels, (n, 2, 2) [N/m]."""
         given = self.axle.bar
         if given is None:
             return np.zeros((*self.twist.shape, 2, 2))
@@ -130,7 +126,6 @@ class AxleKinematics(TwoWheels):
 
     @property
     def rolled(self) -> tuple[Array, Array]:
-        """Travels of both wheels, and lateral motions of both contacts, per roll [m/rad]."""
         line = self.left.center - self.right.center
         # per travel of the right wheel up and the left one down
         rate = self.left.travel.velocity + self.right.travel.velocity
@@ -141,7 +136,6 @@ class AxleKinematics(TwoWheels):
         return travels, np.stack(moved, -1) * travels
 
     def path_slope(self, torque_on: str, side: str) -> Array:
-        """Return the slope v_x / v_z of the path of the point of a longitudinal force [1]."""
         corner = self.corners[side]
         on_body = torque_on == "body"
         velocity = corner.travel.velocity if on_body else wheel.contact_velocity(corner)

@@ -70,12 +70,10 @@ class CarAssembly(Assembly):
 
     @property
     def axles(self) -> tuple[str, ...]:
-        """The ends at which there are axles."""
         return tuple(self.car.axles)
 
     @property
     def held_parts(self) -> Mapping[str, HeldAssembly]:
-        """Its axles, or the corner of a quarter car, on a held body."""
         return {end or "corner": part for end, part in self.held.items()}
 
     def described(self) -> dict[str, str]:
@@ -126,7 +124,6 @@ class CarAssembly(Assembly):
 
     @property
     def input_sections(self) -> dict[str, Any]:
-        """The content of its files, by the prefix of the names of sections."""
         own = self.car.described
         # a part that is no file's name follows with its sections
         apart = [name for name in self.car.parts if not isinstance(getattr(own, name), str)]
@@ -138,31 +135,25 @@ class CarAssembly(Assembly):
 
     @property
     def body_moves(self) -> bool:
-        """The body moves."""
         return True
 
     @property
     def drives(self) -> bool:
-        """Whether it drives on rolling tyres."""
         return self.car.drives
 
     @property
     def wheeled(self) -> Sequence[WheeledSection]:
-        """The data of the file that describes each wheel, by wheel."""
         return [file for part in self.held.values() for file in part.wheeled]
 
     @property
     def symmetric(self) -> bool:
-        """Whether one side is the mirror image of the other."""
         return all(part.symmetric for part in self.held.values())
 
     @property
     def words(self) -> str:
-        """A description in sentences."""
         return f"A {self.car.heading()}. The body moves: {', '.join(self.car.coordinates)}."
 
     def without_friction(self) -> "CarAssembly":
-        """Return the car without friction."""
         parts = {
             end or "corner": part.without_friction().subject for end, part in self.held.items()
         }
@@ -176,7 +167,6 @@ class CarAssembly(Assembly):
     def usual(
         self, motion: str, ends: SweepRange | None = None, *, travel: float = 0.0, rack: float = 0.0
     ) -> Array:
-        """Return the default positions of a motion, zero included [m] or [rad]."""
         far = ends or SweepRange()
         if motion == "pitch":
             return grid(-_MOST_PITCH, _MOST_PITCH, _PITCH_STEP)
@@ -225,7 +215,6 @@ class CarAssembly(Assembly):
         return motion if motion == "roll" else part.usual_motion
 
     def kinematics(self, position: RigPosition) -> Any:
-        """Return positions and first derivatives of the wheels."""
         found = {}
         for end, part in self.held.items():
             travels = {
@@ -246,7 +235,6 @@ class CarAssembly(Assembly):
 
     @property
     def coordinates(self) -> tuple[str, ...]:
-        """The coordinates of the body, then those of the axles."""
         own = [
             f"{end}_{name}" if end else name
             for end, p in self.held.items()
@@ -261,7 +249,6 @@ class CarAssembly(Assembly):
         return None if self.car.column is None else f"front_{self.car.axles['front'].rack_name}"
 
     def names_of(self, wheel: str) -> WheelNames:
-        """Return the names of a wheel in the equations."""
         end, _, side = wheel.rpartition("_")
         names = self.held[end].names_of(side)
         if not end:

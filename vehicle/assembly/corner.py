@@ -48,18 +48,15 @@ class CornerAssembly(HeldAssembly):
 
     @property
     def wheeled(self) -> Sequence[Suspension]:
-        """The suspension."""
         return (self.subject,)
 
     @property
     def words(self) -> str:
-        """A description in a sentence."""
         return f"A {self.subject.heading()}, {self.wheels[0]} side."
 
     def usual(
         self, motion: str, ends: SweepRange | None = None, *, travel: float = 0.0, rack: float = 0.0
     ) -> Array:
-        """Return the default positions of a motion, zero included [m]."""
         far = ends or SweepRange()
         if motion == "rack":
             return usual_rack(self.model, extent=far.rack, step=far.step, travel=travel)
@@ -70,13 +67,11 @@ class CornerAssembly(HeldAssembly):
     def position(
         self, motion: str, along: Array, *, travel: float = 0.0, rack: float = 0.0
     ) -> RigPosition:
-        """Return the positions of wheel and rack along a motion."""
         if motion == "rack":
             return RigPosition({self.wheels[0]: np.full_like(along, travel)}, along)
         return self.at_travel(along, rack)
 
     def held_in(self, motion: str, travel: float, rack: float) -> dict[Quantity, float]:
-        """Return the constant quantities of a motion."""
         return {TRAVEL: travel} if motion == "rack" else super().held_in(motion, travel, rack)
 
     def refuse_holding(self, given: Validator, motion: str, travel: float, rack: float) -> None:
@@ -88,15 +83,12 @@ class CornerAssembly(HeldAssembly):
 
     @property
     def coordinates(self) -> tuple[str, ...]:
-        """The angle of the arm."""
         return (self.model.names.arm,)
 
     def names_of(self, wheel: str) -> WheelNames:
-        """Return the names of its wheel in the equations."""
         return WheelNames("", "", self.model.names.spin, self.model.names.actuator)
 
     def wheel_equations(self, wheel: str) -> tuple[Model, str, Mapping[str, str]]:
-        """Return its own equations."""
         arm = self.model.names.arm
         return self.model, "", {arm: arm}
 
@@ -114,34 +106,27 @@ class CornerAssembly(HeldAssembly):
         return np.array([nearest(moment, reach, self.model.design_state[0])])
 
     def refuse_unsteered(self, what: str) -> None:
-        """Raise an `InputError` for an option that needs a rack if there is none."""
         self.subject.refuse_without_rack(what)
 
     @property
     def steering_motion(self) -> str | None:
-        """The motion of the rack."""
         return "rack" if self.steered else None
 
     def refuse_of_steering(self, names: Iterable[str]) -> None:
-        """Raise an `InputError` for characteristics that only a steered wheel has."""
         for name in names:
             if name in OF_STEERING:
                 self.subject.refuse_without_rack(name)
 
     def coordinates_of(self, suffix: str) -> dict[str, str]:
-        """Return the name of the arm's angle."""
         return {self.model.names.arm: "arm_angle"}
 
     def joints(self, suffix: str) -> tuple[str, ...]:
-        """Return the moving hardpoints."""
         return self.subject.hardpoints.JOINTS
 
     def measures(self, motion: str) -> tuple[Measure, ...]:
-        """Return its characteristics over a motion."""
         return OVER_RACK if motion == "rack" else OVER_TRAVEL
 
     def kinematics(self, position: RigPosition) -> MirroredCorner:
-        """Return position and first derivatives of the wheel."""
         travel, rack = position.travels[self.wheels[0]], position.rack
 
         def straight() -> Corner | None:
@@ -157,11 +142,9 @@ class CornerAssembly(HeldAssembly):
         )
 
     def poses(self, position: RigPosition) -> dict[str, PartPoses]:
-        """Return the parts with rigid joints."""
         return {"": poses_of(self.model, position.travels[self.wheels[0]], position.rack)}
 
     def soft_lines(self, poses: Mapping[str, PartPoses]) -> dict[str, SoftLines]:
-        """Return the flexibilities of spring and stops."""
         return {suffix: lines_of(each) for suffix, each in poses.items()}
 
     @cached_property
@@ -176,14 +159,12 @@ class CornerAssembly(HeldAssembly):
         return self._sense * self.model.design_state[:1]
 
     def wheel_coordinates(self, travels: Sequence[float | None], rack: float) -> Array:
-        """Return the coordinate for a height of the wheel above design."""
         (travel,) = travels
         if travel is None:
             return self.design_wheel_coordinates
         return self._sense * arm_angles(self.model, [design_height(self.model) + travel], rack)
 
     def wheel_reach(self, rack: float) -> list[WheelReach]:
-        """Return the range of the wheel."""
         found = travel_range(self.model, rack)
         low, high = (self._sense * angle for angle in found.arm_angle)
         return [WheelReach((low, high), found.height)]
@@ -197,53 +178,43 @@ class CornerAssembly(HeldAssembly):
         return CornerParts.of(self.model, *at_rest(self.model, self._sense * coordinates, racks))
 
     def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
-        """Return whether its wheel has a stop."""
         return getattr(self.subject, which) is not None
 
     def torque_on(self, what: Literal["brakes", "drive"]) -> TorqueReaction:
-        """Return the part that reacts the torque of brakes or drive."""
         return "carrier" if what == "brakes" else "body"
 
     @property
     def rules(self) -> tuple[str, ...]:
-        """The assumptions that resolve statical indeterminacy."""
         return rules_of(self.subject)
 
     def between(
         self, poses: Mapping[str, PartPoses], loads: Sequence[Load]
     ) -> tuple[list[Load], dict[str, BodyPose]]:
-        """Return the loads on the rack, or on the linkage of a Pitman arm."""
         return on_the_steering(poses[""], loads, "rack_guide")
 
     def in_motion(
         self, states: Array, inputs: Array
     ) -> tuple[dict[str, PartPoses], dict[str, Array]]:
-        """Return the parts in some states, and the rates of these."""
         poses = CornerParts.of(self.model, states, inputs)
         return {"": poses}, {"": self.model.evaluate("rhs", states, inputs)}
 
     def parts_with(self, values: Mapping[str, Array], count: int) -> dict[str, PartPoses]:
-        """Return the parts, by the names of its states and inputs."""
         return {"": CornerParts.of(self.model, *states_with(self.model, values, count))}
 
     def bushes(self, given: Validator, bushings: Mapping[str, Any] | None) -> Bushings:
-        """Return the bushes that a caller describes, or those of the file."""
         described = described_bushings(given, bushings, self.subject.bushings)
         found = self.subject.bushes(given, described)
         return Bushings({"": found}, softness_of_rack(given, described))
 
     @property
     def heading(self) -> str:
-        """The name of its kind."""
         return self.subject.TITLE
 
     @property
     def corners(self) -> Mapping[str, Model]:
-        """The model of its wheel."""
         return {self.wheels[0]: self.model}
 
     def without_friction(self) -> "CornerAssembly":
-        """Return the corner without friction."""
         return CornerAssembly(self.model.of_another(self.subject.without_friction()))
 
 

@@ -157,17 +157,14 @@ class CornerParts(PartPoses):
 
     @property
     def design(self) -> dict[str, Array]:
-        """The hardpoints at design [m]."""
         return self.model.suspension.hardpoints.at_design()
 
     @property
     def structure(self) -> Structure:
-        """The joints and force elements between the parts."""
         return self.model.suspension.structure()
 
     @cached_property
     def wheels(self) -> dict[str, RoadWheel]:
-        """The wheel."""
         suspension = self.model.suspension
         at_design = suspension.hardpoints.metres(CENTER)
         facts, design = vehicle_of(suspension), design_axis(suspension)
@@ -176,30 +173,24 @@ class CornerParts(PartPoses):
 
     @property
     def steering_gear(self) -> Any:
-        """The section of the file that steers the wheel; None without steering."""
         suspension = self.model.suspension
         return suspension.steering_gear if suspension.steered() else None
 
     @property
     def rack_axis(self) -> Array | None:
-        """The axis along which the rack slides; None without a rack."""
         rack = self.model.suspension.rack
         return None if rack is None else rack.direction()
 
     def parameters_of(self, line: LineForce) -> Mapping[str, float]:
-        """Return the parameters of the spring or the stops on a line."""
         return self.model.parameters
 
     def counted_by(self, line: LineForce) -> str:
-        """Return the length that determines the force of the stops."""
         return f"{self.model.suspension.STOPPED}_length"
 
     def allowed_lengths(self) -> Sequence[LengthLimit]:
-        """Return the lengths that the file allows."""
         return self.model.suspension.allowed_lengths()
 
     def weights(self) -> dict[str, Array]:
-        """Return the weight of each part, (3,) [N]."""
         model = self.model
         masses = {name: model.parameters[f"{name}_mass"] for name in model.equations.BODIES}
         return {name: -mass * model.parameters["gravity"] * UP for name, mass in masses.items()}
@@ -212,7 +203,6 @@ class CornerParts(PartPoses):
         return {name: found[:, i, None] for i, name in enumerate(model.equations.BODIES)}
 
     def masses(self) -> dict[str, PartMass]:
-        """Return mass and inertia of each part with a mass."""
         values, suspension = self.model.parameters, self.model.suspension
         axes = {"wheel": suspension.wheel.spin_axis(suspension.vehicle.sign)}
         return {
@@ -233,12 +223,10 @@ class CornerParts(PartPoses):
         return by_time
 
     def tyre_forces(self) -> dict[str, Array]:
-        """Return the force of the tyre, in the plane of the wheel, (n, 3) [N]."""
         force = self.model.signal("tyre_force", self.states, self.inputs)
         return {"wheel": force[:, None] * upward_across(self.axis)}
 
     def inputs_of_wheels(self) -> dict[str, dict[str, Array]]:
-        """Return the inputs on the wheel; empty if the equations have none."""
         if not self.model.wheel_loads:
             return {}
         return {"wheel": dict(zip(self.model.input_names, self.inputs.T, strict=True))}

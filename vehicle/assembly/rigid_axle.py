@@ -44,12 +44,10 @@ class RigidAxleAssembly(WholeAxleAssembly):
 
     @property
     def moves_rigidly(self) -> bool:
-        """Whether it moves with rigid joints; on five rods it moves only as bushes deflect."""
         return not self.axle.overheld
 
     @property
     def simplified(self) -> Sequence[str]:
-        """Effects on an axle on five rods that linear compliance neglects, for a sentence."""
         if not self.axle.overheld:
             return ()
         (fifth,) = {*self.axle.rods} - {*self.axle.guides}
@@ -57,30 +55,25 @@ class RigidAxleAssembly(WholeAxleAssembly):
 
     @property
     def on_a_beam(self) -> bool:
-        """One body carries both wheels."""
         return True
 
     @property
     def words(self) -> str:
-        """A description in a sentence."""
         rods = ", ".join(self.axle.rods).replace("_", " ")
         return f"A {self.axle.heading()} on {len(self.axle.rods)} rods, {rods}."
 
     def soft_lines(self, poses: Mapping[str, Any]) -> dict[str, SoftLines]:
-        """Return the flexibilities of springs and stops."""
         if not self.axle.overheld:
             return super().soft_lines(poses)
         return {"": lines_by_rates(self.KINEMATICS(poses[""]))}
 
     def require_rigid_motion(self) -> None:
-        """Refuse an axle on five rods."""
         if self.axle.overheld:
             self.MODEL(self.axle)
 
     def further(
         self, over: str, poses: Mapping[str, Any], found: "xr.Dataset"
     ) -> "dict[str, xr.Variable]":
-        """Return the forces along the rods, and the torque of the bar."""
         from xarray import Variable  # noqa: PLC0415 (slow to import)
 
         rods = [*self.axle.rods]
@@ -92,13 +85,11 @@ class RigidAxleAssembly(WholeAxleAssembly):
         } | super().further(over, poses, found)
 
     def described(self) -> dict[str, str]:
-        """Return the track and the lengths of the rods as text."""
         track = f"{2e3 * self.axle.half_track:.4g} mm"
         return {"track": track, "rods": lengths_of(self.axle.ends())}
 
     @property
     def bar(self) -> RollBar | None:
-        """The anti-roll bar, if it has one."""
         if self.axle.anti_roll_bar is None:
             return None
         return RollBar(self.model.parameters["bar_rate"], BEAM)

@@ -41,7 +41,6 @@ class RigidAxleParts(WholeAxleParts):
 
     @classmethod
     def of(cls, model: RigidAxleModel, states: Array, inputs: Array | None = None) -> Self:
-        """Return the parts in some states, by default with zero inputs."""
         found = super().of(model, states, inputs)
         # the equations have no centre of mass of a rod, which has no mass
         for name, (inner, outer) in model.axle.ends().items():
@@ -54,14 +53,12 @@ class RigidAxleParts(WholeAxleParts):
 
     @classmethod
     def bodies(cls, axle: BeamAxle) -> Mapping[str, str]:
-        """Return the names in the equations of their parts, by part."""
         return {**{name: f"rod_{i}" for i, name in enumerate(axle.guides, 1)}, **cls.MASSIVE}
 
     @classmethod
     def placed(
         cls, axle: BeamAxle, centers: Mapping[str, Array], turned: Mapping[str, Array]
     ) -> dict[str, Array]:
-        """Return all points for positions and rotations of the beam, (n, 3) [m]."""
         still, moved = {}, {MIDDLE: axle.center}
         for name, (inner, outer) in axle.ends().items():
             still[f"{name}_{CHASSIS}"], moved[f"{name}_axle"] = inner, outer
@@ -77,16 +74,13 @@ class RigidAxleParts(WholeAxleParts):
 
     @property
     def axle(self) -> BeamAxle:
-        """The axle."""
         return self.model.axle
 
     @classmethod
     def design_centers(cls, axle: BeamAxle) -> dict[str, Array]:
-        """Return the centre of mass of the beam at design, (3,) [m]."""
         return {BEAM: axle.bodies.beam.centre_of_mass(axle.hardpoints)}
 
     def carrier(self, side: str) -> str:
-        """Return the beam, which carries both wheels."""
         return BEAM
 
     def carried_by(self, part: str, point: str) -> Array:

@@ -73,7 +73,6 @@ class SteerableAssembly(HeldAssembly):
         return motion == "steer" and self.steering_wheel.known
 
     def measures(self, motion: str) -> tuple[Measure, ...]:
-        """Return its characteristics over a motion."""
         if motion not in STEERING:
             return self.MEASURES
         return self.OVER_STEERING if self._turns_the_wheel(motion) else self.OVER_RACK
@@ -97,7 +96,6 @@ class SteerableAssembly(HeldAssembly):
     def usual(
         self, motion: str, ends: SweepRange | None = None, *, travel: float = 0.0, rack: float = 0.0
     ) -> Array:
-        """Return the default positions of a motion, zero included [m] or [rad]."""
         far = ends or SweepRange()
         if motion not in STEERING:
             return self.usual_travel(motion, far)
@@ -116,7 +114,6 @@ class SteerableAssembly(HeldAssembly):
     def position(
         self, motion: str, along: Array, *, travel: float = 0.0, rack: float = 0.0
     ) -> RigPosition:
-        """Return the positions of wheels and rack along a motion."""
         if motion in STEERING:
             wheel, travels = self.steering_wheel, np.full_like(along, travel)
             racks, per_turn = (
@@ -136,7 +133,6 @@ class SteerableAssembly(HeldAssembly):
         """
 
     def held_in(self, motion: str, travel: float, rack: float) -> dict[Quantity, float]:
-        """Return the constant quantities of a motion."""
         return {TRAVEL: travel} if motion in STEERING else super().held_in(motion, travel, rack)
 
     def refuse_holding(self, given: Validator, motion: str, travel: float, rack: float) -> None:

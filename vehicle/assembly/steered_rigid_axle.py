@@ -57,7 +57,6 @@ class SteeredRigidAxleParts(RigidAxleParts):
 
     @classmethod
     def of(cls, model: Any, states: Array, inputs: Array | None = None) -> Self:
-        """Return the parts in some states, by default with zero inputs."""
         found = super().of(model, states, inputs)
         # the equations have no centre of mass of these links, which have no mass
         for name, (first, last) in _LINKS.items():
@@ -66,14 +65,12 @@ class SteeredRigidAxleParts(RigidAxleParts):
 
     @classmethod
     def bodies(cls, axle: Any) -> Mapping[str, str]:
-        """Return the names in the equations of its parts, by part."""
         return {**super().bodies(axle), **{name: name for name in (*_LINKS, PITMAN_ARM)}}
 
     @classmethod
     def placed(
         cls, axle: Any, centers: Mapping[str, Array], turned: Mapping[str, Array]
     ) -> dict[str, Array]:
-        """Return all points for positions and rotations of the parts, (n, 3) [m]."""
         found: dict[str, Array] = super().placed(axle, centers, turned)
         begin = cls.design_centers(axle)
         steering = axle.steering_points()
@@ -102,11 +99,9 @@ class SteeredRigidAxleParts(RigidAxleParts):
 
     @property
     def axle(self) -> SteeredRigidAxle:
-        """The axle."""
         return self.model.axle
 
     def carrier(self, side: str) -> str:
-        """Return the knuckle of a wheel."""
         return knuckle(side)
 
     def steering_twists(self) -> dict[str, Array]:
@@ -218,7 +213,6 @@ class SteeredRigidAxleAssembly(RigidAxleAssembly):
 
     @property
     def words(self) -> str:
-        """A description in sentences."""
         return (
             f"{super().words} A Pitman arm moves the drag link to the {self.axle.near} knuckle, "
             "and a track rod turns the other one."
@@ -227,13 +221,11 @@ class SteeredRigidAxleAssembly(RigidAxleAssembly):
     def between(
         self, poses: Mapping[str, PartPoses], loads: Sequence[Load]
     ) -> tuple[list[Load], dict[str, BodyPose]]:
-        """Return the loads on the Pitman arm, and on the chassis."""
         return on_the_steering(poses[""], loads, "")
 
     def further(
         self, over: str, poses: Mapping[str, Any], found: "xr.Dataset"
     ) -> "dict[str, xr.Variable]":
-        """Return forces along rods and links, the moment of the steering, the torque of the bar."""
         steering = steering_of(self.axle.steering_gear, over, found)
         knuckles = {DRAG_LINK: knuckle(self.axle.near), TRACK_ROD: knuckle(RIGHT)}
         for name, (first, last) in _LINKS.items():
@@ -244,6 +236,5 @@ class SteeredRigidAxleAssembly(RigidAxleAssembly):
         return super().further(over, poses, found) | steering
 
     def described(self) -> dict[str, str]:
-        """Return the track and the lengths of rods and links as text."""
         links = lengths_of(self.axle.links())
         return super().described() | {"steering": f"{links}, drag link at the {self.axle.near}"}

@@ -50,7 +50,6 @@ class TwistBeamParts(WholeAxleParts):
     def placed(
         cls, axle: TwistBeamAxle, centers: Mapping[str, Array], turned: Mapping[str, Array]
     ) -> dict[str, Array]:
-        """Return all points for positions and rotations of the arms, (n, 3) [m]."""
         found, begin = {}, cls.design_centers(axle)
         for side in SIDES:
             arm = f"arm_{side}"
@@ -67,17 +66,14 @@ class TwistBeamParts(WholeAxleParts):
 
     @classmethod
     def design_centers(cls, axle: TwistBeamAxle) -> dict[str, Array]:
-        """Return the centres of mass of both arms at design, (3,) [m]."""
         right = np.asarray(axle.bodies.arm.centre_of_mass(axle.hardpoints))
         return {f"arm_{LEFT}": _MIRROR @ right, f"arm_{RIGHT}": right}
 
     @property
     def axle(self) -> TwistBeamAxle:
-        """The axle."""
         return self.model.axle
 
     def carrier(self, side: str) -> str:
-        """Return the arm of a wheel."""
         return f"arm_{side}"
 
     def masses(self) -> dict[str, PartMass]:
@@ -88,17 +84,14 @@ class TwistBeamParts(WholeAxleParts):
 
     @property
     def twist(self) -> Array:
-        """The twist of the beam, positive with the left wheel up, (n,) [rad]."""
         angle: Array = self.states[:, self.model.state_names.index(TWIST)]
         return self.axle.twist_ratio * angle
 
     @property
     def rate_of_twist(self) -> float:
-        """The torque of the beam per twist [N m/rad]."""
         return self.axle.beam.rate
 
     def by_torque(self) -> list[Load]:
-        """Return the loads of a unit torque of the beam on both arms, against its twist."""
         at = self.points[SHEAR_CENTER]
         return [
             Load(f"arm_{side}", SHEAR_CENTER, BAR, np.zeros(3), -SENSE[side] * ACROSS, at)
@@ -118,7 +111,6 @@ class TwistBeamAssembly(WholeAxleAssembly):
 
     @property
     def words(self) -> str:
-        """A description in sentences."""
         return (
             f"A {self.axle.heading()}: two arms and a beam of {self.axle.beam.rate_Nm_per_deg:.4g} "
             "N m/deg between them."
@@ -145,7 +137,6 @@ class TwistBeamAssembly(WholeAxleAssembly):
         return -half, half
 
     def described(self) -> dict[str, str]:
-        """Return its track and its beam in words."""
         far = 1e3 * float(self.axle.pivot[0] - self.axle.shear_center[0])
         return {
             "track": f"{2e3 * self.axle.half_track:.4g} mm",
@@ -155,7 +146,6 @@ class TwistBeamAssembly(WholeAxleAssembly):
 
     @property
     def bar(self) -> TwistBar | None:
-        """The beam, where it has a rate."""
         rate = self.axle.beam.rate
         if not rate:
             return None

@@ -66,11 +66,9 @@ class WholeAxleAssembly(SteerableAssembly):
 
     @property
     def wheeled(self) -> Sequence[WholeAxle]:
-        """The axle, for each wheel."""
         return [self.axle] * len(SIDES)
 
     def usual_travel(self, motion: str, far: SweepRange) -> Array:
-        """Return the default positions of a motion of the wheels, zero included [m] or [rad]."""
         if motion == "roll":
             with Validator("roll") as given:
                 amount = 0.0 if far.roll is None else far.roll
@@ -88,7 +86,6 @@ class WholeAxleAssembly(SteerableAssembly):
         return grid(low, high, far.step)
 
     def usual_racks(self, far: SweepRange) -> Array:
-        """Return default displacements of the steering within its range, zero included [m]."""
         with Validator("sweep") as given:
             given.number("extent", 0.0 if far.rack is None else far.rack, "m", least=0.0)
         most = far.rack
@@ -116,7 +113,6 @@ class WholeAxleAssembly(SteerableAssembly):
         return left * along, right * along
 
     def travels_in(self, motion: str, along: Array, rack: float) -> tuple[Array, Array]:
-        """Return the travels of the left and the right wheel in a motion of the wheels [m]."""
         if motion == "roll" and np.abs(along).max(initial=0.0) >= MOST_ROLL:
             worst = np.degrees(np.abs(along).max())
             message = f"roll of {worst:.4g} deg: less than 45 deg is needed; Python's unit is rad."
@@ -135,11 +131,9 @@ class WholeAxleAssembly(SteerableAssembly):
 
     @property
     def coordinates(self) -> tuple[str, ...]:
-        """The two coordinates that move the wheels up and down."""
         return self.model.COORDINATES
 
     def coordinates_at_rest(self, held: RestConditions) -> Array:
-        """Return the coordinates of the state of rest near the design position, (2,)."""
         found = settled(self, held, np.zeros(2), _NO_REST)
         signals = self.model.signals(*self.at_rest(found, held.rack))
         design = self.axle.center[2]
@@ -150,31 +144,25 @@ class WholeAxleAssembly(SteerableAssembly):
         return found
 
     def names_of(self, wheel: str) -> WheelNames:
-        """Return the names of a wheel in the equations."""
         prefix = f"{wheel}_"
         return WheelNames(
             prefix, f"{prefix}axle_", f"{prefix}spin_angle", f"{prefix}spring_actuator"
         )
 
     def wheel_equations(self, wheel: str) -> tuple[WholeAxleModel, str, Mapping[str, str]]:
-        """Return the equations of the axle, whose coordinates move both wheels."""
         return self.model, self.names_of(wheel).signals, {name: name for name in self.coordinates}
 
     def coordinates_of(self, suffix: str) -> dict[str, str]:
-        """Return the names of the coordinates."""
         return {name: name for name in self.coordinates}
 
     def joints(self, suffix: str) -> tuple[str, ...]:
-        """Return the moving points."""
         return self.axle.joint_names
 
     def kinematics(self, position: RigPosition) -> WholeAxleKinematics:
-        """Return positions and first derivatives of the axle."""
         self.require_rigid_motion()
         return self.KINEMATICS(self._at(position), position.per_turn)
 
     def poses(self, position: RigPosition) -> dict[str, PartPoses]:
-        """Return the parts with rigid joints."""
         return {"": self._at(position)}
 
     def _at(self, position: RigPosition) -> WholeAxleParts:
@@ -184,7 +172,6 @@ class WholeAxleAssembly(SteerableAssembly):
         return self.PARTS.of(self.model, states, self.model.inputs_at(racks))
 
     def soft_lines(self, poses: Mapping[str, Any]) -> dict[str, SoftLines]:
-        """Return the flexibilities of springs and stops."""
         return {"": lines_of_beam(self.KINEMATICS(poses[""]))}
 
     @property
@@ -227,48 +214,38 @@ class WholeAxleAssembly(SteerableAssembly):
         return np.asarray(beyond | ~(closing > 0.0).all(axis=-1))
 
     def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
-        """Return whether both wheels have a stop."""
         return getattr(self.axle, which) is not None
 
     @property
     def rules(self) -> tuple[str, ...]:
-        """The assumptions that resolve statical indeterminacy."""
         return self.axle.structure().rules
 
     def acting(self, poses: Mapping[str, Any]) -> dict[str, list[Load]]:
-        """Return the applied loads on its parts, with those of the bar or beam."""
         return {"": poses[""].acting()}
 
     def bar_loads(self, poses: Mapping[str, Any]) -> dict[str, list[Load]]:
-        """Return the couples of a unit torque of the bar, or of the beam."""
         return {"": poses[""].by_torque()} if poses[""].rate_of_twist else {}
 
     def bar_twist(self, poses: Mapping[str, Any]) -> dict[str, Array]:
-        """Return the twist of the bar, or of the beam, (n,) [rad]."""
         return {"": poses[""].twist}
 
     def in_motion(
         self, states: Array, inputs: Array
     ) -> tuple[dict[str, PartPoses], dict[str, Array]]:
-        """Return the parts in some states, and the rates of these."""
         rates = self.model.evaluate("rhs", states, inputs)
         return {"": self.PARTS.of(self.model, states, inputs)}, {"": rates}
 
     def parts_with(self, values: Mapping[str, Array], count: int) -> dict[str, PartPoses]:
-        """Return the parts, by the names of its states and inputs."""
         return {"": self.PARTS.of(self.model, *states_with(self.model, values, count))}
 
     def bushes(self, given: Validator, bushings: Mapping[str, Any] | None) -> Bushings:
-        """Return the bushes that a caller describes, or those of the file."""
         described = described_bushings(given, bushings, self.axle.bushings)
         return Bushings({"": self.axle.bushes(given, described)}, 0.0)
 
     def plausibility(self) -> Plausibility:
-        """Return the unlikely values of its file."""
         return self.axle.plausibility()
 
     def reach(self) -> dict[str, tuple[float, bool]]:
-        """Return the travel of both wheels down and up [m], and whether it is limited."""
         found = {}
         for name, far in (("down", -_FAR), ("up", _FAR)):
             part = self.model.farthest(far, far)
@@ -276,7 +253,6 @@ class WholeAxleAssembly(SteerableAssembly):
         return found
 
     def without_friction(self) -> "WholeAxleAssembly":
-        """Return the axle without the friction of its dampers."""
         smooth = self.axle.with_changes({"damper.friction_N": 0.0})
         return type(self)(smooth, self.MODEL(smooth))
 

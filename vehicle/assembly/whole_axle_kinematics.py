@@ -70,7 +70,6 @@ class WholeAxleKinematics(TwoWheels):
         return self.parts.points[f"{CENTER}_{side}"]
 
     def contact(self, side: str) -> Array:
-        """Return the lowest point of a wheel as a thin disc [m], (n, 3)."""
         return self.parts.points[f"{CONTACT}_{side}"]
 
     @property
@@ -169,7 +168,6 @@ class WholeAxleKinematics(TwoWheels):
 
     @cached_property
     def rolled(self) -> tuple[Array, Array]:
-        """Travels of both wheels, and lateral motions of both contacts, per roll [m/rad]."""
         by_travel = -self.inclination_rate[:, None]
         moved = np.stack([self.contact_in(side, "roll")[:, 1] for side in SIDES], -1)
         return np.array(RISES["roll"]) / by_travel, moved / by_travel
@@ -226,7 +224,6 @@ class WholeAxleKinematics(TwoWheels):
         return np.stack([np.zeros_like(turned), -rate * turned], -1), slopes
 
     def wheel_force(self, side: str) -> Array:
-        """Return the vertical force of springs, stops and bar at a wheel [N]."""
         return self._at_wheels(self.of_springs[0] + self.of_bar[0])[:, SIDES.index(side)]
 
     def _at_wheels(self, work: Array) -> Array:
@@ -236,12 +233,10 @@ class WholeAxleKinematics(TwoWheels):
 
     @cached_property
     def springs(self) -> Array:
-        """The stiffness of springs and stops at both wheels, (n, 2, 2) [N/m]."""
         return self._stiffness(*self.of_springs)
 
     @cached_property
     def bar(self) -> Array:
-        """The stiffness of the anti-roll bar, or of a beam, at both wheels, (n, 2, 2) [N/m]."""
         return self._stiffness(*self.of_bar)
 
     def _stiffness(self, work: Array, slopes: Array) -> Array:

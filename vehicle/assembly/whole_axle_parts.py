@@ -92,17 +92,14 @@ class WholeAxleParts(PartPoses):
 
     @property
     def steering_gear(self) -> Any:
-        """The section of the file that steers the wheels; None without steering."""
         return self.axle.steering_gear
 
     @property
     def structure(self) -> Structure:
-        """The joints and force elements between the parts."""
         return self.axle.structure()
 
     @cached_property
     def design(self) -> dict[str, Array]:
-        """The points at design, (3,) [m]."""
         centers = {part: center[None] for part, center in self.design_centers(self.axle).items()}
         turned = dict.fromkeys(centers, np.eye(3)[None])
         return {name: at[0] for name, at in self.placed(self.axle, centers, turned).items()}
@@ -118,7 +115,6 @@ class WholeAxleParts(PartPoses):
 
     @cached_property
     def wheels(self) -> dict[str, RoadWheel]:
-        """Both wheels, the left one first, by their parts."""
         return {
             f"wheel_{side}": RoadWheel(
                 vehicle(self.axle, SENSE[side], self.axle.end),
@@ -131,16 +127,13 @@ class WholeAxleParts(PartPoses):
         }
 
     def parameters_of(self, line: LineForce) -> Mapping[str, float]:
-        """Return the parameters of spring or stops on a line, with the names of the right side."""
         return of_side(self.model.parameters, line.name.rpartition("_")[2])
 
     def counted_by(self, line: LineForce) -> str:
-        """Return the length of a damper, which determines the force of its stops."""
         name, _, side = line.name.rpartition("_")
         return f"{side}_{name}_length"
 
     def allowed_lengths(self) -> Sequence[LengthLimit]:
-        """Return the lengths of the dampers that the file allows."""
         return self.model.allowed_lengths()
 
     def wheel_axis(self, side: str) -> Array:
@@ -170,7 +163,6 @@ class WholeAxleParts(PartPoses):
         return {part: velocities[:, bodies.index(body)] for part, body in self.MASSIVE.items()}
 
     def masses(self) -> dict[str, PartMass]:
-        """Return mass and inertia of each part with a mass."""
         axes = {f"wheel_{side}": self.axle.wheel.spin_axis(SENSE[side]) for side in SIDES}
         return {
             part: PartMass.of(self.model.parameters, self.PARAMETERS[part], body, axes.get(part))
@@ -178,7 +170,6 @@ class WholeAxleParts(PartPoses):
         }
 
     def tyre_forces(self) -> dict[str, Array]:
-        """Return the forces of the tyres, in the planes of their wheels, (n, 3) [N]."""
         forces = {
             side: self.model.signal(f"{side}_axle_tyre_force", self.states, self.inputs)
             for side in SIDES
@@ -189,7 +180,6 @@ class WholeAxleParts(PartPoses):
         }
 
     def inputs_of_wheels(self) -> dict[str, dict[str, Array]]:
-        """Return the inputs on both wheels; empty if the equations have none."""
         if not self.model.wheel_loads:
             return {}
         given = dict(zip(self.model.input_names, self.inputs.T, strict=True))
@@ -235,7 +225,6 @@ class WholeAxleParts(PartPoses):
         return [*known(self), *(replace(one, moment=torque * one.moment) for one in of_bar)]
 
     def weights(self) -> dict[str, Array]:
-        """Return the weight of each part with a mass, (3,) [N]."""
         values = self.model.parameters
         masses = {part: values[f"{self.PARAMETERS[part]}_mass"] for part in self.MASSIVE}
         return {part: -mass * values["gravity"] * UP for part, mass in masses.items()}

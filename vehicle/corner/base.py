@@ -156,7 +156,6 @@ class Suspension(WheeledSection):
 
     @classmethod
     def packaged(cls) -> Mapping[str, Traversable]:
-        """Return the packaged files, by name."""
         return data_sets()
 
     @classmethod
@@ -214,7 +213,6 @@ class Suspension(WheeledSection):
 
     @classmethod
     def steered(cls) -> bool:
-        """Return whether the wheel is steered, by a rack or a Pitman arm."""
         return bool(cls.NAMES.rack)
 
     def refuse_without_rack(self, what: str) -> None:
@@ -225,12 +223,10 @@ class Suspension(WheeledSection):
 
     @property
     def steered_by(self) -> str:
-        """The key of the section that moves the tie rod."""
         return "rack" if self.pitman_arm is None else PITMAN_ARM
 
     @property
     def steering_gear(self) -> Steering | PitmanLinkage:
-        """The section that moves the tie rod: a rack, or a Pitman arm with its linkage."""
         gear = self.rack or self.pitman_arm
         assert gear is not None  # only steered suspensions have this property
         return gear

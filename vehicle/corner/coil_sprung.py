@@ -70,7 +70,6 @@ class CoilDamper(Section):
         )
 
     def problems(self) -> list[str]:
-        """Return the problem of a damper that is described twice, or not completely."""
         keys = ("velocity_m_per_s", "force_N", "interpolation")
         by_curve = [key for key in keys if getattr(self, key) is not None]
         if self.rate_N_s_per_m is not None and by_curve:
@@ -160,7 +159,6 @@ class CoilSprung(Suspension):
         return self.GENERAL if self.beyond_the_plain() else self.PLAIN
 
     def without_friction(self) -> Self:
-        """Return the suspension without the friction of its damper."""
         return self.with_changes({"damper.friction_N": 0.0}) if self.damper.friction_N else self
 
     def beyond_the_plain(self) -> list[str]:
@@ -207,23 +205,19 @@ class CoilSprung(Suspension):
     # -- its geometry ---------------------------------------------------------------------------
 
     def allowed_lengths(self) -> tuple[LengthLimit, ...]:
-        """Return the least and the greatest length of the damper, if the file has them."""
         return self.damper.allowed_lengths(f"{self.STOPPED}_length")
 
     # -- its characteristics --------------------------------------------------------------------
 
     def spring_at(self, strokes: Strokes) -> SpringForce:
-        """Return the spring."""
         return strokes.spring("spring_force", "spring")
 
     def damper_at(self, strokes: Strokes) -> Stroke:
-        """Return the stroke of the damper, which the stops limit."""
         return strokes.stroke(self.STOPPED)
 
     # -- its checks -----------------------------------------------------------------------------
 
     @classmethod
     def further_problems(cls, sections: Mapping[str, Any]) -> list[str]:
-        """Return the problems of the damper together with the hardpoints."""
         damper, points = sections.get("damper"), sections["hardpoints"]
         return [] if damper is None else damper.length_problems(points.distance(*damper.ENDS))

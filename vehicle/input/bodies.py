@@ -61,7 +61,6 @@ class RigidBody(Section):
         return total / len(self.POINTS)
 
     def problems(self) -> list[str]:
-        """Return the problems of an inertia that no body can have."""
         elements = self.elements()
         scale = greatest(abs(value) for value in elements.values())
         if scale == 0.0:
@@ -116,7 +115,6 @@ class WheelBody(Section):
     )
 
     def problems(self) -> list[str]:
-        """Return the problems of an inertia that no wheel, or no shaft, can have."""
         spin, shaft = self.inertia_spin_kg_m2, self.inertia_shaft_kg_m2
         if not shaft < spin:
             problem = (
@@ -147,7 +145,6 @@ class Bodies(Section):
     wheel: WheelBody = Field(description="the wheel")
 
     def problems(self) -> list[str]:
-        """Return the problems of masses that the equations would neglect."""
         heavy = {name: getattr(self, name).mass_kg for name in self.MASSLESS}
         return [
             f"{name}.mass_kg = {mass} kg: the equations of this suspension leave this body without "

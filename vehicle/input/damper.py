@@ -38,7 +38,6 @@ class Damper(Section):
     interpolation: Interpolation = Field(default="cubic", description=WAYS)
 
     def problems(self) -> list[str]:
-        """Return the problems of points that are not the curve of a dissipative damper."""
         return curve_problems(self.velocity_m_per_s, self.force_N)
 
     def parameters(self) -> dict[str, float]:

@@ -175,7 +175,6 @@ class DescribedParts(Described):
 
     @classmethod
     def packaged(cls) -> Mapping[str, Traversable]:
-        """Return the packaged files, by name."""
         return data_sets(cls.PACKAGE)
 
     @classmethod

@@ -57,7 +57,6 @@ class Hardpoints(Section):
 
     @classmethod
     def unit_of_key(cls, key: str, table: Mapping[str, Any]) -> str:
-        """Return the unit of the points, which is the section's `unit`."""
         unit = str(table.get("unit"))
         return unit if key != "unit" and unit in get_args(LengthUnit) else ""
 

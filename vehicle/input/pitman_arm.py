@@ -208,11 +208,9 @@ class PitmanLinkage(PitmanArmSection):
         return unit_vector(self.idler_axis or [x, 0.0 - y, z])
 
     def points(self) -> dict[str, Vector]:
-        """Return the points of the linkage at design by name [m]."""
         return super().points() | {n: self.metres(n) for n in ("idler_pivot", "idler_ball")}
 
     def parameters(self) -> dict[str, float]:
-        """Return points, axes and bodies by their names in the equations, in SI units."""
         return super().parameters() | components("idler_axis", self.direction_of("idler_arm"))
 
     @staticmethod

@@ -64,7 +64,6 @@ class SpringSection(Section):
         return self.force_N is not None
 
     def problems(self) -> list[str]:
-        """Return the problems of a spring that is described twice, or not completely."""
         by_curve = [key for key in _BY_CURVE if getattr(self, key) is not None]
         if self.rate_N_per_m is None and by_curve:
             return self._problems_of_curve()

@@ -58,7 +58,6 @@ class StrutSection(Section):
     )
 
     def problems(self) -> list[str]:
-        """Return the problem of a free state of the spring that is described twice, or not."""
         given = [key for key in _FREE if getattr(self, key) is not None]
         if self.spring_rate_N_per_m is None:
             return []  # `spring_problems` checks that there is a [spring] instead

@@ -130,7 +130,6 @@ class Steering(Section):
     )
 
     def problems(self) -> list[str]:
-        """Return the problem of an axis without a direction."""
         remedy = "Enter [0.0, 1.0, 0.0] for a rack that moves to the left."
         return without_direction({"axis": self.axis}, remedy)
 

@@ -84,7 +84,6 @@ class DoubleWishboneHardpoints(Hardpoints):
     wheel_center: Triple = Field(description="centre of the wheel")
 
     def geometry_problems(self) -> list[str]:
-        """Return the problems of coinciding points, hinges, joints and dead centres."""
         coinciding = self.coinciding(_POINTS_OF_BODIES)
         problems = self.coincidence_problems(coinciding)
         # The other checks need the directions that these pairs of points define.
@@ -191,7 +190,6 @@ curve; the stops depend on its length."""
     # -- its geometry ---------------------------------------------------------------------------
 
     def lengths(self) -> dict[str, float]:
-        """Return the lengths of the arms and of the spring at design [m]."""
         points = self.hardpoints
         arms = {
             f"{ball.removesuffix('_ball_joint')}_arm_length": distance_from_line(
@@ -202,7 +200,6 @@ curve; the stops depend on its length."""
         return arms | {"spring_length": points.distance(*_SPRING)}
 
     def drawing(self) -> Drawing:
-        """Return the drawing of arms, spring and tie rod; the lower arm carries the spring."""
         held = {
             f"{end}_bracket": ("spring_seat", "lower_ball_joint", f"lower_arm_{end}")
             for end in ("front", "rear")

@@ -118,13 +118,11 @@ class MacPhersonHardpoints(Hardpoints):
         return unit_vector(self.metres("strut_top") - self.metres("strut_lower"))
 
     def steering_axis(self) -> Vector | None:
-        """Return the axis about which the knuckle turns in its strut; None if it has no length."""
         if self.distance("strut_lower", "strut_top") < SMALLEST_DISTANCE:
             return None
         return self.strut_axis()
 
     def geometry_problems(self) -> list[str]:
-        """Return the problems of coinciding points, hinge, joints and strut."""
         coinciding = self.coinciding(_POINTS_OF_BODIES)
         ends = {"strut": ("strut_lower", "strut_top"), "spring": ("spring_seat", "spring_top")}
         optional = set(self.given_optional())
@@ -179,7 +177,6 @@ class Knuckle(RigidBody):
         return points.metres("ball_joint") + distance * upward
 
     def problems(self) -> list[str]:
-        """Return the problems of any body, and of two positions of the centre of mass."""
         problems = super().problems()
         if self.com_mm is not None and self.com_along_strut_mm is not None:
             problems.append(
@@ -243,7 +240,6 @@ spring a rate in `[strut]` or a curve in `[spring]`."""
         return _general_free_rack() if free_rack else macpherson_general
 
     def neglected_masses(self) -> dict[str, float]:
-        """Return the masses, if any, of bodies without mass in the paper's equations [kg]."""
         rigid = self.bodies.rigid()
         masses = {name: rigid[name].mass_kg for name in _MASSLESS_IN_THE_PAPER}
         return {name: mass for name, mass in masses.items() if mass > 0.0}
@@ -294,18 +290,15 @@ spring a rate in `[strut]` or a curve in `[spring]`."""
     # -- its geometry ---------------------------------------------------------------------------
 
     def lengths(self) -> dict[str, float]:
-        """Return the length of the strut at design and extended [m]."""
         return {
             "strut_length": self.hardpoints.distance("strut_lower", "strut_top"),
             "strut_length_max": self.strut.length_max,
         }
 
     def extended(self) -> Extended:
-        """Return the fully extended strut."""
         return Extended("strut_length", self.strut.length_max, "strut", "[strut] length_max_mm")
 
     def allowed_lengths(self) -> tuple[LengthLimit, ...]:
-        """Return the least length of the strut, if the file has it."""
         least = self.strut.length_min_mm
         if least is None:
             return ()
@@ -373,11 +366,9 @@ spring a rate in `[strut]` or a curve in `[spring]`."""
         return Plane(ball, cross(front - rear, ball - rear)), Plane(top, top - bottom)
 
     def spring_at(self, strokes: Strokes) -> SpringForce:
-        """Return the spring, which may have an axis of its own."""
         return strokes.spring("spring_force", "spring" if "spring_length" in strokes else "strut")
 
     def damper_at(self, strokes: Strokes) -> Stroke:
-        """Return the stroke of the damper, which is that of the strut."""
         return strokes.stroke("strut")
 
     # -- its checks -----------------------------------------------------------------------------
@@ -402,7 +393,6 @@ spring a rate in `[strut]` or a curve in `[spring]`."""
 
     @classmethod
     def further_problems(cls, sections: Mapping[str, Any]) -> list[str]:
-        """Return the problems of strut, spring and damper together with the hardpoints."""
         strut, points = sections.get("strut"), sections["hardpoints"]
         if strut is None:
             return []

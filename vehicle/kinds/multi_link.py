@@ -90,7 +90,6 @@ class MultiLinkHardpoints(Hardpoints):
     wheel_center: Triple = Field(description="centre of the wheel")
 
     def geometry_problems(self) -> list[str]:
-        """Return the problems of coinciding points, joints and loose links."""
         bodies = {words: _ends(link) for link, words in _WORDS.items()}
         coinciding = self.coinciding(
             bodies | {name: (f"{name}_seat", f"{name}_top") for name in ("spring", "damper")}
@@ -238,7 +237,6 @@ position (`force_at_design_N`). The stops depend on the length of the damper."""
     # -- its geometry ---------------------------------------------------------------------------
 
     def lengths(self) -> dict[str, float]:
-        """Return the lengths of the links, the spring and the damper at design [m]."""
         points = self.hardpoints
         links = {f"{link}_length": points.distance(*_ends(link)) for link in LINKS}
         return links | {
@@ -247,7 +245,6 @@ position (`force_at_design_N`). The stops depend on the length of the damper."""
         }
 
     def drawing(self) -> Drawing:
-        """Return the drawing of links, spring and damper."""
         return Drawing(
             links={
                 **{

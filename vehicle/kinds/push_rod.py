@@ -37,7 +37,6 @@ class RockerHardpoints(DoubleWishboneHardpoints):
     spring_seat: Triple = Field(description="end of spring and damper on the rocker")
 
     def geometry_problems(self) -> list[str]:
-        """Return the problems of the double wishbone, and of rod and rocker."""
         coinciding = self.coinciding({"rocker": _ROCKER, self.ROD_WORDS: self.ROD})
         problems = super().geometry_problems() + self.coincidence_problems(coinciding)
         return problems if coinciding else problems + self._problems_of_rocker()
@@ -157,7 +156,6 @@ rate or a curve; the stops depend on its length."""
         return outer.removesuffix("_outer"), outer, inner, self.hardpoints.CARRIERS[outer]
 
     def lengths(self) -> dict[str, float]:
-        """Return the lengths of arms, spring and rod, and the rocker's lever [m]."""
         points, (rod, outer, inner, _) = self.hardpoints, self._rod
         axis = [points.metres(name) for name in _ROCKER]
         return super().lengths() | {
@@ -166,7 +164,6 @@ rate or a curve; the stops depend on its length."""
         }
 
     def drawing(self) -> Drawing:
-        """Return the drawing of arms, rod, rocker, spring and tie rod."""
         (rod, outer, inner, arm), words = self._rod, self.hardpoints.ROD_WORDS
         rocker = {
             "rocker_front_rod": ("rocker_front", inner),

@@ -61,7 +61,6 @@ class TrailingArmHardpoints(Hardpoints):
     wheel_center: Triple = Field(description="centre of the wheel")
 
     def geometry_problems(self) -> list[str]:
-        """Return the problems of coinciding points and of the hinge."""
         bodies: dict[str, tuple[str, ...]] = {
             "arm": _ARM,
             "spring": ("spring_seat", "spring_top"),
@@ -146,7 +145,6 @@ force at the design position (`force_at_design_N`). The stops depend on the leng
     # -- its geometry ---------------------------------------------------------------------------
 
     def lengths(self) -> dict[str, float]:
-        """Return the lengths of arm, spring and damper at design [m]."""
         points = self.hardpoints
         inner, outer, center = map(points.metres, _ARM)
         return {
@@ -156,7 +154,6 @@ force at the design position (`force_at_design_N`). The stops depend on the leng
         }
 
     def drawing(self) -> Drawing:
-        """Return the drawing of arm, spring and damper."""
         return Drawing(
             links={
                 "arm": ("arm_inner", "wheel_center", "arm"),
@@ -177,7 +174,6 @@ force at the design position (`force_at_design_N`). The stops depend on the leng
     # -- its structure --------------------------------------------------------------------------
 
     def structure(self) -> Structure:
-        """Return the two bearings of the arm on one axis, and the wheel bearing."""
         ends = ("chassis", "trailing_arm")
         signals = ("spring_force", self.NAMES.actuator)
         joints = (

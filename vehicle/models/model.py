@@ -98,7 +98,6 @@ class Model(System):
         return self
 
     def allowed_lengths(self) -> tuple[LengthLimit, ...]:
-        """Return the lengths that the file allows."""
         return self.suspension.allowed_lengths()
 
     @cached_property

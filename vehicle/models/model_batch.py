@@ -85,7 +85,6 @@ class ModelBatch(Model):
         return self.mask.valid
 
     def of(self, some: NDArray[np.int64]) -> "ModelBatch":
-        """Return the model of some suspensions of the batch, for their states."""
         if some.size == len(self.constants):
             return self
         part = object.__new__(ModelBatch)
@@ -100,7 +99,6 @@ class ModelBatch(Model):
 
     @cached_property
     def mirror_image(self) -> "ModelBatch":
-        """The batch of the same suspensions on the other side of the vehicle."""
         values = {
             place: 0.0 - column
             if place.endswith(_REVERSED.get(place.partition(".")[0], ()))

@@ -139,7 +139,6 @@ and `[bushings.POINT]`, whose points are `pivot` and `wheel_center`, on both sid
     )
 
     def heading(self) -> str:
-        """Return the name of the axle."""
         return f"twist-beam {self.twist_beam} axle"
 
     @property
@@ -161,7 +160,6 @@ and `[bushings.POINT]`, whose points are `pivot` and `wheel_center`, on both sid
         )
 
     def drawn_lines(self) -> Iterator[tuple[str, str, float, Array]]:
-        """Yield arms and beam: label, colour, width and points, (n, 3) [m]."""
         for side in SIDES:
             points = self.points(side)
             arm = points[CENTER] - points[PIVOT]
@@ -172,12 +170,10 @@ and `[bushings.POINT]`, whose points are `pivot` and `wheel_center`, on both sid
 
     @property
     def joint_names(self) -> tuple[str, ...]:
-        """The seats on the arms, the wheel centres, and the shear centre."""
         own = ("spring_seat", "damper_seat", CENTER)
         return (SHEAR_CENTER, *(f"{name}_{side}" for name in own for side in SIDES))
 
     def structure(self) -> Structure:
-        """Return the structure that connects its parts."""
         joints: list[PartJoint] = []
         for side in SIDES:
             arm = f"arm_{side}"
@@ -188,7 +184,6 @@ and `[bushings.POINT]`, whose points are `pivot` and `wheel_center`, on both sid
         return Structure(joints, lines)
 
     def bushes(self, given: Validator, described: Mapping[str, Any]) -> list[Bush]:
-        """Return the described bushes: of ``pivot``, ``wheel_center`` and ``shear_center``."""
         joints = (
             PivotJoint(CHASSIS, "arm", (PIVOT,)),
             FixedJoint("arm", "wheel", (CENTER,)),
@@ -233,7 +228,6 @@ and `[bushings.POINT]`, whose points are `pivot` and `wheel_center`, on both sid
     # -- its checks -----------------------------------------------------------------------------
 
     def _own_problems(self) -> list[str]:
-        """Return problems of pivots at the wheels, and of a shear centre at the pivots."""
         problems = []
         pivot, shear, wheel = self.pivot, self.shear_center, self.hardpoints.metres(CENTER)
         if float(np.hypot(*(wheel - pivot)[[0, 2]])) < _SHORTEST:
@@ -253,7 +247,6 @@ and `[bushings.POINT]`, whose points are `pivot` and `wheel_center`, on both sid
         return problems
 
     def _unlikely(self) -> Iterator[str]:
-        """Yield almost certain mistakes: units, and swapped points."""
         arm = self.bodies.arm
         yield from self._unlikely_of({}, {"arm": arm}, 0.0, arm.mass_kg)
         if self.twist_beam == "rear" and self.pivot[0] < self.center[0]:
@@ -344,7 +337,6 @@ class TwistBeamModel(WholeAxleModel):
         return states
 
     def moved(self, states: Array, left: Array, right: Array, inputs: Array | None = None) -> Array:
-        """Return states with the rates for velocities of the wheels [m/s]."""
         lift, twist = (states[..., self.state_names.index(name)] for name in self.COORDINATES)
         with np.errstate(all="ignore"):
             _, slopes = _heights(self.axle, lift, twist)

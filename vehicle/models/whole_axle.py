@@ -113,7 +113,6 @@ class WholeAxle(WheeledSection):
 
     @classmethod
     def packaged(cls) -> Mapping[str, Traversable]:
-        """Return the packaged files, by name."""
         return data_sets(WHOLE_AXLES)
 
     @classmethod

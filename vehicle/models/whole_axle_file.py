@@ -44,7 +44,6 @@ class WholeAxleHardpoints(Hardpoints):
     damper_seat: Triple = Field(description="lower end of the damper, on the axle")
 
     def geometry_problems(self) -> list[str]:
-        """Return problems of springs and dampers whose ends coincide."""
         return self.coincidence_problems(
             self.coinciding(
                 {name: (f"{name}_seat", f"{name}_top") for name in ("spring", "damper")}

@@ -82,7 +82,6 @@ class WholeAxleModel(System):
         return self.EQUATIONS
 
     def allowed_lengths(self) -> tuple[LengthLimit, ...]:
-        """Return the lengths of the dampers that the file allows."""
         return self.axle.allowed_lengths()
 
     # -- positions ------------------------------------------------------------------------------

@@ -153,7 +153,6 @@ class Search(Candidates):
         return self.deviations(x) @ self.slopes(x)
 
     def room(self, x: Array, margin: float = _MARGIN) -> Array:
-        """Return the distances to the limits less a margin against rounding."""
         return super().room(x, margin)
 
     def room_slopes(self, x: Array) -> Array:

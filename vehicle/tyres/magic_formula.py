@@ -140,7 +140,6 @@ class MagicFormula(Tyre):
         return float(vertical.free_radius(self.coefficients, 0.0))
 
     def mirrored(self) -> Self:
-        """Return the mirror image: the same tyre on the other side of the vehicle."""
         return replace(
             self, coefficients=known.mirrored(self.coefficients), side=_OTHER_SIDE[self.side]
         )

@@ -318,16 +318,13 @@ class SymmetricTyre(Tyre):
     CONTACT_LAW: ClassVar[str]  # name of the class of its contact law in `kintrafo.generator`
 
     def mirrored(self) -> Self:
-        """Return the mirror image, which has the same values."""
         return copy(self)
 
     @property
     def contact(self) -> ContactTerms:
-        """The class of its contact law, without options."""
         return ContactTerms(self.CONTACT_LAW)
 
     def parameters(self, name: str = "tyre", *, relaxing: bool = False) -> dict[str, float]:
-        """Return the values of the parameters of `contact_law`, SI units; lengths are known."""
         return {f"{name}_{key}": value for key, value in self._values().items()}
 
     @abstractmethod

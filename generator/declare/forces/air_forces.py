@@ -70,11 +70,9 @@ class AirForces(Force):
 
     @property
     def identity(self) -> tuple[str, str]:
-        """Its name."""
         return "force", self.name
 
     def describe(self) -> Description:
-        """Return its description in reports."""
         return Description(
             f"air {self.name}",
             f"drag `{self.drag.name}`, lift `{self.lift.name}`, moment `{self.pitching.name}`",

@@ -49,7 +49,6 @@ class AppliedForce(Force):
         return "AppliedForce at", f"{self.body.name} by {self.input.name}"
 
     def describe(self) -> Description:
-        """Return its description in reports."""
         name = self.input.name
         return Description(
             name,

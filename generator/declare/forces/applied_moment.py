@@ -50,7 +50,6 @@ class AppliedMoment(Force):
         return "AppliedMoment on", f"{self.body.name} by {self.input.name}"
 
     def describe(self) -> Description:
-        """Return its description in reports."""
         name = self.input.name
         share = r"$`\mathbf{W}_b^T\mathbf{d}\,F`$"
         return Description(name, f"`{name}` on {self.body.name} about d", share)

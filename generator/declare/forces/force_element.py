@@ -76,7 +76,6 @@ class ForceElement(Force):
 
     @property
     def identity(self) -> tuple[str, str]:
-        """Its name."""
         return "force", self.name
 
     @property
@@ -108,7 +107,6 @@ class ForceElement(Force):
         return signal if alone else f"{self.name}_{signal}"
 
     def describe(self) -> Description:
-        """Return its description in reports."""
         laws = "; ".join(law.describe() for law in self.laws)
         length = r"\vartheta" if self.turns else r"\ell"
         share = rf"$`\left(\partial {length}/\partial\mathbf{{q}}\right)^T F`$"

@@ -48,11 +48,9 @@ class JointForce(Force):
 
     @property
     def along(self) -> Revolute | Prismatic:
-        """The joint."""
         return self.joint
 
     def describe(self) -> Description:
-        """Return its description in reports."""
         name = self.input.name
         acts = f"`{name}` along the coordinate of joint {self.joint.name}, which is independent"
         return Description(name, acts, "itself, in the row of that coordinate")

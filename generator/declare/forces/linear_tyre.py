@@ -73,7 +73,6 @@ class LinearTyre(Force):
 
     @property
     def identity(self) -> tuple[str, str]:
-        """Its name."""
         return "force", self.name
 
     def prefix(self, mechanism: Whole) -> str:
@@ -82,7 +81,6 @@ class LinearTyre(Force):
         return "" if alone else f"{self.name}_"
 
     def describe(self) -> Description:
-        """Return its description in reports."""
         load = f"{self.rate.name}*({self.free_height.name} + {self.road.name} - height)"
         more = ", with damping" if self.damper is not None else ""
         pull = r"\mathbf{w} = \frac{F}{1-a_z^2}\,(\mathbf{e}_z - a_z\,\mathbf{a})"

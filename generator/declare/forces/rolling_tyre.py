@@ -98,16 +98,13 @@ class RollingTyre(Force):
 
     @property
     def identity(self) -> tuple[str, str]:
-        """Its name."""
         return "force", self.name
 
     @property
     def along(self) -> Revolute:
-        """The bearing, which it turns."""
         return self.bearing
 
     def describe(self) -> Description:
-        """Return its description in reports."""
         acts = f"{self.law.describe()}: F and M at the contact, N at the lowest point of the disc"
         share = (
             r"$`\left(\partial\mathbf{v}_P/\partial\dot{\mathbf{q}}\right)^T(\mathbf{F}+\mathbf{N})"

@@ -68,16 +68,13 @@ class ShaftTorque(Force):
 
     @property
     def identity(self) -> tuple[str, str]:
-        """Its name."""
         return "force", self.name
 
     @property
     def along(self) -> Revolute:
-        """The bearing, which it turns."""
         return self.bearing
 
     def describe(self) -> Description:
-        """Return its description in reports."""
         kind = "brake" if self.standstill is not None else "shaft"
         acts = f"`{self.torque.name}` of a {kind} on {self.reaction.name}, about the spin axis a"
         return Description(f"torque {self.name}", acts, r"$`T\,\mathbf{W}_b^T\mathbf{a}`$")

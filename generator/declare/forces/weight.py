@@ -43,7 +43,6 @@ class Weight(Force):
         return "weight", "Weight"
 
     def describe(self) -> Description:
-        """Return its description in reports."""
         up = r"\mathbf{e}_z" if self.upward.name == "up" else r"\mathbf{d}"
         share = rf"$`-\sum_b m_b\,g\,\mathbf{{V}}_b^T\,{up}`$"
         return Description("weight", f"g = `{self.gravity.name}` on every body with mass", share)

@@ -78,16 +78,13 @@ class WheelLoads(Force):
 
     @property
     def identity(self) -> tuple[str, str]:
-        """The bearing of the wheel."""
         return "WheelLoads by", self.bearing.name
 
     @property
     def along(self) -> Revolute:
-        """The bearing, which it turns."""
         return self.bearing
 
     def describe(self) -> Description:
-        """Return its description in reports."""
         named = ", ".join(f"`{i.name}`" for i in (*self.contact, *self.center, *self.moment))
         torques = f"torques `{self.shaft.name}` and `{self.hub.name}` about the spin axis"
         return Description(

@@ -52,7 +52,6 @@ class WishbonePoints(SteeredPoints):
     spring: _SpringPoints = Field(alias="Spring")
 
     def own_points(self) -> dict[str, Point]:
-        """Return the joints of the arms and the ends of the spring."""
         points = {}
         for name, arm in (("lower", self.lower), ("upper", self.upper)):
             points[f"{name}_arm_front"], points[f"{name}_arm_rear"] = arm.front, arm.back
@@ -81,14 +80,12 @@ class DoubleWishboneFile(KnuckleFile, WishbonePoints):
     shock: _Shock = Field(alias="Shock")
 
     def arms(self) -> dict[str, tuple[str, ControlArm]]:
-        """Return both arms."""
         return {
             "lower_arm": ("Lower Control Arm", self.lower),
             "upper_arm": ("Upper Control Arm", self.upper),
         }
 
     def problems(self) -> list[str]:
-        """Return the problems of the file, and of a damper that hardly moves."""
         lines = super().problems()
         if self._is_apart() and not self._ratio() >= _LEAST_RATIO:
             lines.append(
@@ -100,13 +97,11 @@ class DoubleWishboneFile(KnuckleFile, WishbonePoints):
         return lines
 
     def forces(self) -> dict[str, Any]:
-        """Return spring, damper and stops."""
         stops, at_design = self.spring.stops(), math.dist(self.spring.chassis, self.spring.arm)
         own = {"spring": spring_law(self.spring).section(), "damper": self._damper().section()}
         return own | (stops.sections(at_design) if stops else {})
 
     def left_open(self) -> list[str]:
-        """Return assumptions on the position of the damper and on curves."""
         laws = spring_law(self.spring), self._damper()
         of_curves = words_of_curves(self.spring.stops(), *laws)
         if not self._is_apart():

@@ -53,7 +53,6 @@ class StrutPoints(SteeredPoints):
     spring: _SpringPoints = Field(alias="Spring")
 
     def own_points(self) -> dict[str, Point]:
-        """Return the joints of the arm and the ends of the strut."""
         return {
             "arm_front": self.control_arm.front,
             "arm_rear": self.control_arm.back,
@@ -85,11 +84,9 @@ class MacPhersonStrut(KnuckleFile, StrutPoints):
     shock: _Shock = Field(alias="Shock")
 
     def arms(self) -> dict[str, tuple[str, ControlArm]]:
-        """Return the arm."""
         return {"control_arm": ("Control Arm", self.control_arm)}
 
     def problems(self) -> list[str]:
-        """Return the problems of the file, and of a damper off the strut's axis."""
         lines, off = super().problems(), self._off_the_axis()
         if self.shock.dampers() and off > ON_THE_LINE:
             lines.append(
@@ -101,7 +98,6 @@ class MacPhersonStrut(KnuckleFile, StrutPoints):
         return lines
 
     def forces(self) -> dict[str, Any]:
-        """Return the strut with its spring and damper, and the stops."""
         spring, damper = spring_law(self.spring), damper_law(self.spring, self.shock)
         length = math.dist(self.spring.chassis, self.spring.upright)
         stops = self.spring.stops()
@@ -117,7 +113,6 @@ class MacPhersonStrut(KnuckleFile, StrutPoints):
         return {"strut": strut | {"damper_rate_N_s_per_m": damper.rate}} | own
 
     def left_open(self) -> list[str]:
-        """Return assumptions on the stroke of the strut and the line of the damper."""
         lines = [f"strut: {1e3 * _STROKE:g} mm longer when fully extended than at design"]
         laws = spring_law(self.spring), damper_law(self.spring, self.shock)
         lines += words_of_curves(self.spring.stops(), *laws)

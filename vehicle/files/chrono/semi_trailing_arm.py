@@ -66,7 +66,6 @@ class TrailingPoints(PointsFile):
     shock: _Line = Field(alias="Shock")
 
     def own_points(self) -> dict[str, Point]:
-        """Return the bearings, and the ends of spring and damper."""
         return {
             "arm_inner": self.arm.inner,
             "arm_outer": self.arm.outer,
@@ -94,11 +93,9 @@ class SemiTrailingArm(SuspensionFile, TrailingPoints):
     shock: _Shock = Field(alias="Shock")
 
     def arms(self) -> dict[str, tuple[str, ChronoArm]]:
-        """Return the arm."""
         return {"trailing_arm": ("Trailing Arm", self.arm)}
 
     def problems(self) -> list[str]:
-        """Return the problems of the file, and of stops, which act on the damper here."""
         lines = super().problems()
         if self.spring.stops():
             lines.append(
@@ -108,10 +105,8 @@ class SemiTrailingArm(SuspensionFile, TrailingPoints):
         return lines
 
     def forces(self) -> dict[str, Any]:
-        """Return spring and damper."""
         damper = damper_law(self.spring, self.shock)
         return {"spring": spring_law(self.spring).section(), "damper": damper.section()}
 
     def left_open(self) -> list[str]:
-        """Return assumptions on the ends of curves."""
         return words_of_curves(None, spring_law(self.spring), damper_law(self.spring, self.shock))

@@ -76,7 +76,6 @@ class SteeredPoints(PointsFile):
     tie_rod: Ends = Field(alias="Tierod")
 
     def points(self) -> dict[str, Point]:
-        """Return all hardpoints [m]."""
         rod = {"tie_rod_outer": self.tie_rod.upright, "tie_rod_inner": self.tie_rod.chassis}
         return super().points() | rod
 
@@ -198,17 +197,14 @@ class KnuckleFile(SuspensionFile, SteeredPoints):
     upright: ChronoBody = Field(alias="Upright")
 
     def carriers(self) -> dict[str, tuple[str, ChronoBody]]:
-        """Return the upright."""
         return {"knuckle": ("Upright", self.upright)}
 
     def data(self, tire: Tire) -> dict[str, Any]:
-        """Return the hardpoint file of the left suspension, with a rack."""
         found = super().data(tire)
         bodies = found.pop("bodies")
         return found | {"rack": {"axis": [0.0, 1.0, 0.0]}, "bodies": bodies}
 
     def assumed_alone(self, tire: Tire) -> list[str]:
-        """Return the assumptions for a suspension without its vehicle, a sentence each."""
         return [RACK, *super().assumed_alone(tire)]
 
 

@@ -90,7 +90,6 @@ class AntiRollBar(Section):
         return super().unit_of_key(key, table)
 
     def problems(self) -> list[str]:
-        """Return the problems of rate, axis and points."""
         problems = self._problems_of_rate()
         if not 1e-6 < np.linalg.norm(self.axis) < np.inf or self.axis[1] <= 0.0:
             problem = (

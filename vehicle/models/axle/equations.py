@@ -64,7 +64,6 @@ class AxleModel(System):
         return {side: Model(own, wheel_loads=True) for side, own in self.axle.sides.items()}
 
     def allowed_lengths(self) -> tuple[LengthLimit, ...]:
-        """Return the lengths that the file of each side allows."""
         return self.axle.allowed_lengths()
 
     def __reduce__(self) -> tuple[Any, ...]:

@@ -68,7 +68,6 @@ class AxleFile(Section):
     drive: Drive | None = Field(default=None, description="the drive of the axle")
 
     def problems(self) -> list[str]:
-        """Return a problem if there are not two sides."""
         given = [name for name in SECTIONS_OF_SIDES if getattr(self, name) is not None]
         if given in (["side"], ["right", "left"]):
             return []

@@ -262,7 +262,6 @@ class Car(DescribedParts):
 
     @property
     def parts_named(self) -> list[str]:
-        """The file names of its corner or axles, except those that are tables."""
         given = [getattr(self.described, key) for key in _PARTS]
         return [name for name in given if isinstance(name, str)]
 

@@ -88,7 +88,6 @@ class CarModel(System):
         self.wheel_loads = False
 
     def allowed_lengths(self) -> tuple[LengthLimit, ...]:
-        """Return the lengths that the files of the sides allow."""
         if self.car.corner is not None:
             return self.car.corner.allowed_lengths()
         return tuple(

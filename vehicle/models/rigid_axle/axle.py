@@ -93,19 +93,16 @@ class BeamAxle(WholeAxle):
         }
 
     def _left_points(self) -> dict[str, Array]:
-        """Return the points of the left side that are not mirror images [m]."""
         unit, own = self.hardpoints.unit, self.left_hardpoints.model_dump(exclude_none=True)
         return {name: point_in_metres(point, unit) for name, point in own.items()}
 
     @property
     def joint_names(self) -> tuple[str, ...]:
-        """The names of the ends of rods, and of the seats, on the axle."""
         ends = [f"{name}_axle" for name in self.rods]
         own = [name for name in self.points(SIDES[0]) if not name.endswith("_top")]
         return (*ends, *(f"{name}_{side}" for name in own for side in SIDES))
 
     def drawn_lines(self) -> Iterator[tuple[str, str, float, Array]]:
-        """Yield the axle and its rods: label, colour, width and points, (2, 3) [m]."""
         half = self.half_track * _LEFTWARD
         yield "axle", _BEAM, 5.0, np.array([self.center - half, self.center + half])
         for color, (name, ends) in zip(_RODS, self.ends().items(), strict=False):
@@ -118,11 +115,9 @@ class BeamAxle(WholeAxle):
 
     @property
     def overheld(self) -> bool:
-        """Whether five rods hold it, so that it moves only as its bushes deflect."""
         return self.bushings is not None and len(self.guides) == len(self.rods) - 1 == NEEDED
 
     def structure(self) -> Structure:
-        """Return the structure that connects its parts."""
         return structure_of(self.rods)
 
     def bushes(self, given: Validator, described: Mapping[str, Any]) -> list[Bush]:
@@ -151,7 +146,6 @@ class BeamAxle(WholeAxle):
         return points
 
     def parameters(self) -> dict[str, float]:
-        """Return the parameters of the equations of motion by name, in SI units."""
         values = {
             **components("axle_center", self.center),
             "gravity": self.gravity.acceleration_m_per_s2,
@@ -206,7 +200,6 @@ class BeamAxle(WholeAxle):
         return Hold.of(ends, self.center).problems()
 
     def _check_bushes(self, given: Validator, bushes: Sequence[Bush]) -> None:
-        """Refuse five rods of which none deflects along itself."""
         if given.failed or not self.overheld:
             return
         ends = self.ends()
@@ -238,7 +231,6 @@ class BeamAxle(WholeAxle):
         return 0.5 * self.bodies.beam.mass_kg
 
     def _unlikely(self) -> Iterable[str]:
-        """Yield almost certain mistakes: units, and rods with swapped ends."""
         ends_of_rods = {
             f"[rods.{name}] {end}": at
             for name, ends in self.ends().items()
@@ -301,5 +293,4 @@ Points of bushings are the names of the rods with the ending `_chassis` or `_axl
 """
 
     def heading(self) -> str:
-        """Return the name of the axle."""
         return f"rigid {self.rigid_axle} axle"

@@ -77,7 +77,6 @@ class RigidAxleModel(WholeAxleModel):
         return made, (self.axle,)
 
     def _check(self) -> None:
-        """Refuse an axle on five rigid rods."""
         if self.axle.overheld and not self._guided:
             raise InputError([_OVERHELD.format(rods=", ".join(self.axle.rods))], "RigidAxleModel")
 
@@ -121,5 +120,4 @@ class RigidAxleModel(WholeAxleModel):
         return found
 
     def turned(self, states: Array) -> Array:
-        """Return the inclination of the axle [rad]."""
         return np.abs(states[..., self.state_names.index(ROLL)])

@@ -97,24 +97,20 @@ ends of the drag link, `pitman_ball` and `drag_link_knuckle`.
     POINTS_OF_SIDES: ClassVar[tuple[str, ...]] = (LOWER, UPPER, TRACK_ROD, CENTER)
 
     def heading(self) -> str:
-        """Return the name of the axle."""
         return "steered rigid front axle"
 
     # -- its steering ---------------------------------------------------------------------------
 
     @classmethod
     def steered(cls) -> bool:
-        """Return True."""
         return True
 
     @property
     def steered_by(self) -> str:
-        """The key of the section of its steering."""
         return "pitman_arm"
 
     @property
     def steering_gear(self) -> PitmanArmSection:
-        """The section of its steering."""
         return self.pitman_arm
 
     @property
@@ -124,7 +120,6 @@ ends of the drag link, `pitman_ball` and `drag_link_knuckle`.
 
     @property
     def equations_name(self) -> str:
-        """The name of its equations, which depend on the side of the drag link."""
         return self.KEY if self.near == LEFT else f"{self.KEY}_{RIGHT}"
 
     def steering_points(self) -> dict[str, Array]:
@@ -142,11 +137,9 @@ ends of the drag link, `pitman_ball` and `drag_link_knuckle`.
 
     @property
     def joint_names(self) -> tuple[str, ...]:
-        """The names of the ends of rods and links, and of the seats, on axle and knuckles."""
         return (*super().joint_names, BALL, KNUCKLE_END)
 
     def drawn_lines(self) -> Iterator[tuple[str, str, float, Array]]:
-        """Yield axle, rods and steering: label, colour, width and points, (n, 3) [m]."""
         steering = self.steering_points()
         pins = {side: self._kingpin(side) for side in SIDES}
         middle = {side: 0.5 * (low + high) for side, (low, high) in pins.items()}
@@ -171,20 +164,16 @@ ends of the drag link, `pitman_ball` and `drag_link_knuckle`.
         return points[LOWER], points[UPPER]
 
     def structure(self) -> Structure:
-        """Return the structure that connects its parts."""
         return structure_of(self.rods, self.near)
 
     def _joints_of_a_file(self) -> Structure:
-        """Return the joints that have bushes in a file: those of both sides are one."""
         return of_a_file(self.rods)
 
     def _bush_points(self) -> dict[str, Array]:
-        """Return the points of these joints at design by name [m]."""
         other = {f"{TRACK_ROD}_other": self.points(LEFT)[TRACK_ROD]}
         return super()._bush_points() | other | self.steering_points()
 
     def parameters(self) -> dict[str, float]:
-        """Return the parameters of the equations of motion by name, in SI units."""
         values = super().parameters() | self.pitman_arm.parameters()
         values |= components(KNUCKLE_END, self.steering_points()[KNUCKLE_END])
         for prefix, side in (("", RIGHT), ("left_", LEFT)):
@@ -265,20 +254,16 @@ ends of the drag link, `pitman_ball` and `drag_link_knuckle`.
         return abs(float(cross(unit_vector(high - low), at - low) @ unit_vector(along)))
 
     def _further_points(self) -> dict[str, Array]:
-        """Return the points of Pitman arm and drag link [m], by their names in messages."""
         end = self.steering_points()[KNUCKLE_END]
         return {**self.pitman_arm.given_points(), "[drag_link] knuckle": end}
 
     def _carriers(self) -> dict[str, RigidBody]:
-        """Return the bodies besides the wheels, by name."""
         return super()._carriers() | {"knuckle": self.bodies.knuckle}
 
     def _unsprung_mass(self) -> float:
-        """Return the unsprung mass at a wheel, without the wheel [kg]."""
         return super()._unsprung_mass() + self.bodies.knuckle.mass_kg
 
     def _unlikely(self) -> Iterable[str]:
-        """Yield almost certain mistakes: units, swapped ends, and a drag link at the other side."""
         yield from super()._unlikely()
         end = self.steering_points()[KNUCKLE_END]
         far = {side: np.linalg.norm(end - np.mean(self._kingpin(side), axis=0)) for side in SIDES}

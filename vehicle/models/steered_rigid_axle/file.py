@@ -26,7 +26,6 @@ class SteeredHardpoints(WholeAxleHardpoints):
     track_rod: Triple = Field(description="end of the track rod at the right knuckle")
 
     def geometry_problems(self) -> list[str]:
-        """Return problems of springs, dampers and kingpins whose ends coincide or are swapped."""
         problems = super().geometry_problems() + self.coincidence_problems(
             self.coinciding({"kingpin": (LOWER, UPPER)})
         )

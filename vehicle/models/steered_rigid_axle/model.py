@@ -74,7 +74,6 @@ class SteeredRigidAxleModel(RigidAxleModel):
         return states.reshape(*left.shape, len(self.state_names))
 
     def moved(self, states: Array, left: Array, right: Array, inputs: Array | None = None) -> Array:
-        """Return states with the rates for velocities of the wheels, and of the steering [m/s]."""
         lead = states.shape[:-1]
         rows = self.with_rates(states.reshape(-1, states.shape[-1]), 0.0)
         acting = self.inputs_at(np.zeros(lead)) if inputs is None else inputs

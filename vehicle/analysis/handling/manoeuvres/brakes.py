@@ -29,7 +29,6 @@ class BrakingManoeuvre(UntilSpeed):
     duration_s: Positive = Field(default=20.0, description="longest duration of the simulation")
 
     def problems(self) -> list[str]:
-        """Return the problems of the values together."""
         found = super().problems()
         if (self.pedal is None) == (self.deceleration_m_per_s2 is None):
             found.append("pedal, deceleration_m_per_s2: give one of the two.")
@@ -38,7 +37,6 @@ class BrakingManoeuvre(UntilSpeed):
         return found
 
     def check(self, car: Car) -> None:
-        """Raise an error for a car that cannot drive the manoeuvre, or has no brakes."""
         require_controls(car, brakes=True)
         super().check(car)
 

@@ -35,7 +35,6 @@ class Circle(Manoeuvre):
     step_m_per_s2: Positive = Field(default=0.25, description="step of the lateral acceleration")
 
     def problems(self) -> list[str]:
-        """Return the problems of the values together."""
         constant = (self.speed_km_per_h, self.radius_m, self.steering_wheel_deg)
         if sum(value is not None for value in constant) != 1:
             return ["speed_km_per_h, radius_m, steering_wheel_deg: give one of the three."]

@@ -117,7 +117,6 @@ class DoubleLaneChange(TurningManoeuvre):
         return f"{words}, {self.speed_km_per_h:g} km/h"
 
     def problems(self) -> list[str]:
-        """Return the problems of the values together."""
         found = super().problems()
         if len(self.lanes) < 2:
             found.append(

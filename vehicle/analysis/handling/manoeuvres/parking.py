@@ -111,7 +111,6 @@ class Parking(Manoeuvre):
     )
 
     def problems(self) -> list[str]:
-        """Return the problems of the values together."""
         found = super().problems()
         least, most = self.largest_deg / _MOST_STEPS, 0.25 * self.largest_deg
         if not least <= self.step_deg <= most:

@@ -33,12 +33,10 @@ class PathFollowing(SimulatedManoeuvre):
     duration_s: Positive = Field(default=120.0, description="longest duration of the simulation")
 
     def wanted_path(self) -> Array:
-        """Return points of the path [m], shape (n, 2)."""
         path = Path(np.array([self.x_m, self.y_m]).T)
         return np.array([path.at(along) for along in np.linspace(0.0, path.length, _DRAWN)])
 
     def problems(self) -> list[str]:
-        """Return the problems of the values together."""
         found = super().problems()
         if len(self.x_m) != len(self.y_m):
             found.append(

@@ -34,7 +34,6 @@ class SimulatedManoeuvre(Manoeuvre):
     output_step_ms: Positive = Field(default=5.0, description="time between two outputs")
 
     def problems(self) -> list[str]:
-        """Return the problems of the values together."""
         found = super().problems()
         ratio = self.output_step_ms / self.step_ms
         if abs(ratio - round(ratio)) > 1e-9 * ratio or ratio < 1.0:
@@ -57,7 +56,6 @@ class SimulatedManoeuvre(Manoeuvre):
 
     @property
     def greatest_distance(self) -> float:
-        """The distance that the car travels at most, from its speed and duration [m]."""
         return self.speed * float(getattr(self, "duration_s", _USUAL_DURATION))
 
     @property
@@ -152,7 +150,6 @@ class TurningManoeuvre(SimulatedManoeuvre):
 
     @property
     def sense(self) -> int:
-        """1 for turns to the left, -1 to the right."""
         return 1 if self.turn == "left" else -1
 
 
@@ -168,7 +165,6 @@ class SteeredManoeuvre(TurningManoeuvre):
     )
 
     def problems(self) -> list[str]:
-        """Return the problems of the values together."""
         found = super().problems()
         if (self.lateral_acceleration_m_per_s2 is None) == (self.steering_wheel_deg is None):
             found.append("lateral_acceleration_m_per_s2, steering_wheel_deg: give one of the two.")
@@ -192,7 +188,6 @@ class UntilSpeed(SimulatedManoeuvre):
     until_km_per_h: Positive = Field(description="speed at which it ends")
 
     def problems(self) -> list[str]:
-        """Return the problems of the values together."""
         found = super().problems()
         first, last = self.speed_km_per_h, self.until_km_per_h
         if first <= last if self.SLOWS else first >= last:
@@ -210,7 +205,6 @@ class UntilSpeed(SimulatedManoeuvre):
 
     @property
     def greatest_distance(self) -> float:
-        """The distance that the car travels at most, from its greatest speed and duration [m]."""
         return super().greatest_distance * max(1.0, self.end_speed / self.speed)
 
     def ended(self, seen: Observation) -> bool:

@@ -47,7 +47,6 @@ class SineSweep(SteeredManoeuvre):
     )
 
     def problems(self) -> list[str]:
-        """Return the problems of the values together."""
         found = super().problems()
         if self.highest_Hz <= self.lowest_Hz:
             found.append(

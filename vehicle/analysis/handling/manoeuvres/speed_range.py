@@ -27,7 +27,6 @@ class SpeedRange(Manoeuvre):
     step_km_per_h: Positive = Field(default=5.0, description="step of the speeds")
 
     def problems(self) -> list[str]:
-        """Return the problems of the values together."""
         found = super().problems()
         first, last, step = self.from_km_per_h, self.to_km_per_h, self.step_km_per_h
         if not first + step <= last <= first + _MOST * step:

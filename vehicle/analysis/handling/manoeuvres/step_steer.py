@@ -39,7 +39,6 @@ class StepSteer(SteeredManoeuvre):
     )
 
     def problems(self) -> list[str]:
-        """Return the problems of the values together."""
         found = super().problems()
         if self.start_s + self.settled_s >= self.duration_s:
             found.append(
