@@ -22,7 +22,7 @@ from .coupling import BodyPose
 from .held import RestConditions
 from .load import Load, known
 from .measures.measure import Measure, values
-from .part_poses import PartPoses
+from .part_poses import PartPoses, states_with
 from .quantity import RACK, Quantity, displaced_by
 from .rig import RigMotion, RigPosition, SweepRange, WheelReach
 from .soft_lines import SoftLines
@@ -71,6 +71,14 @@ class Assembly(ABC):
     subject: Any  # data of its files
     # equations of motion; those of an axle or a car are derived and compiled at first use
     model: Any
+    wheeled: Sequence[WheeledSection]  # data of the file that describes each wheel, by wheel
+    own_sections: Mapping[str, Any] = {}  # those of an axle's own file, besides those of its sides
+    axles: tuple[str, ...] = ()  # ends at which a car has axles, which have measures of their own
+    body_moves = False  # whether the vehicle's body moves in the equations; otherwise it is held
+    drives = False  # whether it is a car on rolling tyres
+    moves_rigidly = True  # whether it moves with rigid joints; a rigid axle on five rods does not
+    on_a_beam = False  # whether one body carries both wheels and has a steer angle of its own
+    symmetric = True  # whether one side is the mirror image of the other
 
     NEEDED: ClassVar[str] = (
         "a kintrafo.Suspension or Model, an Axle, or a RigidAxle is needed; "
@@ -111,11 +119,6 @@ class Assembly(ABC):
         return RigMotion(along, f"the {' '.join(moves)}, {wheels} at one height", f"the {moves[0]}")
 
     @property
-    @abstractmethod
-    def wheeled(self) -> Sequence[WheeledSection]:
-        """The data of the file that describes each wheel, by wheel."""
-
-    @property
     def tyres(self) -> Sequence[TyreSection]:
         """The tyres, by wheel."""
         return [file.tyre for file in self.wheeled]
@@ -131,29 +134,9 @@ class Assembly(ABC):
         return any(file.bushings for file in self.wheeled)
 
     @property
-    def axles(self) -> tuple[str, ...]:
-        """The ends at which a car has axles, which have measures of their own."""
-        return ()
-
-    @property
     @abstractmethod
     def held_parts(self) -> "Mapping[str, HeldAssembly]":
         """The assemblies with a held body of which it consists, by name."""
-
-    @property
-    def body_moves(self) -> bool:
-        """Whether the vehicle's body moves in the equations; otherwise it is held."""
-        return False
-
-    @property
-    def drives(self) -> bool:
-        """Whether it is a car on rolling tyres."""
-        return False
-
-    @property
-    def moves_rigidly(self) -> bool:
-        """Whether it moves with rigid joints; a rigid axle on five rods does not."""
-        return True
 
     @property
     def simplified(self) -> Sequence[str]:
@@ -161,29 +144,14 @@ class Assembly(ABC):
         return ()
 
     @property
-    def on_a_beam(self) -> bool:
-        """Whether one body carries both wheels and has a steer angle of its own."""
-        return False
-
-    @property
     def usual_motion(self) -> str:
         """The motion of a rig in which all wheels rise and fall together."""
         return next(iter(self.motions))
 
     @property
-    def symmetric(self) -> bool:
-        """Whether one side is the mirror image of the other."""
-        return True
-
-    @property
     @abstractmethod
     def words(self) -> str:
         """A description in sentences."""
-
-    @property
-    def own_sections(self) -> Mapping[str, Any]:
-        """The sections of an axle's own file, besides those of its sides."""
-        return {}
 
     # -- its positions on a rig -------------------------------------------------------------------
 
@@ -352,6 +320,8 @@ class Assembly(ABC):
 class HeldAssembly(Assembly):
     """An assembly whose body is held: a corner, an axle, or an axle without sides."""
 
+    PARTS: ClassVar[Any]  # the class of a group of its parts
+
     # -- its parts ---------------------------------------------------------------------------------
 
     @property
@@ -438,9 +408,9 @@ class HeldAssembly(Assembly):
         `racks` are displacements of the rack, (n,) [m].
         """
 
-    @abstractmethod
     def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
         """Return whether a wheel has a stop."""
+        return getattr(self.wheeled[self.wheels.index(wheel)], which) is not None
 
     def reached(self, coordinates: Array, racks: Array) -> NDArray[np.bool_]:
         """Return whether the loops close, for wheels within the range of each, (n,)."""
@@ -488,18 +458,19 @@ class HeldAssembly(Assembly):
         words = f"torque of the anti-roll bar, {self.BAR_SIGN}"
         return {"bar_torque": variable(over, self.bar_torque(poses), words, "N m")}
 
-    @abstractmethod
     def in_motion(
         self, states: Array, inputs: Array
     ) -> tuple[dict[str, PartPoses], dict[str, Array]]:
         """Return the parts in states of the equations, and the rates of these, by suffix."""
+        rates = self.model.evaluate("rhs", states, inputs)
+        return {"": self.PARTS.of(self.model, states, inputs)}, {"": rates}
 
-    @abstractmethod
     def parts_with(self, values: Mapping[str, Array], count: int) -> dict[str, PartPoses]:
         """Return the parts in chassis axes, by suffix, at `count` positions.
 
         `values` are states and inputs by their names in the equations, (count,); others are zero.
         """
+        return {"": self.PARTS.of(self.model, *states_with(self.model, values, count))}
 
     # -- bushes ------------------------------------------------------------------------------------
 

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from ...core.named_types import Array
 from ...core.validator import Validator
 from ..corner.bushes import described_bushings, mirrored_bushings, softness_of_rack
-from ..kinds import Suspension
 from ..models.axle import Axle
 from ..models.axle.equations import AxleModel
 from ..models.model import Model
@@ -55,6 +54,12 @@ class AxleAssembly(SteerableAssembly):
     def __init__(self, axle: Axle, model: AxleModel | None = None) -> None:
         self.subject = self.axle = axle
         self._model = model
+        self.wheeled = [*axle.sides.values()]
+        self.symmetric = axle.symmetric
+        names = {"anti_roll_bar": "bar", "drive": "drive", "brakes": "brakes"}
+        found = {name: getattr(axle, own) for name, own in names.items()}
+        found["steering"] = axle.steering
+        self.own_sections = {name: each for name, each in found.items() if each is not None}
         self.motions = motions_of_two() | self.of_steering()
 
     @property
@@ -68,14 +73,6 @@ class AxleAssembly(SteerableAssembly):
         return found | {"": own}
 
     @property
-    def wheeled(self) -> Sequence[Suspension]:
-        return [*self.axle.sides.values()]
-
-    @property
-    def symmetric(self) -> bool:
-        return self.axle.symmetric
-
-    @property
     def words(self) -> str:
         by = f", {self.axle.steering_gear.WORDS}" if self.steered else ""
         words = [
@@ -84,13 +81,6 @@ class AxleAssembly(SteerableAssembly):
             *(f"Anti-roll bar: {bar}." for bar in self.described().values()),
         ]
         return " ".join(words)
-
-    @property
-    def own_sections(self) -> Mapping[str, Any]:
-        names = {"anti_roll_bar": "bar", "drive": "drive", "brakes": "brakes"}
-        found = {name: getattr(self.axle, own) for name, own in names.items()}
-        found["steering"] = self.axle.steering
-        return {name: section for name, section in found.items() if section is not None}
 
     def usual_travel(self, motion: str, far: SweepRange) -> Array:
         if motion == "roll":
@@ -197,9 +187,6 @@ class AxleAssembly(SteerableAssembly):
             poses = self._corners[side].at_angles(coordinates[:, i], racks)
             found &= np.isfinite(turn_of_half(self.axle, side, poses)[1])
         return found
-
-    def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
-        return getattr(self.axle.sides[wheel], which) is not None
 
     @property
     def rules(self) -> tuple[str, ...]:

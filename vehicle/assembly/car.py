@@ -14,7 +14,6 @@ from ...equations.errors import ModelError
 from ...equations.layout import rotation
 from ...systems.rest import rest
 from ...systems.state import State
-from ..corner.wheeled import WheeledSection
 from ..input.units import in_metres
 from ..kinds import Suspension
 from ..models.car.car import AnyAxle, Car, center_of_gravity, masses, suspension_masses
@@ -60,17 +59,16 @@ class CarAssembly(Assembly):
     def __init__(self, car: Car, model: CarModel | None = None) -> None:
         self.subject = self.car = car
         self._model = model
-        self.wheels = car.wheels
+        self.wheels, self.axles = car.wheels, tuple(car.axles)
+        self.body_moves, self.drives = True, car.drives
         parts: Mapping[str, Any] = car.axles or {"": car.corner}
         self.held = {end: _held(part) for end, part in parts.items()}
+        self.wheeled = [file for part in self.held.values() for file in part.wheeled]
+        self.symmetric = all(part.symmetric for part in self.held.values())
         known = _MOTIONS if car.axles else {"heave": _MOTIONS["heave"]}
         self.motions = dict(known)
 
     # -- its data ---------------------------------------------------------------------------------
-
-    @property
-    def axles(self) -> tuple[str, ...]:
-        return tuple(self.car.axles)
 
     @property
     def held_parts(self) -> Mapping[str, HeldAssembly]:
@@ -132,22 +130,6 @@ class CarAssembly(Assembly):
             for begin, section in _held(part).input_sections.items():
                 found[f"{name} {begin}".strip()] = section
         return found
-
-    @property
-    def body_moves(self) -> bool:
-        return True
-
-    @property
-    def drives(self) -> bool:
-        return self.car.drives
-
-    @property
-    def wheeled(self) -> Sequence[WheeledSection]:
-        return [file for part in self.held.values() for file in part.wheeled]
-
-    @property
-    def symmetric(self) -> bool:
-        return all(part.symmetric for part in self.held.values())
 
     @property
     def words(self) -> str:

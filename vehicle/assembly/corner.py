@@ -10,7 +10,6 @@ from ...core.named_types import Array, ArrayLike
 from ...core.validator import Validator
 from ..corner.bushes import described_bushings, softness_of_rack
 from ..corner.corner import Corner
-from ..kinds import Suspension
 from ..models.axle.file import TorqueReaction
 from ..models.model import Model
 from ..models.positions import PositionError, arm_angles, design_height
@@ -23,7 +22,7 @@ from .load import Load
 from .measures.corner import OF_STEERING, OVER_RACK, OVER_TRAVEL
 from .measures.measure import Measure
 from .mirrored_corner import MirroredCorner
-from .part_poses import CornerParts, PartPoses, states_with
+from .part_poses import CornerParts, PartPoses
 from .quantity import TRAVEL, Quantity
 from .rest import forces_of, nearest
 from .rig import RigMotion, RigPosition, SweepRange, WheelReach
@@ -38,17 +37,16 @@ _TRAVEL = {"travel": RigMotion(TRAVEL, "the wheel rises and falls", "wheel trave
 class CornerAssembly(HeldAssembly):
     """A corner."""
 
+    PARTS = CornerParts
+
     def __init__(self, model: Model) -> None:
         self.model: Model = model
-        self.subject: Suspension = model.suspension
+        self.subject = model.suspension
+        self.wheeled = (model.suspension,)
         self.wheels = (model.suspension.vehicle.side,)
         self.motions = dict(_TRAVEL)
         if self.steered:
             self.motions["rack"] = self.motion_of_steering("the wheel")
-
-    @property
-    def wheeled(self) -> Sequence[Suspension]:
-        return (self.subject,)
 
     @property
     def words(self) -> str:
@@ -177,9 +175,6 @@ class CornerAssembly(HeldAssembly):
         """Return the parts at rest, (n,)."""
         return CornerParts.of(self.model, *at_rest(self.model, self._sense * coordinates, racks))
 
-    def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
-        return getattr(self.subject, which) is not None
-
     def torque_on(self, what: Literal["brakes", "drive"]) -> TorqueReaction:
         return "carrier" if what == "brakes" else "body"
 
@@ -191,15 +186,6 @@ class CornerAssembly(HeldAssembly):
         self, poses: Mapping[str, PartPoses], loads: Sequence[Load]
     ) -> tuple[list[Load], dict[str, BodyPose]]:
         return on_the_steering(poses[""], loads, "rack_guide")
-
-    def in_motion(
-        self, states: Array, inputs: Array
-    ) -> tuple[dict[str, PartPoses], dict[str, Array]]:
-        poses = CornerParts.of(self.model, states, inputs)
-        return {"": poses}, {"": self.model.evaluate("rhs", states, inputs)}
-
-    def parts_with(self, values: Mapping[str, Array], count: int) -> dict[str, PartPoses]:
-        return {"": CornerParts.of(self.model, *states_with(self.model, values, count))}
 
     def bushes(self, given: Validator, bushings: Mapping[str, Any] | None) -> Bushings:
         described = described_bushings(given, bushings, self.subject.bushings)

@@ -37,14 +37,11 @@ class RigidAxleAssembly(WholeAxleAssembly):
     MODES: ClassVar[Mapping[str, str]] = {HEAVE: "axle hop", ROLL: "axle tramp"}
 
     axle: BeamAxle
+    on_a_beam = True
 
     def _model(self) -> RigidAxleModel:
         """Return its equations; of an axle on five rods those of four."""
         return self.MODEL(self.axle, guided=self.axle.overheld)
-
-    @property
-    def moves_rigidly(self) -> bool:
-        return not self.axle.overheld
 
     @property
     def simplified(self) -> Sequence[str]:
@@ -52,10 +49,6 @@ class RigidAxleAssembly(WholeAxleAssembly):
             return ()
         (fifth,) = {*self.axle.rods} - {*self.axle.guides}
         return "the rotation of the springs", f"the effect of {fifth} on the position of the axle"
-
-    @property
-    def on_a_beam(self) -> bool:
-        return True
 
     @property
     def words(self) -> str:

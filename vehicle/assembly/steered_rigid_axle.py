@@ -205,11 +205,7 @@ class SteeredRigidAxleAssembly(RigidAxleAssembly):
     )
 
     axle: SteeredRigidAxle
-
-    @property
-    def on_a_beam(self) -> bool:
-        """Each wheel has a knuckle with a steer angle of its own."""
-        return False
+    on_a_beam = False  # each wheel has a knuckle with a steer angle of its own
 
     @property
     def words(self) -> str:

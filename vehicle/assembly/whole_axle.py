@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from importlib import import_module
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +20,7 @@ from .assembly import Bushings
 from .held import RestConditions
 from .load import Load
 from .motions import MOST_ROLL, USUAL_ROLL, USUAL_ROLL_STEP
-from .part_poses import PartPoses, states_with
+from .part_poses import PartPoses
 from .rest import settled
 from .rig import RigPosition, SweepRange
 from .soft_lines import SoftLines, lines_of_beam
@@ -58,15 +58,13 @@ class WholeAxleAssembly(SteerableAssembly):
     def __init__(self, axle: Any, model: Any = None) -> None:
         self.subject = self.axle = axle
         self.model = self._model() if model is None else model
+        self.wheeled = [axle] * len(SIDES)
+        self.moves_rigidly = not axle.overheld
         self.motions = motions_of_two() | self.of_steering()
 
     def _model(self) -> WholeAxleModel:
         """Return its equations."""
         return self.MODEL(self.axle)
-
-    @property
-    def wheeled(self) -> Sequence[WholeAxle]:
-        return [self.axle] * len(SIDES)
 
     def usual_travel(self, motion: str, far: SweepRange) -> Array:
         if motion == "roll":
@@ -213,9 +211,6 @@ class WholeAxleAssembly(SteerableAssembly):
         closing = margins[:, : len(self.model.equations.GUARDS)]
         return np.asarray(beyond | ~(closing > 0.0).all(axis=-1))
 
-    def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
-        return getattr(self.axle, which) is not None
-
     @property
     def rules(self) -> tuple[str, ...]:
         return self.axle.structure().rules
@@ -228,15 +223,6 @@ class WholeAxleAssembly(SteerableAssembly):
 
     def bar_twist(self, poses: Mapping[str, Any]) -> dict[str, Array]:
         return {"": poses[""].twist}
-
-    def in_motion(
-        self, states: Array, inputs: Array
-    ) -> tuple[dict[str, PartPoses], dict[str, Array]]:
-        rates = self.model.evaluate("rhs", states, inputs)
-        return {"": self.PARTS.of(self.model, states, inputs)}, {"": rates}
-
-    def parts_with(self, values: Mapping[str, Array], count: int) -> dict[str, PartPoses]:
-        return {"": self.PARTS.of(self.model, *states_with(self.model, values, count))}
 
     def bushes(self, given: Validator, bushings: Mapping[str, Any] | None) -> Bushings:
         described = described_bushings(given, bushings, self.axle.bushings)
