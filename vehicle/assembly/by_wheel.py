@@ -55,18 +55,10 @@ def stacked(
 
 
 def flat(dataset: xr.Dataset) -> xr.Dataset:
-    """Return a dataset without the dimension of the wheels, for a table.
+    """Return the dataset of an analysis without the dimension of the wheels, for a table.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        From an analysis.
-
-    Returns
-    -------
-    xarray.Dataset
-        With ``camber_left`` and ``camber_right`` instead of ``camber`` over ``wheel``; other
-        variables are unchanged. The wheel of a corner is not named.
+    It has ``camber_left`` and ``camber_right`` instead of ``camber`` over ``wheel``; other
+    variables are unchanged. The wheel of a corner is not named.
 
     Examples
     --------

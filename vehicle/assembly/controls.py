@@ -23,11 +23,6 @@ class Controls:
 
     Each method takes numbers or arrays and returns values by the names of inputs.
 
-    Parameters
-    ----------
-    car : Car
-        A car that drives.
-
     Examples
     --------
     >>> import kintrafo

@@ -38,13 +38,8 @@ def read(
 ) -> "list[Goal]":
     """Return the goals of a file for the axes of some curves; none without a file.
 
-    Parameters
-    ----------
-    path : Path or None
-    ways : sequence of str or None
-        Axes of the curves, or supports of the wheels for compliance; None for all in the file.
-    known : sequence of str, optional
-        Axes that the file may have, the default first.
+    `ways` are these axes, or supports of the wheels for compliance, None for all in the file;
+    `known` those that the file may have, the default first.
     """
     if path is None:
         return []

@@ -192,21 +192,9 @@ class Outputs:
     ) -> list[Path]:
         """Write the data and figures, and return the files.
 
-        Parameters
-        ----------
-        dataset : xarray.Dataset
-        title : str
-            Title of the figures.
-        names : sequence of str, optional
-            Curves of the page. Default: all.
-        suffix : str, optional
-            End of the name of each file, for commands with several datasets.
-        rows : xarray.Dataset, optional
-            Form of the data for tables. Default: `dataset`.
-        drawn : xarray.Dataset, optional
-            Form of the data for figures. Default: `dataset`.
-        goals : sequence of Goal, optional
-            Targets and limits drawn into the curves.
+        `names` are the curves of the page, by default all; `suffix` is the end of the name of each
+        file, for commands with several datasets. `rows` is the form of the data for tables, `drawn`
+        that for figures; `goals` are drawn into the curves.
         """
         written = self.write_data(dataset, suffix, rows=rows)
         if not self.drawn:

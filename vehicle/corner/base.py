@@ -164,25 +164,6 @@ class Suspension(WheeledSection):
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any], source: str = "input data") -> Self:
-        """Return a suspension from nested dictionaries with the keys of the input file.
-
-        Parameters
-        ----------
-        data : mapping
-            The sections, with their keys and units as in the file.
-        source : str, optional
-            Origin of the data, for error messages.
-
-        Returns
-        -------
-        Suspension
-            The suspension, of the kind that the data name.
-
-        Raises
-        ------
-        InputError
-            If the data are not valid; it lists all problems.
-        """
         check_keys(source, "data", data, "keys and values of the input file")
         try:
             return _kind_of(data, cls)(**data)

@@ -101,7 +101,25 @@ class Described:
     @classmethod
     @abstractmethod
     def from_dict(cls, data: Mapping[str, Any], source: str = "input data") -> Self:
-        """Return an object from nested dictionaries with the keys of the file."""
+        """Return an object from nested dictionaries with the keys of the file.
+
+        Parameters
+        ----------
+        data : mapping
+            The sections, with their keys and units as in the file.
+        source : str, optional
+            Origin of the data, for error messages.
+
+        Returns
+        -------
+        Suspension, Axle, RigidAxle or Car
+            A suspension is of the kind that the data name.
+
+        Raises
+        ------
+        InputError
+            If the data are not valid; it lists all problems.
+        """
 
     @abstractmethod
     def to_dict(self, *, exclude_defaults: bool = False) -> dict[str, Any]:
@@ -158,7 +176,8 @@ class Described:
         Raises
         ------
         InputError
-            If the file exists already, or the name cannot be used.
+            If the file exists already, or the name cannot be used; or if a tyre of a car was made
+            in Python and has no file.
         """
         with Validator(type(self).__name__) as given:
             given.path("path", path)

@@ -18,21 +18,11 @@ def hardpoints(
     *,
     poses: tuple[Array, Array] | None = None,
 ) -> dict[str, Array]:
-    """Return the hardpoints in chassis axes.
+    """Return the positions of the hardpoints in chassis axes by name, (..., 3) [m].
 
-    Parameters
-    ----------
-    model : Model
-    state, inputs : array_like
-        One state or many, as in the compiled module.
-    poses : tuple of ndarray, optional
-        Positions and orientations there, if they have been evaluated.
-
-    Returns
-    -------
-    dict
-        Positions by name, (..., 3) [m]. A point that the file leaves out has the position of the
-        point that replaces it.
+    State and inputs, one or many, are as in the compiled module; `poses` are positions and
+    orientations there, if they have been evaluated. A point that the file leaves out has the
+    position of the point that replaces it.
 
     Examples
     --------

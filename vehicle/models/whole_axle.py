@@ -121,20 +121,6 @@ class WholeAxle(WheeledSection):
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any], source: str = "input data") -> Self:
-        """Make such an axle from nested dictionaries with the keys of the file.
-
-        Parameters
-        ----------
-        data : mapping
-            The sections, with their keys and units as in the file.
-        source : str, optional
-            Origin of the data, for error messages.
-
-        Raises
-        ------
-        InputError
-            If the data are not valid; it lists all problems.
-        """
         check_keys(source, "data", data, f"keys and values of {words_of(cls.KEY)}'s file")
         if cls.KEY not in data:
             first, *others = reversed(get_args(cls.model_fields[cls.KEY].annotation))

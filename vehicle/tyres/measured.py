@@ -43,13 +43,9 @@ class Measured:
 def measured(data: "str | Path | Mapping[str, Any]") -> Measured:
     """Return a measurement with the load, other states, and at least one force.
 
-    Raises `InputError` if it cannot be read, or has no load or no force.
-
-    Parameters
-    ----------
-    data : str, pathlib.Path or mapping
-        A CSV file whose columns are named with their units, such as ``load_N``, ``slip_angle_deg``,
-        ``slip``, ``camber_deg``, ``fy_N``, ``mz_Nm``; or arrays by name, in SI units.
+    It is a CSV file whose columns are named with their units, such as ``load_N``,
+    ``slip_angle_deg``, ``slip``, ``camber_deg``, ``fy_N``, ``mz_Nm``; or arrays by name, in SI
+    units. Raises `InputError` if it cannot be read, or has no load or no force.
     """
     if isinstance(data, Mapping):
         return _checked(_of_arrays(data), "fit", ())

@@ -63,15 +63,10 @@ class TirFile:
 
 
 def read(path: str | Path) -> TirFile:
-    """Return the contents of a property file.
+    """Return the contents of a property file: PAC2002 (also MF 5.2), MF 6.1 or MF 6.2.
 
     Raises `InputError` if the format is another one, or keys are missing, given twice or not
     numbers; the message lists all problems.
-
-    Parameters
-    ----------
-    path : str or pathlib.Path
-        PAC2002 (also MF 5.2), MF 6.1 or MF 6.2.
     """
     return _Reader(read_blocks(path), str(path)).read()
 

@@ -43,17 +43,9 @@ class PartTwists:
         return cls(tuple(model.equations.BODIES), twists, total / step[:, :, None])
 
     def load(self, part: str, of: PartMass, turned: Array, center: Array) -> Load:
-        """Return the inertia of a part as a load.
+        """Return the inertia of a part as a load, with the name of the part among the loads.
 
-        Parameters
-        ----------
-        part : str
-            Its name among the loads.
-        of : PartMass
-        turned : ndarray, shape (n, 3, 3)
-            Its rotation from design.
-        center : ndarray, shape (n, 3)
-            Its centre of mass [m].
+        `turned` is its rotation from design, (n, 3, 3), `center` its centre of mass, (n, 3) [m].
         """
         which = self.bodies.index(of.body)
         turning, rate = self.twists[:, which, :3], self.rates[:, which]

@@ -113,20 +113,6 @@ class Car(DescribedParts):
         return {CAR: own.pop(CAR)} | parts | {name: v for name, v in own.items() if v != {}}
 
     def save(self, path: str | Path, *, force: bool = False) -> Path:
-        """Write an input file with these data, and return its path.
-
-        Parameters
-        ----------
-        path : str or Path
-            A name that ends in ``.toml``.
-        force : bool, optional
-            Whether a file that kintrafo did not write is replaced.
-
-        Raises
-        ------
-        InputError
-            Also if a tyre was made in Python and has no file.
-        """
         given = self.to_dict().get("tyres", {})
         problems = [
             f"[tyres] {end} is a tyre from Python. Write its file with kintrafo.tyres.write_tir, "

@@ -221,17 +221,11 @@ def tyre_of(given: Any, end: str, folder: Path) -> Tyre:
 
 
 def under_load(tyre: Tyre, load: float) -> TyreSection:
-    """Return a tyre under a load, as the ``[tyre]`` of an axle's file.
+    """Return a tyre under a load [N], as the ``[tyre]`` of an axle's file.
 
     Its radius is the loaded one, its rate the vertical stiffness, at a load; the free height is
     that at which this rate has the load at this radius. Lateral and longitudinal rates are the
     cornering stiffness and the slip stiffness over the relaxation lengths, if these are known.
-
-    Parameters
-    ----------
-    tyre : Tyre
-    load : float
-        [N].
     """
     at = tyre.evaluate(load, speed=0.0, extrapolate=True)
     radius, rate = float(at.loaded_radius), float(at.vertical_stiffness)

@@ -81,18 +81,6 @@ class RigidAxleModel(WholeAxleModel):
             raise InputError([_OVERHELD.format(rods=", ".join(self.axle.rods))], "RigidAxleModel")
 
     def placed(self, left: Array, right: Array, rack: ArrayLike = 0.0) -> Array:
-        """Return the states at rest at wheel travels, reachable or not.
-
-        Parameters
-        ----------
-        left, right : ndarray, shape (...)
-            Heights of the wheel centres above design [m].
-
-        Returns
-        -------
-        ndarray, shape (..., 8)
-            NaN if the wheels would have to be farther apart than at design.
-        """
         states = np.broadcast_to(self.design_state, (*left.shape, self.design_state.size)).copy()
         states[..., self.state_names.index(HEAVE)] = 0.5 * (left + right)
         with np.errstate(invalid="ignore"):
@@ -101,16 +89,6 @@ class RigidAxleModel(WholeAxleModel):
         return states
 
     def moved(self, states: Array, left: Array, right: Array, inputs: Array | None = None) -> Array:
-        """Return states with the rates for velocities of the wheels.
-
-        Parameters
-        ----------
-        states : ndarray, shape (..., 8)
-        left, right : ndarray
-            Vertical velocities of the wheel centres [m/s].
-        inputs : ndarray, optional
-            Without effect.
-        """
         found = states.copy()
         with np.errstate(all="ignore"):  # of an axle that is inclined too far
             leaning = np.cos(states[..., self.state_names.index(ROLL)])

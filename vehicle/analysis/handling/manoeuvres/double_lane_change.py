@@ -73,12 +73,7 @@ class Driver(Section):
     def along(self, path: Path, turns: Turns, straight: Steady) -> PathFollower:
         """Return the driver on a path, with the steering characteristic and delay of the car.
 
-        Parameters
-        ----------
-        path : Path
-        turns : Turns
-            Steady turns of the car at the speed of the manoeuvre.
-        straight : Steady
+        `turns` are steady turns of the car at the speed of the manoeuvre.
         """
         anticipation = self.anticipation_s
         if anticipation is None:

@@ -153,15 +153,7 @@ def amplitudes_of(reference: float) -> list[float]:
 
 
 def judge(motion: xr.Dataset, course: SteeringCourse, sense: int) -> dict[str, float]:
-    """Return the metrics of one run.
-
-    Parameters
-    ----------
-    motion : xarray.Dataset
-    course : SteeringCourse
-    sense : int
-        1 if steering begins to the left, -1 to the right.
-    """
+    """Return the metrics of one run; `sense` is 1 if steering begins to the left, else -1."""
     time = motion["time"].values
     steered = sense * (motion["steering_wheel_angle"] - motion["steering_wheel_angle"][0]).values
     beginning = first_crossing(time, steered, np.deg2rad(_BEGUN))
