@@ -25,16 +25,8 @@ def counted(notify: Notify, what: str, items: Iterable[T]) -> Iterator[T]:
     """Yield items one by one and report their number.
 
     The remaining time is reported too, if all items are expected to take more than
-    `WORTH_REPORTING_S`.
-
-    Parameters
-    ----------
-    notify
-        Called with each report.
-    what
-        Work on each item, in a few words.
-    items
-        To be processed.
+    `WORTH_REPORTING_S`. `notify` is called with each report; `what` is the work on each item, in a
+    few words.
     """
     items, started = list(items), time.monotonic()
     for done, item in enumerate(items):

@@ -117,18 +117,8 @@ def definition(
 ) -> str:
     """Return the text of a function, with the conditions of its guards.
 
-    Parameters
-    ----------
-    function
-        The function.
-    arguments
-        As they are declared.
-    loads
-        The lines that read elements of arrays.
-    dialect
-        How operations are spelt.
-    holds
-        The conditions of the guards, each after its index.
+    `arguments` are as they are declared; `loads` are the lines that read elements of arrays,
+    `holds` the conditions of the guards, each after its index.
     """
     steps, results = _written(function, dialect)
     lines = [
@@ -195,16 +185,7 @@ def loaded(
 ) -> list[str]:
     """Return the lines that load the elements of an array that a function reads.
 
-    Parameters
-    ----------
-    array, names
-        The array, and the names of its elements in order.
-    function
-        Their reader.
-    dialect
-        Syntax of elements.
-    behind
-        Names and indices behind the values.
+    `names` are those of the elements in order; `behind` has names and indices behind the values.
     """
     read = {s.name for s in function.free_symbols}
     read.update(s.name for guard in function.guards for s in guard.floor.free_symbols)

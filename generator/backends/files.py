@@ -48,11 +48,8 @@ def project_files(derivation: Derivation) -> dict[str, str]:
 def own_files(derivation: Derivation, library: str | None) -> dict[str, str]:
     """Return the files of a model that is a package of its own.
 
-    Parameters
-    ----------
-    library
-        Name of the shared library that will be built from the C files and lie beside them; None
-        where there is no compiler: the functions are then those over NumPy arrays.
+    `library` is the shared library that will be built from the C files and lie beside them; None
+    where there is no compiler: the functions are then those over NumPy arrays.
     """
     name, source = derivation.formulation.name, Source(derivation, in_pieces=True)
     called = addresses_in(derivation, library) if library else numpy_source(derivation)

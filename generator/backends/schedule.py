@@ -126,19 +126,10 @@ def _ordered(function: Function) -> Schedule:
 def schedule(expression: sp.Expr, ready: Mapping[sp.Symbol, int] | None = None) -> Operation:
     """Return the operations of an expression in order.
 
-    Parameters
-    ----------
-    expression
-        In symbols.
-    ready
-        Time at which each symbol is known, in cycles; zero for others. Terms or factors that are
-        known first are combined first: a compiler must not change the order, and the longest chain
-        of operations determines the time of a call.
-
-    Raises
-    ------
-    ValueError
-        If a power has no product of roots and factors.
+    `ready` is the time at which each symbol is known, in cycles; zero for others. Terms or factors
+    that are known first are combined first: a compiler must not change the order, and the longest
+    chain of operations determines the time of a call. Raises `ValueError` if a power has no product
+    of roots and factors.
     """
     return _Scheduler(ready or {}).operation(expression)
 

@@ -86,14 +86,8 @@ def together(
 ) -> Together:
     """Write functions with every step once.
 
-    Parameters
-    ----------
-    functions
-        The functions.
-    order
-        Positions of the steps by their names.
-    own
-        Names of arguments that only some functions have.
+    `order` has the positions of the steps by their names, `own` the names of arguments that only
+    some functions have.
     """
     values = _Values.of(functions, order)
     reading = {step.name: {*symbols_in(step.value)} for step in values.schedule.steps}

@@ -40,10 +40,7 @@ def text_of(
 ) -> str:
     """Return an operation as text, with names of its symbols other than their own, if given.
 
-    Raises
-    ------
-    ValueError
-        If the dialect has no spelling for a function.
+    Raises `ValueError` if the dialect has no spelling for a function.
     """
     return _Writer(dialect, name or attrgetter("name")).write(operation)[0]
 

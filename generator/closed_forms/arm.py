@@ -59,16 +59,8 @@ class Arm:
     ) -> Arm:
         """Return the arm of a body from a base on its line to its end D.
 
-        Parameters
-        ----------
-        kin, body
-            The kinematics so far, and the body.
-        line
-            Unit vector along the line, at the design position.
-        base, end
-            The point of the line, and D.
-        extent
-            The square of the extent of the loop.
+        `line` is the unit vector along the line at the design position, `extent` the square of the
+        extent of the loop.
         """
         way = kin.program.vector(f"{body}_arm_design", kin.design(end) - kin.design(base))
         axes, local = axes_about(kin, f"{body}_arm", line, way)

@@ -124,16 +124,7 @@ def block(
 ) -> IterationBlock:
     """Return the iteration that finds the pose of a body held by rods (`IterationDerivation`).
 
-    Parameters
-    ----------
-    program, body
-        Of the caller, and the name of the body.
-    rods
-        The equation of every rod, by its name.
-    size
-        The length c of the equations.
-    driven
-        The driven coordinates.
+    `program` is that of the caller, `size` the length c of the equations of the rods.
     """
     name = f"pose_of_{body}"
     if name in program.constants.blocks:

@@ -258,14 +258,8 @@ def block(
 ) -> IterationBlock:
     """Return the iteration that finds the unknowns (`IterationDerivation`).
 
-    Parameters
-    ----------
-    program
-        Of the caller.
-    tree, geometry
-        The loops, and the inputs of their equations.
-    driven
-        The coordinates along which the solution is followed.
+    `program` is that of the caller; `tree` and `geometry` are the loops and the inputs of their
+    equations, `driven` the coordinates along which the solution is followed.
     """
     name = f"loops_through_{tree.body}"
     if name in program.constants.blocks:

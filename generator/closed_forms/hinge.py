@@ -44,18 +44,9 @@ class Hinge:
         point: Point,
         extent: sp.Expr,
     ) -> Hinge:
-        """Return a hinge, from the design position.
+        """Return a hinge of a body on a placed parent, from the design position.
 
-        Parameters
-        ----------
-        kin, body
-            The kinematics so far, and the body.
-        joint, parent_name
-            Its hinge, and the placed body at the other side.
-        point
-            The point that defines the angle.
-        extent
-            The square of the extent of the loop.
+        `point` defines the angle; `extent` is the square of the extent of the loop.
         """
         parent, through = kin.placed[parent_name], joint.axis.through
         n = kin.unit(f"{body}_hinge_design", kin.to_work(joint.axis.vector))

@@ -50,22 +50,12 @@ class Inverse:
     ) -> Inverse:
         """Append the reciprocal of the determinant that an iteration has found, guarded.
 
-        With e the square of the remaining g, over that of `_TOLERANCE`, and d the determinant with
-        the sign that it has at the design position, the guard is ``(d - e) / (1 + e)``. It is not
-        positive where a loop cannot close, where J is singular, and where the iteration has lost
-        the solution on the path from the design position, which counts to e. Else it is d to the
-        last digit.
-
-        Parameters
-        ----------
-        kin, name
-            The kinematics so far, and the beginning of the names of the steps.
-        results
-            Of the iteration, by name.
-        left
-            The remaining g.
-        meaning
-            Cause of a guard that acts, with ``{iterations}`` for their largest number.
+        With e the square of the remaining g, `left`, over that of `_TOLERANCE`, and d the
+        determinant with the sign that it has at the design position, the guard is ``(d - e) / (1 +
+        e)``. It is not positive where a loop cannot close, where J is singular, and where the
+        iteration has lost the solution on the path from the design position, which counts to e.
+        Else it is d to the last digit. `name` begins the names of the steps; `meaning` is the cause
+        of a guard that acts, with ``{iterations}`` for their largest number.
         """
         program, lost = kin.program, results[LOST]
         squares = sum((g * g for g in left), sp.Integer(0))

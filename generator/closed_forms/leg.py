@@ -50,15 +50,10 @@ class RodLeg:
     def driven(
         self, coordinates: Coordinates, joint: Joint, slope: sp.Expr, curvature: sp.Expr
     ) -> RodLeg:
-        """Return the rod with a length that the coordinate of a joint changes.
+        """Return the rod with a length that the known coordinate of a joint changes.
 
-        Parameters
-        ----------
-        coordinates, joint
-            Those of the model, and the joint of known coordinate.
-        slope, curvature
-            First and second derivative of half the square of the length with respect to that
-            coordinate.
+        `slope` and `curvature` are the first and second derivative of half the square of the length
+        with respect to that coordinate.
         """
         if not coordinates.moves(joint):
             return self
@@ -151,14 +146,8 @@ class Leg(ABC):
     def stretched(self, kin: Kinematics, design: Vector, extent: sp.Expr) -> RodLeg:
         """Append its length and the derivatives of that.
 
-        Parameters
-        ----------
-        kin
-            The kinematics so far.
-        design
-            The vector from the anchor to the end at the design position.
-        extent
-            The square of the extent of the loop that it closes.
+        `design` is the vector from the anchor to the end at the design position, `extent` the
+        square of the extent of the loop that it closes.
         """
 
     def rod_of(self, kin: Kinematics, step: Spanning) -> RodLeg:

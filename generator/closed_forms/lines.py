@@ -25,16 +25,8 @@ if TYPE_CHECKING:
 def line_of_ends(kin: Kinematics, step: Spanning, name: str, ends: Ends, what: str) -> OnLine:
     """Append the line between two placed ends whose distance varies.
 
-    Parameters
-    ----------
-    kin, step
-        The kinematics so far, and the step that closes its loop.
-    name
-        Ends the names of the steps.
-    ends
-        Body and point at either end.
-    what
-        Links between the ends, for the message that these coincide.
+    The step closes its loop, and `name` ends the names of the steps. `ends` are body and point at
+    either end, `what` the links between them, for the message that these coincide.
     """
     (_, first), (_, second) = ends
     span, extent = _span(kin, name, ends), extent_squared(kin, step)
@@ -94,14 +86,8 @@ def require_length(
 ) -> None:
     """Have `prepare` check that two points are apart at the design position.
 
-    Parameters
-    ----------
-    kin, name
-        The kinematics so far, and the beginning of the names of the constants.
-    ends, what
-        Points, and the links between them, for the message.
-    extent
-        The square of the extent of the loop.
+    `name` begins the names of the constants; `what` are the links between the points, for the
+    message, `extent` the square of the extent of the loop.
     """
     first, second = ends
     span = kin.program.vector(f"{name}_span_design", kin.design(second) - kin.design(first))
@@ -125,10 +111,7 @@ def place_rod(kin: Kinematics, leg: Leg) -> None:
 def axes_about(kin: Kinematics, name: str, line: Vector, way: Vector) -> tuple[Axes, Vector]:
     """Append axes along a line, along the part of a vector across it, and across both (constants).
 
-    Returns
-    -------
-    axes, parts
-        The axes, and the components of the vector along these: along the line, and across it.
+    The axes are returned, and the components of the vector along the line, and across it.
     """
     program = kin.program
     along = program.define(f"{name}_along", way.dot(line))

@@ -96,16 +96,10 @@ class TargetBody(PlacedBody):
 
 
 class Unsolved(ABC):
-    """A body whose pose is known, and whose motion has unknown parts.
+    """A placed body whose motion has unknown parts.
 
-    Parameters
-    ----------
-    kin, placed
-        The kinematics so far, and the body.
-    carriers
-        Bodies and points that move it while the unknowns are at rest.
-    screws
-        The twist that a unit rate of each unknown adds.
+    `carriers` are bodies and points that move it while the unknowns are at rest; `screws` the twist
+    that a unit rate of each unknown adds.
     """
 
     unknown: ClassVar[str] = "turn"
@@ -141,12 +135,8 @@ class Unsolved(ABC):
 class TurnOnHinge(Unsolved):
     """A body on a hinge along the first of its axes, through its origin.
 
-    Parameters
-    ----------
-    kin, placed
-        The kinematics so far, and the body.
-    on, point
-        The placed body at the other side of the hinge, and the point of it that is the origin.
+    `on` is the placed body at the other side of the hinge, and `point` the point of it that is the
+    origin.
     """
 
     def __init__(self, kin: Kinematics, placed: BodyMotion, on: str, point: Point) -> None:
@@ -226,20 +216,10 @@ class TurnOnLine(Unsolved):
 
 
 class SlideOnGuide(Unsolved):
-    """A body that slides on another one along constant directions, and turns with it.
+    """A body that slides on a placed parent along constant directions, and turns with it.
 
-    Its pose is recorded.
-
-    Parameters
-    ----------
-    kin, body
-        The kinematics so far, and the body.
-    parent
-        The placed body on which it slides.
-    offset
-        Its displacement from the design position.
-    directions
-        Of the slides that are unknown.
+    Its pose is recorded. `offset` is its displacement from the design position; `directions` are
+    those of the slides that are unknown.
     """
 
     unknown = "speed"
@@ -320,14 +300,8 @@ class ClosureCondition:
     def acceleration(self, kin: Kinematics, now: Twist, rest: Twist) -> sp.Expr:
         """Return the second derivative of the residual without accelerations of the unknowns.
 
-        Parameters
-        ----------
-        kin
-            The kinematics so far.
-        now
-            Angular velocity of the body, and velocity of its origin relative to the target.
-        rest
-            Bias of the body.
+        `now` are the angular velocity of the body, and the velocity of its origin relative to the
+        target; `rest` is its bias.
         """
         target, omega = self.target.biases(), now.angular
         name = f"{self.target.placed.body}_{self.target.label}"
@@ -349,16 +323,10 @@ def add_turn(
     condition: ClosureCondition,
     inverse_lever: sp.Expr | None = None,
 ) -> None:
-    """Record velocities and bias of a body with one unknown.
+    """Record velocities and bias of a body with one unknown and its condition.
 
-    Parameters
-    ----------
-    kin
-        The kinematics so far.
-    unsolved, condition
-        The body, and the condition of its unknown.
-    inverse_lever
-        ``-1 / condition.pivot``, if the solution of the position has a shorter expression for it.
+    `inverse_lever` is ``-1 / condition.pivot``, if the solution of the position has a shorter
+    expression for it.
     """
     if inverse_lever is None:
         lever = condition.pivot(unsolved.screws[0])
@@ -375,14 +343,7 @@ def add_motion(
 ) -> None:
     """Record velocities and bias of a body with as many conditions as unknowns.
 
-    Parameters
-    ----------
-    kin
-        The kinematics so far.
-    unsolved, conditions
-        The body, and the conditions of its unknowns.
-    solve
-        Solves their linear equations.
+    `solve` solves their linear equations.
     """
     placed = unsolved.placed
     relative = [ZERO for _ in conditions]  # velocity of the origin relative to each target
@@ -428,16 +389,8 @@ def place_at(
 ) -> BodyMotion:
     """Record the pose of a body whose origin is a point of a placed one, and return it.
 
-    Parameters
-    ----------
-    kin, body
-        The kinematics so far, and the body.
-    at
-        The placed body, and the point.
-    axes, design_axes
-        Of the body: now, and at the design position.
-    local, hinge
-        Further points and the hinge, as in `BodyMotion`.
+    `axes` and `design_axes` are those of the body, now and at the design position; `local` and
+    `hinge` are further points and the hinge, as in `BodyMotion`.
     """
     on, point = at
     origin = kin.point_motion(on, point)

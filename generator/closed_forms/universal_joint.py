@@ -77,16 +77,8 @@ def turn_on_cross(
 ) -> None:
     """Record pose, velocities and bias of a shaft, given the first axis of its cross.
 
-    Parameters
-    ----------
-    kin, body
-        The kinematics so far, and the shaft.
-    parent
-        The placed body at the other side of the cross.
-    local_axis, at_design
-        The first axis: in the axes of the parent, and at the design position.
-    meaning
-        Message where the shaft lies along that axis.
+    The axis is given in the axes of the parent, the placed body at the other side, and at the
+    design position; `meaning` is the message where the shaft lies along that axis.
     """
     program, record = kin.program, line_from_own_end(kin, body)
     axis = program.vector(f"{body}_first_axis", from_axes(parent.axes, local_axis))

@@ -97,14 +97,8 @@ def turn_through_cross(
 ) -> None:
     """Turn a body on its hinge until both axes of a cross are at right angles.
 
-    Parameters
-    ----------
-    kin, step
-        The kinematics so far, and the step, which closes the loop.
-    yoke
-        The body.
-    own, given
-        The axes of the cross: on the body, at the design position, and on the driving one.
+    The step closes the loop. The axes of the cross are that on the body, at the design position,
+    and that on the driving one.
     """
     design_axes, f = _own_axis(kin, yoke, own)
     axes, b = _fitted(kin, step, yoke, design_axes, f, given)

@@ -174,14 +174,7 @@ def check_symbols(
 ) -> None:
     """Raise `DeclarationError` if equations read undeclared symbols.
 
-    Parameters
-    ----------
-    name
-        Of the derivation, for the message.
-    used, declared
-        Symbols of the equations, and those that are declared.
-    mechanism
-        The mechanism.
+    `name` is that of the derivation, for the message.
     """
     unknown = [n for n in sorted(used) if n not in declared]
     problems = list(_leaving_problems(mechanism, unknown))

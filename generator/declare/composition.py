@@ -224,12 +224,8 @@ def _turned_defaults(owner: Owner, signs: tuple[int, ...]) -> dict[str, Any]:
 def replaced(thing: Thing, bodies: Mapping[Body, Body]) -> Thing:
     """Return a declared thing in which some bodies are replaced, and all else is the same.
 
-    Parameters
-    ----------
-    thing
-        Joints, forces, coordinates and so on, also in tuples and mappings.
-    bodies
-        The new bodies, by the replaced ones.
+    It is a joint, a force, a coordinate and so on, also in tuples and mappings; `bodies` are the
+    new ones, by the replaced ones.
     """
     return _replaced(thing, bodies)
 

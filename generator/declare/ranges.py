@@ -11,13 +11,9 @@ _BOUNDS = ("least", "above", "most")
 
 
 def described(mechanism: Parts) -> dict[str, dict[str, float | str]]:
-    """Return unit, meaning and bounds of every parameter.
+    """Return ``default``, ``unit``, ``meaning`` and bounds of every parameter by name.
 
-    Returns
-    -------
-    dict
-        By name: ``default``, ``unit``, ``meaning``, and the existing bounds of ``least``, ``above``
-        and ``most``.
+    Bounds are those of ``least``, ``above`` and ``most`` that exist.
     """
     found: dict[str, dict[str, float | str]] = {}
     for p in mechanism.parameters:

@@ -30,10 +30,7 @@ if TYPE_CHECKING:
 def acted(force: Force, at: Seen) -> Action:
     """Return the action of a force.
 
-    Raises
-    ------
-    DeclarationError
-        If its `act` fails, or does not return an action on the coordinates.
+    Raises `DeclarationError` if its `act` fails, or does not return an action on the coordinates.
     """
     if not _has_own_code(force):
         return force.act(at)
@@ -52,10 +49,7 @@ def acted(force: Force, at: Seen) -> Action:
 def shown_by(force: Force, at: Seen, action: Action) -> Iterator[Shown]:
     """Yield the signals of a force with a given action.
 
-    Raises
-    ------
-    DeclarationError
-        If its `signals` fails, or yields anything but signals.
+    Raises `DeclarationError` if its `signals` fails, or yields anything but signals.
     """
     if not _has_own_code(force):
         yield from force.signals(at, action)

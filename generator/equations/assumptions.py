@@ -36,10 +36,7 @@ if TYPE_CHECKING:
 def find_assumptions(plan: Plan) -> list[Assumption]:
     """Return the quantities that must be zero and are not zero by declaration.
 
-    Raises
-    ------
-    DeclarationError
-        If one of them is not zero with the default parameters.
+    Raises `DeclarationError` if one of them is not zero with the default parameters.
     """
     found = [a for a in _assumptions(plan) if a.quantity != 0]
     _check_defaults(plan.formulation, found)

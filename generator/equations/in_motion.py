@@ -193,12 +193,7 @@ def groups_of(plan: Plan, jointed: tuple[list[str], str] | None = None) -> list[
     """Return the parts in which a mechanism is solved, those on the ground first.
 
     A free body is one of its own. Where all bodies on a base are tied to it, they are one group,
-    without others.
-
-    Raises
-    ------
-    DeclarationError
-        If a loop closes through two bases.
+    without others. Raises `DeclarationError` if a loop closes through two bases.
     """
     mechanism, graph = plan.formulation.mechanism, plan.topology.graph
     free = [part.joint.second.name for part in plan.formulation.states.free]

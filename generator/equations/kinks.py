@@ -28,12 +28,7 @@ KINKS = "kinks"
 def kinks_of(rhs: Function, moving: Collection[str]) -> Function | None:
     """Return the quantities that pass zero at kinks of the right-hand side; None without any.
 
-    Parameters
-    ----------
-    rhs
-        The right-hand side.
-    moving
-        Names of the elements of the state: quantities that depend on none of them are left out.
+    Quantities that depend on no `moving` element of the state are left out.
     """
     expressions = [*(step.expression for step in rhs.steps), *rhs.results]
     found = dict.fromkeys(chain.from_iterable(_arguments(e) for e in expressions))

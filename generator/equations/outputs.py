@@ -148,18 +148,11 @@ def generate(
 ) -> Derivation:
     """Derive a model and its functions.
 
-    Parameters
-    ----------
-    formulation
-        Declaration.
-    derivatives
-        Also those of the right-hand side and of the signals with respect to state and inputs, which
-        take half of the time. A linearisation needs them, and a solver of stiff equations; no
-        simulation with an explicit method does.
-    parameter_derivatives
-        Also those with respect to parameters: along a direction, and of weighted sums.
-    progress
-        Called with a short description of the present step.
+    `derivatives` are also those of the right-hand side and of the signals with respect to state and
+    inputs, which take half of the time. A linearisation needs them, and a solver of stiff
+    equations; no simulation with an explicit method does. `parameter_derivatives` are also those
+    with respect to parameters: along a direction, and of weighted sums. `progress` is called with a
+    short description of the present step.
     """
     progress("finding the loops and how they close")
     derivation = _Builder(formulation, derivatives=derivatives, notify=progress).build()

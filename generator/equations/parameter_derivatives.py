@@ -78,16 +78,10 @@ def derivatives_by_parameters(
     design: Function,
     arrays: Mapping[str, Sequence[str]],
 ) -> ParameterDerivatives:
-    """Derive the functions.
+    """Derive the functions of a model, of which `prepare` and `design` are those of parameters.
 
-    Parameters
-    ----------
-    functions
-        Those of the model.
-    prepare, design
-        Its functions of parameters.
-    arrays
-        Names of the elements of ``parameters``, ``constants``, ``state`` and ``inputs``, in order.
+    `arrays` are the names of the elements of ``parameters``, ``constants``, ``state`` and
+    ``inputs``, in order.
     """
     of = [functions[name] for name in OF if name in functions]
     behind = _behind(arrays, of, {*chain(*map(_names, (prepare, design, *of)))})

@@ -209,11 +209,8 @@ class RelativeCoordinates:
     def absolute_jacobian(self, body: str) -> dict[str, tuple[Vector, Vector]]:
         """Return angular velocity and velocity of the centre of mass per relative rate.
 
-        Returns
-        -------
-        dict
-            Coordinate name to (angular, linear), in ground axes. Where the report has several
-            copies of a coordinate, the first one is used.
+        They are in ground axes, by coordinate name. Where the report has several copies of a
+        coordinate, the first one is used.
         """
         placed = self.kin.placed[body]
         center = self.kin.position(placed, self.mechanism.body(body).center)

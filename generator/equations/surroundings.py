@@ -33,19 +33,9 @@ Momenta = dict[tuple[str, str], "Vector"]
 class Seen:
     """The surroundings of all forces of a model; see `declare.surroundings.Surroundings`.
 
-    Parameters
-    ----------
-    moving
-        The bodies in motion.
-    momenta
-        Those of the bodies that carry mass.
-    accelerations
-        Of the independent coordinates; None until they are known.
-
-    Attributes
-    ----------
-    driven
-        Names of all coordinates, also of those that do not move in this variant.
+    `momenta` are those of the bodies that carry mass; `accelerations` of the independent
+    coordinates are None until they are known. `driven` are the names of all coordinates, also of
+    those that do not move in this variant.
     """
 
     def __init__(

@@ -24,13 +24,7 @@ if TYPE_CHECKING:
 
 
 class InBody:
-    """A body in its own axes.
-
-    Parameters
-    ----------
-    placed, part
-        Its motion in the world, and the kinematics that it is part of.
-    """
+    """A body in its own axes: its motion in the world, and the kinematics that it is part of."""
 
     def __init__(self, placed: BodyMotion, part: Kinematics) -> None:
         self._placed, self._part, self._program = placed, part, part.program

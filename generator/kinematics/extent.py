@@ -44,16 +44,8 @@ def require(
 ) -> None:
     """Have `prepare` refuse parameters for which a constant vanishes.
 
-    Parameters
-    ----------
-    kin
-        The kinematics so far.
-    name, quantity
-        The constant.
-    least, unit
-        Lower bound of its absolute value, and their unit.
-    meaning, remedy
-        Cause of a smaller value, and its remedy, for the message.
+    `least` is the lower bound of its absolute value; `meaning` and `remedy` are the cause of a
+    smaller value, and its remedy, for the message.
     """
     program = kin.program
     value = program.define(name, quantity)

@@ -113,14 +113,8 @@ class Iteration(Solution):
     ) -> Attempt | None:
         """Return the solution of some of the waiting loops, or the nearest attempt.
 
-        Parameters
-        ----------
-        known
-            The known motions.
-        driven
-            Names of the joints whose coordinates are given.
-        waiting
-            The loops that nothing else closes.
+        `known` are the known motions, `driven` the names of the joints whose coordinates are given;
+        nothing else closes the loops in `waiting`.
         """
 
 

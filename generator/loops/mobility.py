@@ -41,14 +41,9 @@ _TOLERANCE = 1e-7
 
 
 class Mobility:
-    """The instantaneous mobility of a mechanism at its design position.
+    """The instantaneous mobility of a mechanism at its design position, with default parameters.
 
-    Parameters
-    ----------
-    topology
-        Of the mechanism; its default parameters are used.
-    driven
-        Names of the joints whose coordinates are independent or prescribed.
+    `driven` are the names of the joints whose coordinates are independent or prescribed.
     """
 
     def __init__(self, topology: JointGraph, driven: Collection[str]) -> None:

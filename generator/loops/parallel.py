@@ -33,12 +33,7 @@ def families(
 ) -> dict[frozenset[str], tuple[str, ...]]:
     """Return the redundant links between two bodies, by these.
 
-    Parameters
-    ----------
-    mechanism
-        The mechanism.
-    in_a_plane
-        Returns whether the loop through some bodies moves in a plane.
+    `in_a_plane` returns whether the loop through some bodies moves in a plane.
     """
     found: dict[frozenset[str], list[str]] = {}
     for body in mechanism.moving:

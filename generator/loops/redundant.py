@@ -32,12 +32,8 @@ Branch = tuple[tuple[str, ...], tuple["Joint", ...]]
 def redundant(mechanism: Mechanism, driven: Collection[str] = ()) -> str:
     """Return a sentence on branches that can be left out; empty: there are none.
 
-    Parameters
-    ----------
-    mechanism
-        Its default parameters are used.
-    driven
-        Names of the independent or prescribed joints; no branch with one is left out.
+    The default parameters are used. No branch with a `driven` joint, which is independent or
+    prescribed, is left out.
     """
     whole = Mobility(JointGraph(mechanism), driven)
     if not whole.is_known:

@@ -32,19 +32,10 @@ def mechanism(
 ) -> d.Mechanism:
     """Return an axle.
 
-    Parameters
-    ----------
-    name, title
-        Of the axle.
-    corner
-        The equations of the suspension of the right side, whose rack, if any, is prescribed.
-    pulls
-        The body of the suspension that the drop link joins to an anti-roll bar; without it, there
-        is no bar.
-    own
-        Whether the left side has parameters of its own, whose names begin with ``left_``.
-    end
-        Name of the tyres: the end of the car.
+    `corner` has the equations of the suspension of the right side, whose rack, if any, is
+    prescribed. The drop link joins an anti-roll bar to its body `pulls`; without that, there is no
+    bar. `own` is whether the left side has parameters of its own, whose names begin with ``left_``;
+    `end` is the name of the tyres: the end of the car.
     """
     side = with_tyres_named(corner.mechanism, lambda _: end)
     if not pulls:
@@ -58,16 +49,9 @@ def mechanism(
 def model(
     corner: d.Formulation, declared: d.Mechanism, *, with_mass: tuple[str, ...] = ()
 ) -> d.Formulation:
-    """Return the equations of an axle, whose rack is prescribed if it has one.
+    """Return the equations of an axle from those of one side; its rack, if any, is prescribed.
 
-    Parameters
-    ----------
-    corner
-        Those of one side.
-    declared
-        The axle.
-    with_mass
-        Bodies of a side that have mass besides those of the corner: ``bar`` may be one.
+    Bodies of a side in `with_mass`, such as ``bar``, have mass besides those of the corner.
     """
     heavy = (*(body.name for body in corner.massive), *with_mass)
     return d.Formulation(

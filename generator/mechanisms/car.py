@@ -77,14 +77,8 @@ def car(
 ) -> d.Formulation:
     """Return the equations of a car of two axles.
 
-    Parameters
-    ----------
-    name, title
-        Of the car.
-    axles
-        The front and the rear one, each from `of_corners` or `of_whole_axle`.
-    freedoms
-        Coordinates of the body, the first ones of `FREEDOMS`; or `FREE`.
+    The front and the rear one are from `of_corners` or `of_whole_axle`; `freedoms` are coordinates
+    of the body, the first ones of `FREEDOMS`, or `FREE`.
     """
     joints, coordinates = _body_joints(freedoms)
     parts = [_on_the_car(one, f"{end}_") for end, one in zip(ENDS, axles, strict=True)]
@@ -114,12 +108,7 @@ def car(
 def full(name: str, title: str, axles: Sequence[d.Formulation]) -> d.Formulation:
     """Return the equations of a car that drives: its body moves freely, in still air.
 
-    Parameters
-    ----------
-    name, title
-        Of the car.
-    axles
-        The front and the rear one, each from `driving`.
+    The front and the rear axle are from `driving`.
     """
     found = car(name, title, axles, FREE)
     mechanism = replace(
@@ -148,16 +137,10 @@ def driving(
 ) -> d.Formulation:
     """Return an axle whose tyres roll, with torques of brakes and drive on its wheels.
 
-    Parameters
-    ----------
-    of_a_car
-        From `of_corners` or `of_whole_axle`.
-    law
-        Returns the contact law of a tyre, by the prefix of its parameters.
-    relaxing
-        Whether slips follow with the relaxation lengths, which takes two states of each tyre.
-    brakes_on, drive_on
-        The part that reacts the torque; None: nothing drives the axle.
+    It is from `of_corners` or `of_whole_axle`. `law` returns the contact law of a tyre, by the
+    prefix of its parameters; `relaxing` is whether slips follow with the relaxation lengths, which
+    takes two states of each tyre. `brakes_on` and `drive_on` are the parts that react the torque;
+    None: nothing drives the axle.
     """
     chassis = of_a_car.mechanism.body(of_a_car.mechanism.ground)
     slow = d.AngularSpeed(
@@ -247,14 +230,9 @@ def _on_the_car(axle_on_ground: d.Formulation, prefix: str) -> dict[str, tuple[A
 def of_corners(corner: d.Formulation, *, pulls: str = "", steered: bool = True) -> d.Formulation:
     """Return an axle of two suspensions for a car.
 
-    Parameters
-    ----------
-    corner
-        The equations of the suspension of the right side, on a chassis that rests.
-    pulls
-        Its body that the drop link of an anti-roll bar is joined to; without it, no bar.
-    steered
-        Whether its rack, if any, moves; otherwise it is a part of the body.
+    `corner` has the equations of the suspension of the right side, on a chassis that rests. The
+    drop link of an anti-roll bar is joined to its body `pulls`; without that, there is no bar.
+    `steered` is whether its rack, if any, moves; otherwise it is a part of the body.
     """
     one = corner if steered else with_a_fixed_rack(corner)
     mechanism = axle.mechanism(_TYRE, one.title, one, pulls=pulls, own=True, end=_TYRE)

@@ -21,10 +21,7 @@ Place = tuple[float, float, float]
 def ring(name: str, title: str, places: list[Place], axes: list[Place]) -> d.Formulation:
     """Return a closed chain of hinges, each body hinged to the next and the last to the ground.
 
-    Parameters
-    ----------
-    places, axes
-        Of every hinge: a point, m, and a direction. The first hinge, on the ground, drives.
+    Each hinge has a point, m, and a direction. The first hinge, on the ground, drives.
     """
     ground = d.Ground("ground")
     middles = [

@@ -44,12 +44,9 @@ LINKAGE = (_ARM, _RELAY, _IDLER)
 
 
 def steered_by_pitman_arm(corner: d.Formulation) -> d.Formulation:
-    """Return the equations of a suspension whose tie rod is joined to a relay rod.
+    """Return the equations of a suspension with its tie rod joined to a relay rod.
 
-    Parameters
-    ----------
-    corner
-        The equations of the suspension with a prescribed rack.
+    Those of `corner` have a prescribed rack.
     """
     (guide,) = corner.prescribed
     source, rack = corner.mechanism, guide.second

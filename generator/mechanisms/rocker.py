@@ -41,14 +41,7 @@ class Rocker:
 def model(arm: d.Body, at: Rocker, spring: d.LinearSpring) -> d.Formulation:
     """Return the equations of the suspension, with its rack prescribed.
 
-    Parameters
-    ----------
-    arm
-        The body that moves the rod.
-    at
-        The rocker and its rod.
-    spring
-        The spring on the chassis.
+    `arm` is the body that moves the rod.
     """
     name, rod, rocker = at.rod.name, at.rod, at.rocker
     hinge = d.Revolute("rocker_hinge", CHASSIS, rocker, axis=d.Line(at.rear, at.front))

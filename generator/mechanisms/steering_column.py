@@ -37,13 +37,7 @@ _PINION = d.Rotor("pinion", 0.0, _CENTER, axis=d.UP, spin=0.0, diametral=0.0)
 
 
 def on_a_column(axle: d.Formulation) -> d.Formulation:
-    """Return an axle of a car whose rack, or Pitman arm, is moved by a compliant column.
-
-    Parameters
-    ----------
-    axle
-        The axle with a prescribed rack.
-    """
+    """Return an axle whose prescribed rack, or Pitman arm, is moved by a compliant column."""
     ((guide, motion),) = axle.prescribed.items()
     assert isinstance(guide, d.Prismatic)
     mechanism, chassis = axle.mechanism, guide.first

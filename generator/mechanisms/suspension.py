@@ -76,12 +76,7 @@ def spring_table() -> d.SpringTable:
 def further_laws(damper: str, longest: float) -> tuple[Law, ...]:
     """Return the forces along a damper besides its linear part: a curve, friction, two stops.
 
-    Parameters
-    ----------
-    damper
-        Name of the damper.
-    longest
-        A length that it does not exceed [m].
+    The damper does not exceed the length `longest` [m].
     """
     table = d.DamperTable(name="damper_table", segments=_SEGMENTS)
     friction = d.Friction(
@@ -109,12 +104,8 @@ def rod_joints(
 ) -> tuple[d.Universal, d.Spherical]:
     """Return the universal joint at the start of a rod and the ball joint at its end.
 
-    Parameters
-    ----------
-    rod
-        The rod; the names of the joints begin with its name.
-    start, end
-        The body at each end, and the centre of the joint there.
+    Their names begin with that of the rod; `start` and `end` are the body at each end, and the
+    centre of the joint there.
     """
     (base, center), (carrier, ball) = start, end
     shaft = d.Line(center, ball)
@@ -182,11 +173,8 @@ def bearing_of(declared: d.Formulation, wheel: d.Wheel) -> d.Revolute:
 def with_wheel_loads(corner: d.Formulation) -> d.Formulation:
     """Return the equations of a suspension, or a rigid axle, with the loads of wheels as inputs.
 
-    Parameters
-    ----------
-    corner
-        Those of one side, or of both wheels of a rigid axle; a wheel turns on its carrier by a
-        driven hinge. The inputs of two wheels begin like their hinges: ``left_``, ``right_``.
+    A wheel turns on its carrier by a driven hinge. The inputs of both wheels of a rigid axle begin
+    like their hinges: ``left_``, ``right_``.
     """
     wheels = [tyre.wheel for tyre in corner.mechanism.every(d.LinearTyre)]
     loads = []

@@ -44,10 +44,7 @@ class Proposal:
 def model_of(mechanism: Mechanism) -> Formulation:
     """Return a model of a mechanism with the first proposed coordinates, all bodies massive.
 
-    Raises
-    ------
-    NoClosedFormError
-        If there is no such set of coordinates.
+    Raises `NoClosedFormError` if there is no such set of coordinates.
     """
     search = CoordinateSearch(_bare(mechanism))
     closed = next(search.closed(_SECONDS_TO_FIND), None)
@@ -62,14 +59,7 @@ def proposals(
     """Yield sets of joints whose coordinates can be independent, in the order of preference.
 
     Sets with which every loop has a closed form come first. Prescribed coordinates of a model
-    remain prescribed.
-
-    Parameters
-    ----------
-    declared
-        A mechanism or a model.
-    seconds
-        Time limit of each of the two searches; None: unlimited.
+    remain prescribed. `seconds` limits the time of each of the two searches; None: unlimited.
     """
     search = CoordinateSearch(declared if isinstance(declared, Formulation) else _bare(declared))
     closed = set()
@@ -96,10 +86,7 @@ def advice(refused: Formulation) -> str:
 class CoordinateSearch:
     """Trials of all sets of reported coordinates that could be independent.
 
-    Parameters
-    ----------
-    formulation
-        A model; its choice of independent joints is ignored.
+    The choice of independent joints in the model is ignored.
     """
 
     def __init__(self, formulation: Formulation) -> None:

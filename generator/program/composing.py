@@ -18,15 +18,7 @@ if TYPE_CHECKING:
 
 
 def composed(kind: Callable[..., sp.Expr], parts: Iterable[sp.Expr]) -> sp.Expr:
-    """Return ``kind(*parts)``, in the form of SymPy.
-
-    Parameters
-    ----------
-    kind
-        ``sp.Add``, ``sp.Mul``, or another function.
-    parts
-        Its operands.
-    """
+    """Return ``kind(*parts)``, in the form of SymPy, such as a sum or product."""
     return _composed(kind, tuple(parts))
 
 

@@ -104,14 +104,8 @@ class ConstantStage:
     ) -> Function:
         """Return the parameter stage: all constants that functions read or that are checked.
 
-        A quantity that is checked is a constant too, so that an error can contain its value.
-
-        Parameters
-        ----------
-        functions
-            Readers of the constants.
-        assumptions
-            Quantities to check, beside those of the conditions.
+        A quantity that is checked is a constant too, so that an error can contain its value;
+        `assumptions` are quantities to check, beside those of the conditions.
         """
         used = set().union(*(f.free_symbols for f in functions))
         used = used.union(*(symbols_of(a.quantity) | symbols_of(a.scale) for a in assumptions))

@@ -43,14 +43,8 @@ class Dependencies:
     ) -> list[sp.Symbol]:
         """Return the steps that change with some symbols and that targets depend on, in order.
 
-        Parameters
-        ----------
-        moving
-            The symbols, whose own steps do not count.
-        targets
-            The targets.
-        instead
-            Symbols that some steps depend on, instead of those that they read.
+        The own steps of the `moving` symbols do not count; `instead` are symbols that some steps
+        depend on, instead of those that they read.
         """
         given = self._known(moving)
         ends = self._known(targets)

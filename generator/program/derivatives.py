@@ -21,12 +21,8 @@ def chain_rule(
 ) -> sp.Expr:
     """Return the sum of partial derivatives times tangents.
 
-    Parameters
-    ----------
-    expression, symbol
-        As in `partials`.
-    tangent
-        The derivative of each symbol that varies.
+    Expression and symbol are as in `partials`; `tangent` has the derivative of each symbol that
+    varies.
     """
     found = partials(expression, tangent, symbol)
     return composed(sp.Add, (product(partial, tangent[s]) for s, partial in found))
@@ -37,15 +33,8 @@ def partials(
 ) -> Iterator[tuple[sp.Symbol, sp.Expr]]:
     """Yield each moving symbol of an expression with the partial derivative with respect to it.
 
-    Parameters
-    ----------
-    expression
-        In names of the program.
-    moving
-        The symbols that vary.
-    symbol
-        The step that the expression defines: the derivative of a root or a reciprocal is written by
-        it, and so without a second root.
+    The expression is in names of the program. `symbol` is the step that it defines: the derivative
+    of a root or a reciprocal is written by it, and so without a second root.
     """
     own = expression.is_Pow and expression.exp in (sp.Rational(1, 2), -1)
     if symbol is None or not own:

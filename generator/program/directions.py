@@ -37,12 +37,8 @@ TANGENT, ADJOINT = "tangent", "adjoint"
 def tangent(function: Function, direction: Mapping[sp.Symbol, sp.Symbol], doc: str) -> Function:
     """Return the derivative of the results of a function along a direction.
 
-    Parameters
-    ----------
-    direction
-        Symbol of the derivative of each symbol that is read.
-    doc
-        Docstring of one line.
+    `direction` has the symbol of the derivative of each symbol that is read; `doc` is the
+    docstring, of one line.
     """
     known = _Names(function, direction.values())
     along: dict[sp.Symbol, sp.Expr] = {s: direction[s] for s in function.free_symbols}
@@ -64,14 +60,8 @@ def adjoint(
 ) -> Function:
     """Return the derivatives of a weighted sum of the results of a function.
 
-    Parameters
-    ----------
-    by
-        Symbols to differentiate with respect to, in the order of the results.
-    weights
-        Of the results of the function.
-    doc
-        Docstring of one line.
+    They are with respect to the symbols `by`, in the order of the results; `doc` is the docstring,
+    of one line.
     """
     known = _Names(function, weights)
     active = set(by)

@@ -25,16 +25,9 @@ def solved(
 ) -> dict[str, sp.Expr]:
     """Return the solution x of ``L D L^T x = right``.
 
-    Parameters
-    ----------
-    program
-        Receives the steps.
-    factors
-        Elements of L below its diagonal by row and column, and on it the inverses of those of D.
-    right
-        The right-hand side by row, in the order of elimination.
-    name, unknown
-        Names of the steps: of the reduced right-hand side, and of an unknown k, as ``{}_more``.
+    `factors` are the elements of L below its diagonal by row and column, and on it the inverses of
+    those of D; `right` is by row, in the order of elimination. `name` and `unknown` name the steps:
+    the reduced right-hand side, and an unknown k, as ``{}_more``.
     """
     rows, left = list(right), dict(right)
     for i, k in enumerate(rows):

@@ -15,15 +15,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Steps:
-    """Functions of symbols for formulas; definitions become steps.
-
-    Parameters
-    ----------
-    program
-        Receives the steps.
-    prefix
-        Begins their names.
-    """
+    """Functions of symbols for formulas; definitions become steps with a prefix."""
 
     program: Program
     prefix: str

@@ -31,14 +31,8 @@ def function_of(
 ) -> Function:
     """Return a function of labelled results, with those steps, guards and blocks that they need.
 
-    Parameters
-    ----------
-    name, doc, shape, part
-        As in `Function`; without a shape the results are a row.
-    results
-        By their labels.
-    steps, guards, blocks
-        More than the results need, as a rule.
+    Name, doc, shape and part are as in `Function`; without a shape the results are a row. As a rule
+    steps, guards and blocks are more than the results need.
     """
     expressions = list(results.values())
     alive = drop_dead([*steps], expressions)

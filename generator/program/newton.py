@@ -74,13 +74,9 @@ class IterationResult:
 class IterationDerivation:
     """The program of one iteration, with all bodies that are placed before the loops at that stage.
 
-    Parameters
-    ----------
-    around
-        The program that calls the block.
-    driven
-        Of every coordinate that moves anything: the symbol, the value at design, the change that
-        counts like a radian, and whether a full turn changes nothing.
+    `around` is the program that calls the block. `driven` has, of every coordinate that moves
+    anything, the symbol, the value at design, the change that counts like a radian, and whether a
+    full turn changes nothing.
     """
 
     def __init__(

@@ -44,10 +44,7 @@ _SIGNS = (sp.S.NegativeOne, sp.S.One)
 class Program:
     """The steps of one variant of a model, and the means to extend, differentiate, prune them.
 
-    Parameters
-    ----------
-    constants
-        Receives the steps that depend on parameters only.
+    `constants` receives the steps that depend on parameters only.
     """
 
     constants: ConstantStage
@@ -74,14 +71,8 @@ class Program:
 
         Numbers, symbols and their negatives are returned unchanged, and an expression that is
         already a step is not repeated, so that zeros and shared values disappear on the way. A
-        number is added to the name where it is taken already.
-
-        Parameters
-        ----------
-        name
-            Of the step.
-        expression
-            In names of the program.
+        number is added to the name where it is taken already. The expression is in names of the
+        program.
         """
         if self._spells:
             expression = self._spelled(name, expression)
@@ -105,12 +96,9 @@ class Program:
 
     @contextmanager
     def spelling(self) -> Iterator[None]:
-        """Allow steps to have formulas in any form; see `spelled`.
+        """Allow steps to have formulas in any form, see `spelled`.
 
-        Raises
-        ------
-        SpellingError
-            By `define`, where one cannot be emitted.
+        Then `define` raises `SpellingError` where one cannot be emitted.
         """
         self._spells = True
         try:
@@ -145,18 +133,9 @@ class Program:
     ) -> sp.Expr:
         """Append a step whose value must exceed a floor, and return its guarded form.
 
-        Constants are not guarded: the parameter stage checks them all at once.
-
-        Parameters
-        ----------
-        name, unit
-            Of the quantity.
-        expression
-            The quantity.
-        meaning
-            Cause of a value below the floor, for the message.
-        floor
-            In parameters and constants, or a number; see `floors`.
+        Constants are not guarded: the parameter stage checks them all at once. `meaning` is the
+        cause of a value below the floor, for the message; the floor is in parameters and constants,
+        or a number, see `floors`.
         """
         symbol = self.define(name, expression)
         if self.constants.contains(symbol):
@@ -185,18 +164,9 @@ class Program:
     ) -> list[sp.Expr]:
         """Differentiate expressions with respect to one symbol, step by step (forward mode).
 
-        Parameters
-        ----------
-        along
-            The symbol.
-        targets, label, instead
-            As in `along`.
-
-        Raises
-        ------
-        ValueError
-            If the symbol is a parameter: derivatives with respect to parameters are those of whole
-            functions, and of `prepare` (`directions`).
+        Other arguments are as in `along`. Raises `ValueError` if the symbol is a parameter:
+        derivatives with respect to parameters are those of whole functions, and of `prepare`
+        (`directions`).
         """
         if self.constants.contains(along):
             message = f"{along} is a parameter; see `directions` for derivatives by parameters"
@@ -212,16 +182,9 @@ class Program:
     ) -> list[sp.Expr]:
         """Differentiate expressions along a direction, step by step (forward mode).
 
-        Parameters
-        ----------
-        direction
-            The rate of each symbol that changes.
-        targets
-            Expressions in the names of the program.
-        label
-            Ends the names of the new steps: ``name__label``.
-        instead
-            Expressions of the same value as some steps, to be differentiated instead of these.
+        `direction` has the rate of each symbol that changes. `label` ends the names of the new
+        steps: ``name__label``. `instead` are expressions of the same value as some steps, to be
+        differentiated instead of these.
         """
         tangent: dict[sp.Symbol, sp.Expr] = dict(direction)
         if instead:
@@ -237,11 +200,7 @@ class Program:
         """Differentiate steps along a few others that they depend on, once for all directions.
 
         A direction then takes one product for each pair of them, and not all steps in between.
-
-        Parameters
-        ----------
-        inputs, outputs
-            The few steps, and those that depend on them, and on states and inputs.
+        `inputs` are the few steps, `outputs` those that depend on them, and on states and inputs.
         """
         given = {symbol for e in inputs for symbol in symbols_of(e)}
         ends = [s for e in outputs for s in symbols_of(e) if s in self.steps and s not in given]
@@ -330,14 +289,7 @@ class Program:
     ) -> Function:
         """Prune the program to some results and share their common subexpressions.
 
-        Parameters
-        ----------
-        name, doc
-            Of the function.
-        results
-            By their labels.
-        shape
-            Of the array; none: a row.
+        Results are by their labels; without a shape the array is a row.
         """
         pruned = self.pruned(name, doc, results, shape)
         (function,), _ = share_together({"": [pruned]}, self.steps, self.constants.has)

@@ -20,12 +20,8 @@ if TYPE_CHECKING:
 def regrouped(expressions: Iterable[sp.Expr]) -> dict[sp.Expr, Unevaluated]:
     """Return the result of SymPy's ``opt_cse``, in half of its time.
 
-    SymPy builds the negative of each sum and product, to find the better one of both.
-
-    Returns
-    -------
-    dict
-        New operands of each sum, product and power that is regrouped, not yet combined.
+    SymPy builds the negative of each sum and product, to find the better one of both. Here the new
+    operands of each sum, product and power that is regrouped are not yet combined.
     """
     found: dict[sp.Expr, Unevaluated] = {}
     seen: set[sp.Expr] = set()

@@ -30,14 +30,8 @@ def take_out_signs(
 ) -> tuple[list[Step], list[sp.Expr]]:
     """Return steps and results, without steps that only change a sign.
 
-    Parameters
-    ----------
-    steps, results
-        Of a program; steps that nothing reads afterwards are left in it.
-    kept
-        Steps that stay as they are.
-    has
-        Returns whether a name is taken.
+    Steps that nothing reads afterwards are left in them; the `kept` ones stay as they are. `has`
+    returns whether a name is taken.
     """
     steps = list(steps)
     names = {s.name for step in steps for s in (step.symbol, *symbols_of(step.expression))}

@@ -43,17 +43,10 @@ class SpellingError(ValueError):
 def spelled(define: Define, formula: Any) -> sp.Expr:
     """Return a formula in operations that are emitted.
 
-    Parameters
-    ----------
-    define
-        Appends a step, by its name and expression, and returns its symbol: for large powers.
-    formula
-        An expression of SymPy in names of the program, or a number.
-
-    Raises
-    ------
-    SpellingError
-        If it is neither, or has an operation that cannot be written; the message names it.
+    `define` appends a step, by its name and expression, and returns its symbol: for large powers.
+    The formula is an expression of SymPy in names of the program, or a number. Raises
+    `SpellingError` if it is neither, or has an operation that cannot be written; the message names
+    it.
     """
     try:
         expression = sp.sympify(formula, strict=True)

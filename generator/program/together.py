@@ -30,22 +30,11 @@ def share_together(
 ) -> tuple[list[Function], list[str]]:
     """Share the common subexpressions of functions, in all of them alike.
 
-    Parameters
-    ----------
-    variants
-        Pruned functions of one program, and of variants of it in which steps of the same name may
-        differ, by the ends of the names of these steps; the end is empty for the program itself.
-    order
-        Of the steps of the program.
-    has
-        Returns whether a name is that of a constant, a state or an input.
-
-    Returns
-    -------
-    functions
-        Those of all variants, concatenated.
-    order
-        Names of the steps of all of them, in the order of the program.
+    `variants` are pruned functions of one program, and of variants of it in which steps of the same
+    name may differ, by the ends of the names of these steps; the end is empty for the program
+    itself. `order` is that of the steps of the program; `has` returns whether a name is that of a
+    constant, a state or an input. The functions of all variants are returned, concatenated, and the
+    names of the steps of all of them, in the order of the program.
     """
     joined = _Joined(order, has)
     pruned = [joined.added(f, ending) for ending, group in variants.items() for f in group]

@@ -19,14 +19,9 @@ if TYPE_CHECKING:
 
 
 def product(a: Any, b: Any) -> Any:
-    """Return a product; with zero it is zero.
+    """Return a product of expressions or numbers; with zero it is zero.
 
     SymPy would first find out whether the other factor is finite, from all of its parts.
-
-    Parameters
-    ----------
-    a, b
-        Expressions or numbers.
     """
     if a is sp.S.Zero or b is sp.S.Zero:
         return sp.S.Zero

@@ -7,15 +7,7 @@ EARLIEST = (1980, 1, 1)
 
 
 def undated(name: str, method: int) -> ZipInfo:
-    """Return a member of an archive with the earliest date.
-
-    Parameters
-    ----------
-    name : str
-        Name of the member.
-    method : int
-        Its compression, a constant of `zipfile`.
-    """
+    """Return a member of an archive with the earliest date, and a compression of `zipfile`."""
     member = ZipInfo(name, (*EARLIEST, 0, 0, 0))
     member.compress_type = method
     return member

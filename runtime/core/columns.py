@@ -61,14 +61,7 @@ def _comparison(question: Callable[[Any, Any], Any]) -> Callable[[Any, Any], Any
 
 
 class BatchNumber:
-    """A number for each member of a batch.
-
-    Parameters
-    ----------
-    values : ndarray, shape (count,)
-    mask : BatchMask
-        Shared by all numbers of the batch.
-    """
+    """A number for each member of a batch, (count,); all numbers of a batch share its mask."""
 
     __slots__ = ("mask", "values")
 

@@ -38,21 +38,11 @@ class _Step:
 
 
 def eliminated(entries: Entries, right: Array) -> tuple[Array, Flags]:
-    """Solve linear equations at many positions.
+    """Return the solutions of linear equations at n positions, and where they are accurate, (n,).
 
-    Parameters
-    ----------
-    entries : mapping
-        Entries of a square matrix that are not zero everywhere, each of shape (n,).
-    right : ndarray, shape (m, k, n)
-        k right sides.
-
-    Returns
-    -------
-    solutions : ndarray, shape (m, k, n)
-    accurate : ndarray of bool, shape (n,)
-        Whether they fulfil the equations to rounding. Where False, for singular equations too, the
-        solutions are meaningless.
+    `entries` are those of a square matrix that are not zero everywhere, (n,) each; `right` are k
+    right sides, (m, k, n), as are the solutions. Where they do not fulfil the equations to
+    rounding, for singular equations too, they are meaningless.
 
     Examples
     --------

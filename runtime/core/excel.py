@@ -35,11 +35,8 @@ class Page:
 def pages_of(file: Path) -> list[Page]:
     """Return the sheets of a workbook without empty rows.
 
-    Raises
-    ------
-    InputError
-        If it cannot be read, or a cell is beyond the limits of rows and columns.
-    MissingPackageError
+    Raises `InputError` if it cannot be read, or a cell is beyond the limits of rows and columns;
+    `MissingPackageError`.
     """
     require("openpyxl", purpose="Reading Excel files", extra="excel")
     from openpyxl import load_workbook  # noqa: PLC0415 (an extra)

@@ -32,28 +32,12 @@ _REMEDIES = {
 def replacing(path: str | Path, *, force: bool = False, inputs: Paths = ()) -> Iterator[Path]:
     """Yield a temporary file that replaces the target once it is complete.
 
-    Where two programs write the same file at a time, each has a temporary one of its own.
-
-    Parameters
-    ----------
-    path : str or pathlib.Path
-        The target; its folder is created if necessary. Of a link, the file it points to is written.
-        An existing file stays as it was if anything goes wrong.
-    force : bool, optional
-        Whether a file that kintrafo did not write is replaced.
-    inputs : iterable of str or pathlib.Path, optional
-        Files that are read, and never replaced.
-
-    Yields
-    ------
-    pathlib.Path
-        A temporary file of the same name, in a folder beside the target that no other user may
-        enter.
-
-    Raises
-    ------
-    InputError
-        If the file must not be written (see `refuse`), or the system does not allow it.
+    It has the same name, in a folder beside the target that no other user may enter. Where two
+    programs write the same file at a time, each has a temporary one of its own. The folder of the
+    target is created if necessary; of a link, the file it points to is written. An existing file
+    stays as it was if anything goes wrong. It is replaced by `force` if kintrafo did not write it;
+    `inputs` are files that are read, and never replaced. Raises `InputError` if the file must not
+    be written (see `refuse`), or the system does not allow it.
 
     Examples
     --------
@@ -92,22 +76,11 @@ def replacing(path: str | Path, *, force: bool = False, inputs: Paths = ()) -> I
 def refuse(
     paths: Paths, *, force: bool = False, inputs: Paths = (), endings: Sequence[str] = ()
 ) -> None:
-    """Refuse to write files that kintrafo may not replace, with all problems in one error.
+    """Refuse to write files that kintrafo may not replace, with all problems in one `InputError`.
 
-    Parameters
-    ----------
-    paths : iterable of str or pathlib.Path
-        Files to be written.
-    force, inputs
-        Whether a file that kintrafo did not write is replaced; files that are never replaced.
-    endings : sequence of str, optional
-        Allowed endings of names; any by default.
-
-    Raises
-    ------
-    InputError
-        If a file exists, is neither empty nor as kintrafo wrote it, and `force` is False; if it is
-        read; if it is not an ordinary file; if its name has another ending; if it is named twice.
+    A file is refused if it exists and is neither empty nor as kintrafo wrote it, without `force`;
+    if it is one of the `inputs`, which are read; if it is not an ordinary file; if its name is
+    given twice, or has none of the `endings`.
     """
     wanted, read = _paths(paths, inputs, force)
     found = {}

@@ -13,19 +13,8 @@ class MissingPackageError(KintrafoError, ImportError):
 def require(module: str, *, purpose: str, extra: str) -> ModuleType:
     """Return a module of an optional package.
 
-    Parameters
-    ----------
-    module : str
-        Its import name.
-    purpose : str
-        The purpose: the beginning of a sentence.
-    extra : str
-        The extra of this project that installs it.
-
-    Raises
-    ------
-    MissingPackageError
-        With the command that installs it.
+    `purpose` is the beginning of a sentence; `extra` is the extra of this project that installs it.
+    Raises `MissingPackageError` with the command that installs it.
 
     Examples
     --------

@@ -24,12 +24,8 @@ def out_of_range(
 ) -> list[str]:
     """Return a text for each parameter out of its range, with name, value, unit and range.
 
-    Parameters
-    ----------
-    values : mapping
-        Finite numbers by name, SI units.
-    described : mapping
-        By name: the unit, and those of the bounds ``least``, ``above`` and ``most`` that exist.
+    `values` are finite numbers by name, in SI units. By name `described` has the unit, and those of
+    the bounds ``least``, ``above`` and ``most`` that exist.
 
     Examples
     --------
@@ -83,20 +79,9 @@ def rotors_of_no_body(values: Mapping[str, float]) -> list[str]:
 def impossible(
     values: Mapping[str, Any], described: Mapping[str, Mapping[str, Any]], count: int
 ) -> NDArray[np.bool_]:
-    """Return which of many parameter sets `out_of_range` or `inertia_of_no_body` refuses.
+    """Return which of many parameter sets `out_of_range` or `inertia_of_no_body` refuses, (count,).
 
-    Parameters
-    ----------
-    values : mapping
-        By name: a finite number, or an array of shape (count,); SI units.
-    described : mapping
-        Unit and bounds of parameters by name; see `out_of_range`.
-    count : int
-        Number of sets.
-
-    Returns
-    -------
-    ndarray of bool, shape (count,)
+    By name `values` has a finite number, or an array of shape (count,), in SI units.
     """
     found = np.zeros(count, dtype=bool)
     for name, entry in described.items():

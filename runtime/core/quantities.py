@@ -35,17 +35,9 @@ _DISPLAYS = {
 def attributes(meaning: str, units: str) -> dict[str, Any]:
     """Return the attributes of a variable.
 
-    Parameters
-    ----------
-    meaning : str
-        Name in words; its sign follows ", positive".
-    units : str
-        SI unit; "1" for a pure number.
-
-    Returns
-    -------
-    dict
-        Of ``long_name``, ``sign``, ``units``, ``display_units`` and ``display_factor``.
+    `meaning` is its name in words, in which its sign follows ", positive"; `units` its SI unit, "1"
+    for a pure number. The attributes are ``long_name``, ``sign``, ``units``, ``display_units`` and
+    ``display_factor``.
 
     Examples
     --------

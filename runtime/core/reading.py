@@ -37,10 +37,7 @@ def bytes_of(file: str | Path | Traversable, most: int = MOST_OF_DATA) -> bytes:
 def text_of(file: str | Path | Traversable, most: int = MOST_OF_DATA) -> str:
     """Return the text of a UTF-8 file, without the byte order mark of some Windows editors.
 
-    Raises
-    ------
-    InputError
-        If the file cannot be read, has more than `most` bytes or is not a text in UTF-8.
+    Raises `InputError` if it cannot be read, has more than `most` bytes or is not a text in UTF-8.
     """
     content = bytes_of(file, most)
     try:

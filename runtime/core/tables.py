@@ -104,13 +104,7 @@ class Table:
     ) -> "Table":
         """Return the table of one row or more, of which the first names the columns.
 
-        Parameters
-        ----------
-        source : str
-        rows : sequence of (int, list)
-        comments : iterable of (int, list)
-            Cells of comment lines, without the hash.
-        commas : bool, optional
+        Rows have a number and cells; `comments` are the cells of comment lines, without the hash.
         """
         (_, names), *others = rows
         if len(names) > _MOST_COLUMNS:
@@ -194,17 +188,8 @@ class Table:
     def numbers(self, wanted: Sequence[int], may_be_empty: Collection[int] = ()) -> Array:
         """Return the numbers of some columns, shape (rows, wanted).
 
-        Parameters
-        ----------
-        wanted : sequence of int
-            Indices of the columns.
-        may_be_empty : collection of int, optional
-            Those of them in which a cell may be empty or infinite: it becomes NaN.
-
-        Raises
-        ------
-        InputError
-            With the lines that are wrong.
+        Columns are given by their indices. In those of `may_be_empty` a cell that is empty or
+        infinite becomes NaN. Raises `InputError` with the lines that are wrong.
         """
         problems = []
         if len(self.rows) < 2:
@@ -280,12 +265,8 @@ def csv_rows(
 ) -> tuple[list[Row], list[Row], bool]:
     """Return the rows of a CSV file, its comment lines, and whether decimals may have commas.
 
-    Columns are separated by tabs, semicolons or commas; comments begin with a hash.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, is too large or is not UTF-8.
+    Columns are separated by tabs, semicolons or commas; comments begin with a hash. Raises
+    `InputError` if the file cannot be read, is too large or is not UTF-8.
     """
     lines = [
         (number, line)

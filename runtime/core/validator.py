@@ -37,15 +37,10 @@ def shown(value: Any) -> str:
 
 
 class Validator:
-    """The arguments of one call; raises one `InputError` for all that are wrong.
+    """The arguments of one call of the function `source`; raises one `InputError` for all mistakes.
 
     Each check returns the argument as it is used, or a harmless value where it is wrong:
     computations between the checks do not fail because of it, and their results are never seen.
-
-    Parameters
-    ----------
-    source : str
-        Name of the function that was called.
     """
 
     def __init__(self, source: str) -> None:
@@ -136,18 +131,8 @@ class Validator:
     ) -> Array:
         """Return numbers as an array.
 
-        Parameters
-        ----------
-        name, values, unit
-            The argument.
-        dimensions
-            Allowed numbers of dimensions.
-        last
-            Length of the last one.
-        empty
-            Whether it may have no elements.
-        finite
-            Whether NaN and infinity are refused.
+        Refused are other numbers of dimensions than `dimensions`, another length than `last` of the
+        last one, no elements without `empty`, and NaN and infinity with `finite`.
         """
         array = _as_array(values)
         in_unit = f", in {unit}," if unit else ""

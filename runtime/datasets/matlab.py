@@ -27,21 +27,9 @@ def write(frame: Any, described: Mapping[str, Mapping[str, Any]], about: Any, pa
     """Write a data frame.
 
     ``data`` has the columns, ``units`` and ``meanings`` describe them, and ``names`` has their
-    original names. Texts are rows of characters, for ``string(data.load)``.
-
-    Parameters
-    ----------
-    frame : pandas.DataFrame
-    described : mapping
-        By column: ``units``, ``long_name`` and ``sign``.
-    about : mapping
-        Attributes of the whole table.
-    path : pathlib.Path
-
-    Raises
-    ------
-    InputError
-        If a column is larger than the format allows.
+    original names. Texts are rows of characters, for ``string(data.load)``. By column `described`
+    has ``units``, ``long_name`` and ``sign``; `about` are attributes of the whole table. Raises
+    `InputError` if a column is larger than the format allows.
     """
     from scipy.io import savemat  # noqa: PLC0415 (slow to import)
     from scipy.io.matlab import MatWriteError  # noqa: PLC0415 (as this)

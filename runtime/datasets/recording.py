@@ -16,18 +16,9 @@ TIME = "time"
 
 
 def dataset_of(model: System, result: Simulation) -> xr.Dataset:
-    """Return signals, states and inputs of a simulation, with their descriptions.
+    """Return signals, states and inputs of a simulation of a model, with their descriptions.
 
-    Parameters
-    ----------
-    model : System or Model
-        The simulated model.
-    result : Simulation
-
-    Returns
-    -------
-    xarray.Dataset
-        Over ``time`` [s]; SI units, names as in the model's tables.
+    They are over ``time`` [s], in SI units, with the names of the model's tables.
 
     Examples
     --------

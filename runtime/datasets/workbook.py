@@ -24,11 +24,7 @@ _MEASURED = 200  # rows that determine the width of a column
 def write(frames: Mapping[str, Any], path: Path) -> None:
     """Write data frames, by names of sheets, each with a heading that stays in sight.
 
-    Raises
-    ------
-    InputError
-        If a sheet cannot hold that many rows or columns.
-    MissingPackageError
+    Raises `InputError` if a sheet cannot hold that many rows or columns; `MissingPackageError`.
     """
     require("openpyxl", purpose="Writing Excel files", extra="excel")
     from openpyxl import Workbook  # noqa: PLC0415 (an extra)

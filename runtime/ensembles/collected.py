@@ -41,15 +41,10 @@ class Collected:
         self.solvers = np.full(count, "", dtype=object)
 
     def __call__(self, first: int, last: int, samples: Array, stopped: Callable[[], bool]) -> None:
-        """Collect the results of some systems.
+        """Collect the results of the systems from the first to the one before the last.
 
-        Parameters
-        ----------
-        first, last : int
-            The first of them, and the one after the last.
-        samples : ndarray, shape (last - first, number of series, number of times)
-        stopped : callable
-            Returns whether the caller wants to stop.
+        `samples` have the shape (last - first, number of series, number of times); `stopped`
+        returns whether the caller wants to stop.
         """
         outcome = self.problem.outcome
         began = outcome.ends[first:last] != End.PARAMETERS

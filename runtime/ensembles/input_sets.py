@@ -34,18 +34,9 @@ def input_sets_of(
 ) -> InputSets:
     """Return the inputs of many systems in one form.
 
-    Parameters
-    ----------
-    model : System
-    inputs : mapping
-        Signals by name of an input, see `time_inputs`; or by label, where systems differ.
-    variants : Variants
-    t_span : tuple of float
-        First and last time [s].
-    held : ndarray or None
-        Values of the inputs that are not given.
-    max_step : float
-        Longest step of the integration, and longest time between two calls of a function [s].
+    `inputs` are signals by name of an input, see `time_inputs`, or by label, where systems differ;
+    `held` are values of the others. `max_step` is the longest step of the integration, and the
+    longest time between two calls of a function [s].
     """
     rows, of = _combinations(variants)
     different = []

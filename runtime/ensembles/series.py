@@ -31,25 +31,14 @@ def frequencies(times: Array, segment: int) -> Array:
 
 
 def spectra(series: Array, times: Array, segment: int) -> Array:
-    """Return one-sided power spectral densities by Welch's method.
+    """Return one-sided power spectral densities by Welch's method, (count, segment // 2 + 1).
 
     Segments overlap by half, each without its mean and under Hann's window; their periodograms are
     averaged: Welch, The use of fast Fourier transform for the estimation of power spectra, IEEE
-    Transactions on Audio and Electroacoustics 15 (1967).
-
-    Parameters
-    ----------
-    series : ndarray, shape (count, number of times)
-    times : ndarray
-        At equal distances [s].
-    segment : int
-        Number of outputs in a segment.
-
-    Returns
-    -------
-    ndarray, shape (count, segment // 2 + 1)
-        The square of the unit of the series over Hz. Its integral over the frequencies is the
-        variance within the segments.
+    Transactions on Audio and Electroacoustics 15 (1967). The times of the series, (count, number of
+    times), are at equal distances [s]; a segment has `segment` outputs. The unit is the square of
+    that of the series over Hz. The integral over the frequencies is the variance within the
+    segments.
     """
     from scipy.signal import welch  # noqa: PLC0415 (slow to import)
 

@@ -21,20 +21,10 @@ class StiffFallback:
     method: Literal["BDF"] = "BDF"  # of `kintrafo.simulate`
 
     def do(self, place: int, samples: Array, stopped: Callable[[], bool]) -> str:
-        """Simulate one system with the same inputs, times and tolerances.
+        """Simulate one system with the same inputs and tolerances; return the reason of a failure.
 
-        Parameters
-        ----------
-        place : int
-        samples : ndarray, shape (number of series, number of times)
-            Overwritten where this succeeds.
-        stopped : callable
-            Returns whether the caller wants to stop.
-
-        Returns
-        -------
-        str
-            Why the simulation failed; empty if it succeeded.
+        The reason is empty if there is none. `samples`, (number of series, number of times), are
+        then overwritten; `stopped` returns whether the caller wants to stop.
         """
         problem, systems, outcome = self.problem, self.problem.systems, self.problem.outcome
         drive = systems.drives[systems.drive_of[place]]

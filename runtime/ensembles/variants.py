@@ -56,16 +56,8 @@ def variants_of(
 ) -> Variants:
     """Return the values that differ between systems.
 
-    Parameters
-    ----------
-    model : System
-    given : mapping, xarray.Dataset or None
-    courses : mapping
-        Inputs over time: one series for all systems, or several by label.
-    rows : int or None
-        Number of initial states; None if there is one for all.
-    room : Room
-        Memory of the results.
+    `courses` are inputs over time: one series for all systems, or several by label. `rows` is the
+    number of initial states, None if there is one for all; `room` the memory of the results.
     """
     choices = {name: several for name, several in courses.items() if isinstance(several, Mapping)}
     with Validator("ensemble") as arguments:

@@ -26,11 +26,7 @@ _STEP = 1e-6
 class WiderArrays:
     """The model of a derivative, whose arrays have more elements than the values.
 
-    Parameters
-    ----------
-    model : Equations
-    more : tuple of int
-        Numbers of elements that follow the constants, the state and the inputs.
+    `more` are the numbers of elements that follow the constants, the state and the inputs.
     """
 
     def __init__(self, model: Any, more: tuple[int, ...]) -> None:
@@ -55,16 +51,8 @@ class WiderArrays:
 class Directions:
     """Derivatives of a model with respect to everything that its functions read.
 
-    Parameters
-    ----------
-    model : Equations
-    calls : mapping
-        The compiled functions; empty if the model was compiled without derivatives.
-
-    Attributes
-    ----------
-    of : tuple of str
-        Names of the functions that have derivatives.
+    `calls` are the compiled functions, none if the model was compiled without derivatives; `of` are
+    the names of the functions that have derivatives.
     """
 
     def __init__(self, model: Any, calls: Mapping[str, Any]) -> None:
@@ -76,15 +64,8 @@ class Directions:
     def of_parameters(self, function: str, parameters: Array, behind: Array, size: int) -> Array:
         """Return the results of a function of parameters, shape (..., size).
 
-        Parameters
-        ----------
-        function : str
-            ``prepare_tangent``, ``prepare_adjoint`` or ``design_state_tangent``.
-        parameters : ndarray, shape (parameters,)
-        behind : ndarray, shape (..., n)
-            Directions or weights.
-        size : int
-            Number of results; a ModelError is raised if one is not finite.
+        The function is ``prepare_tangent``, ``prepare_adjoint`` or ``design_state_tangent``;
+        `behind` are directions or weights, (..., n). Raises `ModelError` if a result is not finite.
         """
         found = np.empty((*behind.shape[:-1], size))
         for index in np.ndindex(behind.shape[:-1]):
@@ -100,11 +81,8 @@ class Directions:
     ) -> Array:
         """Return the derivative of a function along directions.
 
-        Parameters
-        ----------
-        function : str
-        values, directions : tuple of ndarray
-            Constants, state and inputs, and their changes; leading dimensions are broadcast.
+        `values` are constants, state and inputs, `directions` their changes; leading dimensions are
+        broadcast.
         """
         constants, state, inputs = map(_joined, values, directions)
         return self._calls[f"{function}_tangent"](state, inputs, constants)
@@ -112,12 +90,7 @@ class Directions:
     def adjoint(self, function: str, values: tuple[Array, ...], weights: Array) -> list[Array]:
         """Return derivatives of a weighted sum of results by constants, state and inputs.
 
-        Parameters
-        ----------
-        function : str
-        values : tuple of ndarray
-            Constants, state and inputs.
-        weights : ndarray, shape (..., results)
+        `values` are these three; `weights` have the shape (..., results).
         """
         constants, state, inputs = values
         call = self._calls[f"{function}_adjoint"]
@@ -134,10 +107,8 @@ class Directions:
     def broken(self, parameters: Array, direction: Array) -> str:
         """Return the assumption of the equations that a direction breaks; empty if it keeps all.
 
-        Parameters
-        ----------
-        parameters, direction : ndarray, shape (parameters,)
-            The direction changes only `bound` parameters: beside others they could be too small.
+        The direction, (parameters,), changes only `bound` parameters: beside others they could be
+        too small.
         """
         if not self._zero or not direction.any():
             return ""

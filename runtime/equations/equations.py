@@ -104,21 +104,11 @@ class Equations:
 
     @classmethod
     def beside(cls, module: str, code: Code, mechanism: str) -> "Equations":
-        """Return the equations whose manifest is in the folder of a module.
+        """Return the equations whose manifest is in the folder of a module, from its ``__file__``.
 
-        Parameters
-        ----------
-        module : str
-            ``__file__`` of the module.
-        code : mapping
-            The functions that the manifest names.
-        mechanism : str
-            The hash of the equations that the functions were compiled from.
-
-        Raises
-        ------
-        ModelError
-            If the manifest is that of other equations: calls would write outside of their arrays.
+        `code` has the functions that the manifest names; `mechanism` is the hash of the equations
+        that they were compiled from. Raises `ModelError` if the manifest is that of other
+        equations: calls would write outside of their arrays.
         """
         manifest = json.loads(Path(module).with_suffix(".json").read_text(encoding="utf-8"))
         if mechanism != manifest["mechanism"]:
@@ -258,23 +248,11 @@ class Equations:
         return state
 
     def prepare(self, parameters: Mapping[str, float] | ArrayLike) -> Array:
-        """Return the constants of one parameter set.
+        """Return the constants of one parameter set, read-only, in the order of ``CONSTANTS``.
 
-        Parameters
-        ----------
-        parameters : mapping or array_like
-            Values by name, or in the order of ``PARAMETERS``, in SI units.
-
-        Returns
-        -------
-        ndarray
-            Read-only; one element for each of ``CONSTANTS``.
-
-        Raises
-        ------
-        ParameterError
-            If a name is unknown or missing, a value is not finite or out of its range, an inertia
-            is that of no body, or the geometry is degenerate.
+        Parameters are values by name, or in the order of ``PARAMETERS``, in SI units. Raises
+        `ParameterError` if a name is unknown or missing, a value is not finite or out of its range,
+        an inertia is that of no body, or the geometry is degenerate.
         """
         values = self._ordered(parameters) if isinstance(parameters, Mapping) else parameters
         given = np.ascontiguousarray(values, dtype=np.float64)
@@ -300,18 +278,10 @@ class Equations:
         return constants
 
     def prepare_many(self, parameters: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
-        """Return constants and design states of many parameter sets.
+        """Return constants and design states of parameter sets, and which sets failed, (count,).
 
-        Parameters
-        ----------
-        parameters : ndarray, shape (count, parameters)
-            In the order of ``PARAMETERS``, finite and in their ranges, SI units.
-
-        Returns
-        -------
-        constants, states : ndarray, shape (count, ...)
-        failed : ndarray of bool, shape (count,)
-            True for sets that `prepare` refuses; their constants are meaningless.
+        Parameters, (count, parameters), are in the order of ``PARAMETERS``, finite and in their
+        ranges, in SI units. Sets failed that `prepare` refuses; their constants are meaningless.
         """
         count = len(parameters)
         constants = np.empty((count, len(self.constant_names)))

@@ -125,23 +125,10 @@ def follow_turns(
 ) -> tuple[Array, ...]:
     """Follow loops to other coordinates, without whole turns that lead back to the design position.
 
-    Parameters
-    ----------
-    once : callable
-        One iteration.
-    unknowns, elements : int
-        Numbers of the unknowns of the loops, and of the elements of the inverse of their Jacobian.
-    turns : sequence of bool
-        Whether each coordinate is an angle.
-    given : sequence of array_like
-        Constants.
-    along : sequence of tuple
-        Start, end and unit of every coordinate.
-
-    Returns
-    -------
-    tuple of ndarray
-        The solutions; the last array is one where the loops have not reached the end, else zero.
+    `once` is one iteration; `unknowns` and `elements` are the numbers of the unknowns of the loops,
+    and of the elements of the inverse of their Jacobian; `turns` is whether each coordinate is an
+    angle. `given` are constants, `along` start, end and unit of every coordinate. The solutions are
+    returned; the last array is one where the loops have not reached the end, else zero.
     """
     shape = np.broadcast_shapes(*map(np.shape, (*given, *(v for values in along for v in values))))
 

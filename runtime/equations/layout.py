@@ -74,12 +74,8 @@ class StateLayout:
     def basis(self, state: Array) -> Array:
         """Return the directions in which positions can change, shape (positions, directions).
 
-        Displacements and small turns of free bodies are in their own axes.
-
-        Parameters
-        ----------
-        state : ndarray, shape (states,)
-            With quaternions of length one.
+        Displacements and small turns of free bodies are in their own axes. The state, (states,),
+        has quaternions of length one.
         """
         found = self._of_free(
             (at, rotation(e), turning(e)) for at in self.free for e in [self._quaternion(state, at)]

@@ -22,23 +22,15 @@ _SHOWN = {
 def show(pages: Mapping[tuple[str, str], tuple[str, str]]) -> None:
     """Register pages for more classes, or other pages for these.
 
-    Parameters
-    ----------
-    pages : mapping
-        By module and name of a class: module and name of the function that writes its page.
+    `pages` have, by module and name of a class, module and name of the function that writes its
+    page.
     """
     _SHOWN.update(pages)
     register()
 
 
 def register(formatter: Any = None) -> None:
-    """Register the pages with IPython.
-
-    Parameters
-    ----------
-    formatter : IPython.core.formatters.HTMLFormatter, optional
-        By default that of the running notebook; without a notebook nothing is done.
-    """
+    """Register the pages with a formatter of IPython, by default that of the running notebook."""
     ipython = sys.modules.get("IPython")
     shell = ipython.get_ipython() if ipython is not None else None
     if formatter is None and shell is not None:

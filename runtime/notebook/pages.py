@@ -48,14 +48,7 @@ def simulation(shown: Simulation) -> str:
 
 
 def motion(shown: Simulation, drawn: Callable[[xr.Dataset], Iterable[Figure]]) -> str:
-    """Return the page of a motion, with curves drawn by a function.
-
-    Parameters
-    ----------
-    shown : Simulation
-    drawn : callable
-        Returns figures of the dataset of the motion.
-    """
+    """Return the page of a motion; `drawn` returns figures of the dataset of the motion."""
     entries = {
         "ended": shown.message,
         "time": f"{shown.t[0]:g} s to {shown.t[-1]:g} s, {shown.t.size} outputs",

@@ -102,12 +102,8 @@ def _write_gif(path: Path, result: Simulation, fps: float, slower: float) -> Non
 def frames(times: Array, fps: float, slower: float = 1.0) -> tuple[Array, Indices]:
     """Return the times of the frames of a GIF [s], and the indices of the nearest outputs.
 
-    Parameters
-    ----------
-    times : ndarray, shape (n,)
-        Of the outputs [s].
-    fps, slower
-        Frames per second, and the factor by which the motion is slower; see `frames_in`.
+    `times` are those of the outputs [s]; `fps` are frames per second, and the motion is `slower` by
+    a factor, see `frames_in`.
     """
     count = frames_in(abs(float(times[-1] - times[0])), fps, slower)
     wanted = np.linspace(times[0], times[-1], count)
@@ -117,10 +113,7 @@ def frames(times: Array, fps: float, slower: float = 1.0) -> tuple[Array, Indice
 def frames_in(seconds: float, fps: float, slower: float = 1.0) -> int:
     """Return the number of frames of a GIF of a motion that takes some seconds.
 
-    Raises
-    ------
-    InputError
-        If there are more frames than viewers show.
+    Raises `InputError` if there are more frames than viewers show.
     """
     count = max(2, round(slower * seconds * fps) + 1)
     if count > MOST_FRAMES:

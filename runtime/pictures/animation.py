@@ -30,18 +30,9 @@ _TURN, _TILT = 35.0, 18.0  # degrees: from the front, above
 def write_gif(
     path: Path, skeleton: Skeleton, times: Array, places: dict[str, Array], fps: float
 ) -> None:
-    """Write a motion as a GIF.
+    """Write a motion as a GIF with `fps` frames per second.
 
-    Parameters
-    ----------
-    path : pathlib.Path
-    skeleton : Skeleton
-    times : ndarray, shape (n,)
-        Times of the frames [s].
-    places : dict
-        Points of each body, shape (n, points, 3) [m].
-    fps : float
-        Frames per second.
+    `times` are those of the frames [s], `places` points of each body, (n, points, 3) [m].
     """
     drawer = _Drawer(skeleton, places)
     save_frames(

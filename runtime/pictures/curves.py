@@ -88,28 +88,11 @@ def draw(
     upright: Collection[str] = (),
     mark: Mark = lambda *_: np.empty(0),
 ) -> Figure:
-    """Draw curves of some variables, each in its own axes.
+    """Return a figure of curves of some variables, over one dimension or two, each in its own axes.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-    names : sequence of str
-        Variables over one dimension or two.
-    title : str, optional
-    alone : bool, optional
-        Whether this is the figure of one curve, with its definition where there is one.
-    columns : int, optional
-        Largest number of panels in a row.
-    positions : collection of str, optional
-        Dimensions whose zero is the design position.
-    upright : collection of str, optional
-        Dimensions that are on the vertical axis.
-    mark : callable, optional
-        Draws marks in a panel.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
+    `alone` is whether this is the figure of one curve, with its definition where there is one;
+    `columns` is the largest number of panels in a row. `positions` are dimensions whose zero is the
+    design position, `upright` those on the vertical axis; `mark` draws marks in a panel.
     """
     with Validator("figures") as given:
         given.dataset(dataset)

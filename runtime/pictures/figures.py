@@ -39,25 +39,10 @@ METADATA: dict[str, dict[str, Any]] = {
 
 
 def save(figure: Figure, path: str | Path, *, force: bool = False, inputs: Paths = ()) -> Path:
-    """Write a figure to a file, whose ending determines the format.
+    """Write a figure to a file, whose ending determines the format, and return its path.
 
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-    path : str or pathlib.Path
-    force : bool, optional
-        Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
-    inputs : iterable of str or pathlib.Path, optional
-        Files that are never replaced.
-
-    Returns
-    -------
-    pathlib.Path
-
-    Raises
-    ------
-    InputError
-        If the file must not or cannot be written.
+    `force` is whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`;
+    `inputs` are never replaced. Raises `InputError` if the file must not or cannot be written.
     """
     ending = Path(path).suffix.lower().removeprefix(".")
     drawn = BytesIO()  # so that an error leaves no open file
@@ -71,11 +56,7 @@ def save(figure: Figure, path: str | Path, *, force: bool = False, inputs: Paths
 def data_uri(figure: Figure, ending: Literal["svg", "png"] = "svg") -> str:
     """Return a figure as the data URI of an image for a self-contained page.
 
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-    ending : {'svg', 'png'}, optional
-        Vector graphics, or pixels, which are smaller for a figure with many letters.
+    It has vector graphics, or as ``png`` pixels, which are smaller for a figure with many letters.
     """
     drawn = BytesIO()
     # text as text can be searched for, and takes a tenth of the size of outlines

@@ -46,23 +46,10 @@ class _Box:
 
 
 def label_lines(axes: Axes, lines: Sequence[Line2D], names: Sequence[str], size: Array) -> bool:
-    """Write the name of each line beside it, in its colour; write none without space for all.
+    """Write the name of each line beside it, in its colour; return False without space for all.
 
-    The nearest line to a name is its own by far, and no line crosses it.
-
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-        With its limits.
-    lines : sequence of Line2D
-    names : sequence of str
-    size : ndarray, shape (2,)
-        Approximate width and height of the panel [in].
-
-    Returns
-    -------
-    bool
-        Whether the names were written.
+    The nearest line to a name is its own by far, and no line crosses it. The axes have their
+    limits; `size` is the approximate width and height of the panel [in].
     """
     panel = size * _POINTS
     curves = [_in_points(axes, line, panel) for line in lines]

@@ -22,28 +22,10 @@ def course(
 ) -> list[PPoly] | float:
     """Return an input as piecewise cubics, or as a number if it does not vary.
 
-    Parameters
-    ----------
-    name : str
-        Of the input.
-    signal : float, Samples, pair of array_like, PPoly or callable
-        SI units.
-    t_span : tuple of float
-        First and last time, which samples must cover [s].
-    max_step : float
-        Longest time between two calls of a function [s].
-    rates : int
-        Number of its derivatives that the model reads.
-
-    Returns
-    -------
-    list of PPoly, or float
-        A piecewise cubic for each time span between given jumps.
-
-    Raises
-    ------
-    InputError
-        If the input cannot be used.
+    There is one cubic for each time span between given jumps. The signal has SI units; `t_span` are
+    first and last time, which samples must cover [s]; `max_step` is the longest time between two
+    calls of a function [s], `rates` the number of derivatives that the model reads. Raises
+    `InputError` if the input cannot be used.
     """
     if isinstance(signal, tuple | list):
         if len(signal) != 2:

@@ -78,13 +78,8 @@ class DeadPoint(Exception):  # noqa: N818 (it ends an integration, and is raised
 class Approach:
     """The margins along a motion.
 
-    Parameters
-    ----------
-    model : System
-    inputs_at : callable
-        Returns the array of inputs at a time.
-    direction : float
-        Plus or minus one: the direction of time.
+    `inputs_at` returns the array of inputs at a time; `direction` is that of time, plus or minus
+    one.
     """
 
     def __init__(self, model: System, inputs_at: Any, direction: float) -> None:

@@ -92,10 +92,7 @@ NO_EVENTS = Events((), (), ())
 def named_event(model: System, name: str) -> SignalEvent:
     """Return an event of the forces of a model, by its name.
 
-    Raises
-    ------
-    InputError
-        If there is no such event, or a parameter that it needs is zero.
+    Raises `InputError` if there is no such event, or a parameter that it needs is zero.
     """
     known = {
         event: (signal, entry)

@@ -43,26 +43,12 @@ def fitted(
     """Return a spline through a function of time, or a number if it does not vary.
 
     The function is called at least every millisecond, every thousandth of the time and every
-    `max_step`, at irregular times. The spline has every value of these calls, with as few knots as
-    that needs; where a cubic is not close enough, the function is called again. So it includes
-    everything that lasts twice as long as the distance of two calls, and everything periodic.
-
-    Parameters
-    ----------
-    name : str
-        Of the input.
-    function : callable
-    t_span : tuple of float
-        [s]
-    max_step : float
-        Longest step of the integration [s].
-    accelerates : bool
-        Whether the model reads the second derivative; the velocity must then not jump.
-
-    Raises
-    ------
-    InputError
-        If the function jumps, or has values that are not finite.
+    `max_step`, the longest step of the integration [s], at irregular times. The spline has every
+    value of these calls, with as few knots as that needs; where a cubic is not close enough, the
+    function is called again. So it includes everything that lasts twice as long as the distance of
+    two calls, and everything periodic. `accelerates` is whether the model reads the second
+    derivative; the velocity must then not jump. Raises `InputError` if the function jumps, or has
+    values that are not finite.
     """
     low, high = min(t_span), max(t_span)
     calls = math.ceil(max((high - low) / min(_RESOLUTION, max_step), _FEWEST_CALLS))

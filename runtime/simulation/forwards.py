@@ -182,14 +182,7 @@ def _refuse_varying(
 
 
 class _Tangents:
-    """Directions in which a system changes, integrated along the steps of a motion.
-
-    Parameters
-    ----------
-    system : System
-    along : mapping
-        Directions by name.
-    """
+    """Directions in which a system changes, by name, integrated along the steps of a motion."""
 
     def __init__(self, system: System, along: Mapping[str, Mapping[str, float]]) -> None:
         self._system, self._directions = system, system.equations.DIRECTIONS

@@ -54,13 +54,7 @@ class Samples:
 def curves(times: Array, values: Array, between: str, *, accelerates: bool) -> list[PPoly]:
     """Return piecewise cubics through checked samples, one for each time span without a jump.
 
-    Parameters
-    ----------
-    times, values : ndarray
-    between : str
-        See `Samples`.
-    accelerates : bool
-        Whether the model reads the second derivative.
+    `between` is as in `Samples`; `accelerates` is whether the model reads the second derivative.
     """
     cuts = np.flatnonzero(np.diff(times) == 0.0) + 1
     stretches = zip(np.split(times, cuts), np.split(values, cuts), strict=True)

@@ -45,22 +45,9 @@ def ended_at_kinks(
 ) -> tuple[Simulation, RetracedSteps]:
     """Return a motion without kinks inside its longer steps, and its steps.
 
-    Parameters
-    ----------
-    system : System
-        With derivatives with respect to parameters.
-    motion : Simulation
-        With every step.
-    courses : TimeInputs
-    again : callable
-        Returns the motion for inputs with more milestones.
-    rtol : float
-        Of the motion.
-
-    Raises
-    ------
-    InputError
-        If the rates jump at a kink, or ever more kinks are found.
+    The system has derivatives with respect to parameters, the motion every step and the tolerance
+    `rtol`; `again` returns the motion for inputs with more milestones. Raises `InputError` if the
+    rates jump at a kink, or ever more kinks are found.
     """
     steps = RetracedSteps(system, motion, courses)
     if not hasattr(system.equations, _FUNCTION):

@@ -148,19 +148,12 @@ def time_inputs(
 ) -> TimeInputs:
     """Return the checked inputs of a simulation in one form.
 
-    Parameters
-    ----------
-    model : System or Model
-    signals : mapping, optional
-        By name of an input: a number, samples (`Samples`, or a pair of times and values), a
-        piecewise cubic of SciPy, or a function of time (see `fitting`); SI units. Velocity and
-        acceleration of a prescribed position are derivatives of the curve.
-    t_span : tuple of float
-        First and last time of the simulation, which samples must cover [s].
-    held : ndarray, optional
-        Values of the inputs that are not given, zero by default.
-    max_step : float, optional
-        Longest step of the integration, and longest time between two calls of a function [s].
+    By name of an input, `signals` has a number, samples (`Samples`, or a pair of times and values),
+    a piecewise cubic of SciPy, or a function of time (see `fitting`), in SI units; `held` are the
+    values of others, zero by default. Velocity and acceleration of a prescribed position are
+    derivatives of the curve. `t_span` are first and last time, which samples must cover [s];
+    `max_step` is the longest step of the integration, and the longest time between two calls of a
+    function [s].
     """
     names, inputs = model.input_names, model.equations.INPUTS
     with Validator("inputs") as given:

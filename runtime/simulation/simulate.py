@@ -223,18 +223,8 @@ def simulate_inputs(
 ) -> Simulation:
     """Integrate one motion of many, with arguments that have been checked.
 
-    Parameters
-    ----------
-    model : System
-    inputs : TimeInputs
-    state : ndarray
-        At the start.
-    times : ndarray, optional
-        Of the outputs [s]; every step by default.
-    accuracy : Accuracy
-    method : str
-    stopped : callable, optional
-        Called now and then; KeyboardInterrupt is raised if it returns True.
+    `state` is that at the start; `times` are those of the outputs [s], by default every step.
+    `stopped` is called now and then; KeyboardInterrupt is raised if it returns True.
     """
     options = Options(
         **vars(accuracy), method=method, dense_output=False, stop_at_outputs=False, stopped=stopped

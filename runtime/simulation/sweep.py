@@ -30,12 +30,7 @@ _ROWS = 4096
 class Sweep:
     """The adjoint of a motion: derivatives with respect to its constants, its start, and inputs.
 
-    Parameters
-    ----------
-    system : System
-        With derivatives with respect to parameters.
-    steps : RetracedSteps
-        Of its motion.
+    The system has derivatives with respect to parameters; `steps` are those of its motion.
     """
 
     def __init__(self, system: System, steps: RetracedSteps) -> None:
@@ -49,13 +44,9 @@ class Sweep:
     ) -> tuple[Array, Array, Array]:
         """Return the derivatives of a weighted sum by constants, the start, and inputs.
 
-        Parameters
-        ----------
-        places, point : tuple of ndarray
-            Steps and parts of the evaluated times, with states and inputs there, see
-            `RetracedSteps`.
-        weights : mapping
-            Of signals and elements of the state at these times, by name.
+        `places` and `point` are steps and parts of the evaluated times, with states and inputs
+        there, see `RetracedSteps`; `weights` are those of signals and elements of the state at
+        these times, by name.
         """
         system, (states, inputs) = self._system, point
         of_signals = np.zeros((len(states), len(system.signal_names)))

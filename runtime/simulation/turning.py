@@ -26,19 +26,9 @@ def turning_points(curve: PPoly, orders: Sequence[int]) -> Array:
 
     Between two of them every order is monotone: a step from one to the next captures the change. An
     integrator that may pass over them could miss a bump that begins and ends within its step. A
-    step of at most the reach of an extremum has stages that are close enough.
-
-    Parameters
-    ----------
-    curve : PPoly
-        Of time [s].
-    orders : sequence of int
-        Orders of the derivatives; 0 is the curve.
-
-    Returns
-    -------
-    ndarray, shape (2, n)
-        Times in order, and the longest step that may pass over each: its reach [s].
+    step of at most the reach of an extremum has stages that are close enough. The curve is one of
+    time [s], `orders` are those of the derivatives, 0 for the curve. The result, (2, n), has times
+    in order, and the reach of each [s].
 
     Examples
     --------
@@ -77,14 +67,8 @@ def _of(curve: PPoly, noise: float) -> Array:
 def _reaches(times: Array, values: Array, turns: NDArray[np.intp], bends: Array) -> Array:
     """Return the longest steps over extrema, from the times that the values stay beside them.
 
-    Parameters
-    ----------
-    times, values : ndarray
-        Of the curve, which is monotone between two of them.
-    turns : ndarray
-        Indices of its extrema.
-    bends : ndarray
-        Magnitude of the second derivative there.
+    Times and values are those of the curve, which is monotone between two of them; `turns` are
+    indices of its extrema, `bends` magnitudes of the second derivative there.
     """
     borders = np.concatenate(([0], turns, [values.size - 1]))
     swing = np.searchsorted(turns, np.arange(values.size), side="right")

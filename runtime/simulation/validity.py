@@ -30,11 +30,7 @@ class Bound:
 def bounds_of(model: System, varied: Mapping[str, Array] | None = None) -> Iterator[Bound]:
     """Yield the bounds on signals of a model, declared with its forces or in its file.
 
-    Parameters
-    ----------
-    model : System
-    varied : mapping, optional
-        Parameters that differ between systems, arrays by name, SI units.
+    `varied` are parameters that differ between systems, arrays by name, in SI units.
     """
     parameters: Mapping[str, Values] = {**model.parameters, **(varied or {})}
     for signal, described in model.equations.SIGNALS.items():
@@ -94,14 +90,7 @@ def excursions(
 ) -> tuple[Excursion, ...]:
     """Return the bounds that outputs of a motion pass.
 
-    Parameters
-    ----------
-    model : System or Model
-    bounds : iterable of Bound
-    times : ndarray, shape (n,)
-        [s]
-    signals : mapping
-        Arrays of shape (n,) by name, SI units; NaN is ignored.
+    Times [s] and signals by name, in SI units, have the shape (n,); NaN is ignored.
     """
     found = []
     for bound in bounds:

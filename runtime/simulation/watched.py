@@ -52,23 +52,11 @@ def watched(
 ) -> type[OdeSolver]:
     """Return a method of SciPy whose steps are limited, and taken back, as those of SUNDIALS are.
 
-    Parameters
-    ----------
-    name : str
-        Of the method.
-    approach : Approach
-    last_tried : callable
-        Returns the time of the last evaluation of the right-hand side.
-    milestones : ndarray
-        Times that no step passes over, in the order of the integration [s].
-    failed : callable
-        Called with the reason why no further step can be taken: `DeadPoint`, `ModelError` if a
-        state is refused after a step of any length, or `TooManySteps`.
-
-    Returns
-    -------
-    type
-        For ``solve_ivp``, which keeps its results until a step fails.
+    `last_tried` returns the time of the last evaluation of the right-hand side; `milestones` are
+    times that no step passes over, in the order of the integration [s]. `failed` is called with the
+    reason why no further step can be taken: `DeadPoint`, `ModelError` if a state is refused after a
+    step of any length, or `TooManySteps`. The class is for ``solve_ivp``, which keeps its results
+    until a step fails.
     """
     base: Any = _METHODS[name]
     watch = _Watch(approach, last_tried, milestones, failed)

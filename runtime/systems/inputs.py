@@ -8,13 +8,7 @@ Inputs = Mapping[str, Mapping[str, Any]]
 
 
 def rates_of(name: str, inputs: Inputs) -> tuple[str, ...]:
-    """Return the inputs that are the derivatives of an input, in order.
-
-    Parameters
-    ----------
-    name : str
-    inputs : mapping
-        All inputs of the equations, with ``derivative_of``.
+    """Return the inputs that are the derivatives of an input, in order, of all `inputs`.
 
     Examples
     --------

@@ -104,16 +104,10 @@ def eigenvalues_of(matrix: Array) -> Complex:
 
 
 def modes_of(matrix: Array, names: tuple[str, ...], lift: Array | None = None) -> tuple[Mode, ...]:
-    """Return the modes: one for each conjugate pair and for each real eigenvalue.
+    """Return the modes of a matrix, (n, n): one for each conjugate pair and each real eigenvalue.
 
-    Parameters
-    ----------
-    matrix : ndarray, shape (n, n)
-        A.
-    names : tuple of str
-        Names of the states.
-    lift : ndarray, shape (states, n), optional
-        Matrix from the coordinates of A to changes of the states; the identity by default.
+    `names` are those of the states; `lift`, (states, n), leads from the coordinates of the matrix
+    to changes of the states, by default the identity.
     """
     values, _, right = _decompose(matrix)
     shapes = right if lift is None else lift @ right
@@ -130,21 +124,10 @@ def mode_of_states(
     """Return the pair of eigenvalues, or the only one, with the largest participation of states.
 
     The participation of a state in an eigenvalue is the product of its elements in the left and in
-    the right eigenvector, which does not depend on units.
-
-    Parameters
-    ----------
-    matrix, names, lift
-        Matrix of the linear equations [1/s], names of the states, and the states of its rows; see
-        `modes_of`.
-    places : sequence of int
-        Indices of the states in the matrix: a coordinate and its rate.
-
-    Returns
-    -------
-    Mode
-        A conjugate pair, or the two real eigenvalues with the largest participation; one if the
-        states take part in no other.
+    the right eigenvector, which does not depend on units. Matrix [1/s], names and `lift` are as in
+    `modes_of`; `places` are indices of the states in the matrix: a coordinate and its rate. The
+    pair is conjugate, or the two real eigenvalues with the largest participation; one if the states
+    take part in no other.
     """
     values, left, right = _decompose(matrix)
     shares = _participation(left, right)[list(places)].sum(axis=0)
@@ -171,16 +154,10 @@ def modes_of_motions(
 
     The part of a motion in a mode is its kinetic energy there, over that of all motions. Modes are
     assigned so that the sum of the parts is greatest; the real eigenvalues of motions that do not
-    oscillate are assigned in pairs.
-
-    Parameters
-    ----------
-    matrix, names
-        Matrix of the linear equations [1/s], and names of the states.
-    motions : ndarray, shape (motions, states)
-        Amplitude of each motion from the states; there are at least as many modes.
-    weights : ndarray, shape (motions,)
-        The mass [kg] or moment of inertia [kg m^2] of each.
+    oscillate are assigned in pairs. The matrix is that of the linear equations [1/s], with the
+    names of the states. `motions`, (motions, states), lead from the states to the amplitude of each
+    motion, of which there are at most as many as modes; `weights` are the mass [kg] or moment of
+    inertia [kg m^2] of each.
     """
     from scipy.optimize import linear_sum_assignment  # noqa: PLC0415 (slow to import)
 

@@ -75,16 +75,8 @@ class State(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
 def inputs_of(state: Any, names: StateNames) -> Array | None:
     """Return the inputs of a `State`; None for any other array.
 
-    Parameters
-    ----------
-    state : array_like
-    names : StateNames
-        Of the model that uses the state.
-
-    Raises
-    ------
-    InputError
-        If the state belongs to a model with other coordinates or inputs.
+    `names` are those of the model that uses the state. Raises `InputError` if the state belongs to
+    a model with other coordinates or inputs.
     """
     if not isinstance(state, State) or state.names is None:
         return None

@@ -30,14 +30,9 @@ class Tangent:
 
     @classmethod
     def at(cls, jacobian: Array, rate: Array, state: Array, layout: StateLayout) -> "Tangent":
-        """Return the equations from the Jacobian of the rates of a state.
+        """Return the equations from the Jacobian of the rates of a state, (states, states).
 
-        Parameters
-        ----------
-        jacobian : ndarray, shape (states, states)
-        rate, state : ndarray, shape (states,)
-            At the same point, with quaternions of length one.
-        layout : StateLayout
+        Rate and state are at the same point, with quaternions of length one.
         """
         if not layout.free:
             return cls(jacobian, None)

@@ -49,13 +49,7 @@ class Emitted:
 
     @cached_property
     def sources(self) -> dict[str, str]:
-        """The emitted files by name.
-
-        Raises
-        ------
-        InputError
-            If a file is missing.
-        """
+        """The emitted files by name; an `InputError` is raised if one is missing."""
         files = sources_of(self.system.equations)
         missing = [name for name, path in files.items() if not path.is_file()]
         if missing:

@@ -109,18 +109,9 @@ def check_export(
 ) -> None:
     """Refuse arguments that `export_model` cannot use with any model.
 
-    Parameters
-    ----------
-    path, to, force, read, **options
-        Path, kind of export, whether other files are replaced, files that are never replaced, and
-        options of the kind; see `export_model`.
-
-    Raises
-    ------
-    InputError
-        If an argument cannot be used, or an existing file must not be replaced.
-    MissingPackageError
-        If packages are needed that are not installed.
+    They are as there: path, kind of export, whether other files are replaced, files that are never
+    replaced, and options of the kind. Raises `InputError` if an argument cannot be used, or an
+    existing file must not be replaced; `MissingPackageError`.
     """
     with Validator("export") as given:
         given.path("path", path)

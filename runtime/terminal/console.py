@@ -116,17 +116,7 @@ def table(
 ) -> Table:
     """Return a table of texts: words to the left, numbers to the right.
 
-    Parameters
-    ----------
-    title : str
-    columns : iterable of str
-        Headings.
-    rows : iterable of iterable of str
-        A cell for each column.
-    words : collection of int, optional
-        Indices of the columns of words; the others have numbers.
-    caption : str, optional
-        Below the table.
+    Each row has a cell for each column; `words` are the indices of the columns of words.
     """
     made = Table(title=escape(title), caption=caption)
     for index, heading in enumerate(columns):

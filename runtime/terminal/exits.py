@@ -85,10 +85,7 @@ def guarded() -> Iterator[None]:
 def show_usage_error(error: Any) -> None:
     """Show a mistake in the arguments in the form of other errors.
 
-    Parameters
-    ----------
-    error : click.ClickException
-        Its context, if it has one, names the command.
+    It is an exception of Click, whose context, if it has one, names the command.
     """
     from .usage import usage_problem
 

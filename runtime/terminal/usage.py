@@ -74,17 +74,10 @@ class CommandGroup(TyperGroup):
 
 
 def usage_problem(error: Any) -> str:
-    """Return the mistake in the arguments of a command, and the correction.
+    """Return the mistake in the arguments of a command, and the correction, in sentences.
 
-    Parameters
-    ----------
-    error : click.ClickException
-        Of Click, or of the copy of it in Typer. Its context names the command.
-
-    Returns
-    -------
-    str
-        Sentences; empty if only the help is to be shown.
+    The exception is one of Click, or of the copy of it in Typer; its context names the command. The
+    text is empty if only the help is to be shown.
     """
     context = getattr(error, "ctx", None)
     command = getattr(context, "command", None)

@@ -138,15 +138,27 @@ class WholeAxleModel(System):
     def placed(self, left: Array, right: Array, rack: ArrayLike = 0.0) -> Array:
         """Return the states at rest at wheel travels, reachable or not, (..., states).
 
-        Heights of the wheel centres above design and displacement of the steering are in m. The
-        states are NaN if there is no such position.
+        They are NaN if there is no such position.
+
+        Parameters
+        ----------
+        left, right : ndarray
+            Heights of the wheel centres above design [m].
+        rack : array_like, optional
+            Displacement of the steering [m].
         """
 
     @abstractmethod
     def moved(self, states: Array, left: Array, right: Array, inputs: Array | None = None) -> Array:
-        """Return states, (..., states), with the rates for velocities of the wheels [m/s].
+        """Return states with the rates for velocities of the wheels.
 
-        `inputs` have the position and the velocity of the steering.
+        Parameters
+        ----------
+        states : ndarray, shape (..., states)
+        left, right : ndarray
+            Vertical velocities of the wheel centres [m/s].
+        inputs : ndarray, optional
+            With the position and the velocity of the steering.
         """
 
     def with_rates(self, states: Array, rates: ArrayLike) -> Array:

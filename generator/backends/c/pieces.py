@@ -80,14 +80,8 @@ def cut(
 ) -> Cut:
     """Cut a function where the fewest values are alive.
 
-    Parameters
-    ----------
-    steps, results
-        Of the function.
-    guards
-        The names that each guard reads.
-    sizes
-        Number of elements of values with more than one.
+    `guards` has the names that each guard reads, `sizes` the number of elements of values with more
+    than one.
     """
     reading = [frozenset(symbols_in(step.value)) for step in steps]
     places = {step.name: i for i, step in enumerate(steps)}

@@ -52,12 +52,8 @@ NOT_INLINED = """/*
 class Source(CText):
     """The source files of one model.
 
-    Parameters
-    ----------
-    derivation
-    in_pieces
-        Whether to cut long functions. Otherwise a file has its derivation once and whole, for
-        readers, and the most frequent call is fastest; a compiler takes longer.
+    `in_pieces` is whether to cut long functions. Otherwise a file has its derivation once and
+    whole, for readers, and the most frequent call is fastest; a compiler takes longer.
     """
 
     def __init__(self, derivation: Derivation, *, in_pieces: bool = False) -> None:

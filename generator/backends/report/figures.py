@@ -43,16 +43,10 @@ ELEMENTS = {
 
 
 def draw_figures(plan: Plan, folder: Path, *, force: bool = False) -> list[Path]:
-    """Write the three figures of a mechanism, two if it has no loop; return their paths.
+    """Write the three figures of a plan, two if it has no loop; return their paths.
 
-    Parameters
-    ----------
-    plan
-        The analysed mechanism.
-    folder
-        Of the files; it is made if missing.
-    force
-        Whether files that kintrafo did not write are replaced, see `kintrafo.core.files`.
+    The folder is made if missing; `force` is whether files that kintrafo did not write are
+    replaced, see `kintrafo.core.files`.
     """
     folder.mkdir(parents=True, exist_ok=True)
     written = []
@@ -73,18 +67,10 @@ def draw_figures(plan: Plan, folder: Path, *, force: bool = False) -> list[Path]
 
 
 def print_figures(plan: Plan, text: Path, *, force: bool = False) -> dict[str, str]:
-    """Write the figures of a mechanism for a printed text; return their files' names.
+    """Write the figures of a plan for a printed text; return their files' names.
 
-    They are PDF, without titles, since the text has captions.
-
-    Parameters
-    ----------
-    plan
-        The analysed mechanism.
-    text
-        The file of the text, beside which they are written under its name.
-    force
-        Whether files that kintrafo did not write are replaced, see `kintrafo.core.files`.
+    They are PDF, without titles, since the text has captions, beside the file `text` and under its
+    name. `force` is as in `draw_figures`.
     """
     drawn = [bodies(plan), graph(plan, (False,)), graph(plan, (True,))]
     if plan.transformers:
@@ -389,12 +375,7 @@ def _columns(plan: Plan) -> list[int]:
 def transformers(plan: Plan, *, numbered: bool = False) -> Figure:
     """Draw the transformers as blocks, and the relative coordinates as the wires between them.
 
-    Parameters
-    ----------
-    plan
-        The analysed mechanism.
-    numbered
-        Whether coordinates have the numbers of the report, instead of their names.
+    `numbered` is whether coordinates have the numbers of the report, instead of their names.
     """
     wires, blocks = _Wires(plan, numbered=numbered), plan.transformers
     heights = [max(len(t.inputs), len(_shown(t, wires)) + 1, 3) * PITCH for t in blocks]

@@ -77,12 +77,7 @@ _ESCAPED = {
 def latex(derivation: Derivation, pictures: Mapping[str, str]) -> str:
     """Return the whole report as a document.
 
-    Parameters
-    ----------
-    derivation
-        The derived model.
-    pictures
-        The file of each figure by its name, see `figures`; missing ones are left out.
+    `pictures` has the file of each figure by its name, see `figures`; missing ones are left out.
     """
     title, *blocks = derivation_report(derivation)
     assert isinstance(title, Heading)

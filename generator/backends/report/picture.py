@@ -28,14 +28,8 @@ JOINT_STYLE = {"boxstyle": "circle,pad=0.25", "facecolor": "white", "edgecolor":
 def draw(plan: Plan, path: Path, *, force: bool = False) -> None:
     """Write a picture of bodies (grey), joints (white) and the loops of the basis (coloured).
 
-    Parameters
-    ----------
-    plan
-        The analysed mechanism.
-    path
-        Of the file; the ending gives the format.
-    force
-        Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
+    The ending of the path gives the format; `force` is whether a file that kintrafo did not write
+    is replaced, see `kintrafo.core.files`.
     """
     mechanism, topology = plan.formulation.mechanism, plan.topology
     positions = nx.kamada_kawai_layout(topology.graph, weight=None)

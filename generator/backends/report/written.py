@@ -17,15 +17,7 @@ if TYPE_CHECKING:
 
 
 def check_files(path: Path, *, force: bool = False, inputs: Iterable[Path] = ()) -> None:
-    """Raise the errors of `write_report` on its files, before anything is derived.
-
-    Parameters
-    ----------
-    path, force
-        As in `write_report`.
-    inputs
-        Files that are read, and must not be written.
-    """
+    """Raise the errors of `write_report` on its files, before anything is derived."""
     refuse([path], force=force, inputs=inputs, endings=(".tex", ".md"))
     if path.suffix.lower() == ".tex":
         names = (f"{path.stem}_{name}.pdf" for name in FIGURES)
@@ -37,16 +29,9 @@ def write_report(
 ) -> list[Path]:
     """Write the report of a derivation; return the files.
 
-    Parameters
-    ----------
-    derivation
-        The derived model.
-    path
-        Ends in .md, or in .tex: the figures are written beside that, as PDF.
-    force
-        Whether files that kintrafo did not write are replaced, see `kintrafo.core.files`.
-    inputs
-        Files that are read, and never replaced.
+    The path ends in .md, or in .tex: the figures are written beside that, as PDF. `force` is
+    whether files that kintrafo did not write are replaced, see `kintrafo.core.files`; `inputs` are
+    read, and never replaced.
     """
     check_files(path, force=force, inputs=inputs)
     figures: dict[str, str] = {}

@@ -38,19 +38,10 @@ class Slowed:
 class Hinged:
     """A body on a hinge of a base; everything is in the axes of the base.
 
-    With n the line, y0 and z0 across it, and x the angle, its axes are
-    ``y = y0 cos x + z0 sin x`` and ``z = z0 cos x - y0 sin x``. So all its sums are constants
-    times sines and cosines, of x and, in the second moments, of 2 x.
-
-    Parameters
-    ----------
-    carried, inertia
-        The body, and its inertia about its origin on the line, in its axes.
-
-    Attributes
-    ----------
-    first, second
-        ``∫ r dm`` and ``∫ r r^T dm``.
+    With n the line, y0 and z0 across it, and x the angle, its axes are ``y = y0 cos x + z0 sin x``
+    and ``z = z0 cos x - y0 sin x``. So all its sums are constants times sines and cosines, of x
+    and, in the second moments, of 2 x. `inertia` is that about its origin on the line, in its axes;
+    `first` and `second` are ``∫ r dm`` and ``∫ r r^T dm``.
     """
 
     def __init__(self, carried: Carried, inertia: SpatialInertia) -> None:

@@ -121,12 +121,7 @@ class Loaded:
     def add_couple(self, along: Mapping[str, Vector], couple: Vector) -> None:
         """Add a further inertia couple of a body's motion, as of a rotor, in axes of the base.
 
-        Parameters
-        ----------
-        along
-            The angular velocity of the body on the base per unit rate of each coordinate.
-        couple
-            The couple.
+        `along` is the angular velocity of the body on the base per unit rate of each coordinate.
         """
         self._couples.append((dict(along), couple))
 

@@ -43,15 +43,8 @@ class InertiaWrench:
 class MovingBody:
     """A body on a base; everything is in the axes of the base, about the centre of mass.
 
-    Parameters
-    ----------
-    carried, inertia
-        The body, and its inertia about its origin, in its axes.
-
-    Attributes
-    ----------
-    first, second
-        ``∫ r dm`` and ``∫ r r^T dm``.
+    `inertia` is that about its origin, in its axes; `first` and `second` are ``∫ r dm`` and ``∫ r
+    r^T dm``.
     """
 
     def __init__(self, carried: Carried, inertia: SpatialInertia) -> None:

@@ -38,17 +38,8 @@ class InertiaForce:
 class Shifted:
     """A body on a base that does not turn.
 
-    If the base only slides, no couple and no second moment are needed.
-
-    Parameters
-    ----------
-    carried, inertia
-        The body, and its inertia about its origin, in its axes.
-
-    Attributes
-    ----------
-    first, second
-        ``∫ r dm``; ``∫ r r^T dm`` is left out.
+    If the base only slides, no couple and no second moment are needed. `inertia` is that about its
+    origin, in its axes; `first` is ``∫ r dm``, and `second`, ``∫ r r^T dm``, is left out.
     """
 
     second = SymmetricTensor.zero()

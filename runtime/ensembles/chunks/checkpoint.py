@@ -41,10 +41,7 @@ class Checkpoint:
     def found(self) -> Iterator[ChunkResult]:
         """Yield the results in the folder; damaged files are left out with a warning.
 
-        Raises
-        ------
-        InputError
-            If a folder, or another entry that is not a file, has the name of one.
+        Raises `InputError` if a folder, or another entry that is not a file, has the name of one.
         """
         for path in sorted(self.folder.iterdir()):
             name = _FILE.fullmatch(path.name)
@@ -131,10 +128,8 @@ def _layout(arrays: Arrays) -> list[tuple[str, str, tuple[int, ...]]]:
 def checkpoint_in(folder: str | Path, collected: Collected) -> Checkpoint:
     """Return the folder of an ensemble, created if there is none.
 
-    Raises
-    ------
-    InputError
-        If it is of another ensemble or has other contents, or cannot be read or written.
+    Raises `InputError` if it is of another ensemble or has other contents, or cannot be read or
+    written.
     """
     path, identity = Path(folder), identity_of(collected)
     with as_input_errors(path):

@@ -111,10 +111,8 @@ def found_of(
 ) -> ChunkResult:
     """Return the results of a chunk, which is simulated here.
 
-    Raises
-    ------
-    InputError
-        If this process has no lanes, or other versions than the one that distributes the chunks.
+    Raises `InputError` if this process has no lanes, or other versions than the one that
+    distributes the chunks.
     """
     other = differences(common.versions)
     if other:

@@ -20,18 +20,9 @@ def run_in_chunks(
 ) -> None:
     """Simulate an ensemble in chunks, except those that a folder has already.
 
-    Parameters
-    ----------
-    collected : Collected
-        Receives the results.
-    workers : Workers or None
-        None: threads of this process.
-    threads : int
-        Of this process.
-    kept : Checkpoint or None
-        The folder that each chunk is written to as soon as it is done.
-    report : callable, optional
-        Called now and then with the number of finished systems.
+    Without workers, threads of this process simulate it. Each chunk is written to the folder
+    `kept`, if any, as soon as it is done. `report` is called now and then with the number of
+    finished systems.
     """
     notify = report or (lambda _: None)
     done: list[Span] = []

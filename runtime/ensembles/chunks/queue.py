@@ -29,22 +29,9 @@ def by_workers(
     """Yield results of chunks as they are done, and now and then None between them.
 
     The chunk of a lost worker is simulated by another. When the generator is closed, waiting chunks
-    are cancelled, and running ones end at once.
-
-    Parameters
-    ----------
-    client : distributed.Client
-    common : Common
-        Sent once to each worker.
-    problem : Problem
-        The whole, from which chunks are cut.
-    spans : list
-        The chunks.
-
-    Raises
-    ------
-    ClusterError
-        If the scheduler is lost, or several workers in a row with the same chunk.
+    are cancelled, and running ones end at once. `common` is sent once to each worker; the chunks
+    are cut from the whole `problem`. Raises `ClusterError` if the scheduler is lost, or several
+    workers in a row with the same chunk.
     """
     with _reached():
         queue = _Queue(client, problem, _shared(client, common), iter(spans))

@@ -53,22 +53,11 @@ class Workers:
 
 
 def workers_of(given: Validator, cluster: Any, cores: int, *, threads: Any) -> Workers | None:
-    """Return the checked workers; None for threads of this process.
+    """Return the checked workers; None for `cores` threads of this process.
 
-    Parameters
-    ----------
-    given : Validator
-    cluster
-        The argument of `ensemble`.
-    cores : int
-        Number of threads of this process.
-    threads
-        The argument of `ensemble`; workers of a scheduler have threads of their own.
-
-    Raises
-    ------
-    MissingPackageError
-        If the packages of the extra "cluster" are not installed.
+    `cluster` and `threads` are arguments of `ensemble`; workers of a scheduler have threads of
+    their own. Raises `MissingPackageError` if the packages of the extra "cluster" are not
+    installed.
     """
     if cluster is None:
         return None

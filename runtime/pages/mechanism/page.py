@@ -29,13 +29,8 @@ SECONDS = 1.0
 def report_page(system: System, title: str | None, motion: Simulation | None) -> str:
     """Return the report of a mechanism as text.
 
-    Parameters
-    ----------
-    system : System
-    title : str or None
-        Heading; by default the title of the mechanism.
-    motion : Simulation or None
-        The motion to play; by default a second from the design position at rest, without inputs.
+    The heading is by default the title of the mechanism; by default the played motion is a second
+    from the design position at rest, without inputs.
     """
     skeleton = Skeleton(system)
     scenes = [*by_hand(skeleton)]

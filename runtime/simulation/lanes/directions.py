@@ -65,28 +65,12 @@ def followed(
     items: Sequence[int],
     width: int | None = None,
 ) -> Array | None:
-    """Return the derivatives of items of a motion along directions.
+    """Return the derivatives of items of a motion along directions, (directions, times, items).
 
-    Their bits do not depend on the number of lanes or on other directions.
-
-    Parameters
-    ----------
-    system : System
-    steps : RetracedSteps
-        Of its motion.
-    times : ndarray
-        Increasing times at which items are evaluated [s].
-    along : Along
-    items : sequence of int
-        Indices of signals, followed by those of elements of the state.
-    width : int, optional
-        Number of lanes; by default the most that the processor supports.
-
-    Returns
-    -------
-    ndarray or None, shape (directions, times, items)
-        None if the equations cannot be compiled for lanes, refuse a state, or have no finite
-        derivative.
+    Their bits do not depend on the number of lanes or on other directions. Items are evaluated at
+    increasing times [s]: indices of signals, followed by those of elements of the state. `width` is
+    the number of lanes, by default the most that the processor supports. None is returned if the
+    equations cannot be compiled for lanes, refuse a state, or have no finite derivative.
     """
     there = library.widths()
     width = width or (there[-1] if there else 0)

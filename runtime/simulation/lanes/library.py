@@ -34,18 +34,8 @@ def solver(what: str, width: int) -> Callable[..., int]:
 def functions(equations: ModuleType, width: int, variant: str) -> Mapping[str, int]:
     """Return the addresses of a model's functions in some lanes; zero for those it does not have.
 
-    Parameters
-    ----------
-    equations : module
-    width : int
-        One of `widths`.
-    variant : str
-        Suffix of the name of the right-hand side without coordinates at rest.
-
-    Raises
-    ------
-    InputError
-        If the equations cannot be compiled for lanes.
+    `width` is one of `widths`, `variant` the suffix of the name of the right-hand side without
+    coordinates at rest. Raises `InputError` if the equations cannot be compiled for lanes.
     """
     name: str = equations.NAME
     if not widths():
@@ -64,11 +54,8 @@ def functions(equations: ModuleType, width: int, variant: str) -> Mapping[str, i
 def tangents(equations: ModuleType, width: int) -> Mapping[str, int] | None:
     """Return the addresses of a model's functions along directions in one of `widths`.
 
-    Returns
-    -------
-    mapping or None
-        ``rhs_tangent``, and ``signals_tangent``, which is zero without signals. None if there is no
-        compiler.
+    They are ``rhs_tangent``, and ``signals_tangent``, which is zero without signals; None without a
+    compiler.
     """
     if not is_own(equations):
         return None

@@ -21,24 +21,11 @@ def is_own(equations: ModuleType) -> bool:
 
 
 def library_of(equations: ModuleType, width: int, part: str = "") -> Path:
-    """Return the library of equations in some lanes, which is compiled at first use.
+    """Return the library of equations of `kintrafo.compile` in some lanes, compiled at first use.
 
-    Parameters
-    ----------
-    equations : module
-        A result of `kintrafo.compile`.
-    width : int
-        Number of lanes, which the processor supports.
-    part : str, optional
-        Suffix of the emitted file.
-
-    Raises
-    ------
-    InputError
-        If there is no compiler, the library cannot be written, or another user may have written to
-        it.
-    CompilerError
-        If the compiler fails.
+    The processor supports `width` lanes; `part` is the suffix of the emitted file. Raises
+    `InputError` if there is no compiler, the library cannot be written, or another user may have
+    written to it; `CompilerError` if the compiler fails.
     """
     file = "_".join(filter(None, (equations.NAME, part)))
     compiler = _with_vectors(find_compiler(), file, width)

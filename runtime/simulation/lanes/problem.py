@@ -213,16 +213,7 @@ class _Problem(ctypes.Structure):
 class Problem:
     """Systems in the memory of C, which exists as long as this object.
 
-    Parameters
-    ----------
-    model : System
-    systems : Systems
-    wanted : LaneOutputs
-    accuracy : Accuracy
-    width : int
-        Number of lanes.
-    stiff_after : int
-        Steps after which a stiff system ends; 0: it does not.
+    `width` is the number of lanes; a stiff system ends after `stiff_after` steps, unless this is 0.
     """
 
     model: System
@@ -251,12 +242,10 @@ class Problem:
         self._call = library.solver("integrate", self.width)
 
     def integrate(self, first: int, last: int, stop: "ctypes.c_int") -> Array:
-        """Integrate some of the systems, until `stop` is not zero.
+        """Integrate some of the systems, until `stop` is not zero, and return their samples.
 
-        Returns
-        -------
-        ndarray, shape (last - first, sample_count, number of times)
-            The samples; NaN after the end of a system.
+        They have the shape (last - first, sample_count, number of times), NaN after the end of a
+        system.
         """
         wanted = self.wanted
         samples = np.full((last - first, wanted.sample_count, wanted.times.size), np.nan)

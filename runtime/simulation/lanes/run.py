@@ -30,18 +30,11 @@ def usual_threads() -> int:
 
 
 def run(problem: Problem, threads: int, finish: Finish, report: Report | None = None) -> None:
-    """Integrate all systems of a problem; an interruption ends all threads at once.
+    """Integrate all systems of a problem into its outcome; an interruption ends all threads.
 
-    Parameters
-    ----------
-    problem : Problem
-        Its outcome is filled.
-    threads : int
-    finish : callable
-        Called in several threads with the first of some systems and the one after the last, their
-        samples, and a function that returns whether the caller wants to stop.
-    report : callable, optional
-        Called now and then with the number of integrated systems.
+    `finish` is called in several threads with the first of some systems and the one after the last,
+    their samples, and a function that returns whether the caller wants to stop. `report` is called
+    now and then with the number of integrated systems.
     """
     stop = ctypes.c_int(0)
 

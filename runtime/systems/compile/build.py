@@ -155,26 +155,11 @@ def compile_mechanism(
 def packed_mechanism(
     name: str, structure: str, declared: "Callable[[], Formulation]"
 ) -> ModuleType | None:
-    """Return the equations of a mechanism that come compiled with a wheel.
+    """Return the equations of a mechanism that come compiled with a wheel, by name.
 
-    Parameters
-    ----------
-    name : str
-        Of the equations.
-    structure : str
-        Everything that determines their declaration.
-    declared : callable
-        Returns the declaration, for `derived_again`.
-
-    Returns
-    -------
-    module or None
-        None if there are none of this structure and these sources.
-
-    Raises
-    ------
-    InputError
-        If the cache cannot be written, or others can write there.
+    `structure` is everything that determines their declaration, which `declared` returns for
+    `derived_again`. None is returned if there are none of this structure and these sources. Raises
+    `InputError` if the cache cannot be written, or others can write there.
     """
     module = packed(name, structure)
     if module is not None:
@@ -185,12 +170,8 @@ def packed_mechanism(
 def derived_again(equations: ModuleType) -> "Derivation":
     """Return the derivation of equations that come with the project or were compiled here.
 
-    Raises
-    ------
-    InputError
-        If the declaration is not known, or now has other equations.
-    MissingPackageError
-        If the packages of the extra "generator" are not installed.
+    Raises `InputError` if the declaration is not known, or now has other equations;
+    `MissingPackageError` if the packages of the extra "generator" are not installed.
     """
     require_generator()
     from ...generator.backends.words import mechanism_hash
@@ -255,20 +236,11 @@ def build(
     name: str | None = None,
     report: Report = lambda _: None,
 ) -> None:
-    """Write the package of a derived model into a folder, and compile it.
+    """Write the package of a derived model into an empty folder, and compile it.
 
-    Parameters
-    ----------
-    derived : Derivation
-        Result of `kintrafo.generator.equations.outputs.generate`.
-    folder : Path
-        An empty folder, for `kintrafo.systems.compile.loader.load`.
-    compiler : Compiler or None
-        None: functions over NumPy arrays instead of C.
-    name : str, optional
-        Final name of the folder; by default its present one.
-    report : callable, optional
-        Called with a short description of the present step.
+    Without a compiler it has functions over NumPy arrays instead of C. `name` is the final name of
+    the folder, by default its present one; `report` is called with a short description of the
+    present step.
     """
     from ...generator.backends.files import own_files
 

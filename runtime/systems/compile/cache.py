@@ -163,16 +163,10 @@ def _changed(folder: Path, name: str, size: int, digest: str) -> str:
 
 @contextmanager
 def alone(target: Path, report: Callable[[str], object]) -> Iterator[None]:
-    """Have other threads and processes wait, if they are to create the same folder.
+    """Have other threads and processes wait, if they are to create the same folder, the target.
 
-    Where the system has no such locks, they create it, too.
-
-    Parameters
-    ----------
-    target : Path
-        The folder.
-    report : callable
-        Called with a description of the present step before this process waits for another.
+    Where the system has no such locks, they create it, too. `report` is called with a description
+    of the present step before this process waits for another.
     """
     with ExitStack() as opened:
         with suppress(OSError):  # no locks; or `appearing` raises it again
@@ -205,25 +199,11 @@ def _remove_file(path: Path) -> None:
 
 @contextmanager
 def appearing(target: Path) -> Iterator[Path]:
-    """Yield a temporary folder that replaces the target once it is complete.
+    """Yield a temporary folder, to be filled and sealed, that replaces the target once complete.
 
     If two processes create the same folder, the first one is kept, and both use it. Files of a
-    damaged folder are replaced one by one: a process that has an old file open keeps it.
-
-    Parameters
-    ----------
-    target : Path
-        The folder.
-
-    Yields
-    ------
-    Path
-        A temporary folder beside it, to be filled and sealed.
-
-    Raises
-    ------
-    InputError
-        If it cannot be written, or others can write there, too.
+    damaged folder are replaced one by one: a process that has an old file open keeps it. Raises
+    `InputError` if the folder cannot be written, or others can write there, too.
     """
     try:
         make_folder(target.parent)

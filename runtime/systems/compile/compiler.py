@@ -49,23 +49,11 @@ class Compiler:
     def build(
         self, sources: Sequence[Path], library: Path, done: Callable[[int], None] | None = None
     ) -> None:
-        """Compile sources into a shared library, on all cores.
+        """Compile sources, C files in one folder, into a shared library, on all cores.
 
         After an interruption or an error the other compilers are ended at once, and their files
-        removed.
-
-        Parameters
-        ----------
-        sources : sequence of Path
-            C files, in one folder.
-        library : Path
-        done : callable, optional
-            Called with the number of compiled sources after each.
-
-        Raises
-        ------
-        CompilerError
-            With the command and the output of the compiler.
+        removed. `done` is called with the number of compiled sources after each. Raises
+        `CompilerError` with the command and the output of the compiler.
         """
         objects = [source.with_suffix(".o") for source in sources]
         parts = [("-c", c, "-o", o) for c, o in zip(sources, objects, strict=True)]
@@ -164,12 +152,8 @@ class _Running:
 def find_compiler() -> Compiler | None:
     """Return the compiler that ``CC`` names, or else the first installed one; None without any.
 
-    Options in ``CFLAGS`` follow those of this project.
-
-    Raises
-    ------
-    CompilerError
-        If ``CC`` names a program that does not exist, or a variable has an unclosed quotation mark.
+    Options in ``CFLAGS`` follow those of this project. Raises `CompilerError` if ``CC`` names a
+    program that does not exist, or a variable has an unclosed quotation mark.
     """
     named, more = _words_of("CC"), _words_of("CFLAGS")
     built_by = (sysconfig.get_config_var("CC") or "").split()

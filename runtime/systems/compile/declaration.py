@@ -32,11 +32,8 @@ class MechanismError(KintrafoError, ValueError):
 def translated_errors(model: "Formulation | None" = None) -> Iterator[None]:
     """Raise the generator's errors as errors of this package.
 
-    Parameters
-    ----------
-    model : Formulation, optional
-        The model that is derived: if a loop does not close, the error names other choices of
-        independent coordinates.
+    If a loop of the derived model, if given, does not close, the error names other choices of
+    independent coordinates.
     """
     from ...generator import DeclarationError
     from ...generator.loops.errors import NoClosedFormError, TopologyError
@@ -55,21 +52,11 @@ def translated_errors(model: "Formulation | None" = None) -> Iterator[None]:
 def model_of(
     declared: "Formulation | Mechanism | str | Path", name: str | None = None
 ) -> "Formulation":
-    """Return the model of a declaration; for a mechanism one with proposed coordinates.
+    """Return the model of a declaration, or of a Python file with one.
 
-    Parameters
-    ----------
-    declared : Formulation, Mechanism, str or Path
-        A declaration, or a Python file with one.
-    name : str, optional
-        Name of the model or mechanism, if the file has several.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be run, or has no or several declarations.
-    MechanismError
-        If the declaration contradicts itself.
+    For a mechanism it is one with proposed coordinates. `name` is that of the model or mechanism,
+    if the file has several. Raises `InputError` if the file cannot be run, or has no or several
+    declarations; `MechanismError` if the declaration contradicts itself.
     """
     from ...generator import Mechanism
     from ...generator.planning.proposal import model_of as proposed

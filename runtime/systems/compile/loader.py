@@ -28,15 +28,8 @@ class AsItIs(SourceFileLoader):
 def load(folder: Path) -> ModuleType:
     """Return the module of a compiled mechanism.
 
-    Parameters
-    ----------
-    folder : Path
-        The package of one model from `kintrafo.compile`, named by model and fingerprint.
-
-    Raises
-    ------
-    InputError
-        If the system does not load it, or another user may have written to it.
+    `folder` has the package of one model from `kintrafo.compile`, named by model and fingerprint.
+    Raises `InputError` if the system does not load it, or another user may have written to it.
     """
     model, _, key = folder.name.rpartition("-")
     package = f"kintrafo_{model}_{key}"
@@ -98,10 +91,7 @@ def refuse_damaged(folder: Path) -> None:
 def find(name: str, file: str) -> ModuleType:
     """Return a module of equations by its ``__name__`` and ``__file__``, for unpickling.
 
-    Raises
-    ------
-    InputError
-        If the compiled files are damaged.
+    Raises `InputError` if the compiled files are damaged.
     """
     if name.startswith("kintrafo."):
         return import_module(name)

@@ -9,17 +9,8 @@ from contextlib import contextmanager
 def on_terminal(text: str) -> Iterator[Callable[[str], None]]:
     """Show a line on standard error inside a block: a text and the elapsed time.
 
-    It is removed afterwards. Nothing is shown without a terminal.
-
-    Parameters
-    ----------
-    text : str
-        The first text.
-
-    Yields
-    ------
-    callable
-        Takes the next text, a few words.
+    It is removed afterwards. Nothing is shown without a terminal. The yielded function takes the
+    next text, a few words.
     """
     if sys.stderr is None or not sys.stderr.isatty():
         yield lambda _: None

@@ -26,24 +26,11 @@ from .shipped import from_cache, shipped
 
 
 def packed(name: str, structure: str) -> ModuleType | None:
-    """Return compiled equations from their archive, which is unpacked into the cache once.
+    """Return compiled equations by name from their archive, which is unpacked into the cache once.
 
-    Parameters
-    ----------
-    name : str
-        Of the equations.
-    structure : str
-        Everything that determines their declaration.
-
-    Returns
-    -------
-    module or None
-        None if there is no archive of this structure and these sources.
-
-    Raises
-    ------
-    InputError
-        If the archive is damaged; if the cache cannot be written, or others can write there.
+    `structure` is everything that determines their declaration. None is returned if there is no
+    archive of this structure and these sources. Raises `InputError` if the archive is damaged; if
+    the cache cannot be written, or others can write there.
     """
     archive = files("kintrafo.generated") / _archive_name(name, structure)
     # some builds of Python have no LZMA
@@ -66,16 +53,9 @@ def _unpacked(content: bytes, archive: str) -> list[tuple[str, bytes]]:
 
 
 def pack(equations: ModuleType, structure: str, into: Path) -> Path:
-    """Write the archive of compiled equations, and return it.
+    """Write the archive of equations that a C compiler compiled into a folder, and return it.
 
-    Parameters
-    ----------
-    equations : module
-        A result of `kintrafo.compile`, compiled by a C compiler.
-    structure : str
-        Everything that determines their declaration.
-    into : Path
-        A folder.
+    `structure` is everything that determines their declaration.
     """
     path = into / _archive_name(equations.NAME, structure)
     with zipfile.ZipFile(path, "w", zipfile.ZIP_LZMA) as archive:

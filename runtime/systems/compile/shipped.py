@@ -28,10 +28,7 @@ class SerializedModel:
     def module(self) -> ModuleType:
         """Return the module: from its folder, from the cache of this machine, or unpacked.
 
-        Raises
-        ------
-        InputError
-            If it cannot be written or loaded.
+        Raises `InputError` if it cannot be written or loaded.
         """
         if self.name.startswith(_OF_PROJECT):
             return import_module(self.name)
@@ -44,18 +41,9 @@ class SerializedModel:
 def from_cache(folder: str, content: Callable[[], Iterable[tuple[str, bytes]]]) -> ModuleType:
     """Return a compiled module from its folder in the cache, which is filled at first use.
 
-    Parameters
-    ----------
-    folder : str
-        Name of the folder.
-    content : callable
-        Returns names and contents of the files; called only if they are not in the cache.
-
-    Raises
-    ------
-    InputError
-        If the folder cannot be written or loaded, or others can write there; if a file would be in
-        another folder.
+    `content` returns names and contents of the files, if they are not in the cache. Raises
+    `InputError` if the folder cannot be written or loaded, or others can write there; if a file
+    would be in another folder.
     """
     kept = cache_folder() / folder
     if damage(kept) or foreign(kept):

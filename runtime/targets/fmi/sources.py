@@ -15,14 +15,8 @@ def source_files(
 ) -> dict[str, str]:
     """Return all files by path below ``sources``.
 
-    Parameters
-    ----------
-    emitted : mapping
-        C of the equations, by name.
-    tables : mapping
-        Result of `kintrafo.targets.fmi.tables.tables`.
-    fronts : iterable of str
-        Keys of `kintrafo.targets.fmi.files.HEADERS`.
+    `emitted` is the C of the equations by name, `tables` the result of
+    `kintrafo.targets.fmi.tables.tables`; `fronts` are keys of `kintrafo.targets.fmi.files.HEADERS`.
     """
     common = common_files(files(__package__), files(native), fronts)
     return {

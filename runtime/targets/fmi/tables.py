@@ -15,14 +15,8 @@ from .files import MARK
 def tables(manifest: Mapping[str, Any], token: str, values: Sequence[float]) -> dict[str, str]:
     """Return the files of a model by name.
 
-    Parameters
-    ----------
-    manifest : mapping
-        Of the equations.
-    token : str
-        The token of the description of the FMU.
-    values : sequence of float
-        Parameters, initial state and initial inputs.
+    `token` is that of the description of the FMU; `values` are parameters, initial state and
+    initial inputs.
     """
     return {"model.c": _model(manifest), "numbers.c": _numbers(manifest, token, values)}
 
