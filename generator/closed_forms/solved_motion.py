@@ -164,20 +164,9 @@ class TurnOnLine(Unsolved):
 
         omega = (0, -v3, v2) / h + omega1 (1, o2 / h, o3 / h),
 
-    and their relative acceleration the second derivative of S, in the same components.
-
-    Parameters
-    ----------
-    kin, placed
-        The kinematics so far, and the body.
-    base
-        Motion of its origin, which is one of the points.
-    line
-        That of the two points.
-    inverse
-        1 / h.
-    sway
-        S / h, where there is an offset.
+    and their relative acceleration the second derivative of S, in the same components. `base` is
+    the motion of its origin, which is one of the points, `inverse` 1 / h, and `sway` S / h, where
+    there is an offset.
     """
 
     def __init__(

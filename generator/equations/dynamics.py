@@ -87,12 +87,7 @@ class ReducedRotor:
 class Dynamics:
     """Mass matrix, bias and generalised forces of a model, and its forward dynamics.
 
-    Attributes
-    ----------
-    accelerations
-        v' by coordinate name.
-    internal_rates
-        z' by the names of internal states.
+    `accelerations` are v' by coordinate name.
     """
 
     def __init__(self, moving: InMotion) -> None:

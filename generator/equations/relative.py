@@ -79,10 +79,7 @@ def rotate_z(angle: sp.Expr, v: Vector) -> Vector:
 class RelativeCoordinates:
     """The relative coordinates that a mechanism reports.
 
-    Attributes
-    ----------
-    values
-        Coordinate name to expression, in the order of the report.
+    `values` are expressions by coordinate name, in the order of the report.
     """
 
     def __init__(self, kin: Kinematics) -> None:

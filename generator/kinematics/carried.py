@@ -27,19 +27,10 @@ if TYPE_CHECKING:
 class Carried:
     """A body that a base carries, or the base itself.
 
-    Attributes
-    ----------
-    base
-        The moving base.
-    part, relative
-        The kinematics that it is part of, and its motion on the base.
-    axes
-        Those of the body, in the axes of the base.
-    arm
-        From the centre of mass of the base to the origin of the body, in the axes of the base.
-    motion
-        Its motion in the world: per unit rate of the coordinates that move it on the base, and of
-        those of the base.
+    `part` and `relative` are the kinematics that it is part of, and its motion on the base. In the
+    axes of the base, `axes` are those of the body, and `arm` leads from the centre of mass of the
+    base to the origin of the body. `motion` is that in the world: per unit rate of the coordinates
+    that move it on the base, and of those of the base.
     """
 
     def __init__(self, base: Base, part: Kinematics, placed: BodyMotion) -> None:

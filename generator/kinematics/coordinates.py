@@ -23,28 +23,12 @@ if TYPE_CHECKING:
 class Coordinates:
     """The coordinates that are independent or prescribed.
 
-    Parameters
-    ----------
-    formulation
-        The model.
-    held
-        Prescribed joints that do not move in this variant.
-
-    Attributes
-    ----------
-    states
-        The layout of the state.
-    symbols
-        The symbol of each coordinate by its name: a reported name, or that of a motion; of a free
-        body, which has no coordinates, the speeds.
-    moving
-        The names of those that move.
-    independent
-        The names of the independent ones, in the order of the speeds of the state.
-    eliminated
-        The names of those whose speeds constraints give.
-    solved
-        The speeds of the latter, once they are found.
+    Prescribed joints in `held` do not move in this variant. `states` is the layout of the state;
+    `symbols` has the symbol of each coordinate by its name: a reported name, or that of a motion;
+    of a free body, which has no coordinates, the speeds. `moving` are the names of those that move,
+    `independent` those of the independent ones, in the order of the speeds of the state,
+    `eliminated` those whose speeds constraints give, and `solved` these speeds, once they are
+    found.
 
     Notes
     -----

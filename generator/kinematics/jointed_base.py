@@ -25,19 +25,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class JointedBase(Base):
-    """A base at the end of driven joints.
-
-    Attributes
-    ----------
-    program
-        Has the steps.
-    root
-        The kinematics of these joints.
-    point
-        Its centre of mass.
-    axes
-        Its axes.
-    """
+    """A base at the end of driven joints, whose kinematics are `root`."""
 
     program: Program
     root: Kinematics

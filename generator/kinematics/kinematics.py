@@ -35,20 +35,10 @@ class Loop:
 class Kinematics:
     """The bodies of a model in motion.
 
-    Parameters
-    ----------
-    program
-        Receives the steps.
-    coordinates
-        Those of the model.
-    loops
-        The loop that a step closes, by the step.
-    bodies
-        Those to place, with the ground: all, or a part that can be solved alone.
-    origin
-        The point of the base that is the origin of positions; None: the origin of its axes.
-    free
-        The moving body on which those bodies hang; None: they hang on the ground.
+    `loops` has the loop that a step closes, by the step; `bodies` are those to place, with the
+    ground: all, or a part that can be solved alone. `origin` is the point of the base that is the
+    origin of positions; None: the origin of its axes. `free` is the moving body on which those
+    bodies hang; None: they hang on the ground.
 
     Notes
     -----

@@ -71,15 +71,9 @@ def _group(
 
 
 class _Operands:
-    """The operands of expressions, by their numbers.
+    """The operands `of` expressions, by their numbers.
 
-    Attributes
-    ----------
-    expressions
-    of
-        The operands of each of them.
-    changed
-        Places of the expressions with a group as an operand.
+    `changed` are places of the expressions with a group as an operand.
     """
 
     def __init__(self, expressions: Sequence[sp.Expr]) -> None:

@@ -67,11 +67,7 @@ class _Common:
 
     The names, and the order, are those of SymPy's ``cse``, which takes every expression apart,
     sorts its parts, and composes it again; here, expressions without common parts stay as they are.
-
-    Attributes
-    ----------
-    definitions
-        The expression of each name, in terms of names before it.
+    `definitions` has the expression of each name, in terms of names before it.
     """
 
     def __init__(self, expressions: Iterable[sp.Expr], names: Iterator[sp.Symbol]) -> None:

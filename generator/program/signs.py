@@ -48,12 +48,8 @@ def take_out_signs(
 class _Signs:
     """The signs of the steps so far.
 
-    Attributes
-    ----------
-    opposite
-        The negative of another expression, by the step that equals it.
-    called
-        Better names of common subexpressions: those of steps that are their negatives.
+    `opposite` has the negative of another expression, by the step that equals it, `called` better
+    names of common subexpressions: those of steps that are their negatives.
     """
 
     def __init__(self, is_taken: Callable[[str], bool]) -> None:

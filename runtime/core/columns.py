@@ -22,15 +22,7 @@ from .named_types import Array
 class BatchMask:
     """The members of a batch that are computed together.
 
-    Parameters
-    ----------
-    count : int
-        Number of members.
-
-    Attributes
-    ----------
-    valid : ndarray of bool, shape (count,)
-        False for members that took another branch than the first.
+    `valid`, (count,), is False for members that took another branch than the first.
     """
 
     def __init__(self, count: int) -> None:

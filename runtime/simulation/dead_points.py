@@ -59,16 +59,7 @@ def refuse(model: System, guard: int, state: Array, inputs: Array) -> NoReturn:
 
 
 class DeadPoint(Exception):  # noqa: N818 (it ends an integration, and is raised as another error)
-    """The motion has reached a dead point.
-
-    Attributes
-    ----------
-    guard : int
-    time : float
-        Of the dead point [s].
-    state : ndarray
-        The last state before it.
-    """
+    """The motion has reached a dead point of a guard at a time [s], after its last state."""
 
     def __init__(self, guard: int, time: float, state: Array) -> None:
         self.guard, self.time, self.state = guard, time, state

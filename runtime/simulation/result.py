@@ -163,14 +163,7 @@ class Signals(Mapping[str, Array]):
     """The physical signals of a simulation by name, each of shape (number of outputs,), SI units.
 
     All of them are computed at the first access to one: they may take longer than the integration.
-
-    Parameters
-    ----------
-    model : System
-    y : ndarray, shape (number of outputs, number of state elements)
-    inputs : ndarray, shape (number of outputs, number of inputs)
-    failed : bool
-        Whether the simulation failed; where the model refuses a state, the signals are then NaN.
+    Where the model refuses a state, those of a failed simulation are NaN.
     """
 
     def __init__(self, model: System, y: Array, inputs: Array, *, failed: bool) -> None:

@@ -36,14 +36,9 @@ _LAST = np.array(
 class RetracedSteps:
     """The steps of a motion with their stages.
 
-    Attributes
-    ----------
-    begin, length : ndarray, shape (steps,)
-        [s]
-    restarts : ndarray of bool, shape (steps,)
-        Whether inputs may jump before a step; the other steps begin with the last stage of the one
-        before.
-    states, inputs, rates : ndarray, shape (steps, stages, ...)
+    `begin` and `length` have the shape (steps,) [s], states, inputs and rates (steps, stages, ...).
+    `restarts` is whether inputs may jump before a step; the other steps begin with the last stage
+    of the one before.
     """
 
     def __init__(self, system: System, motion: Simulation, courses: TimeInputs) -> None:

@@ -88,18 +88,10 @@ class Skeleton:
         return bodies.index(body)
 
     def places(self, states: ArrayLike, inputs: ArrayLike | None = None) -> dict[str, Array]:
-        """Return the positions of the points of each body.
+        """Return the positions of the points of each body, (..., points, 3) [m].
 
-        Parameters
-        ----------
-        states, inputs : array_like
-            One or many, as for `System.evaluate`.
-
-        Returns
-        -------
-        dict
-            For each body of `bodies` an array of shape (..., points, 3) [m], in the order of the
-            names, in the axes of the ground.
+        They are in the order of the names in `bodies`, in the axes of the ground. States and
+        inputs, one or many, are as for `System.evaluate`.
         """
         centers = self.system.evaluate("positions", states, inputs)
         turns = self.system.evaluate("orientations", states, inputs)

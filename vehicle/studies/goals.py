@@ -65,17 +65,10 @@ class Goal:
 
 @dataclass(frozen=True)
 class TargetValue(Goal):
-    """A target of a characteristic.
+    """A target of a characteristic, with values at n positions, (n,), in SI units.
 
-    Attributes
-    ----------
-    name, over, at
-        Characteristic, motion or axis, and positions on it.
-    value : ndarray, shape (n,)
-        SI units.
-    within : float
-        A deviation that matters, SI units, the unit of deviations; NaN if it is not needed and left
-        out, as in `pareto`.
+    `within` is a deviation that matters, SI units, the unit of deviations; NaN if it is not needed
+    and left out, as in `pareto`.
     """
 
     value: Array

@@ -22,21 +22,9 @@ if TYPE_CHECKING:
 class Loaded:
     """A base with its bodies: mass matrix, and the generalised forces of a motion.
 
-    Parameters
-    ----------
-    program, base
-        Receives the steps, and the base.
-    names
-        The coordinates along which equations are needed.
-
-    Attributes
-    ----------
-    inertia
-        Of all bodies, about the centre of mass of the base and in its axes, after `complete`.
-    matrix
-        Elements of the mass matrix.
-    momenta
-        Momentum per unit rate of each coordinate.
+    `names` are the coordinates along which equations are needed. After `complete`, `inertia` is
+    that of all bodies, about the centre of mass of the base and in its axes; `matrix` has the
+    elements of the mass matrix, `momenta` the momentum per unit rate of each coordinate.
     """
 
     def __init__(self, program: Program, base: Base, names: Iterable[str]) -> None:

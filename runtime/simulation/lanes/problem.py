@@ -88,22 +88,12 @@ class LaneOutputs:
 
 
 class Outcome:
-    """The results of many integrations.
+    """The results of many integrations, an element or a row for each system.
 
-    Attributes
-    ----------
-    ends : ndarray
-        An `End` for each system.
-    codes : ndarray
-        Details: the return value of prepare, a status word, or the index of a guard.
-    ended : ndarray
-        The time that was reached, or at which a state was refused [s].
-    finals : ndarray, shape (count, number of state elements)
-        The state that was reached.
-    steps : ndarray
-    reduced : ndarray, shape (count, reductions)
-    beyond : ndarray, shape (count, bounds)
-        The value farthest beyond a bound; NaN if it was not passed.
+    `ends` has an `End` each; `codes` are details: the return value of prepare, a status word, or
+    the index of a guard. `ended` is the time that was reached, or at which a state was refused [s],
+    `finals` the state that was reached, `beyond` the value farthest beyond each bound, NaN if it
+    was not passed.
     """
 
     def __init__(self, systems: Systems, wanted: LaneOutputs, state_count: int) -> None:
