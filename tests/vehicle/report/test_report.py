@@ -42,13 +42,6 @@ def data(page):
     return payload(page)
 
 
-@pytest.fixture
-def coarse(monkeypatch):
-    """Sample at few positions, where the numbers do not matter."""
-    grid = Grid(GridAxis(-0.05, 0.025, 5), GridAxis(-0.04, 0.02, 5))
-    monkeypatch.setattr("kintrafo.vehicle.report.page.reachable_grid", lambda _: grid)
-
-
 def payload(text):
     found = re.search(
         r'<script type="application/json" id="payload">(.*?)</script>', text, re.DOTALL
@@ -241,7 +234,7 @@ def test_simulated_second_starts_where_the_paper_starts(data):
         assert signal["range"][0] < values.min() < values.max() < signal["range"][1]
 
 
-@pytest.mark.usefixtures("coarse")
+@pytest.mark.usefixtures("coarse_report")
 def test_motion_that_cannot_be_shown_is_said():
     # without a prescribed rack, the wheel's spin steers the wheel out of the sampled range
     text = render(Model("reference_car", free_rack=True))
@@ -258,7 +251,7 @@ def rows_at_design(page):
     return {key: text.replace("\u2212", "-") for text, key in cells}
 
 
-@pytest.mark.usefixtures("coarse")
+@pytest.mark.usefixtures("coarse_report")
 def test_values_at_design_are_computed_and_rounded_by_themselves():
     """On a coarse grid, too, every digit is that of the model."""
     car = Model("reference_car").suspension.with_changes(
@@ -308,12 +301,12 @@ def test_file_is_complete_in_itself(page):
     assert len(page.encode()) < 4_000_000
 
 
-@pytest.mark.usefixtures("coarse")
+@pytest.mark.usefixtures("coarse_report")
 def test_same_input_gives_the_same_bytes():
     assert render(Model("reference_car")) == render(Model("reference_car"))
 
 
-@pytest.mark.usefixtures("coarse")
+@pytest.mark.usefixtures("coarse_report")
 def test_write_makes_folders_and_reports_what_it_does(tmp_path):
     steps = []
     path = tmp_path / "new/report.html"
@@ -323,7 +316,7 @@ def test_write_makes_folders_and_reports_what_it_does(tmp_path):
     assert [file.name for file in path.parent.iterdir()] == ["report.html"]
 
 
-@pytest.mark.usefixtures("coarse")
+@pytest.mark.usefixtures("coarse_report")
 def test_folder_in_the_way_is_a_clear_error(tmp_path):
     folder = tmp_path / "report.html"
     folder.mkdir()
@@ -331,14 +324,14 @@ def test_folder_in_the_way_is_a_clear_error(tmp_path):
         kintrafo.report.write(MODEL, folder)
 
 
-@pytest.mark.usefixtures("coarse")
+@pytest.mark.usefixtures("coarse_report")
 def test_title_is_text_and_not_markup():
     text = render(MODEL, title="</title><script>alert(1)</script>$^$ caf\udce9")
     assert "<script>alert" not in text
     assert "<h1>&lt;/title&gt;&lt;script&gt;" in text
 
 
-@pytest.mark.usefixtures("coarse")
+@pytest.mark.usefixtures("coarse_report")
 def test_left_suspension_is_the_mirror_image(data):
     left = payload(render(Model(MODEL.suspension.mirrored())))
     assert (data["side_sign"], left["side_sign"]) == (-1.0, 1.0)
