@@ -155,8 +155,7 @@ def _aims(assembly: "Assembly", path: Path | None) -> "list[Goal]":
     known = sweep_axes_of(assembly.subject)
     if assembly.body_moves:
         return wanted.read(path, None, known)
-    unsteered = len(assembly.wheels) == 1 and not assembly.steered
-    return wanted.read(path, [*(known[:1] if unsteered else known), *HELD], known)
+    return wanted.read(path, [*known, *HELD], known)
 
 
 def _chapters(

@@ -15,15 +15,17 @@ if TYPE_CHECKING:
 AXES_OF_CARS = ("lateral_acceleration", "speed")
 """Axes of curves of cars besides motions of the body."""
 
-_AXES = ("travel", "rack", "bump", "roll", "left", "right", "heave", "pitch", *AXES_OF_CARS)
+_AXES = (
+    "travel", "rack", "bump", "roll", "left", "right", "steer", "heave", "pitch", *AXES_OF_CARS,
+)  # fmt: skip
 
 
 Over = Annotated[
     str | None,
     option(
-        "What varies along the curves: travel or rack of a suspension; bump, roll, left or right "
-        "of an axle; heave, pitch or roll of the body of a car; speed of a car on a rough road "
-        "(options road, seat: speed:road=C); lateral acceleration of steady turns at 100 km/h "
+        "What varies along the curves: travel or rack of a suspension; bump, roll, left, right, "
+        "steer or rack of an axle; heave, pitch or roll of the body of a car; speed of a car on a "
+        "rough road (options road, seat: speed:road=C); lateral acceleration of steady turns at 100 km/h "
         "(options speed_km_per_h, radius_m, steering_wheel_deg: "
         "lateral_acceleration:radius_m=60). Default: travel, bump of an axle, heave of a car.",
         "NAME[:OPTION=VALUE]",
@@ -33,13 +35,16 @@ Over = Annotated[
 ]
 At = Annotated[
     float,
-    option("Position of the table; over roll and pitch in deg, over acceleration in m/s^2.", "MM"),
+    option(
+        "Position of the table; over roll, pitch and steer in deg, over acceleration in m/s^2.",
+        "MM",
+    ),
 ]
 AtOfAxis = Annotated[
     float | None,
     option(
-        "Position of the table; over roll and pitch in deg, over acceleration in m/s^2, over speed "
-        "in km/h. Default: 0, 80 over speed, 1 at a radius or steering wheel angle.",
+        "Position of the table; over roll, pitch and steer in deg, over acceleration in m/s^2, "
+        "over speed in km/h. Default: 0, 80 over speed, 1 at a radius or steering wheel angle.",
         "MM",
         show_default=False,
     ),
@@ -69,11 +74,15 @@ _USUAL = {
         "bump_steer", "camber_gradient", "caster", "kingpin_inclination", "scrub_radius", "trail",
         "roll_center_height_kinematic", "motion_ratio",
     ),
-    "rack": ("camber", "caster", "scrub_radius", "trail", "steer_gradient", "steering_ratio"),
+    "rack": (
+        "camber", "caster", "scrub_radius", "trail", "steer_gradient", "steer_gradient_left",
+        "steering_ratio", "ackermann_error", "camber_left", "camber_right",
+    ),
     "lateral_acceleration": (
         "understeer_gradient", "steering_wheel_gradient", "roll_gradient", "sideslip_gradient",
         "steering_wheel_angle",
     ),
+    "steer": ("steering_ratio", "ackermann", "ackermann_error", "camber_left", "camber_right"),
     "speed": (
         "acceleration_rms", "weighted_rms", "load_variation", "load_variation_front_left",
         "load_variation_rear_left", "travel_rms", "travel_rms_front_left", "travel_rms_rear_left",

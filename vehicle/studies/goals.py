@@ -22,6 +22,7 @@ from .sweep_axes import (
     OF_CORNERS,
     compliances_over,
     given_axis,
+    known_over,
     name_of_axis,
     options_of,
     sweep_axes_of,
@@ -403,7 +404,7 @@ def _tables(
         chosen = {key: table[key] for key in options if key in table}
         over = given_axis(given, f"{title} over", named, ways, chosen)
         under_loads = compliances_over(over)
-        at_key, known = sweep_axis(over).key, {**sweep_axis(over).known, **under_loads}
+        at_key, known = sweep_axis(over).key, {**known_over(over, ways[0]), **under_loads}
         known_keys = [at_key, "over", *options, *sorted(keys)]
         if name in under_loads:
             known_keys.append("held")

@@ -6,11 +6,11 @@ from functools import lru_cache
 from typing import Any
 
 from ...core.validator import Validator, shown
-from ..analysis.characteristics.datasets import ALONG, KNOWN, OF_AXLES, OF_CARS
+from ..analysis.characteristics.datasets import KNOWN, OF_AXLES, OF_CARS
 from ..analysis.compliance.flexibility import HELD
 from ..analysis.compliance.linear import COMPLIANCES, COMPLIANCES_OF_AXLES
 from ..assembly.of import assembly_of
-from ..assembly.quantity import HEAVE, PITCH, ROLL, TRAVEL, Quantity
+from ..assembly.quantity import HEAVE, PITCH, RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
 from . import riding, turning
 from .axis import SweepAxis
 from .riding import RIDE
@@ -21,10 +21,12 @@ _OF_AXLES = {
     "roll": (ROLL, "roll"),
     "left": (TRAVEL, "travel of the left wheel"),
     "right": (TRAVEL, "travel of the right wheel"),
+    "steer": (STEERING_WHEEL, "the steering wheel"),
 }
 SWEEP_AXES: dict[str, SweepAxis] = {
     "travel": SweepAxis(TRAVEL, KNOWN["travel"], "wheel travel"),
-    "rack": SweepAxis(ALONG["rack"], KNOWN["rack"], "the rack"),
+    # curves over the rack are those of suspensions and of axles
+    "rack": SweepAxis(RACK, OF_AXLES[RACK.name] | KNOWN["rack"], "the rack"),
     **{
         name: SweepAxis(along, OF_AXLES[along.name], words)
         for name, (along, words) in _OF_AXLES.items()
@@ -45,6 +47,13 @@ OF_CORNERS = ("travel", "rack")
 _COMPLIANCES_OVER: dict[str, Mapping[str, Quantity]] = {
     "travel": COMPLIANCES,
     "bump": COMPLIANCES_OF_AXLES,
+}
+# Curves over axes of one name that differ between subjects, by axis and usual axis.
+_OF_SUBJECTS = {
+    ("rack", "travel"): KNOWN["rack"],
+    ("rack", "bump"): OF_AXLES[RACK.name],
+    ("roll", "bump"): OF_AXLES[ROLL.name],
+    ("roll", "heave"): OF_CARS,
 }
 
 
@@ -130,7 +139,14 @@ def sweep_axes_of(subject: Any) -> tuple[str, ...]:
     assembly = assembly_of(subject)
     if assembly.body_moves:
         return (*assembly.motions, TURNS if assembly.drives else RIDE)
-    return OF_CORNERS if len(assembly.wheels) == 1 else tuple(_OF_AXLES)
+    # without the ratio of the steering the motion 'steer' is over the rack
+    along = {name: motion.along.name for name, motion in assembly.motions.items()}
+    return tuple(name for name in along if along[name] == SWEEP_AXES[name].along.name)
+
+
+def known_over(over: str, usual: str) -> Mapping[str, Quantity]:
+    """Return the curves over an axis of a subject with this usual axis, by their columns."""
+    return _OF_SUBJECTS.get((over, usual), sweep_axis(over).known)
 
 
 def compliances_over(over: str) -> Mapping[str, Quantity]:

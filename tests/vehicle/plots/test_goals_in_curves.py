@@ -410,11 +410,12 @@ def test_goals_that_are_not_looked_at_are_named(goals: Path) -> None:
 @pytest.mark.parametrize(
     ("words", "text"),
     [
-        (["reference_axle"], "over 'rack' is not known. Known are: bump, roll"),
-        (["reference_axle", "--over", "steer"], "over bump, roll, left or right, and these are"),
+        (["rear_axle", "--over", "rack"], "Did you mean scrub_radius_left?"),
+        (["rigid_axle"], "over 'rack' is not known. Known are: bump, roll, left, right"),
+        (["bmw_e90_rear_axle", "--over", "steer"], "left, right or rack, and these are over steer"),
         (["reference_car", "--rack", "10"], "in its middle"),
         (["reference_axle", "--rack", "10"], "in its middle"),
-        (["trailing_arm_car"], "over travel"),
+        (["trailing_arm_car"], "Known are: travel"),
     ],
 )
 def test_where_goals_mean_nothing_they_are_refused(

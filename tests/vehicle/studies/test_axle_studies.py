@@ -4,7 +4,15 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import Axle, InputError, RigidAxle, Suspension, characteristics, variation
+from kintrafo import (
+    Axle,
+    InputError,
+    RigidAxle,
+    Suspension,
+    characteristics,
+    load,
+    variation,
+)
 from kintrafo.vehicle.analysis.scenario import Scenario
 from kintrafo.vehicle.assembly.by_wheel import flat
 
@@ -93,6 +101,40 @@ def test_a_bar_is_found_that_has_a_roll_stiffness() -> None:
     assert isinstance(found.suspension, Axle)
     assert found.suspension.bar is not None
     assert found.suspension.bar.rate_Nm_per_deg == pytest.approx(25.0, rel=1e-3)
+
+
+STEERED = {
+    "reference_axle": "side.hardpoints.tie_rod_inner.x",
+    "steered_rigid_axle": "hardpoints.track_rod.x",
+}
+
+
+@pytest.mark.parametrize("name", STEERED)
+@pytest.mark.parametrize(("over", "end"), [("steer", 1.5), ("rack", 0.02)])
+def test_a_steered_axle_is_studied_over_its_steering(name: str, over: str, end: float) -> None:
+    axle, place, along = load(name), STEERED[name], np.array([-end, 0.5 * end, end])
+    how = {"names": ["ackermann_error"], "over": over, "positions": along}
+    found = variation.sensitivity(axle, [place], **how)
+    point, _, axis = place.rpartition(".")
+    kept = axle.to_dict()
+    for part in point.split("."):
+        kept = kept[part]
+    ends = []
+    for by in (-0.1, 0.1):
+        there = [x + by * (axis == n) for n, x in zip("xyz", kept, strict=True)]
+        moved = axle.with_changes({point: there})
+        ends.append(characteristics.over(moved, over, along)["ackermann_error"].values)
+    by_differences = (ends[1] - ends[0]) / 0.2e-3
+    np.testing.assert_allclose(found["ackermann_error"].values[0], by_differences, rtol=1e-4)
+
+
+def test_an_axle_without_the_ratio_of_its_steering_is_studied_over_the_rack() -> None:
+    axle = load("bmw_e90_rear_axle")
+    place = "side.hardpoints.wheel_center.z"
+    how = {"names": ["camber_left"], "positions": [0.0]}
+    assert variation.sensitivity(axle, [place], over="rack", **how)["rack_position"].size == 1
+    with pytest.raises(InputError, match="over 'steer' is not known"):
+        variation.sensitivity(axle, [place], over="steer", **how)
 
 
 def test_a_grid_of_axles_goes_over_a_road() -> None:
