@@ -16,7 +16,14 @@ from ..assembly.of import given_assembly
 from ..assembly.usual import USUAL_TRAVEL
 from ..models.plausibility import USUAL_HOP
 from ..models.positions import PositionError
-from .wheel_facts import RestFacts, WheelFacts, facts_of, without_friction
+from .wheel_facts import (
+    LEAST_WHEEL_RATE,
+    NO_STIFFNESS,
+    RestFacts,
+    WheelFacts,
+    facts_of,
+    without_friction,
+)
 
 __all__ = [
     "USUAL_HOP", "USUAL_RIDE", "AxleFacts", "Checkup", "RestFacts", "WheelFacts", "as_dict",
@@ -219,6 +226,9 @@ class _AxleLook:
             self.values[name] = float(found[name][0])
             label = words if name == stem or alike else f"{words}, left"
             self.rows[label] = f"{self.values[name] * shown.factor:.4g} {shown.units}"
+        rates = [self.values.get(f"wheel_rate_{wheel}", np.inf) for wheel in assembly.wheels]
+        if np.mean(rates) < LEAST_WHEEL_RATE:
+            self._notes.append(NO_STIFFNESS)
 
     def _in_roll(self) -> None:
         assembly, angles = self._assembly, self._assembly.usual("roll")

@@ -13,7 +13,13 @@ from ..assembly.corner_kinematics import corner
 from ..assembly.equilibrium import equilibrium
 from ..models.model import Model
 from ..models.plausibility import plausibility
-from ..models.positions import AngleRange, PositionError, design_height, travel_range
+from ..models.positions import (
+    AngleRange,
+    PositionError,
+    arm_angles,
+    design_height,
+    travel_range,
+)
 from . import paper
 
 # Less travel between design and an end is noted, as a part of the height of the wheel centre: 40 mm
@@ -21,6 +27,14 @@ from . import paper
 _LITTLE_TRAVEL = 0.04 / 0.3
 # A wheel that rests farther from design is noted [m].
 _FAR_FROM_DESIGN = 0.005
+
+# A wheel rate below this is not that of a spring: weights alone have some N/m [N/m].
+LEAST_WHEEL_RATE = 10.0
+NO_STIFFNESS = (
+    "only the tyre holds the wheel: the wheel rate of springs and stops is below "
+    f"{LEAST_WHEEL_RATE / 1e3:g} N/mm. Load cases, whose forces do not depend on the travel, have "
+    "no stable equilibrium there."
+)
 
 
 @dataclass(frozen=True)
@@ -247,6 +261,8 @@ def _notes(
         )
     if extended is not None and extension is not None and rest.travel < extension:
         notes.append(f"at rest, the {extended.name} is longer than {extended.key}.")
+    if wheel.wheel_rate(corner(model, arm_angles(model, [rest.height]))) < LEAST_WHEEL_RATE:
+        notes.append(NO_STIFFNESS)
     if rest.signals["tyre_force"] <= 0.0:
         notes.append("the tyre carries nothing at rest: check [tyre] free_height_mm.")
     if not np.isfinite(rest.frequency):

@@ -25,8 +25,8 @@ Over = Annotated[
     option(
         "What varies along the curves: travel or rack of a suspension; bump, roll, left, right, "
         "steer or rack of an axle; heave, pitch or roll of the body of a car; speed of a car on a "
-        "rough road (options road, seat: speed:road=C); lateral acceleration of steady turns at 100 km/h "
-        "(options speed_km_per_h, radius_m, steering_wheel_deg: "
+        "rough road (options road, seat: speed:road=C); lateral acceleration of steady turns at "
+        "100 km/h (options speed_km_per_h, radius_m, steering_wheel_deg: "
         "lateral_acceleration:radius_m=60). Default: travel, bump of an axle, heave of a car.",
         "NAME[:OPTION=VALUE]",
         show_default=False,

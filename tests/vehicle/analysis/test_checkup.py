@@ -6,8 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from folders import ROOT
-from kintrafo import Model, Suspension, load
+from kintrafo import Model, PositionError, Suspension, load, loads
 from kintrafo.vehicle.analysis.checkup import USUAL_HOP, USUAL_RIDE, as_dict, checkup
+from kintrafo.vehicle.analysis.wheel_facts import NO_STIFFNESS
 from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.models.points import hardpoints
 from kintrafo.vehicle.models.positions import state_at_height
@@ -48,6 +49,32 @@ def test_a_spring_that_carries_nothing_has_no_ride_frequency():
     found = checkup(Model(car))
     assert found.wheels[0].equilibrium.ride_frequency is None
     assert as_dict(found)["equilibrium"]["ride_frequency"] is None
+
+
+SPRINGLESS = {
+    "reference_car": {"strut.spring_rate_N_per_m": 0.0},
+    "rear_axle": {"side.spring.rate_N_per_m": 0.0},
+    "rigid_axle": {"spring.rate_N_per_m": 0.0},
+    "twist_beam": {"spring.rate_N_per_m": 0.0},
+    "steered_rigid_axle": {"spring.rate_N_per_m": 0.0},
+}
+
+
+@pytest.mark.parametrize("name", SPRINGLESS)
+def test_where_only_tyres_hold_the_wheels_load_cases_have_no_equilibrium(name):
+    """Rest on the road is stable by the tyres, and constant forces are not carried: both say so."""
+    subject = load(name)
+    assert NO_STIFFNESS not in " ".join(checkup(subject).notes)
+    changes = dict(SPRINGLESS[name])
+    for key in [key for key in changes if "spring.rate" in key]:
+        force = key.replace("rate_N_per_m", "force_at_design_N")
+        changes |= {force: None, key.replace("rate_N_per_m", "free_length_mm"): 300.0}
+    without = subject.with_changes(changes)
+    found = checkup(without)
+    assert NO_STIFFNESS in " ".join(found.notes)
+    assert all(wheel.equilibrium is not None for wheel in found.wheels)
+    with pytest.raises(PositionError, match="none of the cases has an equilibrium"):
+        loads.static(without, {"static": {"contact_g": [0.0, 0.0, 1.0]}})
 
 
 @pytest.mark.parametrize("name", ["reference_car", "reference_axle", "rigid_axle"])

@@ -187,7 +187,8 @@ WRONG: list[tuple[str, Any, str]] = [
         for case, words in (
             ({"left": 3}, r"\[cases.a\] left must be a section"),
             ({"contact_N": [0, 0, 1], "left": {"contact_N": [0, 0, 1]}}, "that of both wheels"),
-            ({"left": {"contact_K": [0, 0, 1]}}, r"\[cases.a\] left contact_K is not known"),
+            ({"left": {"contact_K": [0, 0, 1]}}, r"\[cases.a.left\] contact_K is not known"),
+            ({"rigth": {"contact_N": [0, 0, 1]}}, r"\[cases.a\] rigth is not known.*right\?"),
             ({"travel_mm": 1.0, "left": {"contact_N": [0, 0, 1]}}, "cannot be given besides"),
         )
     ),

@@ -134,6 +134,8 @@ def _of_wheel(given: Validator, name: str, table: Any, wheel: str, *, racks: boo
             f"[cases.{name}.{wheel}] {_RACK}: both sides have one rack. "
             f"Give it to [cases.{name}] itself."
         )
+    for key in (key for key in own if key not in _KEYS):
+        given.fail(f"[cases.{name}.{wheel}] {key} is not known. {suggestion(str(key), _KEYS)}")
     for key in (key for key in own if key in both):
         given.fail(
             f"[cases.{name}] {key} is that of both wheels, and [cases.{name}.{wheel}] has it, too. "
@@ -153,8 +155,9 @@ def _cases_of_wheel(
         if not isinstance(table, Mapping):
             given.fail(f"{title} must be a section, with {', '.join(_KEYS)}.")
             continue
+        known = (*_KEYS, *SIDES) if of else _KEYS
         for key in (key for key in table if key not in _KEYS):
-            given.fail(f"{title} {key} is not known. {suggestion(str(key), _KEYS)}")
+            given.fail(f"[cases.{name}] {key} is not known. {suggestion(str(key), known)}")
         travel = _number(given, title, table, "travel_mm")
         found = {
             place: _vector(given, title, table, f"{place}_N")

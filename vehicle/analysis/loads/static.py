@@ -254,7 +254,7 @@ def _refused(
             found.append(f"{where}: {DEAD_POINT}" if where else DEAD_POINT)
             continue
         found.append(
-            "; ".join(
+            " ".join(
                 f"{head}the road would have to pull the wheel there with {-force:.4g} N."
                 for head, force, holding in zip(heads, forces, holds, strict=True)
                 if holding and force < 0.0

@@ -71,7 +71,7 @@ def static_equilibrium(assembly: HeldAssembly, loads: AppliedLoads) -> tuple[Arr
         words = f"{' and '.join(one.wheels)}: " if several else ""
         why.append([reason and words + reason for reason in search.reasons])
         first = own.stop
-    reasons = ["; ".join(filter(None, text)) for text in zip(*why, strict=True)]
+    reasons = [" ".join(filter(None, text)) for text in zip(*why, strict=True)]
     lost = np.array([bool(reason) for reason in reasons])
     return np.where(lost[:, None], np.nan, np.concatenate(found, axis=1)), reasons
 
