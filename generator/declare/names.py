@@ -49,6 +49,8 @@ _BEGINNINGS = ("given_", "loops_through_", "pose_of_", "KINTRAFO_")
 # files without a model's name that lie beside its own when they are compiled
 _FILES = ("elementary", "follow", "vectors")
 _ENDS_OF_COMMENTS = ("*/", '"""', "\\", "\n", "\r")
+TIME = "time"
+"""Name of the independent variable of datasets and FMUs."""
 _COUNTED = ("count",)  # an enumeration ends with the number of its elements
 
 
@@ -118,6 +120,8 @@ def _reserved(kind: str, name: str) -> list[str]:
     """Return a problem if the code uses a name for something else."""
     if name in _WORDS or name.lower() in _COUNTED or name.startswith(_BEGINNINGS):
         return [f"{kind} {name!r} has a name that the generated code needs; choose another one"]
+    if name == TIME and kind != "parameter":
+        return [f"{kind} {name!r} has the name of the time in results and FMUs; choose another one"]
     return []
 
 

@@ -10,6 +10,7 @@ import sympy as sp
 from ..declare.checks import check_symbols
 from ..declare.declared import DeclarationError, parts
 from ..declare.inputs import Input
+from ..declare.names import TIME
 from ..declare.states import Entry
 from ..memory import uncollected
 from ..planning.plan import CataloguePlan
@@ -583,7 +584,7 @@ class _Builder:
         results: dict[str, sp.Expr] = {}
         declared = (s for o in self.mechanism.outputs for s in signals_of(self.dynamics, o))
         taken = {e.name: "an element of the state" for e in self.states.entries}
-        taken |= {i.name: "an input" for i in self._inputs()}
+        taken |= {i.name: "an input" for i in self._inputs()} | {TIME: "the time"}
         for shown in (*self.dynamics.signals(), *declared):
             if shown.name in results:
                 problem = f"two signals are named {shown.name!r}; give the output another name"

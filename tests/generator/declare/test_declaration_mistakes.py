@@ -207,6 +207,10 @@ MISTAKES = {
     "coordinate named after a function": lambda: four_bar(
         coordinates=(bar.A.angle("sin", "angle"),)
     ),
+    "coordinate named as the time": lambda: four_bar(coordinates=(bar.A.angle("time", "angle"),)),
+    "input named as the time": lambda: with_force(
+        JointForce(bar.A, Input("time", "N m", "torque"))
+    ),
     "two bodies of a name": lambda: instead(bar.COUPLER, name="crank"),
     "a body declared twice, differently": lambda: four_bar(
         joints=(replace(bar.A, second=replace(bar.CRANK, mass=1.0)), bar.B)

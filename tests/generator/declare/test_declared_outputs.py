@@ -176,6 +176,7 @@ def test_mistakes() -> None:
     for name, owner in (
         ("drive_angle_rate", "an element of the state"),
         ("tilt_position", "an input"),
+        ("time", "the time"),
     ):
         clash = replace(mechanism, outputs=(ForceOf(name, mechanism.elements[0], "f"),))
         with pytest.raises(DeclarationError, match=f"'{name}' is the name of {owner} and of a"):
