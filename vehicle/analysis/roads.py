@@ -28,7 +28,7 @@ def step(height: float, *, at: float, end: float) -> Samples | float:
     height : float
         Height of the road after the step [m]; negative for a drop. Before it the height is zero.
     at : float
-        Time at which the tyre reaches it [s].
+        Time at which the tyre reaches the step [s].
     end : float
         Last time of the simulation [s].
 

@@ -58,9 +58,9 @@ class RestFacts:
         The same with friction linearised at rest, which is valid only for speeds far below
         ``friction_velocity_m_per_s``; None if there is no friction.
     ride_frequency : float or None
-        Undamped natural frequency of the body above a wheel at rest on the road: of the mass on
-        spring and stops, on their rate in series with the tyre's [Hz]. None if they carry no load
-        or have no rate.
+        Undamped natural frequency of the body above a wheel at rest on the road: that of the mass
+        on spring and stops, with their rate in series with that of the tyre [Hz]. None if they
+        carry no load or have no rate.
     """
 
     height: float

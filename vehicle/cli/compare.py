@@ -41,7 +41,8 @@ def command(
     files: Annotated[
         list[str],
         argument(
-            "Two or more hardpoint files or packaged names; the first is the reference.",
+            "Two or more input files, packaged names or files of curves; the first is the "
+            "reference.",
             "FILE FILE...",
         ),
     ],

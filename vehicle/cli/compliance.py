@@ -10,9 +10,9 @@ import typer
 from ...terminal.console import console, print_json, print_table, say
 from . import goals as wanted
 from .loading import assembly_of_file, bushes_of
-from .options import SUPPORT, Bump, Bushes, File, Held, Of, Rebound, metres, option, refuse_options
+from .options import SUPPORT, Bump, Bushes, File, Held, Rebound, metres, option, refuse_options
 from .outputs import Outputs, PlotOptions, name_files, named, of_both, only, title_of
-from .variation_options import At, with_position
+from .variation_options import with_position
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -94,11 +94,16 @@ def command(
         Held | None,
         option(f"{SUPPORT} Default: height."),
     ] = None,
-    at: At = 0.0,
+    at: Annotated[
+        float, option("Wheel travel of the table, under a load, and over steer.", "MM")
+    ] = 0.0,
     rack: Annotated[float, option("Constant rack displacement.", "MM")] = 0.0,
     rebound: Rebound = None,
     bump: Bump = None,
-    of: Of = None,
+    of: Annotated[
+        list[str] | None,
+        option("Curves to show, such as toe_by_lateral,toe_by_braking.", "NAME,..."),
+    ] = None,
     goals: wanted.Goals = None,
     output: PlotOptions,
 ) -> None:

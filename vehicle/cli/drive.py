@@ -45,7 +45,7 @@ EXAMPLES = (
 
 def command(
     file: Annotated[
-        str, argument("File of a car (TOML), or the name of a packaged one: driving_car.", "FILE")
+        str, argument("File of a car (TOML), or a packaged name, such as driving_car.", "FILE")
     ],
     *,
     manoeuvre: Annotated[
@@ -77,8 +77,8 @@ def command(
     can be edited; kintrafo new FILE --template NAME writes one that comes with kintrafo. Metrics
     are those of the standards, in the axes of ISO 8855. Data files have the curves over time,
     lateral acceleration or frequency; figures show them. If a simulated car does not run straight,
-    a second figure, whose name ends in _path, shows its path. --road, --bump-height and --kerb are
-    roads whose tracks follow the path of the car. --animate shows the car in motion, with the
+    a second figure, whose name ends in _path, shows its path. The tracks of a road (--road,
+    --bump-height, --kerb) follow the path of the car. --animate shows the car in motion, with the
     forces on its tyres; --loads has the forces of all joints, springs and tyres, whose greatest
     ones are printed.
     """

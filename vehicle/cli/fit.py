@@ -9,7 +9,7 @@ from ...core.tabulated import significant
 from ...terminal.console import console, print_json, progress_bar, say, table
 from ...terminal.exits import Exit
 from .loading import variable_subject
-from .options import File, Held, Of, among, argument, option
+from .options import File, Held, among, argument, option
 from .outputs import CarOptions, name_files
 from .variation_options import Over
 
@@ -40,7 +40,9 @@ def command(
         argument("TOML: [tolerances] of uncertain values, and [accuracy] of curves.", "TOLERANCES"),
     ],
     *,
-    of: Of = None,
+    of: Annotated[
+        list[str] | None, option("Curves to explain, such as toe,camber. Default: all.", "NAME,...")
+    ] = None,
     held: Annotated[Held, option("Support of the wheel when compliance was measured.")] = "height",
     over: Over = None,
     output: CarOptions,

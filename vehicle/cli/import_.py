@@ -109,9 +109,10 @@ def command(
     source: Annotated[
         Path,
         argument(
-            "Subsystem of Adams/Car as text (.sub); suspension of Project Chrono (.json); table "
-            ".csv, .txt or .xlsx with a row for each point and columns point, x [mm], y [mm], "
-            "z [mm], also an export of OptimumK or a text of Lotus Suspension Analysis.",
+            "Subsystem of Adams/Car as text (.sub); suspension or vehicle of Project Chrono "
+            "(.json); table .csv, .txt or .xlsx with a row for each point and columns point, "
+            "x [mm], y [mm], z [mm], also an export of OptimumK or a text of Lotus Suspension "
+            "Analysis.",
             "SOURCE",
             **FILE,
         ),

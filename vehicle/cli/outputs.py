@@ -60,7 +60,7 @@ Loads = Annotated[
 ]
 CarFile = Annotated[
     Path | None,
-    option("Write the hardpoint file that was found: .toml.", "PATH", "--out", "-o", panel=OUTPUT),
+    option("Write the input file with the new values: .toml.", "PATH", "--out", "-o", panel=OUTPUT),
 ]
 
 

@@ -22,7 +22,7 @@ def command(
     *,
     force: Force = False,
 ) -> None:
-    """Show the paper's results: Figures 4, 5 and 6 and a summary."""
+    """Show the results of the paper (Góis and Sarzeto, 2000): Figures 4 to 6 and a summary."""
     from ...core.files import refuse
     from ..analysis import paper
     from ..models.model import Model

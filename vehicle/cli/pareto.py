@@ -53,7 +53,7 @@ def command(
     ] = None,
     member_file: Annotated[
         Path | None,
-        option("Write the hardpoint file of the chosen member: .toml.", "PATH", panel=OUTPUT),
+        option("Write the input file of the chosen member: .toml.", "PATH", panel=OUTPUT),
     ] = None,
     output: SingleFigureOptions,
 ) -> None:
@@ -106,7 +106,7 @@ def _refuse_member(member: int | None, population: int) -> None:
 
 
 def _write(found: "Front", chosen: int, outputs: Outputs, *, title: str) -> list[Path]:
-    """Write the data, the figure, and the hardpoint file of the chosen member."""
+    """Write the data, the figure, and the input file of the chosen member."""
     suspension = found.suspension(chosen)
     written = outputs.write_data(found.dataset)
     if outputs.pages:

@@ -26,7 +26,7 @@ EXAMPLES = (
 
 def command(
     file: Annotated[
-        str, argument("File of a car (TOML), or the name of a packaged one: quarter_car.", "FILE")
+        str, argument("File of a car (TOML), or a packaged name, such as quarter_car.", "FILE")
     ],
     *,
     road: RoadOptions,

@@ -33,13 +33,6 @@ Over = Annotated[
         autocompletion=completion_of(_AXES),
     ),
 ]
-At = Annotated[
-    float,
-    option(
-        "Position of the table; over roll, pitch and steer in deg, over acceleration in m/s^2.",
-        "MM",
-    ),
-]
 AtOfAxis = Annotated[
     float | None,
     option(

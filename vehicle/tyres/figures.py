@@ -37,8 +37,7 @@ def key_figures(tyre: Tyre, loads: Any = None) -> "xr.Dataset":
         ``friction_driving`` and ``friction_braking``, the greatest forces divided by the load, and
         ``angle_of_friction`` [rad], ``slip_of_driving`` and ``slip_of_braking``, the slips of these
         forces; ``load_sensitivity``, the derivative of ``friction_lateral`` with respect to the
-        load [1/N];
-        ``trail`` [m], ``relaxation_x``, ``relaxation_y`` [m], ``loaded_radius``,
+        load [1/N]; ``trail`` [m], ``relaxation_x``, ``relaxation_y`` [m], ``loaded_radius``,
         ``effective_radius`` [m] and ``vertical_stiffness`` [N/m].
 
     Raises

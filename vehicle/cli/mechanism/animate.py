@@ -32,7 +32,9 @@ def command(
         list[str] | None, option("Values at the start (SI units). May be repeated.", "NAME=VALUE")
     ] = None,
     duration: Annotated[float, option("Length of the motion.", "S")] = 1.0,
-    slower: Annotated[float, option("A GIF plays so many times slower.", "TIMES")] = 1.0,
+    slower: Annotated[
+        float, option("Factor by which a GIF is slower than real time.", "TIMES")
+    ] = 1.0,
     fps: Annotated[float, option("Frames per second of a GIF.", "1/S")] = 25.0,
     title: Annotated[str | None, option("Heading of a page.")] = None,
     model: Which = None,

@@ -43,8 +43,7 @@ def command(
 ) -> None:
     """Show bodies, joints, mobility, loops and characteristic pairs of the mechanism.
 
-    They come with the compiled model. For a mechanism of your own, the joints that can be
-    independent are listed, too.
+    For a mechanism of your own, the joints that can be independent are listed, too.
     """
     from ....systems.topology import topology
 
