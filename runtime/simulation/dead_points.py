@@ -21,12 +21,12 @@ from .trust import ACTS, NOTHING, PART, SINGULAR
 def meanings(equations: ModuleType) -> NDArray[np.int32]:
     """Return bits with the effect of each guard on an integration.
 
-    Bit 1: where the margin is not positive, the right-hand side or the signals refuse a state. Bit
-    2: the right-hand side is singular where the margin is zero, and no step may pass over that: the
-    guard determines a branch of poses, or it is the square of a divisor of a direction, such as the
-    length of a spring. Such a square touches zero and rises again. Pivots of the mass matrix have
-    the first bit only: where one vanishes the accelerations grow without bound, which the error
-    control of every method detects.
+    Bit 1: where the margin is not positive, the right-hand side or the signals refuse a state; in a
+    prescribed motion the poses do, too. Bit 2: the right-hand side is singular where the margin is
+    zero, and no step may pass over that: the guard determines a branch of poses, or it is the
+    square of a divisor of a direction, such as the length of a spring. Such a square touches zero
+    and rises again. Pivots of the mass matrix have the first bit only: where one vanishes the
+    accelerations grow without bound, which the error control of every method detects.
     """
     return meanings_of(equations.equations.manifest)
 
@@ -37,10 +37,12 @@ def meanings_of(manifest: Mapping[str, Any]) -> NDArray[np.int32]:
     places = acting["positions"] | acting["orientations"]
     found = np.zeros(len(manifest["guards"]), dtype=np.int32)
     rates, signals = acting["rhs"], acting.get("signals", set())
-    for guard in rates | signals:
+    if manifest["state"]:
+        ends, singular = rates | signals, (places | acting["forces"]) & rates
+    else:  # the motion is prescribed: its results are poses and signals
+        ends, singular = places | signals, places
+    for guard in ends:
         found[guard] |= ACTS
-    # a mechanism whose motion is prescribed has signals only
-    singular = (places | acting["forces"]) & rates if manifest["state"] else places & signals
     for guard in singular:
         found[guard] |= SINGULAR
     return found

@@ -65,14 +65,16 @@ def lift() -> kintrafo.System:
     return kintrafo.System(kintrafo.compile(formulation))
 
 
-@pytest.fixture(scope="module")
-def driven() -> kintrafo.System:
+@pytest.fixture(scope="module", params=["driven", "driven_without_signals"])
+def driven(request: pytest.FixtureRequest) -> kintrafo.System:
     """A four-bar whose rocker is prescribed, and whose crank has dead points."""
-    plain = tuple(f for f in four_bar.FOUR_BAR.forces if not isinstance(f, JointForce))
+    name = request.param
     given = {four_bar.D: Motion("drive", "rad", "angle of the rocker")}
-    formulation = Formulation(
-        "driven", "A four-bar", replace(four_bar.FOUR_BAR, forces=plain), (), prescribed=given
-    )
+    plain = tuple(f for f in four_bar.FOUR_BAR.forces if not isinstance(f, JointForce))
+    mechanism = replace(four_bar.FOUR_BAR, forces=plain)
+    if name == "driven_without_signals":
+        mechanism = replace(mechanism, forces=(), outputs=())
+    formulation = Formulation(name, "A four-bar", mechanism, (), prescribed=given)
     return kintrafo.System(kintrafo.compile(formulation))
 
 
