@@ -145,8 +145,9 @@ def described_bushings(
     """Return given bushes; those of the hardpoint file for None."""
     if bushings is None and of_the_file is None:
         given.fail(
-            "bushings: none are given, and the hardpoint file has none. Give them, or add its "
-            "[bushings.POINT]."
+            "bushings: none are given, and the hardpoint file has none. Give them, or add a "
+            "section [bushings.POINT] for each hardpoint with a bush: a line with its stiffness "
+            "radial_N_per_mm is enough."
         )
     found = of_the_file or {} if bushings is None else bushings
     return dict(given.mapping("bushings", found, "hardpoints and stiffnesses"))
