@@ -80,7 +80,7 @@ def _evaluation_ratios(evaluations: list[Evaluation]) -> str:
     """Right-hand sides, and how much longer than ours each takes."""
     header, rows = ["right-hand side"], []
     for flags in FLAGS:
-        header += [f"{flags}: dependent [ns]", "/ ours", "independent [ns]", "/ ours"]
+        header += [f"{flags}: dependent [ns]", "/ kintrafo", "independent [ns]", "/ kintrafo"]
     for name, parameters in dict.fromkeys((e.name, e.parameters) for e in evaluations):
         cells = [f"{name}, numbers" if parameters == "literal" else name]
         for flags in FLAGS:

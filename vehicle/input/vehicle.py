@@ -86,8 +86,8 @@ class TyreSection(Section):
     free_height_mm: Number = Field(description="z of wheel_center at which the tyre force is zero")
     radius_mm: Positive | None = Field(
         default=None,
-        description="radius of the wheel as a thin disc that touches the ground; only for "
-        "characteristics; by default the height of wheel_center above z = 0",
+        description="radius of the wheel as a thin disc that touches the ground; for "
+        "characteristics, loads and compliance; by default the height of wheel_center above z = 0",
     )
     lateral_rate_N_per_m: Positive | None = Field(  # noqa: N815 (N is the newton)
         default=None, description="lateral rate of the stationary tyre; only for compliance"

@@ -84,10 +84,11 @@ ends of the drag link, `pitman_ball` and `drag_link_knuckle`.
     pitman_arm: PitmanArmSection = Field(description="the Pitman arm of the steering gear")
     drag_link: DragLinkSection = Field(description="the drag link from Pitman arm to knuckle")
     brakes: Brakes = Field(
-        default=Brakes(), description="reaction of the brake torque, here always on the carrier"
+        default=Brakes(),
+        description="the knuckles react the brake torque; torque_on = 'body' is an error",
     )
     drive: AxleDrive | None = Field(
-        default=None, description="not allowed: this axle is not driven"
+        default=None, description="not supported: this axle cannot be driven"
     )
     bodies: SteeredRigidAxleBodies = Field(description="masses and inertia")
 

@@ -27,7 +27,7 @@ class Acceleration(UntilSpeed):
     torque_Nm: Positive = Field(  # noqa: N815 (N m is the unit)
         description="torque of all driven wheels together"
     )
-    until_km_per_h: Positive = Field(default=100.0, description="speed at which it ends")
+    until_km_per_h: Positive = Field(default=100.0, description="speed at which the manoeuvre ends")
     rise_s: NonNegative = Field(default=0.2, description="time in which the torque rises")
     duration_s: Positive = Field(default=60.0, description="longest duration of the simulation")
 

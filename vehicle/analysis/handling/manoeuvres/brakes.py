@@ -15,7 +15,7 @@ from .simulated import UntilSpeed
 class BrakingManoeuvre(UntilSpeed):
     """A manoeuvre with braking down to a speed."""
 
-    until_km_per_h: Positive = Field(default=5.0, description="speed at which it ends")
+    until_km_per_h: Positive = Field(default=5.0, description="speed at which the manoeuvre ends")
     start_s: NonNegative = Field(default=0.5, description="time at which the brakes are applied")
 
     pedal: Positive | None = Field(

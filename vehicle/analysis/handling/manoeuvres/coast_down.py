@@ -23,7 +23,7 @@ class CoastDown(UntilSpeed):
     SLOPES: ClassVar[bool] = True
 
     manoeuvre: Literal["coast_down"] = Field(description="name of the manoeuvre")
-    until_km_per_h: Positive = Field(default=60.0, description="speed at which it ends")
+    until_km_per_h: Positive = Field(default=60.0, description="speed at which the manoeuvre ends")
     duration_s: Positive = Field(default=300.0, description="longest duration of the simulation")
 
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:

@@ -185,7 +185,7 @@ class UntilSpeed(SimulatedManoeuvre):
     SLOWS: ClassVar[bool] = True
     """Whether the end speed is less than the speed at the beginning."""
 
-    until_km_per_h: Positive = Field(description="speed at which it ends")
+    until_km_per_h: Positive = Field(description="speed at which the manoeuvre ends")
 
     def problems(self) -> list[str]:
         found = super().problems()

@@ -30,10 +30,10 @@ class SlowlyIncreasingSteer(TurningManoeuvre):
     rate_deg_per_s: Positive = Field(default=13.5, description="rate of the steering wheel")
     ease_ms: Positive = Field(default=100.0, description="time in which the rate rises")
     until_lateral_acceleration_m_per_s2: Positive = Field(
-        default=5.4, description="lateral acceleration at which it ends"
+        default=5.4, description="lateral acceleration at which the manoeuvre ends"
     )
     largest_deg: Positive = Field(
-        default=360.0, description="steering wheel angle at which it ends at the latest"
+        default=360.0, description="steering wheel angle at which the manoeuvre ends at the latest"
     )
 
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:

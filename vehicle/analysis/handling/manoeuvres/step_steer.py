@@ -32,10 +32,10 @@ class StepSteer(SteeredManoeuvre):
     duration_s: Positive = Field(default=5.0, description="duration of the simulation")
     settled_s: Positive = Field(
         default=0.5,
-        description="length of the last part of the simulation, whose mean is the steady value",
+        description="duration of the last part of the simulation; steady values are means over it",
     )
     holds_speed: Flag = Field(
-        default=False, description="true: the speed is held; false: the torque of the drive"
+        default=False, description="true: the speed is held; false: the torque of the drive is held"
     )
 
     def problems(self) -> list[str]:
