@@ -57,10 +57,13 @@ def listed_by(page):
 
 @pytest.mark.parametrize("page", [*OTHERS, *PAGES], ids=lambda page: page.stem)
 def test_links_lead_somewhere(page):
-    for link in re.findall(r"\]\(([^)\s]+)\)", without_code(text_of(page))):
+    """A link that is called after a file leads to this file."""
+    for name, link in re.findall(r"([^\[\]]*)\]\(([^)\s]+)\)", without_code(text_of(page))):
         if "://" in link:
             continue
         path, _, anchor = link.partition("#")
+        if re.fullmatch(r"[\w/]+\.(py|c|h|json|toml|md)", name):
+            assert path.endswith(name.rpartition("/")[2]), link
         target = page.parent / path if path else page
         assert target.exists(), link
         if anchor:
