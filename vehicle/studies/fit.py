@@ -16,7 +16,7 @@ from .design_variables import DesignVariable, amounts
 from .evaluation import Subject, check_subject
 from .goals import GREATEST, LEAST, TargetValue, check_data
 from .search import Search, in_words, least
-from .sweep_axes import UNDER_LOADS, given_axis, sweep_axes_of, sweep_axis
+from .sweep_axes import UNDER_LOADS, given_axis, known_over, sweep_axes_of, sweep_axis
 from .tolerance import SIGMAS
 
 # Default accuracy of a curve, as a part of its range.
@@ -211,7 +211,8 @@ def _targets(
     """Return the measured curves as targets, without empty cells, and names of others."""
     accuracies, held_by, asked = how
     # parallel travel is the first of the axes over wheel travel
-    ways = {sweep_axis(way).along.name: way for way in reversed(sweep_axes_of(suspension))}
+    axes = sweep_axes_of(suspension)
+    ways = {sweep_axis(way).along.name: way for way in reversed(axes)}
     over = [name for name in ways if name in measured.dims]
     if len(over) != 1:
         given.fail(
@@ -236,7 +237,8 @@ def _targets(
         if measured[name].dims == (along,) and np.issubdtype(measured[name].dtype, np.floating)
     ]
     under_loads = UNDER_LOADS[held_by].known if way == "travel" else {}
-    known = [name for name in there if name in sweep_axis(way).known or name in under_loads]
+    computed = {**known_over(way, axes[0]), **under_loads}
+    known = [name for name in there if name in computed]
     foreign = [name for name in there if name not in known] if names is None else []
     chosen = known if names is None else given.names("names", names, known)
     if not chosen and not given.failed:

@@ -5,8 +5,9 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
-from kintrafo import InputError, Model, Suspension, characteristics, compliance, variation
+from kintrafo import InputError, Model, Suspension, characteristics, compliance, load, variation
 from kintrafo.core.quantities import display_of
+from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.studies.design_variables import places_of
 
 CAR = Suspension.load("reference_car")
@@ -132,6 +133,27 @@ def test_curves_of_an_axle_are_named_beside_a_suspension() -> None:
     assert [curve.name for curve in found.curves] == ["toe"]
     with pytest.raises(InputError, match="not computed over travel: camber_left"):
         variation.fit(CAR, measured[["camber_left"]], {ROD: 3.0})
+
+
+@pytest.mark.parametrize(
+    ("name", "over", "end", "own", "other"),
+    [
+        ("reference_car", "rack", 0.02, "toe", "camber_left"),
+        ("reference_axle", "rack", 0.02, "toe_left", "camber"),
+        ("reference_axle", "roll", 0.03, "toe_left", "roll_center_height_front"),
+    ],
+)
+def test_curves_of_another_subject_are_named_over_every_axis(
+    name: str, over: str, end: float, own: str, other: str
+) -> None:
+    """Axes of one name have other curves for other subjects."""
+    subject, at = load(name), np.linspace(-end, end, 5)
+    measured = flat(characteristics.over(subject, over, at))[[own]]
+    measured[other] = measured[own]
+    place = ROD if name == "reference_car" else f"side.{ROD}"
+    found = variation.fit(subject, measured, {place: 3.0})
+    assert f"not computed, and not fitted: {other}" in found.message
+    assert [curve.name for curve in found.curves] == [own]
 
 
 def test_what_cannot_be_is_refused() -> None:
