@@ -196,7 +196,7 @@ def fit(
     search = Search(suspension, reach, targets, (), progress, SIGMAS)
     idle = search.idle(np.zeros(len(reach)))
     if len(idle) == len(reach):
-        problem = f"tolerances: nothing of {', '.join(idle)} has an effect on a curve."
+        problem = f"tolerances: no value has an effect on a curve: {', '.join(idle)}."
         raise InputError([problem], "fit")
     return _fit(search, *least(search), foreign)
 

@@ -155,7 +155,7 @@ def optimise(
     search = Search(suspension, reach, aims, bounds, progress, _RELUCTANCE, ENOUGH)
     idle = search.idle(np.zeros(len(reach)))
     if len(idle) == len(reach):
-        problem = f"free: nothing of {', '.join(idle)} has an effect on a target."
+        problem = f"free: no value has an effect on a target: {', '.join(idle)}."
         raise InputError([problem], "optimise")
     try:
         return _optimum(search, *_solved(search), idle)

@@ -216,7 +216,7 @@ def pareto(
     judge = _Judge(suspension, reach, objectives, bounds, population * generations, progress)
     idle = judge.idle()
     if len(idle) == len(reach):
-        problem = f"free: nothing of {', '.join(idle)} has an effect on an objective."
+        problem = f"free: no value has an effect on an objective: {', '.join(idle)}."
         raise InputError([problem], "pareto")
     evolve(judge, _first(population, len(reach), seed), judge.counts, generations, seed)
     return _front(judge, idle, population)
@@ -356,7 +356,7 @@ def _message(judge: _Judge, members: Array, nearest: Array, idle: list[str]) -> 
         "no suspension keeps all limits, the nearest one not those of": broken,
         "could not be built, or did not reach a position": lost,
         "at the end of its range all along the front": sorted(always),
-        "moves nothing": idle,
+        "without effect on an objective": idle,
     }
     return "; ".join(part for part in (_size(len(members)), in_words(facts)) if part)
 
