@@ -807,7 +807,7 @@ def test_what_iterates_beside_what_does_not_close() -> None:
     for other in others:
         same(other, first)
     assert first["success"].values.tolist() == [place != 4 for place in range(count)]
-    assert "have no hold" in first["reason"].values[4]
+    assert "do not hold it" in first["reason"].values[4]
     for place in (0, 8):
         own = {key: float(values[place]) for key, values in cars.items()}
         alone = System(model.equations, model.parameters | own)
