@@ -47,7 +47,7 @@ def main() -> None:
     parser.add_argument("--cars", nargs="*", default=list(CARS), choices=list(CARS))
     parser.add_argument("--page", action="store_true", help="fill the page")
     chosen = parser.parse_args()
-    counts = ["| equations | operations of a call | of its Jacobian | a call, us |"]
+    counts = ["| equations | operations of a call | of its Jacobian | a call, µs |"]
     counts.append("|---|---:|---:|---:|")
     speeds = ["| car | method | times real time | error of the acceleration, relative to its RMS |"]
     speeds.append("|---|---|---:|---:|")

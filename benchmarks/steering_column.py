@@ -17,8 +17,8 @@ GRAVITY = 9.80665
 TURN = 3.0  # lateral acceleration of the steady turn, m/s^2
 COLUMN = {"damping_Nm_s_per_deg": 0.005, "pinion_inertia_kg_m2": 0.0005, "rack_friction_N": 100.0}
 STEADY = {
-    "understeer gradient [deg/g]": "understeer_gradient",
-    "steering wheel angle by lateral acceleration [deg/g]": "steering_wheel_gradient",
+    "understeer gradient at 3 m/s^2 [deg/g]": "understeer_gradient",
+    "gradient of the steering wheel angle at 3 m/s^2 [deg/g]": "steering_wheel_gradient",
 }
 STEP = {
     "gain of the yaw velocity [1/s]": ("yaw_rate_gain", 1.0),
