@@ -266,7 +266,7 @@ def _notes(
     if rest.signals["tyre_force"] <= 0.0:
         notes.append("the tyre carries nothing at rest: check [tyre] free_height_mm.")
     if not np.isfinite(rest.frequency):
-        notes.append("the wheel does not swing about this rest: pushed off it, it does not return.")
+        notes.append("the equilibrium is not stable: a displaced wheel does not return.")
     elif rest.damping_ratio <= 0.0:
         notes.append("the wheel-hop mode is not damped.")
     if rest.damping_ratio >= 1.0:

@@ -273,8 +273,8 @@ class CarAssembly(Assembly):
             raise PositionError(problem) from None
         if np.linalg.eigvals(-self._slopes(found, inputs)).real.min() <= 0.0:
             problem = (
-                "the car rests, but does not return to that: it tips over, or a linkage snaps "
-                "through. Check the springs, and the height of the centre of mass in [body] com_mm."
+                "the equilibrium is not stable: the car tips over, or a linkage snaps through. "
+                "Check the springs, and the height of the centre of mass in [body] com_mm."
             )
             raise PositionError(problem)
         self._refuse_lifted(found, inputs)
