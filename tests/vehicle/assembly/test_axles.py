@@ -285,6 +285,18 @@ def test_on_bushes_roll_is_the_same_inclination() -> None:
     )
 
 
+@pytest.mark.parametrize("stopped", ["left", "right"])
+def test_stops_are_those_of_the_wheel(stopped: str) -> None:
+    """The advice for a case without equilibrium depends on them."""
+    stop = {"bump_stop": {"clearance_mm": 40.0, "rate_N_per_m": 1e5}}
+    sides = {"right": CAR, "left": CAR.mirrored()}
+    sides[stopped] = sides[stopped].with_changes(stop)
+    axle = AxleAssembly(Axle.from_dict({"axle": "front", **sides}))
+    for wheel_name in ("left", "right"):
+        assert axle.has_stop(wheel_name, "bump_stop") == (wheel_name == stopped)
+        assert not axle.has_stop(wheel_name, "rebound_stop")
+
+
 def test_the_usual_roll_ends_where_a_wheel_does() -> None:
     """With a strut whose least length leaves the wheels 40 mm of bump or so."""
     length = 1e3 * float(Model(CAR).signal("strut_length", Model(CAR).design_state))
