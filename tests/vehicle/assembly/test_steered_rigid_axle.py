@@ -251,6 +251,8 @@ def test_a_soft_track_rod_lets_the_far_knuckle_turn() -> None:
     moved = flexibility.sel(moved="rz_right", by="mz_right").item()
     assert moved == pytest.approx(expected, rel=1e-9)
     assert abs(flexibility.sel(moved="rz_left", by="mz_left").item()) < 1e-9 * expected
+    # no steer angle is that of the axle
+    assert not [name for name in map(str, found) if name.startswith("axle_steer")]
 
 
 def test_kingpins_are_lines_of_the_file() -> None:
