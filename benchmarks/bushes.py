@@ -105,9 +105,11 @@ def main() -> None:
     amounts = ", ".join(f"{amount / 1e3:g}" for amount in AMOUNTS)
     rows += ["", f"Under {amounts} kN, the wheel held by its height or by its vertical force, the"]
     rows[-1] += (
-        f" largest difference relative to the largest value is {_words(worst)}; under {SMALL:g} N,"
+        f" largest difference divided by the largest value under all loads is {_words(worst)};"
     )
-    rows[-1] += f" relative to 1/{AMOUNTS[-1] / SMALL:g} of that value, {_words(at_small)}."
+    part = f"1/{AMOUNTS[-1] / SMALL:g}"
+    rows[-1] += f" under {SMALL:g} N, divided by {part} of that value, since {SMALL:g} N is {part}"
+    rows[-1] += f" of {AMOUNTS[-1] / 1e3:g} kN, {_words(at_small)}."
     rows[-1] += f" Exudyn {version('exudyn')}."
     print("\n".join(rows))
     fill_page(PAGE, {"bushes": "\n".join(rows)})

@@ -117,8 +117,8 @@ def _driven() -> list[str]:
             rows.append(f"| {name} | {cells} |")
             print(rows[-1], flush=True)
     calls = (
-        f"A call takes {_per_call(model, 'rhs', states, held):.2g} us, one of the Jacobian "
-        f"{_per_call(model, 'rhs_jacobian', states, held):.2g} us."
+        f"A call takes {_per_call(model, 'rhs', states, held):.2g} µs, one of the Jacobian "
+        f"{_per_call(model, 'rhs_jacobian', states, held):.2g} µs."
     )
     return [*rows, "", calls]
 

@@ -91,5 +91,5 @@ def in_lanes(model: CarModel, motion: Motion, reductions: Mapping[str, str]) -> 
         )  # fmt: skip
 
     seconds = min(processor_seconds(together) for _ in range(REPEATED))
-    name = f"Dormand-Prince, 1e-4, {TOGETHER} cars in lanes, all together"
+    name = f"Dormand-Prince, 1e-4, {TOGETHER} cars in vector lanes, all together"
     return f"{name} | {TOGETHER * motion.span[1] / seconds:,.0f} | "
