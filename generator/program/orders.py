@@ -23,8 +23,7 @@ def by_class(expression: sp.Basic) -> tuple[Any, ...]:
     """Return a key of the order of SymPy's ``compare``, in which it writes terms and factors."""
     name = type(expression).__name__
     known = _CLASSES.get(name)
-    # ``compare`` compares this content, for which SymPy has no public name
-    content = expression._hashable_content()  # noqa: SLF001
+    content = expression._hashable_content()  # noqa: SLF001 (SymPy's `compare` compares this content, which has no public name)
     return (
         *((len(_CLASSES) + 1, name) if known is None else (known, "")),
         len(content),

@@ -111,7 +111,7 @@ def check_export(
 
     They are as there: path, kind of export, whether other files are replaced, files that are never
     replaced, and options of the kind. Raises `InputError` if an argument cannot be used, or an
-    existing file must not be replaced; `MissingPackageError`.
+    existing file must not be replaced, and `MissingPackageError` if packages are missing.
     """
     with Validator("export") as given:
         given.path("path", path)

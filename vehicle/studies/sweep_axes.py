@@ -44,7 +44,8 @@ UNDER_LOADS = {
 """Axes of compliance, wheel travel in parallel, by the support of the wheels."""
 
 OF_CORNERS = ("travel", "rack")
-_OF_STEERING, _OF_BODIES = ("rack", "steer"), ("heave", "pitch")
+_OF_STEERING = ("rack", "steer")
+_OF_BODIES = ("heave", "pitch")  # axes of cars, which have none of steering even if they steer
 _COMPLIANCES_OVER: dict[str, Mapping[str, Quantity]] = {
     "travel": COMPLIANCES,
     "bump": COMPLIANCES_OF_AXLES,
