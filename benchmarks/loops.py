@@ -1,7 +1,7 @@
 """Loops without a closed form against paths followed in maximal coordinates.
 
-``make benchmark-loops`` draws mechanisms of random dimensions, follows each
-along a straight path of its driven coordinates (`tests/following.py`, which shares nothing with the
+``make benchmark-loops`` draws mechanisms of random dimensions, follows each along a straight path
+of its driven coordinates (`tests/mechanisms/random_loops.py`, which shares nothing with the
 generator but the declaration), and asks the emitted code for positions on the path: how many of
 those that a regular path reaches are answered, and how many answers are on another branch.
 """
@@ -11,7 +11,7 @@ from typing import Annotated
 
 import numpy as np
 import typer
-from following import FAMILIES, REGULAR, Judged, judged
+from mechanisms.random_loops import FAMILIES, REGULAR, Judged, judged
 from rich.console import Console
 from rich.markdown import Markdown
 from rich.progress import track

@@ -17,10 +17,9 @@ from functools import cache
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-import kept
-import messages
 import pytest
 from hypothesis import HealthCheck, settings
+from support import kept, messages
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Iterator
@@ -185,7 +184,9 @@ def _compares(module: ModuleType | None) -> bool:
         return str(getattr(value, "__module__", None) or getattr(value, "__name__", ""))
 
     names = vars(module or object).values()
-    return any(home(value).startswith(("oracle", "own_models", "cases")) for value in names)
+    return any(
+        home(value).startswith(("oracle", "support.models", "cars.instants")) for value in names
+    )
 
 
 @pytest.fixture
@@ -256,7 +257,7 @@ def refused(as_stored: Callable[..., None]) -> Callable[..., Any]:
 def derived() -> Callable[[str], Derivation]:
     """Derive a model that comes with the project, by name: once for all tests and later runs."""
     from kintrafo.generator.mechanisms import MODELS
-    from own_models import derive
+    from support.models import derive
 
     shipped = {model.name: model for model in MODELS}
     return lambda name: derive(shipped[name])
@@ -379,7 +380,7 @@ def driver() -> Iterator[Any]:
 @pytest.fixture(scope="module")
 def browser(driver: Any) -> Iterator[Any]:
     """Return a browser in which the processor draws WebGL, as on machines without graphics."""
-    from browser import SOFTWARE_GL, running
+    from support.browser import SOFTWARE_GL, running
 
     with running(driver, *SOFTWARE_GL) as launched:
         yield launched

@@ -12,8 +12,8 @@ the diagonal are those of the tensor, thus minus the products of inertia).
 
 import numpy as np
 import numpy.typing as npt
-from folders import DATA
 from scipy.interpolate import PchipInterpolator, PPoly
+from support.folders import DATA
 
 Array = npt.NDArray[np.float64]
 Parameters = dict[str, float]

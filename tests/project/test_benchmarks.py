@@ -6,12 +6,12 @@ import shutil
 
 import numpy as np
 import pytest
-from as_commands import ROOT, run_module
-from exported import needs_library
 from kintrafo.simulation import solvers
 from kintrafo.simulation.lanes.library import widths
 from kintrafo.simulation.solvers import native_available
-from own_models import needs_gcc
+from support.commands import ROOT, run_module
+from support.exported import needs_library
+from support.models import needs_gcc
 
 from benchmarks import friction, paper_timing, report, work_precision
 

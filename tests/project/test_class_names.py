@@ -3,7 +3,7 @@
 import ast
 from collections import defaultdict
 
-from folders import ROOT
+from support.folders import ROOT
 
 # One interface with two implementations: compiled code, and functions over arrays.
 _INTERFACES = {"Function"}

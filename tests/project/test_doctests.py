@@ -6,7 +6,7 @@ import re
 
 import kintrafo
 import pytest
-from folders import ROOT
+from support.folders import ROOT
 
 # the folders are one package, whose top is that of the runtime
 MODULES = sorted(

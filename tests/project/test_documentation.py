@@ -11,9 +11,9 @@ from functools import cached_property
 
 import kintrafo
 import pytest
-from folders import ROOT
 from kintrafo import generator
 from kintrafo.vehicle import cli
+from support.folders import ROOT
 
 DOCS = ROOT / "docs"
 PAGES = sorted(DOCS.rglob("*.md"))

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 import pytest
-from folders import ROOT
 from kintrafo import Model, Suspension, characteristics, compliance, export, point_table, starter
 from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.vehicle import cli
 from kintrafo.vehicle.input.toml_writer import write_toml
+from support.folders import ROOT
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

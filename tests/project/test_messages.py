@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import messages
 import pytest
+from support import messages
 
 
 def test_every_message_is_of_a_test(request: pytest.FixtureRequest) -> None:

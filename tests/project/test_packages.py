@@ -2,7 +2,7 @@
 
 import tomllib
 
-from folders import ROOT
+from support.folders import ROOT
 
 ROOTS = {
     "runtime": "kintrafo",

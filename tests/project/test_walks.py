@@ -13,7 +13,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from folders import ROOT
+from support.folders import ROOT
 
 TEXT = (ROOT / "docs/contributing.md").read_text(encoding="utf-8")
 

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from folders import ROOT
+from support.folders import ROOT
 
 RUNTIME = ROOT / "runtime"
 

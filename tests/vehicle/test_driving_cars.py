@@ -7,7 +7,7 @@ from typing import Any
 import kintrafo
 import numpy as np
 import pytest
-from driving_cars import FILE, TYRE, light_car
+from cars.driving_cars import FILE, TYRE, light_car
 from kintrafo.equations.layout import rotation
 from kintrafo.vehicle.assembly.car import CarAssembly
 from kintrafo.vehicle.models.car import Car

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from adams_files import MILLIMETRES, rows_of, subsystem
+from cars.adams_files import MILLIMETRES, rows_of, subsystem
 from kintrafo import Suspension
 from kintrafo.core.errors import InputError
 from kintrafo.vehicle.files.adams_car import imported, read

@@ -20,8 +20,8 @@ from kintrafo.generator.mechanisms import model_named
 from kintrafo.simulation.solvers import native_methods
 from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.vehicle.models.axle.equations import declared
-from own_models import Built
 from scipy.integrate import solve_ivp
+from support.models import Built
 
 from ..attempts import UnjudgedError, WrongError
 from ..courses import AT_REST, Sine

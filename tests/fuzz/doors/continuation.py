@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import rigid_ways
-import swinging
+from mechanisms import random_multi_links, random_rigid_axles
 
 from ..attempts import WrongError
 
@@ -31,9 +30,9 @@ CLEAR = (RefusedError,)
 
 def attempt(random: np.random.Generator) -> None:
     """Draw suspensions and axles, and compare where they are."""
-    cars = swinging.some_cars(random, CARS)
-    of_cars = swinging.judged(cars, random.uniform(-RACK, RACK), random)
-    of_axles = rigid_ways.judged(rigid_ways.some_axles(random, CARS // 3), random)
+    cars = random_multi_links.some_cars(random, CARS)
+    of_cars = random_multi_links.judged(cars, random.uniform(-RACK, RACK), random)
+    of_axles = random_rigid_axles.judged(random_rigid_axles.some_axles(random, CARS // 3), random)
     if wrong := [*of_cars.wrong, *of_axles.wrong]:
         raise WrongError("; ".join(wrong))
     if short := [*of_cars.short, *of_axles.short]:

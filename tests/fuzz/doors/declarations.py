@@ -14,7 +14,6 @@ from decimal import Decimal
 from functools import cache
 from pathlib import Path
 
-import company
 import numpy as np
 from kintrafo.core.errors import KintrafoError
 from kintrafo.generator import DeclarationError
@@ -24,8 +23,9 @@ from kintrafo.generator.planning.plan import CataloguePlan
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.declaration import given_by, translated_errors
 from kintrafo.systems.compile.loader import load
-from own_mechanisms import spatial_four_bar
-from own_models import Built
+from mechanisms import beside_mirror_image
+from mechanisms.every_closed_form import spatial_four_bar
+from support.models import Built
 
 from ..attempts import RawError, UnjudgedError, WrongError
 
@@ -50,9 +50,9 @@ def _models():
 def attempt(random):
     """Try a declaration with a mistake."""
     if random.random() < _IN_COMPANY:
-        names = list(company.EVERY)
-        model = company.EVERY[names[random.integers(len(names))]]
-        company.check_in_company(model, random)
+        names = list(beside_mirror_image.EVERY)
+        model = beside_mirror_image.EVERY[names[random.integers(len(names))]]
+        beside_mirror_image.check_in_company(model, random)
         return
     model = _models()[random.integers(len(_models()))]
     words = sorted({w for w in _texts(model) if w.isidentifier()})

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from following import FAMILIES, judged
+from mechanisms.random_loops import FAMILIES, judged
 
 from ..attempts import WrongError
 

@@ -18,7 +18,6 @@ from functools import cache
 from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
-import own_springs
 from kintrafo import Model, SimulationError, System, simulate
 from kintrafo.equations.errors import ModelError
 from kintrafo.generated import (
@@ -32,8 +31,9 @@ from kintrafo.generated import (
 )
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.simulation.solvers import native_methods
-from own_models import Built, own
+from mechanisms.every_closed_form import NORMAL, askew, declare, hinge
 from scipy.integrate import DOP853
+from support.models import Built, own
 
 from ..attempts import UnjudgedError, WrongError
 
@@ -57,6 +57,42 @@ _MODULES = (
 _CARS = ("reference_car", "double_wishbone_car", "offset_strut_car")
 METHODS = tuple(dict.fromkeys([*native_methods(), "Radau", "LSODA", "RK45", "DOP853"]))
 
+# The seat on the ground is on the circle of that on the arm, 1.2 rad from design.
+ON_AN_ARM = declare(
+    "spring_on_an_arm",
+    {"arm": askew(0.2, 0.02)},
+    (hinge("pin", "ground", "arm", "arm_pin", "normal"),),
+    {
+        "arm_pin": askew(0.0, 0.0),
+        "ground_seat": askew(0.3 * 0.3623577544766736, 0.3 * 0.9320390859672263),
+        "arm_seat": askew(0.3, 0.0),
+    },
+    {"normal": NORMAL},
+    ("pin",),
+    spring=("ground_seat", "arm_seat"),
+)
+
+# With two coordinates seats pass each other, at any distance.
+ON_TWO_ARMS = declare(
+    "spring_on_two_arms",
+    {"arm": askew(0.15, 0.02), "hand": askew(0.4, 0.01)},
+    (
+        hinge("pin", "ground", "arm", "arm_pin", "normal"),
+        hinge("elbow", "arm", "hand", "elbow_pin", "normal"),
+    ),
+    {
+        "arm_pin": askew(0.0, 0.0),
+        "elbow_pin": askew(0.3, 0.0),
+        "ground_seat": askew(0.25, 0.2),
+        "hand_seat": askew(0.5, 0.0),
+    },
+    {"normal": NORMAL},
+    ("pin", "elbow"),
+    spring=("ground_seat", "hand_seat"),
+)
+
+SPRINGS_OF_ZERO_LENGTH = (ON_AN_ARM, ON_TWO_ARMS)
+
 
 @cache
 def systems() -> tuple[System, ...]:
@@ -64,7 +100,7 @@ def systems() -> tuple[System, ...]:
     return (
         *(System(module) for module in _MODULES),
         *(Model(name) for name in _CARS),
-        *(System(own(model)) for model in own_springs.MODELS),
+        *(System(own(model)) for model in SPRINGS_OF_ZERO_LENGTH),
     )
 
 
@@ -371,6 +407,6 @@ def _judge_states(motion: Motion, result: Any) -> None:
 
 @cache
 def _built(system: System) -> Built:
-    known = {model.name: model for model in (*MODELS, *own_springs.MODELS)}
+    known = {model.name: model for model in (*MODELS, *SPRINGS_OF_ZERO_LENGTH)}
     model = known[system.equations.NAME]
     return Built.of(model, system.equations, system.parameters)

@@ -21,7 +21,7 @@ from kintrafo.generator.planning.proposal import CoordinateSearch
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.declaration import translated_errors
 from kintrafo.systems.compile.loader import load
-from own_models import Built
+from support.models import Built
 
 from ..attempts import UnjudgedError, WrongError
 

@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+from cars.tyre_files import FILES
 from kintrafo import tyres
 from kintrafo.core.errors import InputError
 from oracle import magic_formula as oracle
-from tyres import FILES
 
 from .. import mutations
 from ..attempts import RawError, WrongError

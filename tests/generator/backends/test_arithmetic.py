@@ -9,7 +9,6 @@ import mpmath
 import numpy as np
 import pytest
 import sympy as sp
-from c_text import count, tokens
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from kintrafo.generator.backends.counting import counted
@@ -18,6 +17,7 @@ from kintrafo.generator.backends.schedule import schedule
 from kintrafo.generator.backends.text import Dialect, text_of
 from kintrafo.generator.backends.words import FORMULA
 from kintrafo.generator.program.functions import Guarded, IsPositive, Positive, SignOf
+from support.c_text import count, tokens
 
 SYMBOLS = sp.symbols("x y z")
 

@@ -17,7 +17,7 @@ from kintrafo.generator.backends.report import document
 from kintrafo.generator.backends.report.latex import broken, escaped, formula_width, latex, marked
 from kintrafo.generator.mechanisms import model_named
 from kintrafo.vehicle.cli import app
-from own_models import derive
+from support.models import derive
 from typer.testing import CliRunner
 
 FOLDER = Path(generated.__file__).parent

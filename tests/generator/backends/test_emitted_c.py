@@ -14,7 +14,10 @@ from pathlib import Path
 import mpmath
 import numpy as np
 import pytest
-from c_text import (
+from cars.instants import MODELS, car_parameters, random_instants
+from kintrafo.generator.equations.outputs import BOUNDED, Derivation
+from oracle.newton import Mechanism
+from support.c_text import (
     EMITTED,
     FOLDER,
     STRAIGHT,
@@ -25,10 +28,7 @@ from c_text import (
     sources,
     whole_of,
 )
-from cases import MODELS, car_parameters, random_instants
-from kintrafo.generator.equations.outputs import BOUNDED, Derivation
-from oracle.newton import Mechanism
-from symbolic import Rounded, python
+from support.symbolic import Rounded, python
 
 DIGITS = 50
 SEEDS = range(3)  # 0 is the reference car

@@ -10,11 +10,11 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from c_text import EMITTED, count, functions, functions_of
 from kintrafo.generator.backends.c.source import Source
 from kintrafo.generator.mechanisms import held_by_rods
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
-from own_models import derive
+from support.c_text import EMITTED, count, functions, functions_of
+from support.models import derive
 
 BASELINE = Path(__file__).with_name("operation_counts")
 KINDS = ("add", "multiply", "divide", "root", "trigonometric")
@@ -110,7 +110,7 @@ def test_a_changed_count_is_named() -> None:
 
 def test_counting_by_hand() -> None:
     """The counter itself, on a text that can be counted by eye."""
-    from c_text import tokens
+    from support.c_text import tokens
 
     body = tokens(
         "const double a = constants[MODEL_A]; (void)inputs;"

@@ -9,7 +9,7 @@ from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.systems.compile.loader import load
-from own_models import derive
+from support.models import derive
 
 FUNCTIONS = ("rhs", "rhs_jacobian", "margins", "poses", "jacobians")
 

@@ -11,11 +11,11 @@ from pathlib import Path
 import kintrafo
 import numpy as np
 import pytest
-from c_text import EMITTED
 from kintrafo.generator.mechanisms.four_bar import MODELS as FOUR_BARS
 from kintrafo.simulation.solvers import native_available
 from kintrafo.systems.compile.shipped import words_of
-from own_models import needs_gcc, own
+from support.c_text import EMITTED
+from support.models import needs_gcc, own
 
 STATES, SPREAD = 50, 0.01  # about design, in SI units
 FUNCTIONS = "rhs", "rhs_jacobian", "mass_matrix", "signals", "positions"

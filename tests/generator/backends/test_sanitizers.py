@@ -7,15 +7,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from c_text import sources
-from cases import MODELS, car_parameters
-from folders import ROOT
-from kept import UNOPTIMISED
+from cars.instants import MODELS, car_parameters
 from kintrafo import Model, state_at_height
 from kintrafo.simulation.dead_points import meanings
 from kintrafo.simulation.solvers import native_available, native_version
-from own_loops import FIVE_BAR
-from own_models import own
+from mechanisms.iterated_loops import FIVE_BAR
+from support.c_text import sources
+from support.folders import ROOT
+from support.kept import UNOPTIMISED
+from support.models import own
 
 # without optimisation, which takes most of the time and hides code that it removes; of the
 # debug information lines are enough

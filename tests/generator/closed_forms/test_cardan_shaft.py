@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from changes import changed
 from kintrafo.equations.errors import ParameterError
 from kintrafo.generator import DeclarationError, Direction, Input, JointForce, Motion, Universal
 from kintrafo.generator.closed_forms.cardan_shaft import CardanShaft
@@ -16,11 +15,12 @@ from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.loops.errors import NoClosedFormError
 from kintrafo.generator.mechanisms import held_by_rods
 from kintrafo.generator.planning.plan import CataloguePlan
-from oracle_check import check_with_the_oracle
-from own_mechanisms import cross, declare, guide, hinge, steering_shaft
-from own_models import Built, own
-from own_shafts import column
+from mechanisms.every_closed_form import cross, declare, guide, hinge, steering_shaft
+from mechanisms.steering_shafts import column
+from oracle.random_states import check_with_the_oracle
 from scipy.optimize import brentq
+from support.changes import changed
+from support.models import Built, own
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -18,9 +18,9 @@ import pytest
 from kintrafo.equations.errors import ClosureError
 from kintrafo.generated import double_wishbone, macpherson
 from kintrafo.generator.mechanisms import MODELS as SHIPPED
+from mechanisms.every_closed_form import moving_slider_crank, spatial_four_bar
 from mpmath import mpf
-from own_mechanisms import moving_slider_crank, spatial_four_bar
-from own_models import Built, own
+from support.models import Built, own
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping

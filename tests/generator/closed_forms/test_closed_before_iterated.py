@@ -13,18 +13,18 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 import numpy as np
-import own_loops
 import pytest
-from following import REGULAR, Follower
-from own_mechanisms import NORMAL, askew, declare, guide, heading, hinge
-from own_models import Built, needs_gcc, own
-from placements import Placements
+from mechanisms import iterated_loops
+from mechanisms.every_closed_form import NORMAL, askew, declare, guide, heading, hinge
+from mechanisms.random_loops import REGULAR, Follower
+from support.models import Built, needs_gcc, own
+from support.placements import Placements
 
 if TYPE_CHECKING:
     from kintrafo.generator import Formulation
     from oracle.constraints import Array
 
-PINS = {name: (one, two, at) for name, one, two, at in own_loops.STEPHENSON_PINS}
+PINS = {name: (one, two, at) for name, one, two, at in iterated_loops.STEPHENSON_PINS}
 CRANK, END = (np.array(PINS[name][2]) for name in ("arm_hinge", "arm_pin"))
 RADIUS = float(np.linalg.norm(END - CRANK))
 

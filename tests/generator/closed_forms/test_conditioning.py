@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 from kintrafo.equations.errors import ModelError, ParameterError
 from kintrafo.generator.mechanisms import MODELS
+from mechanisms.every_closed_form import MODELS as OWN
+from mechanisms.iterated_loops import KNEE
+from mechanisms.scotch_yokes import SCOTCH_YOKE
 from oracle.maximal import Motion
-from own_loops import KNEE
-from own_mechanisms import MODELS as OWN
-from own_models import Built, needs_gcc, own, shipped
-from own_yokes import SCOTCH_YOKE
+from support.models import Built, needs_gcc, own, shipped
 
 if TYPE_CHECKING:
     from oracle.constraints import Array

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from changes import changed, named
 from kintrafo.equations.errors import ClosureError
 from kintrafo.generator import Formulation, Motion, Point
 from kintrafo.generator.closed_forms.elbow import Elbow, PlaceElbow
@@ -15,8 +14,9 @@ from kintrafo.generator.closed_forms.prismatic import PrismaticByLength
 from kintrafo.generator.closed_forms.revolute import RevoluteByLength
 from kintrafo.generator.mechanisms.slider_crank import MODELS as SLIDER_CRANKS
 from kintrafo.generator.planning.plan import CataloguePlan
-from oracle_check import check_with_the_oracle
-from own_loops import KNEE, planar
+from mechanisms.iterated_loops import KNEE, planar
+from oracle.random_states import check_with_the_oracle
+from support.changes import changed, named
 
 if TYPE_CHECKING:
     from pathlib import Path

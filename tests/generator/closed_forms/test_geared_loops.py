@@ -13,7 +13,7 @@ import kintrafo
 import numpy as np
 import pytest
 from kintrafo import generator as g
-from own_models import own
+from support.models import own
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

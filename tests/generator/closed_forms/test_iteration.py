@@ -13,10 +13,8 @@ from typing import TYPE_CHECKING, Any
 import kintrafo
 import mpmath
 import numpy as np
-import own_models
 import pytest
 import sympy as sp
-from changes import changed
 from kintrafo.equations.errors import ClosureError, ModelError
 from kintrafo.equations.following import ITERATIONS
 from kintrafo.generated import double_wishbone
@@ -29,8 +27,10 @@ from kintrafo.generator.mechanisms.held_by_rods import CONTROL_ARM, FIVE_LINK, M
 from kintrafo.generator.planning.plan import CataloguePlan
 from kintrafo.generator.program import ConstantStage, Program
 from kintrafo.generator.program.newton import adjugate
-from own_models import Built, needs_gcc, own
-from symbolic import constants_of, derivatives_of, python
+from support import models
+from support.changes import changed
+from support.models import Built, needs_gcc, own
+from support.symbolic import constants_of, derivatives_of, python
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -50,7 +50,7 @@ TRAVEL = {ARM.name: 0.35, FIVE.name: 0.5, STRUT.name: 0.08}
 
 @pytest.fixture(scope="session")
 def derive() -> Callable[[str], Derivation]:
-    return lambda name: own_models.derive(BY_NAME[name], derivatives=False)
+    return lambda name: models.derive(BY_NAME[name], derivatives=False)
 
 
 @pytest.fixture(scope="session")

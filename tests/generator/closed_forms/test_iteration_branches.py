@@ -9,18 +9,15 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING
 
-import following
 import numpy as np
-import own_loops
 import pytest
-import rigid_ways
-import swinging
-from following import FAMILIES, Judged, judged
 from kintrafo import Model, PositionError, characteristics, loads, state_at_height, travel_range
 from kintrafo.vehicle.models.model_batch import ModelBatch
 from kintrafo.vehicle.models.positions import arm_angles_of_batch, design_height
-from placements import Placements
+from mechanisms import iterated_loops, random_loops, random_multi_links, random_rigid_axles
+from mechanisms.random_loops import FAMILIES, Judged, judged
 from scipy.spatial.transform import Rotation
+from support.placements import Placements
 
 if TYPE_CHECKING:
     from kintrafo.generator import Formulation
@@ -51,15 +48,17 @@ def assert_same_turns(found: Array, expected: Array) -> None:
 def test_a_hooke_joint_goes_all_the_way_round() -> None:
     """tan(out) = tan(in) / cos(bend), for more than three turns in either sense."""
     inputs = np.linspace(-20.0, 20.0, 161)
-    answered, found = turned(own_loops.HOOKE, inputs)
+    answered, found = turned(iterated_loops.HOOKE, inputs)
     assert answered.all()
-    assert_same_turns(found, np.arctan2(np.sin(inputs), np.cos(inputs) * np.cos(own_loops.BEND)))
+    assert_same_turns(
+        found, np.arctan2(np.sin(inputs), np.cos(inputs) * np.cos(iterated_loops.BEND))
+    )
 
 
 def test_a_spherical_four_bar_goes_all_the_way_round() -> None:
     """A cos(out) + B sin(out) = C, with the arc of the coupler; the branch is that at design."""
     ground, crank, rocker, last = (
-        np.array(a) / np.linalg.norm(a) for a in own_loops.SPHERICAL_AXES
+        np.array(a) / np.linalg.norm(a) for a in iterated_loops.SPHERICAL_AXES
     )
     inputs = np.linspace(-7.0, 7.0, 141)
     pin = Rotation.from_rotvec(inputs[:, None] * ground).apply(crank)
@@ -69,7 +68,7 @@ def test_a_spherical_four_bar_goes_all_the_way_round() -> None:
     design = len(inputs) // 2
     side = -np.sign(middle[design])  # the rocker has not turned there
     assert middle[design] + side * half[design] == pytest.approx(0.0, abs=1e-14)
-    answered, found = turned(own_loops.SPHERICAL, inputs)
+    answered, found = turned(iterated_loops.SPHERICAL, inputs)
     assert answered.all()
     assert_same_turns(found, middle + side * half)
 
@@ -77,12 +76,13 @@ def test_a_spherical_four_bar_goes_all_the_way_round() -> None:
 PLANAR = [
     family
     for family in FAMILIES
-    if family.model in (own_loops.STEPHENSON, own_loops.IN_A_ROW, own_loops.THREE_RRR)
+    if family.model
+    in (iterated_loops.STEPHENSON, iterated_loops.IN_A_ROW, iterated_loops.THREE_RRR)
 ]
 
 
 @pytest.mark.parametrize("family", PLANAR, ids=[f.model.name for f in PLANAR])
-def test_regular_positions_of_planar_linkages_are_answered(family: following.Family) -> None:
+def test_regular_positions_of_planar_linkages_are_answered(family: random_loops.Family) -> None:
     found = sum((judged(family, np.random.default_rng(seed)) for seed in range(3)), Judged())
     assert found.regular > 3
     assert found.answered == found.regular
@@ -94,7 +94,7 @@ def test_behind_a_dead_point_is_no_answer() -> None:
 
     The law of cosines says when: the distance of the far pins is at most rocker and ground in line.
     """
-    model = own_loops.FOUR_BAR_AT_ITS_KNEE
+    model = iterated_loops.FOUR_BAR_AT_ITS_KNEE
     parameters = {p.name: p.default for p in model.mechanism.parameters}
     hinge, knee, knuckle, rocker = (
         np.array([parameters[f"{name}_at_{a}"] for a in "xyz"])
@@ -144,12 +144,12 @@ RACK = 0.015403
 
 @cache
 def two_branches() -> Model:
-    return Model(swinging.CAR.with_changes(TWO_BRANCHES))
+    return Model(random_multi_links.CAR.with_changes(TWO_BRANCHES))
 
 
 def test_a_range_ends_where_its_branch_does() -> None:
     model = two_branches()
-    ways = swinging.Ways([model.suspension], RACK)
+    ways = random_multi_links.Ways([model.suspension], RACK)
     reach = travel_range(model, RACK)
     assert ways.compared(0, model, np.array(reach.arm_angle)).wrong == []
     swung = abs(reach.arm_angle[0] - model.design_state[0])
@@ -180,7 +180,9 @@ def test_positions_on_another_branch_are_no_part_of_a_batch() -> None:
 @pytest.mark.parametrize("seed", range(2))
 def test_multi_links_are_on_the_branch_of_their_path(seed: int) -> None:
     random = np.random.default_rng([1, seed])
-    found = swinging.judged(swinging.some_cars(random, 12), random.uniform(-0.06, 0.06), random)
+    found = random_multi_links.judged(
+        random_multi_links.some_cars(random, 12), random.uniform(-0.06, 0.06), random
+    )
     assert found.positions > 50
     assert found.in_batches > 3
     assert found.wrong == []
@@ -188,6 +190,6 @@ def test_multi_links_are_on_the_branch_of_their_path(seed: int) -> None:
 
 def test_rigid_axles_are_on_the_branch_of_their_path() -> None:
     random = np.random.default_rng(2)
-    found = rigid_ways.judged(rigid_ways.some_axles(random, 24), random)
+    found = random_rigid_axles.judged(random_rigid_axles.some_axles(random, 24), random)
     assert found.wrong == found.short == []
     assert found.positions > 100

@@ -12,10 +12,7 @@ from typing import TYPE_CHECKING
 
 import mpmath
 import numpy as np
-import own_loops
-import own_models
 import pytest
-from changes import with_default
 from kintrafo.equations.errors import ClosureError
 from kintrafo.generator.backends.report.markdown import markdown
 from kintrafo.generator.closed_forms.coupled_loops import MOST_UNKNOWNS, CoupledLoops, obstacle
@@ -25,9 +22,12 @@ from kintrafo.generator.loops.graph import JointGraph
 from kintrafo.generator.loops.mobility import Mobility
 from kintrafo.generator.mechanisms.chains import BRICARD, SEVEN_HINGES
 from kintrafo.generator.planning.plan import CataloguePlan
-from own_mechanisms import askew, heading
-from own_models import Built, own
-from symbolic import constants_of, derivatives_of
+from mechanisms import iterated_loops
+from mechanisms.every_closed_form import askew, heading
+from support import models
+from support.changes import with_default
+from support.models import Built, own
+from support.symbolic import constants_of, derivatives_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -40,15 +40,15 @@ MODELS = {
     model.name: model
     for model in (
         SEVEN_HINGES,
-        own_loops.CROSSED_RING,
-        own_loops.BALL_RING,
-        own_loops.BENNETT,
+        iterated_loops.CROSSED_RING,
+        iterated_loops.BALL_RING,
+        iterated_loops.BENNETT,
         BRICARD,
-        own_loops.PLATE_ON_A_SLOT,
-        own_loops.PLATE_ON_A_PIN,
-        own_loops.ROCKERS,
-        own_loops.FIVE_BAR,
-        own_loops.DRIVEN_GUIDE,
+        iterated_loops.PLATE_ON_A_SLOT,
+        iterated_loops.PLATE_ON_A_PIN,
+        iterated_loops.ROCKERS,
+        iterated_loops.FIVE_BAR,
+        iterated_loops.DRIVEN_GUIDE,
     )
 }
 SPANS = {
@@ -65,13 +65,13 @@ SPANS = {
 }
 """How far the first coordinate goes from design, rad or m: nearly to the dead points."""
 
-DIFFERENTIATED = (SEVEN_HINGES, BRICARD, own_loops.PLATE_ON_A_SLOT, own_loops.BENNETT)
+DIFFERENTIATED = (SEVEN_HINGES, BRICARD, iterated_loops.PLATE_ON_A_SLOT, iterated_loops.BENNETT)
 """Those whose derivatives are looked at; the others are derived without, in half of the time."""
 
 
 @pytest.fixture(scope="session")
 def derive() -> Callable[[Formulation], Derivation]:
-    return lambda model: own_models.derive(model, derivatives=False)
+    return lambda model: models.derive(model, derivatives=False)
 
 
 @pytest.fixture(scope="session")
@@ -183,7 +183,7 @@ def test_motion_is_continuous_over_the_whole_span(
     assert (np.abs(went - expected) <= bend + 1e-5).all()
 
 
-@each(SEVEN_HINGES, BRICARD, own_loops.PLATE_ON_A_SLOT)
+@each(SEVEN_HINGES, BRICARD, iterated_loops.PLATE_ON_A_SLOT)
 def test_jacobians_are_exact(
     model: Formulation,
     built: Callable[[Formulation], Built],
@@ -241,7 +241,7 @@ def test_a_chain_that_moves_by_its_dimensions_alone_is_refused_with_others(
 
 
 def test_report_names_joints_and_equations(derive: Callable[[Formulation], Derivation]) -> None:
-    text = markdown(derive(own_loops.PLATE_ON_A_PIN))
+    text = markdown(derive(iterated_loops.PLATE_ON_A_PIN))
     assert "Some loops of this model are solved by iteration." in text
     assert "bar and plate have an axis in common at plate_pin: 2 equations" in text
     assert "|rod_end - rod_start| = length of rod" in text
@@ -256,8 +256,11 @@ def test_report_names_joints_and_equations(derive: Callable[[Formulation], Deriv
     [
         (SEVEN_HINGES, r"Closed at hinge_6, 1 loop\(s\) leave 5 equations for the 5 unk"),
         (BRICARD, r"Closed at hinge_5, 1 loop\(s\) leave 5 equations for the 4 unknown"),
-        (own_loops.PLATE_ON_A_PIN, r"at plate_pin, rod, 2 loop\(s\) leave 3 equations for the 3"),
-        (own_loops.BALL_RING, r"ball_2, 1 loop\(s\) leave 3 equations for the 3 unknown"),
+        (
+            iterated_loops.PLATE_ON_A_PIN,
+            r"at plate_pin, rod, 2 loop\(s\) leave 3 equations for the 3",
+        ),
+        (iterated_loops.BALL_RING, r"ball_2, 1 loop\(s\) leave 3 equations for the 3 unknown"),
     ],
 )
 def test_without_permission_the_loop_is_refused(model: Formulation, words: str) -> None:
@@ -286,7 +289,7 @@ def test_a_dead_point_at_design_is_refused() -> None:
     }
     changes = {f"{n}_{a}": c for n, p in places.items() for a, c in zip("xyz", p, strict=True)}
     with pytest.raises(NoClosedFormError, match="a dead point, or something else must be driven"):
-        CataloguePlan.of(with_default(own_loops.PLATE_ON_A_SLOT, **changes))
+        CataloguePlan.of(with_default(iterated_loops.PLATE_ON_A_SLOT, **changes))
 
 
 def test_too_many_unknowns_are_refused() -> None:

@@ -13,14 +13,14 @@ from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
-import own_loops
 import pytest
+from mechanisms import iterated_loops
+from mechanisms.every_closed_form import askew
 from numpy.typing import NDArray
-from own_mechanisms import askew
-from placements import Placements
+from support.placements import Placements
 
-MODEL = own_loops.STEPHENSON
-PINS = {name: complex(*at) for name, _, _, at in own_loops.STEPHENSON_PINS}
+MODEL = iterated_loops.STEPHENSON
+PINS = {name: complex(*at) for name, _, _, at in iterated_loops.STEPHENSON_PINS}
 RATIOS = [1.0, 3.0, 27.0, 300.0, 1000.0]
 PASSED = {3.0: 280, 27.0: 374, 300.0: 121}
 """Of each ratio a lever that has been seen to get over its gap."""

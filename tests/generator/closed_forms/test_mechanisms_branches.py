@@ -14,7 +14,7 @@ from kintrafo.generated import four_bar, slider_crank
 from kintrafo.generator.mechanisms.four_bar import MODELS as FOUR_BARS
 from kintrafo.generator.mechanisms.slider_crank import MODELS as SLIDER_CRANKS
 from mpmath import mpf
-from own_models import Built
+from support.models import Built
 
 EPSILON = 2.0**-52
 

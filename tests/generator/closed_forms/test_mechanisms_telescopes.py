@@ -14,7 +14,6 @@ from typing import Any
 import mpmath
 import numpy as np
 import pytest
-from changes import changed, named
 from kintrafo.generator import (
     Body,
     Direction,
@@ -39,8 +38,9 @@ from kintrafo.generator.loops.errors import NoClosedFormError
 from kintrafo.generator.mechanisms.slider_crank import MODELS as SLIDER_CRANKS
 from kintrafo.generator.planning.plan import CataloguePlan
 from mpmath import mpf
-from own_models import Built, needs_gcc, own
-from symbolic import constants_of, python
+from support.changes import changed, named
+from support.models import Built, needs_gcc, own
+from support.symbolic import constants_of, python
 
 EPSILON = 2.0**-52
 BOOM, BASE = (

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
-from cases import At, Instant, counted_by, of_model
+from cars.instants import At, Instant, counted_by, of_model
 from kintrafo.equations.errors import ClosureError
 from kintrafo.generated import macpherson_general
 from oracle.constraints import Array, Pose

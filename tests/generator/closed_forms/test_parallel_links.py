@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING
 import kintrafo
 import numpy as np
 import pytest
-from changes import with_default
 from kintrafo import generator as g
 from kintrafo.equations.errors import ParameterError
 from kintrafo.generator.closed_forms.parallel_links import ParallelLinks
 from kintrafo.generator.loops.errors import NoClosedFormError
 from kintrafo.generator.planning.plan import CataloguePlan
-from oracle_check import check_with_the_oracle
-from own_models import derive, own
-from own_wheels import PINS, double_crank, locomotive, table_on_links
+from mechanisms.coupled_wheels import PINS, double_crank, locomotive, table_on_links
+from oracle.random_states import check_with_the_oracle
+from support.changes import with_default
+from support.models import derive, own
 
 if TYPE_CHECKING:
     from pathlib import Path

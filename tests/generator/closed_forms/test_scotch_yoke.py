@@ -10,8 +10,8 @@ import pytest
 from kintrafo.generator import Motion
 from kintrafo.generator.closed_forms.scotch_yoke import ScotchYoke
 from kintrafo.generator.planning.plan import CataloguePlan
-from oracle_check import check_with_the_oracle
-from own_yokes import yoke
+from mechanisms.scotch_yokes import yoke
+from oracle.random_states import check_with_the_oracle
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -8,18 +8,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from changes import changed, with_default
 from kintrafo import System
 from kintrafo.equations.errors import ClosureError, ParameterError
 from kintrafo.generator import Line, Point
 from kintrafo.generator.closed_forms.single_cross import SingleCross
 from kintrafo.generator.loops.errors import NoClosedFormError
 from kintrafo.generator.planning.plan import CataloguePlan
-from oracle_check import check_with_the_oracle
-from own_loops import CROSSED_RING
-from own_mechanisms import shaft_angles
-from own_models import Built, own
-from own_shafts import column, crosses_in_a_row
+from mechanisms.every_closed_form import shaft_angles
+from mechanisms.iterated_loops import CROSSED_RING
+from mechanisms.steering_shafts import column, crosses_in_a_row
+from oracle.random_states import check_with_the_oracle
+from support.changes import changed, with_default
+from support.models import Built, own
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -6,7 +6,6 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from changes import changed
 from kintrafo.generator import (
     UP,
     Actuator,
@@ -29,8 +28,9 @@ from kintrafo.generator import (
     Stop,
     Weight,
 )
-from oracle_check import check_with_the_oracle
-from own_forces import loaded_bar, loaded_crank
+from mechanisms.every_force import loaded_bar, loaded_crank
+from oracle.random_states import check_with_the_oracle
+from support.changes import changed
 
 if TYPE_CHECKING:
     from collections.abc import Callable

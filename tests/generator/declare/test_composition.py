@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 import sympy as sp
-from changes import changed
 from kintrafo.generator import (
     Actuator,
     AlongLine,
@@ -50,8 +49,9 @@ from kintrafo.generator.mechanisms import double_wishbone, four_bar, macpherson,
 from kintrafo.generator.mechanisms.suspension import RACK_FORCE
 from oracle.maximal import Motion, Oracle
 from oracle.reference import completed, general_parameters
-from own_models import Built, shipped
-from symbolic import constants_of, python
+from support.changes import changed
+from support.models import Built, shipped
+from support.symbolic import constants_of, python
 
 if TYPE_CHECKING:
     from kintrafo.generator.equations.outputs import Derivation

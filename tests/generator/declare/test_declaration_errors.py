@@ -5,7 +5,6 @@ from dataclasses import replace
 import kintrafo
 import numpy as np
 import pytest
-from changes import changed, with_default
 from kintrafo.generator import (
     Body,
     Cylindrical,
@@ -33,6 +32,7 @@ from kintrafo.generator.declare.default_values import value_problems
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.generator.mechanisms.held_by_rods import MODELS as MULTI_LINKS
 from kintrafo.vehicle.cli import app
+from support.changes import changed, with_default
 from typer.testing import CliRunner
 
 CRANK_PIN = Point("crank_pin", (0.0, 0.0, 0.0))

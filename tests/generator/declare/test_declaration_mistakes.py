@@ -13,11 +13,9 @@ from fractions import Fraction
 from pathlib import Path
 
 import kintrafo
-import lanes
 import numpy as np
 import pytest
 import sympy as sp
-from changes import changed, with_default
 from kintrafo.generated import double_wishbone, front_axle, macpherson_general
 from kintrafo.generated import four_bar as four_bar_equations
 from kintrafo.generator import (
@@ -67,7 +65,9 @@ from kintrafo.generator.mechanisms.double_wishbone import MODELS as WISHBONES
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.generator.mechanisms.four_bar import MODELS as FOUR_BARS
 from kintrafo.simulation.lanes import own as own_lanes
-from own_models import needs_gcc, own
+from support import lanes
+from support.changes import changed, with_default
+from support.models import needs_gcc, own
 
 (FOUR, WISHBONE) = (FOUR_BARS[0], WISHBONES[0])
 A, B = Point("a", (0.0, 0.0, 0.0)), Point("b", (1.0, 0.0, 0.0))

@@ -4,7 +4,6 @@ import re
 from dataclasses import replace
 
 import pytest
-from changes import changed
 from kintrafo.generator import (
     Actuator,
     AlongLine,
@@ -26,8 +25,9 @@ from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import four_bar, macpherson
 from kintrafo.generator.mechanisms.macpherson import HG, OA
 from kintrafo.generator.mechanisms.suspension import RACK_FORCE, RACK_MOTION, ROAD_VELOCITY
-from own_models import derive
-from symbolic import constants_of, python
+from support.changes import changed
+from support.models import derive
+from support.symbolic import constants_of, python
 
 MODEL, FREE, GENERAL = macpherson.MODELS
 MECHANISM = MODEL.mechanism

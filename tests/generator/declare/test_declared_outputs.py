@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from changes import named
 from kintrafo.generator import (
     FORWARD,
     UP,
@@ -26,8 +25,9 @@ from kintrafo.generator import (
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.loader import load
-from own_mechanisms import moving_slider_crank
-from own_models import Built
+from mechanisms.every_closed_form import moving_slider_crank
+from support.changes import named
+from support.models import Built
 
 if TYPE_CHECKING:
     from pathlib import Path

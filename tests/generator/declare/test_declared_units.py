@@ -13,7 +13,7 @@ from kintrafo.generator.declare.inputs import Input
 from kintrafo.generator.declare.parameters import Parameter
 from kintrafo.generator.declare.shown import Shown
 from kintrafo.generator.mechanisms import MODELS
-from somebodys_forces import GUIDE, A, Own, Showing, model
+from mechanisms.own_force import GUIDE, A, Own, Showing, model
 
 WRONG = (
     "deg",

@@ -4,7 +4,6 @@ import dataclasses
 
 import numpy as np
 import pytest
-from changes import changed
 from kintrafo.generator import (
     Action,
     AlongLine,
@@ -19,7 +18,8 @@ from kintrafo.generator import (
 from kintrafo.generator.declare.declared import declared
 from kintrafo.generator.mechanisms import macpherson
 from oracle.reference import perturbed_parameters
-from symbolic import accelerations
+from support.changes import changed
+from support.symbolic import accelerations
 
 MOVING = {
     "beta1": 1.5, "beta5": 0.3, "beta1_rate": 2.0, "beta5_rate": 90.0, "rack_position": 0.01,

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 import kintrafo
 import numpy as np
 import pytest
-from changes import changed
 from kintrafo import generator as g
 from kintrafo.generator.backends.report.markdown import markdown
 from kintrafo.generator.closed_forms.coupled_loops import CoupledLoops
@@ -23,10 +22,11 @@ from kintrafo.generator.declare.declared import DeclarationError
 from kintrafo.generator.loops.errors import NoClosedFormError
 from kintrafo.generator.planning.plan import CataloguePlan
 from kintrafo.generator.planning.proposal import model_of
-from oracle_check import check_with_the_oracle
-from own_loops import FIVE_BAR, planar
-from own_mechanisms import geared, moving_slider_crank, oblique_four_bar, turret
-from own_models import derive
+from mechanisms.every_closed_form import geared, moving_slider_crank, oblique_four_bar, turret
+from mechanisms.iterated_loops import FIVE_BAR, planar
+from oracle.random_states import check_with_the_oracle
+from support.changes import changed
+from support.models import derive
 
 if TYPE_CHECKING:
     from pathlib import Path

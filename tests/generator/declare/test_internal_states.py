@@ -8,8 +8,8 @@ import pytest
 from kintrafo import generator as g
 from kintrafo.generator.declare.forces.force import Action, Force
 from kintrafo.generator.equations.outputs import generate
-from own_models import own
 from scipy.integrate import solve_ivp
+from support.models import own
 
 FINE = {"rtol": 1e-11, "atol": 1e-12, "method": "DormandPrince"}
 BASE, BLOCK = g.Ground("base"), g.Body("block", 2.0, (0.1, 0.0, 0.0))

@@ -38,7 +38,7 @@ from kintrafo.generator.program import ConstantStage, Function, Program
 from oracle import laws as oracle
 from oracle.reference import completed, reference_parameters, set_damper_curve, spring_parameters
 from scipy.interpolate import PchipInterpolator
-from symbolic import python
+from support.symbolic import python
 from sympy import Symbol
 
 STATE = {"length": 0.6, "velocity": 0.2, "slide": 0.25}

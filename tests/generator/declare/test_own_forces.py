@@ -13,7 +13,7 @@ from kintrafo import generator as g
 from kintrafo.generator.declare.forces.force import Action, Force
 from kintrafo.generator.declare.shown import Shown
 from kintrafo.systems.compile.compiler import find_compiler
-from somebodys_forces import ARM, FOLLOWER, A, B, Own, Showing, mechanism, model
+from mechanisms.own_force import ARM, FOLLOWER, A, B, Own, Showing, mechanism, model
 
 RATE = g.Ratio("rate", 1.5, "a number")
 

@@ -13,18 +13,18 @@ from functools import cache
 import mpmath
 import numpy as np
 import pytest
-from cases import MODELS, Instant, car_parameters, counted_by, random_instants
-from changes import changed, named
+from cars.instants import MODELS, Instant, car_parameters, counted_by, random_instants
 from kintrafo.generator import Body, Formulation, Motion, Rotor
 from kintrafo.generator.equations.outputs import Derivation
 from kintrafo.generator.mechanisms import MODELS as DECLARED
+from mechanisms.every_closed_form import oblique_four_bar
 from oracle.constraints import WHEEL, Array
 from oracle.newton import Mechanism
+from oracle.random_states import check_with_the_oracle
 from oracle.reference import INERTIA_ELEMENTS, Parameters, inertia
-from oracle_check import check_with_the_oracle
-from own_mechanisms import oblique_four_bar
-from own_models import derive
-from symbolic import constants_of, python
+from support.changes import changed, named
+from support.models import derive
+from support.symbolic import constants_of, python
 
 SEEDS = range(3)  # 0 is the reference car
 POINTS = 2  # for each car

@@ -27,7 +27,7 @@ from kintrafo.generator import (
 )
 from kintrafo.generator.mechanisms import four_bar
 from kintrafo.systems.compile.compiler import find_compiler
-from own_mechanisms import spatial_four_bar
+from mechanisms.every_closed_form import spatial_four_bar
 
 pytestmark = pytest.mark.skipif(find_compiler() is None, reason="no C compiler")
 

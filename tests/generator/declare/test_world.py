@@ -4,8 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from changes import changed
-from free_bodies import compared
 from kintrafo.generator import (
     Body,
     Copy,
@@ -31,7 +29,9 @@ from kintrafo.generator.mechanisms.double_wishbone import (
 from kintrafo.generator.mechanisms.suspension import RACK_MOTION
 from kintrafo.generator.planning.plan import CataloguePlan
 from kintrafo.generator.planning.proposal import CoordinateSearch, proposals
-from own_models import Built, derive, own
+from mechanisms.free_bodies import compared
+from support.changes import changed
+from support.models import Built, derive, own
 
 FIXED = MODELS[0]
 MOVING = Body("chassis", 300.0, (0.0, 0.0, 0.5), (30.0, 30.0, 30.0), order=CHASSIS.order)

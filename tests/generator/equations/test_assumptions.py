@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from changes import changed, with_default
 from kintrafo.equations.errors import ParameterError
 from kintrafo.generator import (
     FORWARD,
@@ -32,7 +31,7 @@ from kintrafo.generator import (
 )
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.program.vectors import Vector
-from own_mechanisms import (
+from mechanisms.every_closed_form import (
     NORMAL,
     Parts,
     Sketch,
@@ -43,7 +42,8 @@ from own_mechanisms import (
     reported,
     spatial_four_bar,
 )
-from own_models import Built, derive, has_gcc, own
+from support.changes import changed, with_default
+from support.models import Built, derive, has_gcc, own
 
 Place = tuple[float, float, float]
 

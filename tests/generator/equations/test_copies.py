@@ -9,7 +9,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import sympy as sp
-from company import EVERY, check_in_company
 from kintrafo.generator import (
     FORWARD,
     Body,
@@ -28,7 +27,8 @@ from kintrafo.generator.closed_forms.passive_turn import PlacePassive
 from kintrafo.generator.mechanisms import chains
 from kintrafo.generator.planning.plan import CataloguePlan
 from kintrafo.generator.program import ConstantStage, Program
-from own_models import Built, needs_gcc, own
+from mechanisms.beside_mirror_image import EVERY, check_in_company
+from support.models import Built, needs_gcc, own
 
 SAMPLE = (
     "slider_crank",

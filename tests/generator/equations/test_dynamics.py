@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from cases import MODELS, At, Instant, car_parameters, counted_by, of_model, random_instants
+from cars.instants import MODELS, At, Instant, car_parameters, counted_by, of_model, random_instants
 from kintrafo.generated import macpherson, macpherson_general
 from oracle.constraints import WHEEL
 from oracle.multipliers import Solution

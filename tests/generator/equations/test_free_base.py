@@ -4,21 +4,7 @@ from dataclasses import dataclass, replace
 
 import kintrafo
 import numpy as np
-import own_mechanisms
 import pytest
-from exported import needs_library
-from free_bodies import (
-    INERTIA,
-    compared,
-    freed,
-    product,
-    rig,
-    rotation,
-    state_near,
-    tethered,
-    thrown,
-    unit_quaternion,
-)
 from kintrafo.equations.errors import ClosureError
 from kintrafo.generator import (
     Body,
@@ -34,10 +20,24 @@ from kintrafo.generator.declare.forces.force import Action, Force
 from kintrafo.generator.declare.world import WORLD
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.systems.skeleton import Skeleton
+from mechanisms import every_closed_form
+from mechanisms.free_bodies import (
+    INERTIA,
+    compared,
+    freed,
+    product,
+    rig,
+    rotation,
+    state_near,
+    tethered,
+    thrown,
+    unit_quaternion,
+)
 from oracle.constraints import skew
-from own_models import Built, own
 from scipy.integrate import solve_ivp
 from scipy.optimize import minimize
+from support.exported import needs_library
+from support.models import Built, own
 
 TENSOR = np.array(
     [
@@ -242,7 +242,7 @@ def test_outputs_are_those_of_the_oracle(box):
 
 @pytest.mark.parametrize(
     "model",
-    [own_mechanisms.spatial_four_bar("spatial"), own_mechanisms.given_telescope()],
+    [every_closed_form.spatial_four_bar("spatial"), every_closed_form.given_telescope()],
     ids=lambda model: model.name,
 )
 def test_loops_hang_on_it(model):

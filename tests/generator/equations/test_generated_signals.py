@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from cases import MODELS, At, car_parameters, counted_by, random_instants
+from cars.instants import MODELS, At, car_parameters, counted_by, random_instants
 from kintrafo.generated import macpherson_general
 from oracle import laws
 from oracle.constraints import KNUCKLE, WHEEL, Array, Pose, unit

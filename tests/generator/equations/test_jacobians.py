@@ -11,12 +11,12 @@ from collections.abc import Callable
 import mpmath
 import numpy as np
 import pytest
-from cases import MODELS, At, Instant, car_parameters, random_instants
+from cars.instants import MODELS, At, Instant, car_parameters, random_instants
 from kintrafo.generator.equations.outputs import Derivation
 from oracle.constraints import Array
 from oracle.newton import Mechanism
 from oracle.reference import BETA1_DESIGN
-from symbolic import derivatives_of
+from support.symbolic import derivatives_of
 
 SEEDS = range(4)  # 0 is the reference car
 POINTS = 3  # for each car

@@ -6,7 +6,7 @@ from types import ModuleType
 
 import numpy as np
 import pytest
-from cases import MODELS, At, Instant, car_parameters
+from cars.instants import MODELS, At, Instant, car_parameters
 from kintrafo.generated import macpherson, macpherson_general
 from oracle.constraints import KNUCKLE, RACK, WHEEL, Array, Pose
 from oracle.newton import Mechanism, solve_pose_at_height

@@ -16,9 +16,9 @@ from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms.stewart_platform import STEWART_PLATFORM
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.loader import load
-from oracle_check import check_with_the_oracle
-from own_models import Built
-from symbolic import constants_of, derivatives_of
+from oracle.random_states import check_with_the_oracle
+from support.models import Built
+from support.symbolic import constants_of, derivatives_of
 
 
 def open_chain(hinges: int) -> g.Formulation:

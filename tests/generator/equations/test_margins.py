@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from cases import MODELS, At, car_parameters, counted_by, random_instants
+from cars.instants import MODELS, At, car_parameters, counted_by, random_instants
 from kintrafo.generated import macpherson_general
 from oracle.constraints import ARM, KNUCKLE, RACK, WHEEL, Array, Pose, unit
 from oracle.multipliers import reduced_equations

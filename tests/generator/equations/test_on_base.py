@@ -5,13 +5,13 @@ from __future__ import annotations
 import mpmath
 import numpy as np
 import pytest
-from driving_cars import car_on_arms
-from free_bodies import freed
+from cars.driving_cars import car_on_arms
 from kintrafo.generator.equations.outputs import Derivation, generate
 from kintrafo.generator.mechanisms import model_named
 from kintrafo.vehicle.models.car.equations import declared
-from own_models import derive
-from symbolic import constants_of, derivatives_of, python
+from mechanisms.free_bodies import freed
+from support.models import derive
+from support.symbolic import constants_of, derivatives_of, python
 
 
 @pytest.fixture(scope="module")

@@ -13,7 +13,6 @@ import kintrafo
 import mpmath
 import numpy as np
 import pytest
-from folders import ROOT
 from kintrafo import variation
 from kintrafo.core.errors import InputError
 from kintrafo.equations.errors import ClosureError
@@ -21,10 +20,11 @@ from kintrafo.generator import Formulation
 from kintrafo.generator.backends.counting import operations_of
 from kintrafo.generator.equations.outputs import Derivation, generate
 from kintrafo.generator.mechanisms import MODELS
-from own_loops import STEPHENSON
-from own_models import derive
-from own_yokes import WHEEL_ON_A_YOKE
-from symbolic import constants_of, python
+from mechanisms.iterated_loops import STEPHENSON
+from mechanisms.scotch_yokes import WHEEL_ON_A_YOKE
+from support.folders import ROOT
+from support.models import derive
+from support.symbolic import constants_of, python
 
 SHIPPED = {model.name: model for model in MODELS}
 # closed forms in a plane and in space, hinges whose angle at design depends on points, iterations

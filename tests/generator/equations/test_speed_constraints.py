@@ -5,14 +5,14 @@ from dataclasses import replace
 import kintrafo
 import numpy as np
 import pytest
-from folders import ROOT
-from free_bodies import rotation
 from kintrafo import generator as g
 from kintrafo.equations.errors import ModelError, ParameterError
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.systems.compile.declaration import model_of
+from mechanisms.free_bodies import rotation
 from oracle.constraints import skew
-from own_models import own
+from support.folders import ROOT
+from support.models import own
 
 FINE = {"rtol": 1e-11, "atol": 1e-12, "method": "DormandPrince"}
 

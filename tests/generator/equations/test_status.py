@@ -9,8 +9,7 @@ from types import ModuleType
 
 import numpy as np
 import pytest
-from c_text import functions, sources_of
-from cases import MODELS, Instant, car_parameters, of_model
+from cars.instants import MODELS, Instant, car_parameters, of_model
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo import System
@@ -30,6 +29,7 @@ from oracle.reference import (
     set_vector,
     vector,
 )
+from support.c_text import functions, sources_of
 
 UP = np.array([0.0, 0.0, 1.0])
 FORWARD = np.array([1.0, 0.0, 0.0])

@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from changes import changed, named
 from kintrafo.equations.errors import ClosureError
 from kintrafo.generator import (
     AlongLine,
@@ -28,8 +27,9 @@ from kintrafo.generator import (
 )
 from kintrafo.generator.loops.errors import NoClosedFormError
 from kintrafo.generator.planning.plan import CataloguePlan
-from own_mechanisms import spatial_four_bar, turret
-from own_models import Built, own
+from mechanisms.every_closed_form import spatial_four_bar, turret
+from support.changes import changed, named
+from support.models import Built, own
 
 
 def compiled(model: Formulation) -> Built:

@@ -9,7 +9,6 @@ from typing import Any
 import networkx as nx
 import numpy as np
 import pytest
-from changes import changed
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo.generator import (
@@ -39,6 +38,7 @@ from kintrafo.generator.loops.tilted import tilted
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from kintrafo.generator.planning.plan import CataloguePlan
+from support.changes import changed
 
 MODEL = MODELS[0]
 PAPER = MODELS[:2]  # the paper's suspension, its rack prescribed and free

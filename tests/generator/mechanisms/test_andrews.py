@@ -23,7 +23,7 @@ from kintrafo.generator.equations.outputs import Derivation
 from kintrafo.generator.mechanisms import andrews
 from mpmath import mpf
 from scipy.integrate import solve_ivp
-from symbolic import python
+from support.symbolic import python
 
 DIGITS = 25
 END = "0.03"

@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from free_bodies import compared
 from kintrafo.generator.equations.in_motion import InMotion
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.kinematics.jointed import jointed_base
 from kintrafo.generator.mechanisms import MODELS, car, model_named
-from oracle_check import check_with_the_oracle
-from own_models import Built, own
+from mechanisms.free_bodies import compared
+from oracle.random_states import check_with_the_oracle
+from support.models import Built, own
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -11,8 +11,8 @@ from kintrafo import generator as g
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import car, model_named
 from kintrafo.generator.mechanisms.steering_column import on_a_column as on_column
-from oracle_check import check_with_the_oracle
-from own_models import Built, own
+from oracle.random_states import check_with_the_oracle
+from support.models import Built, own
 
 if TYPE_CHECKING:
     from collections.abc import Callable

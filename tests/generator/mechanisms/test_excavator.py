@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from changes import changed
 from kintrafo.generated import excavator, excavator_lifting
 from kintrafo.generator.mechanisms.excavator import MODELS
 from kintrafo.generator.planning.plan import CataloguePlan
+from support.changes import changed
 
 if TYPE_CHECKING:
     from oracle.constraints import Array

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from folders import ROOT
 from kintrafo import System
 from kintrafo.generated import front_axle, macpherson
 from kintrafo.generator.backends.counting import operations_of
@@ -20,8 +19,9 @@ from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import front_axle as declaration
 from oracle.maximal import Oracle
 from oracle.reference import perturbed_parameters
-from own_models import Built
-from symbolic import accelerations
+from support.folders import ROOT
+from support.models import Built
+from support.symbolic import accelerations
 
 from benchmarks.front_axle import COUNTED, WITH, WITHOUT, rates, wheel_rate
 

@@ -5,13 +5,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from as_commands import ROOT, run_module
 from kintrafo.generator.backends.counting import operations_of
 from kintrafo.generator.backends.numpy.printer import numpy_source
 from kintrafo.generator.equations.outputs import Derivation, generate
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from kintrafo.generator.planning.plan import CataloguePlan
-from own_models import Built, derive, needs_gcc, own
+from support.commands import ROOT, run_module
+from support.models import Built, derive, needs_gcc, own
 
 LONG = 16  # loops: more guards than a status word has bits
 

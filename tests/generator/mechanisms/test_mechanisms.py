@@ -1,8 +1,8 @@
 """Every declared mechanism against maximal coordinates: poses, velocities, equations of motion.
 
-Beside the mechanisms that ship there are those of `own_mechanisms`, in which no axis and no plane
-is a special one. The states are random, within all but the last part of the reach; closer to a dead
-point the rounding of any method grows without bound (`test_mechanisms_branches`).
+Beside the mechanisms that ship there are those of `every_closed_form`, in which no axis and no
+plane is a special one. The states are random, within all but the last part of the reach; closer to
+a dead point the rounding of any method grows without bound (`test_mechanisms_branches`).
 """
 
 from collections.abc import Callable, Iterable
@@ -12,10 +12,7 @@ from typing import Any
 
 import mpmath
 import numpy as np
-import own_mechanisms
-import own_models
 import pytest
-from changes import changed
 from kintrafo.generator import FORWARD, AlongLine, Formulation
 from kintrafo.generator.closed_forms.catalogue import STEPS
 from kintrafo.generator.closed_forms.elbow import PlaceElbow
@@ -29,20 +26,23 @@ from kintrafo.generator.mechanisms import MODELS as SHIPPED
 from kintrafo.generator.mechanisms import chains, held_by_rods
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from kintrafo.generator.planning.plan import CataloguePlan
+from mechanisms import every_closed_form
 from oracle.constraints import Array
 from oracle.maximal import Jet, Motion, Oracle, Reduced
 from oracle.reference import completed, further_parameters, general_parameters, spring_parameters
-from own_models import Built, needs_gcc, own, shipped
 from scipy.integrate import solve_ivp
-from symbolic import constants_of, derivatives_of, python
+from support import models
+from support.changes import changed
+from support.models import Built, needs_gcc, own, shipped
+from support.symbolic import constants_of, derivatives_of, python
 
-COMPILED_HERE = (*own_mechanisms.MODELS, n_four_bar(3))
+COMPILED_HERE = (*every_closed_form.MODELS, n_four_bar(3))
 MODELS = {m.name: m for m in (*SHIPPED, *COMPILED_HERE)}
 OWN = {m.name for m in COMPILED_HERE}
 # `test_jacobians` compares those of the others, and derivatives by inputs
 DIFFERENTIATED = [
     *(m.name for m in SHIPPED if not m.name.startswith("macpherson")),
-    *own_mechanisms.DIFFERENTIATED,
+    *every_closed_form.DIFFERENTIATED,
     "four_bars_3",
 ]
 SEEDS = range(3)  # 0 is the declaration's own geometry
@@ -99,7 +99,7 @@ class At:
 
 @pytest.fixture(scope="session")
 def derive() -> Derived:
-    return lambda name: own_models.derive(MODELS[name], derivatives=False)
+    return lambda name: models.derive(MODELS[name], derivatives=False)
 
 
 @pytest.fixture(scope="session")

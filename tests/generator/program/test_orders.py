@@ -5,7 +5,7 @@ from functools import cmp_to_key
 
 import sympy as sp
 from kintrafo.generator.program.orders import by_class, by_size, first_term
-from random_expressions import random_expression
+from support.random_expressions import random_expression
 
 
 def _samples() -> list[sp.Expr]:

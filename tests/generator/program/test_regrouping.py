@@ -4,7 +4,7 @@ import random
 
 import sympy as sp
 from kintrafo.generator.program.regrouping import regrouped
-from random_expressions import random_expression
+from support.random_expressions import random_expression
 from sympy.simplify.cse_main import opt_cse
 
 

@@ -9,11 +9,11 @@ from pathlib import Path
 import kintrafo
 import numpy as np
 import pytest
-from folders import ROOT
 from kintrafo import KintrafoError
 from kintrafo.core.validator import Validator, shown
 from kintrafo.generated import four_bar
 from kintrafo.vehicle.analysis.scenario import Scenario, run
+from support.folders import ROOT
 
 CAR = kintrafo.Model("reference_car")
 SYSTEM = kintrafo.System(four_bar)

@@ -10,7 +10,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from folders import DATA
 from kintrafo import InputError, Model, Suspension, export, plots, report
 from kintrafo.core import written
 from kintrafo.core.files import refuse, replacing
@@ -22,6 +21,7 @@ from kintrafo.vehicle.files.chrono import read
 from kintrafo.vehicle.files.point_table import write_points
 from kintrafo.vehicle.input.toml_writer import write_toml
 from matplotlib.image import imread
+from support.folders import DATA
 
 LINE = xr.Dataset({"camber": ("wheel_travel", [0.0, 0.1])}, {"wheel_travel": [0.0, 0.01]})
 

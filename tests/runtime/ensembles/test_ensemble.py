@@ -10,12 +10,10 @@ from pathlib import Path
 from typing import Any
 
 import kintrafo
-import lanes
 import numpy as np
 import pytest
 import xarray as xr
-from c_text import EMITTED
-from changes import changed
+from cars.different_cars import BUMP, RACK, SPAN, STEP, TIMES, of_all_kinds, same, some_cars
 from kintrafo import (
     Axle,
     AxleModel,
@@ -35,7 +33,9 @@ from kintrafo.generator.mechanisms.four_bar import FOUR_BAR, SPRING
 from kintrafo.simulation.lanes import library, run
 from kintrafo.simulation.lanes.problem import Problem
 from kintrafo.simulation.solvers import native_available
-from many_cars import BUMP, RACK, SPAN, STEP, TIMES, of_all_kinds, same, some_cars
+from support import lanes
+from support.c_text import EMITTED
+from support.changes import changed
 
 ensembles = import_module("kintrafo.ensembles.ensemble")
 

@@ -17,18 +17,18 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-import at_workers
 import kintrafo
 import numpy as np
 import pytest
 import xarray as xr
+from cars.different_cars import SPAN, of_all_kinds, same, some_cars
 from kintrafo import InputError, Model, System, ensemble, state_at_height
 from kintrafo.core.optional import MissingPackageError
 from kintrafo.ensembles.chunks import chunk, cutting, gather, queue, versions, workers
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.simulation.lanes import library
 from kintrafo.systems.compile.shipped import shipped
-from many_cars import SPAN, of_all_kinds, same, some_cars
+from support import work_on_clusters
 
 from benchmarks import cluster as benchmark
 
@@ -131,11 +131,11 @@ def test_equations_that_were_compiled_here(client: Any, tmp_path: Path, monkeypa
     elsewhere = replace(shipped(model.equations), file=f"/missing/{home.name}/four_bar.py")
     monkeypatch.setattr(chunk, "shipped", lambda _: elsewhere)
     before = os.environ["KINTRAFO_CACHE"]
-    client.run(at_workers.use_cache, str(tmp_path))
+    client.run(work_on_clusters.use_cache, str(tmp_path))
     try:
         found = ensemble(model, crank, SPAN, cluster=client, **options)
     finally:
-        client.run(at_workers.use_cache, before)
+        client.run(work_on_clusters.use_cache, before)
     same(found, ensemble(model, crank, SPAN, **options))
     assert (tmp_path / home.name / "four_bar.json").exists()
 
@@ -158,7 +158,7 @@ def test_what_stiff_cars_report(client: Any, car: Model, start: Any, monkeypatch
 def test_what_a_lost_worker_did_is_done_again(
     client: Any, car: Model, start: Any, tmp_path: Path, monkeypatch: Any
 ) -> None:
-    lost = partial(at_workers.lost_once, str(tmp_path / "lost"))
+    lost = partial(work_on_clusters.lost_once, str(tmp_path / "lost"))
     monkeypatch.setattr(queue, "_do", lost)
     found = ensemble(car, some_cars(40), SPAN, start, cluster=client, **KEPT)
     assert (tmp_path / "lost").exists()
@@ -186,7 +186,7 @@ def test_an_interruption_ends_what_workers_do(
     client: Any, car: Model, start: Any, tmp_path: Path, monkeypatch: Any
 ) -> None:
     """Of what would take hours: without an end at once, the workers would not answer any more."""
-    monkeypatch.setattr(queue, "_do", partial(at_workers.noted, str(tmp_path)))
+    monkeypatch.setattr(queue, "_do", partial(work_on_clusters.noted, str(tmp_path)))
 
     def interrupt() -> None:
         while not any(tmp_path.iterdir()):

@@ -8,12 +8,12 @@ from pathlib import Path
 import kintrafo
 import numpy as np
 import pytest
-from browser import Watched, needs_chromium
-from folders import ROOT
 from kintrafo.generated import excavator, four_bar, slider_crank
 from kintrafo.systems.skeleton import Skeleton
 from kintrafo.vehicle.cli import app
 from PIL import Image
+from support.browser import Watched, needs_chromium
+from support.folders import ROOT
 from typer.testing import CliRunner
 
 _FOLDER = Path(str(kintrafo.generated.__file__)).parent

@@ -6,13 +6,13 @@ from dataclasses import replace
 from typing import Any
 
 import kintrafo
-import lanes
 import mpmath
 import numpy as np
 import pytest
-from c_text import EMITTED
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.simulation.lanes.library import widths
+from support import lanes
+from support.c_text import EMITTED
 
 pytestmark = [
     pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc"),

@@ -9,15 +9,15 @@ from typing import Any
 import kintrafo
 import numpy as np
 import pytest
-from complex_numbers import STEP, printed
 from kintrafo import InputError, Samples
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.simulation import forwards
 from kintrafo.simulation.lanes import directions
 from kintrafo.simulation.lanes.library import widths
-from own_loops import STEPHENSON
+from mechanisms.iterated_loops import STEPHENSON
 from scipy.integrate import solve_ivp
+from support.complex_numbers import STEP, printed
 
 CAR = kintrafo.Model("reference_car")
 SHIPPED = {model.name: model for model in MODELS}

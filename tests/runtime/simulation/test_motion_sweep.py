@@ -10,7 +10,6 @@ from typing import Any
 import kintrafo
 import numpy as np
 import pytest
-from complex_numbers import STEP, printed
 from kintrafo import ModelError, Samples
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
@@ -19,6 +18,7 @@ from kintrafo.simulation.retraced import STAGES, RetracedSteps
 from kintrafo.simulation.signals import time_inputs
 from kintrafo.simulation.sweep import Sweep
 from scipy.integrate import RK45
+from support.complex_numbers import STEP, printed
 
 SPAN, TIMES = (0.0, 0.4), np.linspace(0.0, 0.4, 23)
 WEIGHTS = np.cos(40.0 * TIMES)

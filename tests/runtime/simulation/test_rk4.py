@@ -8,7 +8,6 @@ from itertools import pairwise
 
 import kintrafo
 import kintrafo.generator as g
-import lanes
 import numpy as np
 import pytest
 from kintrafo import (
@@ -23,6 +22,7 @@ from kintrafo import (
     state_at_height,
 )
 from kintrafo.simulation.solvers import native_available
+from support import lanes
 
 pytestmark = pytest.mark.skipif(not native_available(), reason="nothing is integrated in C")
 

@@ -12,7 +12,6 @@ import kintrafo
 import numpy as np
 import pytest
 import sympy as sp
-from folders import ROOT
 from kintrafo import (
     InputError,
     Model,
@@ -25,7 +24,8 @@ from kintrafo import (
 from kintrafo import generator as g
 from kintrafo.generator.declare.forces.force import Action, Force
 from kintrafo.simulation.solvers import native_available
-from own_models import needs_gcc, own
+from support.folders import ROOT
+from support.models import needs_gcc, own
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

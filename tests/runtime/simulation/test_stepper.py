@@ -9,10 +9,10 @@ from typing import Any
 import kintrafo
 import numpy as np
 import pytest
-from folders import ROOT
 from kintrafo.generated import four_bar
 from kintrafo.simulation.solvers import native_available
 from scipy.interpolate import PPoly
+from support.folders import ROOT
 
 pytestmark = pytest.mark.skipif(not native_available(), reason="no compiled solver")
 

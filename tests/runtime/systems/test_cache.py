@@ -1,5 +1,6 @@
 """The cache of compiled mechanisms: it finds any damage, heals, and deletes nothing of others."""
 
+import json
 import multiprocessing
 import os
 import pickle
@@ -10,8 +11,6 @@ import warnings
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
 
-import cache_damage
-import cache_stress
 import kintrafo
 import numpy as np
 import pytest
@@ -22,6 +21,7 @@ from kintrafo.systems.compile import build as own_build
 from kintrafo.systems.compile.cache import _MARK, _MARKED, appearing, damage, seal
 from kintrafo.systems.compile.compiler import Compiler, find_compiler
 from kintrafo.systems.compile.loader import load
+from support import work_on_caches
 
 STATES = np.random.default_rng(3).normal(size=(5, 2)) * [0.3, 2.0]
 needs_compiler = pytest.mark.skipif(find_compiler() is None, reason="no C compiler")
@@ -70,25 +70,73 @@ def check_healing(cache, made):
     assert list(cache.iterdir()) == [target]
 
 
+def cut(path):
+    content = path.read_bytes()
+    path.write_bytes(content[: len(content) // 2])
+
+
+def flip(path):
+    content = bytearray(path.read_bytes())
+    content[len(content) // 2] ^= 1
+    path.write_bytes(content)
+
+
+def empty(path):
+    path.write_bytes(b"")
+
+
+def remove(path):
+    path.unlink()
+
+
+def no_folder_inside(path):
+    """A link in the place of a file has no target."""
+    path.unlink()
+    path.symlink_to("nowhere")
+
+
+WAYS = (cut, flip, empty, remove, no_folder_inside)
+
+
+def library_of(folder):
+    """Return what computes: the shared library, or the NumPy functions where there is none."""
+    return next(iter(folder.glob("lib*.so")), *folder.glob("_*[!_].py"))
+
+
+def empty_folder(folder):
+    shutil.rmtree(folder)
+    folder.mkdir()
+
+
+def manifest_of_another(folder):
+    path = folder / "manifest.json"
+    found = json.loads(path.read_text())
+    path.write_text(json.dumps({**found, "folder": "slider_crank-0123456789abcdef"}))
+
+
+def manifest_without_sense(folder):
+    (folder / "manifest.json").write_text('{"files": {"a": 3}, "folder": [')
+
+
 class TestHealing:
-    @pytest.mark.parametrize("way", cache_damage.WAYS, ids=lambda way: way.__name__)
+    @pytest.mark.parametrize("way", WAYS, ids=lambda way: way.__name__)
     def test_of_what_computes(self, cache, made, way):
         """A library that is cut off ends the interpreter where it is loaded: it is not."""
-        way(cache_damage.library_of(*cache.iterdir()))
+        way(library_of(*cache.iterdir()))
         check_healing(cache, made)
 
     @pytest.mark.parametrize("name", ["four_bar.py", "__init__.py", "manifest.json"])
     def test_of_a_text_that_is_cut_off(self, cache, made, name):
         (target,) = cache.iterdir()
-        cache_damage.cut(target / name)
+        cut(target / name)
         check_healing(cache, made)
 
     @pytest.mark.parametrize(
         "way",
         [
-            cache_damage.empty_folder,
-            cache_damage.manifest_of_another,
-            cache_damage.manifest_without_sense,
+            empty_folder,
+            manifest_of_another,
+            manifest_without_sense,
         ],
         ids=lambda way: way.__name__,
     )
@@ -101,7 +149,7 @@ class TestHealing:
         (target / "notes.txt").write_text("mine")
         kintrafo.compile(FOUR_BAR, folder=cache)  # no damage
         forget()
-        cache_damage.remove(target / "four_bar.py")
+        remove(target / "four_bar.py")
         check_healing(cache, made)
         assert (target / "notes.txt").read_text() == "mine"
 
@@ -148,7 +196,7 @@ class TestHealing:
         """The loaded module remains in use; another process compiles it again."""
         module = kintrafo.compile(FOUR_BAR, folder=cache)
         (target,) = cache.iterdir()
-        cache_damage.cut(target / "four_bar.py")
+        cut(target / "four_bar.py")
         with pytest.warns(RuntimeWarning, match="built again"):
             assert kintrafo.compile(FOUR_BAR, folder=cache) is module
         np.testing.assert_array_equal(module.rhs(STATES), made[2])
@@ -157,7 +205,7 @@ class TestHealing:
         pickled = pickle.dumps(kintrafo.System(kintrafo.compile(FOUR_BAR, folder=cache)))
         (target,) = cache.iterdir()
         forget()
-        cache_damage.cut(target / "four_bar.py")
+        cut(target / "four_bar.py")
         with pytest.raises(kintrafo.InputError, match="Compile the mechanism again"):
             pickle.loads(pickled)
 
@@ -165,7 +213,7 @@ class TestHealing:
     def test_a_library_that_the_system_does_not_load(self, cache):
         """Whole, and still not for this machine."""
         (target,) = cache.iterdir()
-        cache_damage.library_of(target).write_bytes(b"not for this machine")
+        library_of(target).write_bytes(b"not for this machine")
         (target / "manifest.json").unlink()
         seal(target, target.name)
         with pytest.raises(kintrafo.InputError, match="cannot be loaded"):
@@ -232,20 +280,20 @@ class TestLeftovers:
 
     @pytest.mark.parametrize("mark", [None, b"", b"another program's"])
     def test_what_only_looks_like_one_stays(self, tmp_path, mark):
-        folder = cache_stress.old(tmp_path / self.NAME, mark)
+        folder = work_on_caches.old(tmp_path / self.NAME, mark)
         self.fill(tmp_path)
         assert (folder / "kept.txt").read_text() == "a year of work"
 
     def test_a_link_to_one_is_not_followed(self, tmp_path):
-        real = cache_stress.old(tmp_path / "elsewhere" / "x", _MARKED)
+        real = work_on_caches.old(tmp_path / "elsewhere" / "x", _MARKED)
         (tmp_path / "cache").mkdir()
         (tmp_path / "cache" / self.NAME).symlink_to(real)
         self.fill(tmp_path / "cache")
         assert (real / "kept.txt").exists()
 
     def test_a_marked_one_goes_when_it_is_old(self, tmp_path):
-        old = cache_stress.old(tmp_path / self.NAME, _MARKED)
-        young = cache_stress.old(tmp_path / f"{self.NAME}2", _MARKED)
+        old = work_on_caches.old(tmp_path / self.NAME, _MARKED)
+        young = work_on_caches.old(tmp_path / f"{self.NAME}2", _MARKED)
         os.utime(young / _MARK)
         self.fill(tmp_path)
         assert not old.exists()
@@ -255,7 +303,7 @@ class TestLeftovers:
         """Each removes what the others remove, fill and move: none has an error."""
         context = multiprocessing.get_context("spawn")
         with ProcessPoolExecutor(2, mp_context=context) as pool:
-            list(pool.map(cache_stress.stress, [tmp_path] * 2, [1, 2]))
+            list(pool.map(work_on_caches.stress, [tmp_path] * 2, [1, 2]))
         assert sorted(p.name for p in tmp_path.iterdir()) == sorted(
             f"m-{index:016x}" for index in range(5)
         )

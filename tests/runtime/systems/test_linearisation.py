@@ -5,13 +5,13 @@ import re
 import numpy as np
 import pytest
 import scipy.signal
-from cases import MODELS, Instant
-from folders import ROOT
+from cars.instants import MODELS, Instant
 from kintrafo import InputError, Model, Suspension, equilibrium, linearise, state_at_height
 from kintrafo.systems.modes import eigenvalues_of, mode_of_states, modes_of, modes_of_motions
 from oracle.multipliers import solve_free, solve_prescribed
 from oracle.newton import Mechanism, solve_pose
 from oracle.reference import EIGENVALUES_AT_REST, SPIN_RATE, reference_parameters
+from support.folders import ROOT
 
 CAR = Suspension.load("reference_car")
 HELD = Model(CAR)

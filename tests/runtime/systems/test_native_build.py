@@ -9,12 +9,12 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from folders import ROOT
 from kintrafo.equations import _calls
 from kintrafo.generated import _macpherson
 from kintrafo.simulation import _steps
 from kintrafo.simulation.lanes import library
 from kintrafo.simulation.solvers import native_available, native_version, sundials
+from support.folders import ROOT
 
 OF_EVERY_SYSTEM = {"linux-vdso", "linux-gate", "ld-linux", "libc", "libm", "libpthread"}
 ARCHIVES = [

@@ -15,11 +15,7 @@ from pathlib import Path
 
 import kintrafo
 import numpy as np
-import own_loops
 import pytest
-from changes import with_default
-from compiled_elsewhere import simulated_end, what_is_needed
-from folders import ROOT
 from kintrafo import generator
 from kintrafo.generator import Formulation, JointForce, Mechanism
 from kintrafo.generator.mechanisms.andrews import MODELS as ANDREWS
@@ -32,6 +28,10 @@ from kintrafo.systems.compile import declaration
 from kintrafo.systems.compile.cache import cache_folder
 from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.vehicle.cli import app
+from mechanisms import iterated_loops
+from support.changes import with_default
+from support.folders import ROOT
+from support.work_on_compiling import simulated_end, what_is_needed
 from typer.testing import CliRunner
 
 EXAMPLE = ROOT / "examples/pushrod_suspension.py"
@@ -331,7 +331,7 @@ class TestProposals:
         assert [body.name for body in model.massive] == ["crank", "coupler", "rocker"]
 
     def test_what_is_not_reported_is_not_proposed(self):
-        whole = own_loops.STEPHENSON.mechanism
+        whole = iterated_loops.STEPHENSON.mechanism
         far = tuple(c for c in whole.coordinates if c.joint.name == "arm_hinge")
         words = r"no 1 of the reported .* \(arm_hinge; 1 set"
         with pytest.raises(kintrafo.MechanismError, match=words):

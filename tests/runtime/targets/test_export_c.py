@@ -5,9 +5,9 @@ import subprocess
 import kintrafo
 import numpy as np
 import pytest
-from exported import CC, compiled, system_named
 from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.targets.c_folder import STEP, STEPS
+from support.exported import CC, compiled, system_named
 
 needs_compiler = pytest.mark.skipif(find_compiler() is None, reason="no C compiler")
 NAMES = ("four_bar", "slider_crank", "prescribed", "pendulum", "moved", "reference_car")

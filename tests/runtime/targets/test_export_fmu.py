@@ -12,10 +12,6 @@ from xml.etree import ElementTree as ET
 import kintrafo
 import numpy as np
 import pytest
-from c_text import EMITTED
-from exported import needs_library, system_named
-from folders import ROOT
-from kept import UNOPTIMISED
 from kintrafo.core.folders import cache_folder
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.targets.emitted import Emitted
@@ -23,9 +19,13 @@ from kintrafo.targets.fmi import binaries
 from kintrafo.targets.fmi.sources import library_files
 from kintrafo.targets.fmi.tables import any_tables
 from kintrafo.targets.fmi.units import powers
-from mockup import DISCARD, ERROR, OK, Fmu
-from own_models import STRICT
-from own_yokes import WHEEL_ON_A_YOKE
+from mechanisms.scotch_yokes import WHEEL_ON_A_YOKE
+from support.c_text import EMITTED
+from support.exported import needs_library, system_named
+from support.fmu_importer import DISCARD, ERROR, OK, Fmu
+from support.folders import ROOT
+from support.kept import UNOPTIMISED
+from support.models import STRICT
 
 pytestmark = needs_library
 MINGW = "x86_64-w64-mingw32-gcc"
@@ -949,7 +949,12 @@ def test_windows_computes_the_same_bits(tmp_path):
         (MINGW, "binaries/win64/four_bar.dll", ["wine"]),
     ):
         program = tmp_path / f"{compiler}.exe"
-        files = [f"-I{tmp_path / 'sources'}", str(ROOT / "tests/fmu_steps.c"), "-o", str(program)]
+        files = [
+            f"-I{tmp_path / 'sources'}",
+            str(ROOT / "tests/support/fmu_steps.c"),
+            "-o",
+            str(program),
+        ]
         linked = ["-ldl"] if compiler == "cc" else []
         subprocess.run([compiler, "-std=c11", *files, *linked], check=True)
         command = [*before, str(program), str(tmp_path / library), *given]
@@ -968,7 +973,7 @@ def test_no_access_is_beyond_what_is_kept(fmu, tmp_path):
     program = tmp_path / "driver"
     flags = ["-std=c11", "-O0", "-fsanitize=address,undefined", "-fno-sanitize-recover=undefined"]
     include = f"-I{known.folder / 'sources'}"
-    driver = str(ROOT / "tests/fmu_driver.c")
+    driver = str(ROOT / "tests/support/fmu_driver.c")
     made = ["gcc", *flags, include, driver, *sources, "-o", str(program), "-lm"]
     subprocess.run(made, check=True)
     called = [str(program), known.token, str(len(known.references))]

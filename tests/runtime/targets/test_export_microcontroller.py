@@ -1,8 +1,8 @@
 """Exported C on an emulated Cortex-M7: the bits of this machine, and counted instructions."""
 
 import pytest
-from exported import system_named
 from kintrafo.systems.compile.compiler import find_compiler
+from support.exported import system_named
 
 from benchmarks.microcontroller.build import FUNCTIONS, UNITS, Program, missing
 

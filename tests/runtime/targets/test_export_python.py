@@ -12,9 +12,6 @@ from functools import cache
 import kintrafo
 import numpy as np
 import pytest
-from exported import CC, compiled, prescribed, system_named
-from folders import ROOT
-from free_bodies import thrown
 from kintrafo.generator.backends.arrays import differentiable
 from kintrafo.generator.backends.casadi.dialect import CASADI
 from kintrafo.generator.backends.jax.dialect import JAX
@@ -24,6 +21,9 @@ from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.simulation.lanes.options import OF_WIDTH
 from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.targets import python_module
+from mechanisms.free_bodies import thrown
+from support.exported import CC, compiled, prescribed, system_named
+from support.folders import ROOT
 
 CLOSED, OPEN = "four_bar", {"crank_pin_y": 0.3}  # a crank that reaches beyond the dead point
 AT_THE_DEAD_POINT = {"crank_angle": 1.5}

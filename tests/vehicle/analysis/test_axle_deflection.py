@@ -5,7 +5,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from folders import DATA
 from kintrafo import Axle, InputError, Model, PositionError, Suspension, compliance
 from kintrafo.core.validator import Validator
 from kintrafo.vehicle.analysis.compliance.bars import Bars, Foot
@@ -17,10 +16,7 @@ from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.corner.bushes import mirrored_bushings
 from kintrafo.vehicle.models.axle.bar import HalfBar
 from kintrafo.vehicle.report import elastokinematics_chapter
-from oracle.constraints import Pose
-from scipy.optimize import brentq
-from scipy.spatial.transform import Rotation
-from soft_suspensions import (
+from oracle.bushes import (
     BAR_OF,
     BUSHES_OF,
     RACK,
@@ -33,6 +29,10 @@ from soft_suspensions import (
     Energy,
     axle_of,
 )
+from oracle.constraints import Pose
+from scipy.optimize import brentq
+from scipy.spatial.transform import Rotation
+from support.folders import DATA
 
 
 def without_bar(car: Suspension) -> Axle:

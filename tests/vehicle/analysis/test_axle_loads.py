@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
-from axles import AXLE, BENT, placed
+from cars.axles import AXLE, BENT, placed
 from kintrafo import Axle, AxleModel, System, equilibrium, loads, roads, simulate
 from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.vehicle.assembly.axle_kinematics import AxleKinematics

@@ -3,7 +3,7 @@
 import kintrafo
 import numpy as np
 import pytest
-from driving_cars import FILE, LINES
+from cars.driving_cars import FILE, LINES
 from kintrafo.vehicle.analysis.handling import circle, drive, dynamic_loads
 from kintrafo.vehicle.analysis.handling.subject import driving_car
 from kintrafo.vehicle.analysis.loads import along, peaks, static

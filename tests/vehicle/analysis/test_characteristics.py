@@ -12,9 +12,6 @@ import re
 import kintrafo
 import numpy as np
 import pytest
-from benches import SKEWED, UP, Strut, Wishbones
-from differences import difference, second_difference
-from folders import DATA, ROOT
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo import Axle, InputError, Model, PositionError, Suspension, characteristics, variation
@@ -22,6 +19,9 @@ from kintrafo.vehicle.assembly import wheel
 from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.assembly.corner_kinematics import corner
 from kintrafo.vehicle.assembly.measures import ackermann as axle
+from oracle.corners import SKEWED, UP, Strut, Wishbones
+from oracle.differences import difference, second_difference
+from support.folders import DATA, ROOT
 
 CAR = Suspension.load("reference_car")
 MODEL = Model(CAR)

@@ -5,7 +5,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from folders import ROOT
 from kintrafo import Model, PositionError, Suspension, load, loads
 from kintrafo.vehicle.analysis.checkup import USUAL_HOP, USUAL_RIDE, as_dict, checkup
 from kintrafo.vehicle.analysis.wheel_facts import NO_STIFFNESS
@@ -13,6 +12,7 @@ from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.models.points import hardpoints
 from kintrafo.vehicle.models.positions import state_at_height
 from kintrafo.vehicle.models.typical import typical_ranges
+from support.folders import ROOT
 
 PAGE = ROOT / "docs/suspension/characteristics.md"
 

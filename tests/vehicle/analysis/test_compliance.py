@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from folders import ROOT
 from kintrafo import Axle, InputError, Model, RigidAxle, Suspension, compliance
 from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.input.toml_writer import write_toml
 from kintrafo.vehicle.kinds import KINDS
 from kintrafo.vehicle.report.tables import input_tables
-from soft_suspensions import BUSHES_OF, LINKED, STRUT, TRAILING, WISHBONES, Stiffness, Z
+from oracle.bushes import BUSHES_OF, LINKED, STRUT, TRAILING, WISHBONES, Stiffness, Z
+from support.folders import ROOT
 
 DATA = ROOT / "vehicle/data"
 

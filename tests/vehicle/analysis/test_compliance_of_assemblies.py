@@ -5,11 +5,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from cars.rigid_axles import AXLE, FIVE
 from golden.subjects import BUSHES
 from kintrafo import Axle, Model, RigidAxle, compliance, load
 from kintrafo.vehicle.data.starter import whole_axles
-from rigid_axles import AXLE, FIVE
-from soft_suspensions import BAR_OF, BUSHES_OF, LINKED, RACK, STRUT, TRAILING, UNDER, WISHBONES
+from oracle.bushes import BAR_OF, BUSHES_OF, LINKED, RACK, STRUT, TRAILING, UNDER, WISHBONES
 
 STIFF_RACK = {"rack": {"axial_N_per_mm": 2500.0}}
 RODS = {

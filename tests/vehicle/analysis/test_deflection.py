@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from folders import ROOT
 from kintrafo import (
     Axle,
     InputError,
@@ -38,10 +37,11 @@ from kintrafo.vehicle.assembly.part_poses import CornerParts
 from kintrafo.vehicle.input.curve import Curve
 from kintrafo.vehicle.models.positions import design_height
 from kintrafo.vehicle.models.reach import at_rest
+from oracle.bushes import CURVED, LINKED, SOFTER, STRUT, TRAILING, WISHBONES, Energy
 from oracle.constraints import Pose
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
-from soft_suspensions import CURVED, LINKED, SOFTER, STRUT, TRAILING, WISHBONES, Energy
+from support.folders import ROOT
 
 CARS = [STRUT, WISHBONES, LINKED, TRAILING]
 

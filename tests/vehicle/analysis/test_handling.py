@@ -4,9 +4,9 @@ import re
 
 import numpy as np
 import pytest
-import rail_car
 import xarray as xr
-from driving_cars import light_car
+from cars import rail_car
+from cars.driving_cars import light_car
 from kintrafo import CarModel, InputError, load
 from kintrafo.vehicle.analysis.handling import circle, drive, load_manoeuvre, responses, steering
 from kintrafo.vehicle.analysis.handling.circle import Turns, steering_ratio

@@ -7,11 +7,10 @@ import kintrafo
 import numpy as np
 import pytest
 import xarray as xr
-from axles import AXLE
+from cars.axles import AXLE
+from cars.rigid_axles import AXLES as RIGID
 from kintrafo import InputError, Model, loads
-from listed_loads import wrench
-from load_cards import READERS, wrenches
-from rigid_axles import AXLES as RIGID
+from oracle.load_cards import READERS, wrench, wrenches
 
 CAR = Model("reference_car")
 TURN = {"left": {"contact_N": [0, 900, 3000]}, "right": {"contact_N": [400, 2000, 5000]}}

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
-from cases import Instant
+from cars.instants import Instant
 from kintrafo import (
     InputError,
     Model,

@@ -5,12 +5,12 @@ from typing import Any
 import kintrafo
 import numpy as np
 import pytest
-from axles import AXLE, BENT
+from cars.axles import AXLE, BENT
+from cars.rigid_axles import AXLES as RIGID
 from kintrafo import Axle, InputError, Model, PositionError, RigidAxle, Suspension, loads
 from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.data.starter import whole_axles
-from listed_loads import wrench
-from rigid_axles import AXLES as RIGID
+from oracle.load_cards import wrench
 
 KINDS = ("reference_car", "offset_strut_car", "double_wishbone_car", "push_rod_car",
          "pull_rod_car", "multi_link_car", "trailing_arm_car")  # fmt: skip

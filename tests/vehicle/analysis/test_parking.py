@@ -3,7 +3,7 @@
 import kintrafo
 import numpy as np
 import pytest
-from driving_cars import LINES
+from cars.driving_cars import LINES
 from kintrafo.vehicle.analysis.handling import drive, load_manoeuvre
 from kintrafo.vehicle.analysis.loads.on_a_car import CarInMotion
 from kintrafo.vehicle.assembly.of import assembly_of

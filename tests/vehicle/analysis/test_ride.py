@@ -5,13 +5,13 @@ from __future__ import annotations
 import kintrafo
 import numpy as np
 import pytest
-from driving_cars import car_on_arms
+from cars.driving_cars import car_on_arms
 from kintrafo.vehicle.analysis.ride.linear import linear_at_rest
 from kintrafo.vehicle.analysis.ride.outputs import upward
 from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.roads import CLASSES, Road, bump, iso8608, isotropic_coherence
-from own_models import own
 from scipy.signal import csd, welch
+from support.models import own
 
 
 @pytest.fixture(scope="module")

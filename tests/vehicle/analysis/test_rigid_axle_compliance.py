@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from folders import ROOT
+from cars.rigid_axles import AXLE, FIVE, LOPSIDED, TRIANGULATED, Found
 from kintrafo import (
     InputError,
     PositionError,
@@ -28,11 +28,11 @@ from kintrafo.vehicle.analysis.checkup import checkup
 from kintrafo.vehicle.analysis.compliance.tables import compliances_of_beam
 from kintrafo.vehicle.analysis.sheet import sheet
 from kintrafo.vehicle.assembly.by_wheel import flat
+from oracle.bushes import minimum
 from oracle.constraints import skew
-from rigid_axles import AXLE, FIVE, LOPSIDED, TRIANGULATED, Found
 from scipy.optimize import root
 from scipy.spatial.transform import Rotation
-from soft_suspensions import minimum
+from support.folders import ROOT
 
 Array = np.ndarray
 UP = np.array([0.0, 0.0, 1.0])

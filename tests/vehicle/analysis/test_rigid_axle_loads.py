@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from cars.rigid_axles import AXLE, LOPSIDED, MODEL, STOPPED, Found, each_axle, slopes
 from kintrafo import (
     InputError,
     PositionError,
@@ -22,7 +23,6 @@ from kintrafo import (
 )
 from kintrafo.vehicle.analysis.loads.sheets import overview
 from kintrafo.vehicle.analysis.scenario import Scenario, run
-from rigid_axles import AXLE, LOPSIDED, MODEL, STOPPED, Found, each_axle, slopes
 
 SIDES = ("left", "right")
 # Forces and moments at both places of both wheels, all of them different.

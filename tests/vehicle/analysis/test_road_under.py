@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from driving_cars import light_car
+from cars.driving_cars import light_car
 from kintrafo import CarModel, InputError, SimulationError, road_profiles, simulate
 from kintrafo.simulation import stepper
 from kintrafo.vehicle.analysis.handling import drive

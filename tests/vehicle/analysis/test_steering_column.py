@@ -3,8 +3,8 @@
 import kintrafo
 import numpy as np
 import pytest
-import rail_car
-from driving_cars import FILE, light_car
+from cars import rail_car
+from cars.driving_cars import FILE, light_car
 from kintrafo import variation
 from kintrafo.vehicle.analysis.handling import circle, drive
 from kintrafo.vehicle.analysis.handling.circle import Turns

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from cars.rigid_axles import AXLE, LOPSIDED, Found
 from kintrafo import (
     Axle,
     AxleModel,
@@ -30,7 +31,6 @@ from kintrafo.vehicle.analysis.scenario import Scenario, run
 from kintrafo.vehicle.assembly.corner import CornerAssembly
 from kintrafo.vehicle.corner.wheel_loads import UNITS
 from kintrafo.vehicle.models.positions import design_height
-from rigid_axles import AXLE, LOPSIDED, Found
 
 CARS = [Suspension.load("reference_car"), Suspension.load("double_wishbone_car").mirrored()]
 LIMITS = {"N": 4000.0, "N m": 400.0}

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from axles import AXLE, BENT, LOPSIDED, WISHBONES, placed
+from cars.axles import AXLE, BENT, LOPSIDED, WISHBONES, placed
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo import (

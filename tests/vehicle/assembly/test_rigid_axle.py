@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from folders import ROOT
+from cars.rigid_axles import AXLE, LEFT, LOPSIDED, MODEL, TRIANGULATED, Found, each_axle, slopes
 from kintrafo import (
     Axle,
     InputError,
@@ -34,8 +34,8 @@ from kintrafo.vehicle.assembly.measures.rigid_axle import MEASURES
 from kintrafo.vehicle.assembly.measures.whole_axle import wheel_rate, wheel_rate_alone
 from kintrafo.vehicle.assembly.rigid_axle_kinematics import RigidAxleKinematics
 from kintrafo.vehicle.assembly.rigid_axle_parts import RigidAxleParts
-from rigid_axles import AXLE, LEFT, LOPSIDED, MODEL, TRIANGULATED, Found, each_axle, slopes
 from scipy.interpolate import PchipInterpolator
+from support.folders import ROOT
 
 PAGE = ROOT / "docs/suspension/types.md"
 PLACES = [(0.0, 0.0), (0.06, 0.0), (-0.05, 0.08), (0.03, -0.1), (-0.08, -0.03)]

@@ -7,7 +7,6 @@ import sys
 import numpy as np
 import pytest
 import xarray as xr
-from folders import ROOT
 from kintrafo import Model, Suspension, characteristics
 from kintrafo.core.quantities import variable
 from kintrafo.core.tabulated import number, significant
@@ -17,6 +16,7 @@ from kintrafo.vehicle.cli.compare import _differing
 from kintrafo.vehicle.data.starter import not_of_a_suspension
 from matplotlib.image import imread
 from rich.console import Console
+from support.folders import ROOT
 
 CAR = "reference_car"
 POSITIONS = ("characteristics", CAR, "--positions")

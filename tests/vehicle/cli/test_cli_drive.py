@@ -5,7 +5,6 @@ from pathlib import Path
 import kintrafo
 import numpy as np
 import pytest
-from as_commands import lines_of
 from kintrafo.core.quantities import variable
 from kintrafo.vehicle.analysis.handling import HandlingResult, load_manoeuvre
 from kintrafo.vehicle.analysis.handling.result import quantity
@@ -14,6 +13,7 @@ from kintrafo.vehicle.cli.loading import note_unused
 from kintrafo.vehicle.cli.outputs import SingleFigureOptions
 from kintrafo.vehicle.plots import handling
 from kintrafo.vehicle.plots.handling import write_curves, write_path
+from support.commands import lines_of
 from xarray import Dataset
 
 

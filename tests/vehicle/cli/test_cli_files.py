@@ -6,9 +6,9 @@ import sys
 from pathlib import Path
 
 import pytest
-from folders import ROOT
 from kintrafo.terminal.exits import standing_streams
 from kintrafo.vehicle import cli
+from support.folders import ROOT
 
 CAR = "reference_car"
 TEXT = (ROOT / "vehicle/data/reference_car.toml").read_text(encoding="utf-8")

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from as_commands import lines_of
 from kintrafo.vehicle.assembly.by_wheel import WHEEL
 from kintrafo.vehicle.cli import ride
 from kintrafo.vehicle.plots.curves import figure
+from support.commands import lines_of
 from xarray import Dataset
 
 

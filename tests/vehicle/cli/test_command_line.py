@@ -12,13 +12,13 @@ from collections import defaultdict
 import numpy as np
 import pytest
 import typer
-from folders import ROOT
 from kintrafo import Model
 from kintrafo.__main__ import run
 from kintrafo.generator.__main__ import app as generator_app
 from kintrafo.vehicle import cli
 from kintrafo.vehicle.analysis import paper
 from matplotlib.image import imread
+from support.folders import ROOT
 from typer.testing import CliRunner
 
 MODEL = Model("reference_car")

@@ -6,9 +6,9 @@ import re
 import numpy as np
 import pytest
 import xarray as xr
-from folders import ROOT
 from kintrafo import InputError, Model, Suspension, equilibrium, simulate, travel_range
 from kintrafo.vehicle.analysis.checkup import checkup
+from support.folders import ROOT
 
 CAR = "double_wishbone_car"
 MODEL = Model(CAR)

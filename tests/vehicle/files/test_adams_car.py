@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from adams_files import kind_of, rows_of, subsystem
-from folders import ROOT
+from cars.adams_files import kind_of, rows_of, subsystem
 from kintrafo import InputError, Model, Suspension, characteristics
 from kintrafo.vehicle.files.adams_car import ImportedSubsystem, imported, read, read_names
 from kintrafo.vehicle.files.point_table import write_merged
 from kintrafo.vehicle.kinds import KINDS
+from support.folders import ROOT
 
 CARS = {kind: Suspension.load(KINDS[kind].STARTER) for kind in KINDS}
 OFFSET = Suspension.load("offset_strut_car")

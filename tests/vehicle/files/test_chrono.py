@@ -15,7 +15,6 @@ from typing import ClassVar
 
 import numpy as np
 import pytest
-from folders import DATA
 from kintrafo import InputError, Model, Suspension, chrono, sweep
 from kintrafo.vehicle.analysis.characteristics import over
 from kintrafo.vehicle.cli import app
@@ -24,6 +23,7 @@ from kintrafo.vehicle.input.toml_writer import toml_text, write_toml
 from oracle.links import Carrier
 from scipy.optimize import root
 from scipy.spatial.transform import Rotation
+from support.folders import DATA
 from typer.testing import CliRunner
 
 FOLDER = DATA / "chrono"

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any
 import kintrafo
 import numpy as np
 import pytest
-from folders import DATA
 from kintrafo import InputError, Model, chrono, sweep, tyres
 from kintrafo.vehicle.cli import app
 from kintrafo.vehicle.models.car.car import center_of_gravity, masses
 from scipy.spatial.transform import Rotation
+from support.folders import DATA
 from typer.testing import CliRunner
 
 if TYPE_CHECKING:

@@ -6,9 +6,9 @@ import shutil
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from folders import DATA
 from kintrafo import InputError, Suspension
 from kintrafo.vehicle.files.formats import NAMES, format_of
+from support.folders import DATA
 
 if TYPE_CHECKING:
     from pathlib import Path

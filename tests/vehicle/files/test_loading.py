@@ -5,8 +5,8 @@ from typing import Any
 
 import kintrafo
 import pytest
-from folders import ROOT
 from kintrafo.vehicle.data.starter import packaged, packaged_axles
+from support.folders import ROOT
 
 DATA = ROOT / "vehicle/data"
 

@@ -6,7 +6,6 @@ from importlib import resources
 
 import jsonschema
 import pytest
-from folders import ROOT
 from kintrafo import Axle, Suspension
 from kintrafo.core.errors import InputError
 from kintrafo.vehicle import data
@@ -16,6 +15,7 @@ from kintrafo.vehicle.cli.published import published
 from kintrafo.vehicle.data import axles as axle_data
 from kintrafo.vehicle.data.starter import manoeuvres
 from kintrafo.vehicle.files import schema
+from support.folders import ROOT
 from typer.testing import CliRunner
 
 PUBLISHED = resources.files(data).joinpath("suspension.schema.json").read_text(encoding="utf-8")

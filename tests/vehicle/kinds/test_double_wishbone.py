@@ -6,9 +6,9 @@ The oracle is a wheel carrier on five rods (`oracle.links`), whose poses are fou
 import kintrafo
 import numpy as np
 import pytest
-from benches import SKEWED, Wishbones
 from kintrafo import Model, Suspension, characteristics
 from kintrafo.vehicle.models.points import hardpoints
+from oracle.corners import SKEWED, Wishbones
 
 CAR = Suspension.load("double_wishbone_car")
 MODEL = Model(CAR)

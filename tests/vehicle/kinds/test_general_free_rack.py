@@ -10,7 +10,7 @@ from kintrafo.generator.mechanisms.macpherson import GENERAL_FREE_RACK
 from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.vehicle.cli import app
 from kintrafo.vehicle.kinds import macpherson
-from own_models import Built
+from support.models import Built
 from typer.testing import CliRunner
 
 MASSES = {

@@ -12,9 +12,7 @@ from typing import Any
 import kintrafo
 import numpy as np
 import pytest
-from benches import Wishbones
-from differences import difference
-from driving_cars import FILE
+from cars.driving_cars import FILE
 from kintrafo import Axle, InputError, Model, characteristics, compliance, loads
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import model_named
@@ -28,7 +26,9 @@ from kintrafo.vehicle.models.points import hardpoints
 from kintrafo.vehicle.models.reach import at_rest
 from kintrafo.vehicle.report.page import render
 from kintrafo.vehicle.studies.sensitivity import sensitivity
-from own_models import needs_gcc, own
+from oracle.corners import Wishbones
+from oracle.differences import difference
+from support.models import needs_gcc, own
 
 # A linkage in which nothing is parallel, upright or equal.
 ARM: dict[str, Any] = {

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from driving_cars import FILE, TYRE
+from cars.driving_cars import FILE, TYRE
 from kintrafo.systems.compile.identity import identity
 from kintrafo.vehicle.models.car import Car
 from kintrafo.vehicle.models.car.equations import CarStructure

@@ -6,7 +6,6 @@ import pickle
 import kintrafo
 import numpy as np
 import pytest
-from folders import ROOT
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo import (
@@ -32,6 +31,7 @@ from kintrafo.vehicle.models.reach import at_rest, branch, height_and_slope
 from oracle import newton
 from oracle.multipliers import solve_prescribed
 from oracle.reference import reference_parameters
+from support.folders import ROOT
 
 MODEL = Model("reference_car")
 

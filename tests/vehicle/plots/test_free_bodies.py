@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from cars.rigid_axles import LOPSIDED, STOPPED
 from kintrafo import Model, loads
 from kintrafo.vehicle.plots.loads import free_bodies
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from rigid_axles import LOPSIDED, STOPPED
 
 
 @pytest.mark.parametrize(

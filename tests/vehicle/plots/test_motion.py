@@ -6,7 +6,7 @@ import re
 import kintrafo
 import numpy as np
 import pytest
-import rail_car
+from cars import rail_car
 from kintrafo import InputError
 from kintrafo.vehicle.analysis.handling import HandlingResult, load_manoeuvre
 from kintrafo.vehicle.plots.handling import first_names

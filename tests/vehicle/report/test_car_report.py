@@ -6,13 +6,13 @@ import re
 import kintrafo
 import numpy as np
 import pytest
-from browser import CHROMIUM, running
 from kintrafo import characteristics
 from kintrafo.vehicle.plots.by_axle import by_axle, names_by_axle
 from kintrafo.vehicle.plots.goals import about
 from kintrafo.vehicle.plots.ride import response_figures
 from kintrafo.vehicle.report.chapters import axle, handling
 from kintrafo.vehicle.report.chapters.goals import goals_chapter
+from support.browser import CHROMIUM, running
 from xarray import Dataset
 
 GOALS = """

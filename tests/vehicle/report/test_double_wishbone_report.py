@@ -5,11 +5,11 @@ import re
 
 import kintrafo
 import pytest
-from browser import Watched, needs_chromium, slide
 from kintrafo import Model, state_at_height
 from kintrafo.vehicle.models.points import hardpoints
 from kintrafo.vehicle.report.grid import Grid, GridAxis
 from kintrafo.vehicle.report.page import render
+from support.browser import Watched, needs_chromium, slide
 
 MODEL = Model("double_wishbone_car")
 

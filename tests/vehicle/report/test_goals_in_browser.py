@@ -6,12 +6,12 @@ compiled model has.
 
 from typing import Any
 
-import browser as pages
 import kintrafo
 import numpy as np
 import pytest
 from kintrafo import Model, characteristics, variation
 from kintrafo.vehicle.report import goals_chapter
+from support import browser as pages
 
 pytestmark = pages.needs_chromium
 

@@ -9,8 +9,7 @@ from html.parser import HTMLParser
 import kintrafo
 import numpy as np
 import pytest
-from driving_cars import light_car
-from folders import ROOT
+from cars.driving_cars import light_car
 from hypothesis import given
 from hypothesis import strategies as st
 from kintrafo import InputError, Model, compliance, loads, state_at_height
@@ -26,6 +25,7 @@ from kintrafo.vehicle.report.plotted import decimals, has_pole, shown_range
 from kintrafo.vehicle.report.poses import poses, reachable_grid
 from kintrafo.vehicle.report.tables import input_tables
 from scipy.interpolate import KroghInterpolator
+from support.folders import ROOT
 
 MODEL = Model("reference_car")
 FOLDER = ROOT / "vehicle/report"

@@ -5,7 +5,10 @@ import re
 import kintrafo
 import numpy as np
 import pytest
-from browser import (
+from kintrafo import Model, state_at_height
+from kintrafo.vehicle.models.points import hardpoints
+from kintrafo.vehicle.report.grid import Grid, GridAxis
+from support.browser import (
     PHONE,
     Watched,
     luminance,
@@ -17,9 +20,6 @@ from browser import (
     slide,
     until,
 )
-from kintrafo import Model, state_at_height
-from kintrafo.vehicle.models.points import hardpoints
-from kintrafo.vehicle.report.grid import Grid, GridAxis
 
 pytestmark = needs_chromium
 MODEL = Model("reference_car")

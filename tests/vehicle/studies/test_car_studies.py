@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import kintrafo
 import numpy as np
 import pytest
-from driving_cars import light_car
+from cars.driving_cars import light_car
 from kintrafo import InputError, characteristics, variation
 from kintrafo.vehicle.analysis.compare import compare
 from kintrafo.vehicle.analysis.handling import circle

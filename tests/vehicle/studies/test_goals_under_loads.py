@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from cars.rigid_axles import FIVE
 from kintrafo import Axle, InputError, Model, RigidAxle, Suspension, compliance, report, variation
 from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.assembly.of import assembly_of
@@ -14,7 +15,6 @@ from kintrafo.vehicle.input.toml_writer import write_toml
 from kintrafo.vehicle.plots import curves
 from kintrafo.vehicle.report import compliance_chapter, goals_chapter
 from kintrafo.vehicle.studies.goals import Limit
-from rigid_axles import FIVE
 from scipy.optimize import brentq
 from typer.testing import CliRunner
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from cars.rigid_axles import AXLE, Found
 from kintrafo import (
     Axle,
     InputError,
@@ -23,7 +24,6 @@ from kintrafo.core.validator import Validator
 from kintrafo.vehicle.analysis.scenario import Scenario, run
 from kintrafo.vehicle.models.rigid_axle.model import RigidAxleModel
 from kintrafo.vehicle.studies.design_variables import linkage_of, matching
-from rigid_axles import AXLE, Found
 
 Array = np.ndarray
 ROLLS = np.deg2rad([-3.0, 2.0])

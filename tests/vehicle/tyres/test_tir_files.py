@@ -3,9 +3,9 @@
 import kintrafo
 import numpy as np
 import pytest
+from cars.tyre_files import ELLIPSE, FILES, NEWER, OLDER, with_values, without
 from kintrafo.formulas.coefficients import ODD
 from kintrafo.vehicle.tyres import coefficients
-from tyres import ELLIPSE, FILES, NEWER, OLDER, with_values, without
 
 
 @pytest.fixture

@@ -3,7 +3,7 @@
 import kintrafo
 import numpy as np
 import pytest
-from tyres import OLDER
+from cars.tyre_files import OLDER
 
 TRUTH = kintrafo.tyres.load("passenger_205_55")
 NOISE = {"fy": 30.0, "mz": 1.5}

@@ -5,8 +5,8 @@ import itertools
 import kintrafo
 import numpy as np
 import pytest
+from cars.tyre_files import FILES, NEWER, with_values
 from oracle import magic_formula as oracle
-from tyres import FILES, NEWER, with_values
 
 FIELDS = ("fx", "fy", "mx", "my", "mz", "slip_stiffness", "cornering_stiffness", "trail")
 

@@ -21,7 +21,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from kept import KEPT, UNOPTIMISED
 from kintrafo.generator.equations.outputs import Derivation, generate
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.systems.compile.build import build
@@ -30,6 +29,8 @@ from kintrafo.systems.compile.compiler import FLAGS, Compiler
 from kintrafo.systems.compile.identity import identity, identity_of_derived
 from kintrafo.systems.compile.loader import load
 from oracle.maximal import Motion, Oracle
+
+from support.kept import KEPT, UNOPTIMISED
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

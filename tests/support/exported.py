@@ -8,7 +8,6 @@ from pathlib import Path
 
 import kintrafo
 import pytest
-from kept import UNOPTIMISED
 from kintrafo.generator import (
     Body,
     Direction,
@@ -24,7 +23,9 @@ from kintrafo.generator import (
 from kintrafo.generator.mechanisms import four_bar
 from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.targets.fmi import binaries
-from own_models import STRICT, own
+
+from support.kept import UNOPTIMISED
+from support.models import STRICT, own
 
 CC = ("cc", "-std=c99", *UNOPTIMISED, "-ffp-contract=off", *STRICT)
 

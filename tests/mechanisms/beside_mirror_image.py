@@ -7,12 +7,6 @@ from typing import TYPE_CHECKING
 
 import mpmath
 import numpy as np
-import own_forces
-import own_loops
-import own_mechanisms
-import own_shafts
-import own_wheels
-import own_yokes
 import sympy as sp
 from kintrafo.generator import Copy, Formulation, Mechanism, Revolute, combined
 from kintrafo.generator.equations.design import _angle, design_coordinates
@@ -22,7 +16,16 @@ from kintrafo.generator.mechanisms import MODELS, chains, held_by_rods
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from kintrafo.generator.planning.plan import CataloguePlan
 from kintrafo.generator.program import ConstantStage, Function, Program, Step, ancestors
-from symbolic import python
+from support.symbolic import python
+
+from mechanisms import (
+    coupled_wheels,
+    every_closed_form,
+    every_force,
+    iterated_loops,
+    scotch_yokes,
+    steering_shafts,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -38,21 +41,21 @@ EVERY = {
         *held_by_rods.MODELS,
         *chains.MODELS,
         n_four_bar(2),
-        *own_mechanisms.MODELS,
-        own_loops.CROSSED_RING,
-        own_loops.BALL_RING,
-        own_loops.BENNETT,
-        own_loops.PLATE_ON_A_SLOT,
-        own_loops.PLATE_ON_A_PIN,
-        own_loops.ROCKERS,
-        own_loops.FIVE_BAR,
-        own_loops.DRIVEN_GUIDE,
-        own_loops.FOUR_BAR_AT_ITS_KNEE,
-        own_yokes.SCOTCH_YOKE,
-        own_shafts.crosses_in_a_row(),
-        own_wheels.locomotive(),
-        own_forces.loaded_crank(),
-        own_forces.loaded_bar(),
+        *every_closed_form.MODELS,
+        iterated_loops.CROSSED_RING,
+        iterated_loops.BALL_RING,
+        iterated_loops.BENNETT,
+        iterated_loops.PLATE_ON_A_SLOT,
+        iterated_loops.PLATE_ON_A_PIN,
+        iterated_loops.ROCKERS,
+        iterated_loops.FIVE_BAR,
+        iterated_loops.DRIVEN_GUIDE,
+        iterated_loops.FOUR_BAR_AT_ITS_KNEE,
+        scotch_yokes.SCOTCH_YOKE,
+        steering_shafts.crosses_in_a_row(),
+        coupled_wheels.locomotive(),
+        every_force.loaded_crank(),
+        every_force.loaded_bar(),
     )
 }
 NOT_MIRRORED = ("rockers",)

@@ -14,8 +14,9 @@ from kintrafo.generator import (
     flat,
     hinge,
 )
-from own_mechanisms import NORMAL, askew, declare, guide, heading, reported
-from own_mechanisms import hinge as sketched
+
+from mechanisms.every_closed_form import NORMAL, askew, declare, guide, heading, reported
+from mechanisms.every_closed_form import hinge as sketched
 
 
 def yoke(name: str, *, turned: bool = False, carried: bool = False) -> Formulation:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     import pytest
 
-FILE = Path(__file__).parent / "golden/messages.json"
+FILE = Path(__file__).parents[1] / "golden/messages.json"
 
 
 @cache

@@ -10,11 +10,23 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from kintrafo.generator.mechanisms.chains import AXES, PLACES
-from own_mechanisms import NORMAL, Place, askew, ball, cross, declare, guide, heading, hinge
+
+from mechanisms.every_closed_form import (
+    NORMAL,
+    Place,
+    askew,
+    ball,
+    cross,
+    declare,
+    guide,
+    heading,
+    hinge,
+)
 
 if TYPE_CHECKING:
     from kintrafo.generator import Formulation
-    from own_mechanisms import Sketch
+
+    from mechanisms.every_closed_form import Sketch
 
 BODIES = ["ground", "one", "two", "three", "four", "five", "six"]
 

@@ -6,9 +6,10 @@ A place is a travel of the wheel and a displacement of the rack [m].
 from typing import Any
 
 import numpy as np
-from differences import difference
 from kintrafo import Suspension
+
 from oracle.constraints import KNUCKLE
+from oracle.differences import difference
 from oracle.links import Carrier
 from oracle.newton import Mechanism, observe, solve_pose_at_height
 from oracle.relay_rod import OnRelayRod, linkage_of

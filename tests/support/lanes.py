@@ -10,7 +10,8 @@ import numpy as np
 from kintrafo.simulation.lanes.options import OF_WIDTH
 from numpy.typing import NDArray
 
-ROOT = Path(__file__).parent.parent
+from support.folders import ROOT
+
 HEADERS = ROOT / "runtime/simulation/lanes"
 EMITTED = ROOT / "generated/c"
 # as setup.py has them, but for speed

@@ -11,16 +11,17 @@ from dataclasses import astuple, dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import own_loops
 from kintrafo.generator import Prismatic, Revolute, Universal
 from kintrafo.generator.mechanisms.chains import AXES, PLACES, SEVEN_HINGES
 from kintrafo.generator.mechanisms.held_by_rods import MODELS
 from oracle.constraints import perpendiculars, skew
 from oracle.maximal import Motion, Oracle
-from own_mechanisms import askew
-from placements import Placements
 from scipy.linalg import svd
 from scipy.spatial.transform import Rotation
+from support.placements import Placements
+
+from mechanisms import iterated_loops
+from mechanisms.every_closed_form import askew
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -303,7 +304,7 @@ def _meeting(random: Random) -> dict[str, float]:
 
 
 def _bent(random: Random) -> dict[str, float]:
-    axes = own_loops.hooke_axes(random.uniform(-1.3, 1.3))
+    axes = iterated_loops.hooke_axes(random.uniform(-1.3, 1.3))
     return named({f"axis_{i}": a for i, a in enumerate(axes)}) | named(
         {f"place_{i}": 0.2 * np.array(a) for i, a in enumerate(axes)}
     )
@@ -311,7 +312,7 @@ def _bent(random: Random) -> dict[str, float]:
 
 def _bennett(random: Random) -> dict[str, float]:
     twist, other = random.uniform(0.3, 1.5, 2)
-    model = own_loops.bennett(0.3, twist, other, random.uniform(0.5, 2.5))
+    model = iterated_loops.bennett(0.3, twist, other, random.uniform(0.5, 2.5))
     wanted = ("place", "axis")
     return {p.name: p.default for p in model.mechanism.parameters if p.name.startswith(wanted)}
 
@@ -327,34 +328,34 @@ def _links(random: Random) -> dict[str, float]:
 FAMILIES = (
     Family(
         "planar four-bar driven at its knee",
-        own_loops.FOUR_BAR_AT_ITS_KNEE,
-        _plane(_pins(own_loops.FOUR_BAR_AT_ITS_KNEE), 0.4),
+        iterated_loops.FOUR_BAR_AT_ITS_KNEE,
+        _plane(_pins(iterated_loops.FOUR_BAR_AT_ITS_KNEE), 0.4),
         (2.0 * np.pi,),
     ),
     Family(
         "Stephenson driven from its far side",
-        own_loops.STEPHENSON,
-        _plane(_pins(own_loops.STEPHENSON), 0.5),
+        iterated_loops.STEPHENSON,
+        _plane(_pins(iterated_loops.STEPHENSON), 0.5),
         (np.pi,),
     ),
     Family(
         "two of them in a row",
-        own_loops.IN_A_ROW,
-        _near(own_loops.IN_A_ROW, 0.05),
+        iterated_loops.IN_A_ROW,
+        _near(iterated_loops.IN_A_ROW, 0.05),
         (0.8,),
         quick=False,
     ),
     Family(
         "planar 3-RRR",
-        own_loops.THREE_RRR,
-        _plane(_pins(own_loops.THREE_RRR), 0.5),
+        iterated_loops.THREE_RRR,
+        _plane(_pins(iterated_loops.THREE_RRR), 0.5),
         (1.2,) * 3,
         quick=False,
     ),
-    Family("Hooke joint of hinges", own_loops.HOOKE, _bent, (4.0 * np.pi,)),
-    Family("spherical four-bar", own_loops.SPHERICAL, _meeting, (2.0 * np.pi,)),
-    Family("Bennett", own_loops.BENNETT, _bennett, (2.0 * np.pi,)),
-    Family("ball joint in a ring of hinges", own_loops.BALL_RING, _ring(5, 0.5), (np.pi,)),
+    Family("Hooke joint of hinges", iterated_loops.HOOKE, _bent, (4.0 * np.pi,)),
+    Family("spherical four-bar", iterated_loops.SPHERICAL, _meeting, (2.0 * np.pi,)),
+    Family("Bennett", iterated_loops.BENNETT, _bennett, (2.0 * np.pi,)),
+    Family("ball joint in a ring of hinges", iterated_loops.BALL_RING, _ring(5, 0.5), (np.pi,)),
     Family("ring of seven hinges", SEVEN_HINGES, _ring(7, 0.5), (np.pi,), quick=False),
     Family("carrier on three rods", MODELS[0], _links, (1.2, 0.0, 0.15), quick=False),
 )

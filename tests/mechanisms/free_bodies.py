@@ -6,7 +6,6 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from changes import changed
 from kintrafo.generator import (
     AccelerationOf,
     AlongLine,
@@ -35,12 +34,13 @@ from kintrafo.generator import (
     Weight,
 )
 from kintrafo.generator.declare.world import WORLD
+from support.changes import changed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from oracle.maximal import Motion, Reduced
-    from own_models import Built
+    from support.models import Built
 
 INERTIA = (0.11, 0.23, 0.31, 0.02, -0.03, 0.01)
 

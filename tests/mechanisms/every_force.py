@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from changes import named
 from kintrafo.generator import (
     Actuator,
     AlongGuide,
@@ -33,7 +32,9 @@ from kintrafo.generator import (
     TorsionProgression,
     TorsionRate,
 )
-from own_mechanisms import moving_slider_crank, oblique_four_bar
+from support.changes import named
+
+from mechanisms.every_closed_form import moving_slider_crank, oblique_four_bar
 
 if TYPE_CHECKING:
     from kintrafo.generator import Prismatic, Revolute

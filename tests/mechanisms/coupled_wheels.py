@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from own_mechanisms import NORMAL, askew, declare, guide, hinge
+from mechanisms.every_closed_form import NORMAL, askew, declare, guide, hinge
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

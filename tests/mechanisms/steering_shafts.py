@@ -6,11 +6,13 @@ from math import atan2, cos, sin
 from typing import TYPE_CHECKING
 
 import numpy as np
-from own_mechanisms import cross, declare, guide, hinge
+
+from mechanisms.every_closed_form import cross, declare, guide, hinge
 
 if TYPE_CHECKING:
     from kintrafo.generator import Formulation
-    from own_mechanisms import Place
+
+    from mechanisms.every_closed_form import Place
 
 
 def column(

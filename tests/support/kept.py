@@ -2,9 +2,10 @@
 
 import shutil
 import time
-from pathlib import Path
 
-KEPT = Path(__file__).parents[1] / "build" / "tests"
+from support.folders import ROOT
+
+KEPT = ROOT / "build/tests"
 """The folder: a folder for each model, and beside it a lock whose date is that of the last use."""
 UNOPTIMISED = ("-O0", "-Dalways_inline=unused")
 """Options of compilers, with which they take a tenth of the time: half of it because functions are

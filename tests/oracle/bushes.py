@@ -9,9 +9,10 @@ import numpy as np
 from kintrafo import Axle, Model, Suspension, arm_angles
 from kintrafo.vehicle.models.positions import design_height
 from kintrafo.vehicle.models.reach import at_rest
-from oracle.constraints import Assembler, Pose
 from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
 from scipy.spatial.transform import Rotation
+
+from oracle.constraints import Assembler, Pose
 
 # Without preload, as the linear theory has it, and with a stop that just touches.
 FREE = {

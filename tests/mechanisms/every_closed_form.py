@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from changes import changed
 from kintrafo.generator import (
     FORWARD,
     AlongLine,
@@ -42,6 +41,7 @@ from kintrafo.generator import (
     Weight,
     Weld,
 )
+from support.changes import changed
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

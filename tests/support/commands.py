@@ -6,19 +6,18 @@ import runpy
 import sys
 import warnings
 from contextlib import chdir
-from pathlib import Path
 from typing import TYPE_CHECKING
 from unittest.mock import patch
 
 import pytest
 from rich.text import Text
 
+from support.folders import ROOT
+
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from rich.table import Table
-
-ROOT = Path(__file__).parents[1]
 
 
 def run_module(name: str, *arguments: object) -> None:

@@ -9,6 +9,8 @@ import numpy as np
 if TYPE_CHECKING:
     from pathlib import Path
 
+    import xarray as xr
+
 Array = np.ndarray
 
 
@@ -94,3 +96,9 @@ def wrenches(path: Path) -> dict[str, Array]:
         )
         for case, own in loads.items()
     }
+
+
+def wrench(chosen: xr.Dataset) -> np.ndarray:
+    """Return the sums of forces, and of moments about the origin, of some loads: (..., 6)."""
+    force, moment, at = (chosen[name].values for name in ("force", "moment", "at"))
+    return np.concatenate([force.sum(-2), (moment + np.cross(at, force)).sum(-2)], axis=-1)

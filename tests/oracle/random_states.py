@@ -10,7 +10,7 @@ from kintrafo.generator.backends.counting import operations_of
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.loader import load
-from own_models import Built
+from support.models import Built
 
 if TYPE_CHECKING:
     from pathlib import Path

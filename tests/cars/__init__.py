@@ -1,0 +1,1 @@
+"""Suspensions, axles and cars that several tests use, and files of them."""

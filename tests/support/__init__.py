@@ -1,0 +1,1 @@
+"""Tools of tests: compiled models, changed declarations, emitted text, messages, browsers."""
