@@ -35,11 +35,12 @@ _LIMITS = {
 _HEAD = """\
 # Input file
 
-A suspension is a TOML file. `kintrafo new FILE` writes an annotated starter file. The name of
-a key ends in its unit; `[hardpoints]` has one `unit` for all of its points. Points are `[x, y, z]`
-in chassis axes of ISO 8855 (x forward, y left, z up), at the design position. The line
-`suspension = "..."` above the first section names the type of the suspension; keys that
-only one type has are in the part of that type below.
+A suspension, an axle, a car or a manoeuvre is a TOML file. `kintrafo new FILE` writes an annotated
+starter file. The name of a key ends in its unit; `[hardpoints]` has one `unit` for all of its
+points. Points are `[x, y, z]` in chassis axes of ISO 8855 (x forward, y left, z up), at the design
+position. The line `suspension = "..."` above the first section names the type of the suspension;
+keys that only one type has are in the part of that type below. A key without a default (`-`) may be
+left out; its meaning names the value or the key that then applies, if there is one.
 
 The file is checked as a whole. Every problem is reported at once, with the value, the unit, the
 allowed range and what to do:

@@ -157,8 +157,10 @@ class DoubleWishboneBodies(Bodies):
     lower_arm: LowerArm = Field(description="the lower arm")
     upper_arm: UpperArm = Field(description="the upper arm")
     knuckle: UprightBody = Field(description="the knuckle")
-    tie_rod: TieRod = Field(default=TieRod(mass_kg=0.0), description="the tie rod, without mass")
-    rack: Rack = Field(default=Rack(mass_kg=0.0), description="the rack, without mass")
+    tie_rod: TieRod = Field(
+        default=TieRod(mass_kg=0.0), description="the tie rod, whose mass must be 0"
+    )
+    rack: Rack = Field(default=Rack(mass_kg=0.0), description="the rack, whose mass must be 0")
 
 
 class DoubleWishbone(CoilSprung):

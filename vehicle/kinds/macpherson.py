@@ -213,11 +213,11 @@ class MacPherson(Suspension):
     STOPPED: ClassVar[str] = "strut"
     PAGE: ClassVar[str] = """, which may be left out.
 
-The free length of the spring is given in one of four ways: by the slide of the strut
-(`spring_free_slide_mm`), by the distance of the seats (`spring_free_length_mm`), by the force with
-the strut extended (`spring_preload_N`), or by the force at the design position
-(`spring_force_at_design_N`). The damper has a rate in `[strut]` or a curve in `[damper]`, the
-spring a rate in `[strut]` or a curve in `[spring]`."""
+The *slide* of the strut is its compression from `length_max_mm`. The free length of the spring is
+given in one of four ways: by the slide (`spring_free_slide_mm`), by the distance of the seats
+(`spring_free_length_mm`), by the force with the strut extended (`spring_preload_N`), or by the
+force at the design position (`spring_force_at_design_N`). The damper has a rate in `[strut]` or a
+curve in `[damper]`, the spring a rate in `[strut]` or a curve in `[spring]`."""
 
     suspension: Literal["macpherson"] = Field(
         default="macpherson", description="the kind of suspension"

@@ -176,16 +176,20 @@ class MultiLinkBodies(Bodies):
         description="the rear lower link, which carries the spring"
     )
     front_upper_link: FrontUpperLink = Field(
-        default=FrontUpperLink(mass_kg=0.0), description="the front upper link, without mass"
+        default=FrontUpperLink(mass_kg=0.0),
+        description="the front upper link, whose mass must be 0",
     )
     rear_upper_link: RearUpperLink = Field(
-        default=RearUpperLink(mass_kg=0.0), description="the rear upper link, without mass"
+        default=RearUpperLink(mass_kg=0.0), description="the rear upper link, whose mass must be 0"
     )
     front_lower_link: FrontLowerLink = Field(
-        default=FrontLowerLink(mass_kg=0.0), description="the front lower link, without mass"
+        default=FrontLowerLink(mass_kg=0.0),
+        description="the front lower link, whose mass must be 0",
     )
-    tie_rod: TieRod = Field(default=TieRod(mass_kg=0.0), description="the toe link, without mass")
-    rack: Rack = Field(default=Rack(mass_kg=0.0), description="the rack, without mass")
+    tie_rod: TieRod = Field(
+        default=TieRod(mass_kg=0.0), description="the toe link, whose mass must be 0"
+    )
+    rack: Rack = Field(default=Rack(mass_kg=0.0), description="the rack, whose mass must be 0")
 
 
 class MultiLink(CoilSprung):

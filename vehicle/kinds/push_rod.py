@@ -116,10 +116,12 @@ class PushRodBodies(RockerBodies):
     MASSLESS: ClassVar[tuple[str, ...]] = ("tie_rod", "rack", "push_rod")
 
     push_rod: PushRodBody = Field(
-        default=PushRodBody(mass_kg=0.0), description="the push rod, without mass"
+        default=PushRodBody(mass_kg=0.0), description="the push rod, whose mass must be 0"
     )
-    tie_rod: TieRod = Field(default=TieRod(mass_kg=0.0), description="the tie rod, without mass")
-    rack: Rack = Field(default=Rack(mass_kg=0.0), description="the rack, without mass")
+    tie_rod: TieRod = Field(
+        default=TieRod(mass_kg=0.0), description="the tie rod, whose mass must be 0"
+    )
+    rack: Rack = Field(default=Rack(mass_kg=0.0), description="the rack, whose mass must be 0")
 
 
 class PushRod(DoubleWishbone):
