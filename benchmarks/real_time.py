@@ -22,8 +22,8 @@ STEPS = (50e-3, 20e-3, 10e-3, 5e-3, 2e-3, 1e-3, 0.5e-3)  # [s]
 REPEATS = 5
 
 
-def rows(steps: tuple[float, ...]) -> Iterator[tuple[str, ...]]:
-    """Yield what comes of each length."""
+def rows(steps: tuple[float, ...], unstable: dict[float, float]) -> Iterator[tuple[str, ...]]:
+    """Yield the row of each step; `unstable` receives the others, with the longest stable step."""
     model = Model("reference_car")
     start = state_at_height(model, 0.325, spin_rate=93.0)
     truth = simulate(model, SPAN, start, method="DOP853", t_eval=TIMES, rtol=1e-13, atol=1e-15).y[0]
@@ -39,7 +39,7 @@ def rows(steps: tuple[float, ...]) -> Iterator[tuple[str, ...]]:
             found = simulate(model, SPAN, start, method="RK4", step=step, t_eval=TIMES)
         except SimulationError as error:
             longest = error.reason.partition("needs steps of ")[2].partition(" s")[0]
-            yield shown, "refused", "", f"{float(longest) * 1e3:g} ms at most", "", "", ""
+            unstable[step] = float(longest)
             continue
         stepped = min(
             seconds_of(lambda stepper=stepper: [stepper.step() for _ in range(1000)])
@@ -70,8 +70,15 @@ def run(
         "step [ms]", "steps", "evaluations", "error [rad]", "a step in `simulate` [µs]",
         "one of `Stepper` [µs]", "four evaluations in Python [µs]",
     )  # fmt: skip
+    unstable: dict[float, float] = {}
+    table = markdown_table(header, list(rows(STEPS[:2] if quick else STEPS, unstable)))
+    sentences = [
+        f"A step of {step * 1e3:g} ms is an error, since it is not stable: the longest stable step "
+        f"at the time of the error is {longest * 1e3:g} ms."
+        for step, longest in unstable.items()
+    ]
     blocks = {
-        "steps": markdown_table(header, list(rows(STEPS[:2] if quick else STEPS))),
+        "steps": "\n\n".join((table, *sentences)),
         "machine": machine_line(environment()).replace("Processor time on", "Measured on"),
     }
     Console().print(Markdown("\n\n".join(blocks.values())))

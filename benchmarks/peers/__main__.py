@@ -82,7 +82,8 @@ def _simulators(
     begin = instant(start())
     for entry in entries:
         if entry.evaluation.flags == "native" and entry.library.source.is_derivative:
-            name = f"{entry.evaluation.name} ({entry.evaluation.parameters})"
+            literal = entry.evaluation.parameters == "literal"
+            name = f"{entry.evaluation.name}{', numbers' if literal else ''}"
             yield simulations.runge_kutta(name, entry.library, entry.built.state(begin))
     for package, tool in (
         ("casadi", simulations.casadi_plain),
