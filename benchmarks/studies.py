@@ -6,6 +6,7 @@ import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -27,6 +28,10 @@ HEIGHT = {"roll_center_height_kinematic": {"at_mm": 0.0, "least": 100.0}}
 BALL_JOINT = {"hardpoints.ball_joint.z": 10.0}
 ROLL_CENTER = {"roll_center_height_kinematic": {"at_mm": 0.0}}
 SCRUB = {"scrub_radius": {"at_mm": 0.0, "most": 21.0}}
+# those of the examples on the page, for its pictures
+SHOWN_FREE = {"hardpoints.tie_rod_inner": 10.0, "hardpoints.tie_rod_outer.z": 10.0}
+SHOWN_TOE = {"toe": {"at_mm": [-60, -40, -20, 0, 20, 40, 60], "value": 0.0, "within": 0.02}}
+SHOWN_TOLERANCES = {"hardpoints": 1.0, "hardpoints.tie_rod_inner": 0.5}
 LIMITS = {"bump_steer": {"at_mm": [-20.0, 0.0, 20.0], "least": 0.005, "most": 0.008}}
 CARS = 500
 MANY = 20_000
@@ -105,8 +110,8 @@ def pareto() -> int:
     return _front().evaluations
 
 
-def _front() -> variation.Front:
-    return variation.pareto(CAR, FREE | BALL_JOINT, TOE, maximise=ROLL_CENTER, limits=SCRUB)
+def _front(toe: dict[str, dict[str, Any]] = TOE) -> variation.Front:
+    return variation.pareto(CAR, FREE | BALL_JOINT, toe, maximise=ROLL_CENTER, limits=SCRUB)
 
 
 def draw() -> None:
@@ -117,18 +122,18 @@ def draw() -> None:
         of = ["bump_steer", "camber_gradient"]
         pictures.write_bars(bars, folder / "sensitivity.png", of, title="reference car, at design")
         bands = variation.tolerance(
-            CAR, {"hardpoints": 1.0}, count=CARS, names=["bump_steer", "caster"]
+            CAR, SHOWN_TOLERANCES, count=CARS, names=["bump_steer", "caster"]
         )
         pictures.write_bands(
             bands,
             folder / "tolerance.png",
             ["bump_steer", "caster"],
             limits=variation.limits(LIMITS),
-            title=f"{CARS} cars: 1 mm is three standard deviations of each coordinate",
+            title=f"{CARS} cars",
         )
-        found = variation.optimise(CAR, FREE, TOE, HEIGHT)
+        found = variation.optimise(CAR, SHOWN_FREE, SHOWN_TOE, HEIGHT)
         pictures.write_optimum(found, folder / "optimise.png", title="reference car")
-        fronts.write_front(_front(), folder / "pareto.png", title="reference car")
+        fronts.write_front(_front(SHOWN_TOE), folder / "pareto.png", title="reference car")
         curves.write_overview(_fitted(), folder / "fit.png", title="reference car as built")
         for picture in folder.iterdir():
             shutil.copyfile(picture, IMAGES / picture.name)
