@@ -76,7 +76,10 @@ class _Steps(OdeSolver):
         self._whole, self._longest, self._stuck = abs(t_bound - t0), 0.0, 0
         self._taken, self._noted = 0, t0
         lapse = SMALLEST_OF_STEP * self._whole
-        self._limit(*self.watch.approach.look(self.t, self.y, lapse), lapse)
+        now, gained = self.watch.approach.look(self.t, self.y, lapse)
+        if (beyond := self.watch.approach.crossed(now)) is not None:
+            raise DeadPoint(beyond, self.t, self.y)
+        self._limit(now, gained, lapse)
 
     def step(self) -> str | None:
         try:

@@ -137,6 +137,24 @@ def test_a_motion_ends_at_a_dead_point(driven: kintrafo.System, method: Any, tur
     assert caught.value.time * turns == pytest.approx(dead / (2.0 * np.pi), abs=2e-9)
 
 
+@pytest.mark.parametrize("rate", [1.0, -1.0])
+@pytest.mark.parametrize("method", METHODS)
+def test_a_motion_that_begins_beyond_a_dead_point_ends_there(
+    driven: kintrafo.System, method: Any, rate: float
+) -> None:
+    """Whether it moves on, or back to where the loop closes."""
+    with pytest.raises(kintrafo.SimulationError, match="beyond its dead point") as caught:
+        kintrafo.simulate(
+            driven,
+            (2.0, 4.0),
+            [],
+            inputs={"drive_position": lambda t: 1.0 + rate * (t - 2.0)},
+            method=method,
+        )
+    assert caught.value.time == 2.0
+    assert caught.value.partial.t.tolist() == [2.0]
+
+
 def test_methods_that_need_a_state_say_so(lift: kintrafo.System) -> None:
     for method in ("Adams", "Verner"):
         with pytest.raises(kintrafo.InputError, match="all that moves here is prescribed"):
