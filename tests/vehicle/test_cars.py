@@ -8,6 +8,7 @@ import kintrafo
 import numpy as np
 import pytest
 from kintrafo.vehicle.analysis.characteristics import datasets
+from kintrafo.vehicle.assembly.car import CarAssembly
 from kintrafo.vehicle.models.car import Car
 from kintrafo.vehicle.models.car.car import center_of_gravity, masses, suspension_masses
 from kintrafo.vehicle.models.car.equations import CarModel, _parameters, declared
@@ -120,6 +121,33 @@ def test_masses_are_those_of_the_bodies_in_the_equations(front: str, rear: str) 
     # rounding, of sums of some 20 products
     center = np.average(places, axis=0, weights=weights)
     np.testing.assert_allclose(center_of_gravity(car), center, rtol=0.0, atol=1e-14)
+
+
+def test_characteristics_have_the_data_of_the_car() -> None:
+    """Wheelbase, brakes and masses are those of its file if those of its axles lack them."""
+    given = Car.load("reference_vehicle")
+    lacking = {"front": _of_any_car("reference_axle"), "rear": _of_any_car("rear_axle")}
+    without = Car.from_dict(
+        given.to_dict() | lacking | {"brakes": {"front_share": 0.7, "torque_Nm": 9e3}}
+    )
+    assert "[brakes] torque_Nm" in without.unused
+    found, expected = (datasets.over(car, "heave", [0.0]) for car in (without, given))
+    height = float(center_of_gravity(given)[2])
+    assert abs(height - 0.55) > 1e-4
+    for name in ("anti_dive", "anti_lift_braked", "anti_lift_driven"):
+        # rounding of some ten operations
+        np.testing.assert_allclose(found[name], 0.55 / height * expected[name], rtol=1e-14)
+    assert without.to_dict()["front"] == lacking["front"]
+
+
+@pytest.mark.parametrize("end", ["front", "rear"])
+def test_a_car_with_different_sides_of_one_axle_is_not_symmetric(end: str) -> None:
+    car = Car.load("reference_vehicle")
+    assert CarAssembly(car).symmetric
+    assert kintrafo.sheet.sheet(car).attrs["sides"] == "mirror images"
+    other = car.with_changes({f"{end}.left.tyre.rate_N_per_m": 2e5})
+    assert not CarAssembly(other).symmetric
+    assert kintrafo.sheet.sheet(other).attrs["sides"] == "different"
 
 
 def test_a_quarter_car_rests_on_its_spring(quarter: CarModel) -> None:

@@ -115,8 +115,8 @@ class CarAssembly(Assembly):
         own, left_out = self.car.to_dict(), {"tyre"} if self.car.drives else set()
         found = {
             f"{name}.{begin}": {key: v for key, v in sections.items() if key not in left_out}
-            for name, part in self.held_parts.items()
-            for begin, sections in part.design_sections.items()
+            for name, part in self.car.parts.items()  # as their files describe them
+            for begin, sections in _held(part).design_sections.items()
         }
         return found | {"": {name: v for name, v in own.items() if name not in self.held_parts}}
 

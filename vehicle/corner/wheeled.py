@@ -1,5 +1,6 @@
 """The base of suspensions and of axles without sides: the data of one file with wheels."""
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Self
 
 from ...core.columns import number
@@ -71,6 +72,11 @@ class WheeledSection(DescribedSection):
     def on_tyre(self, tyre: "TyreSection") -> Self:
         """Return the same data with another tyre."""
         return self.model_copy(update={"tyre": tyre})
+
+    def in_vehicle(self, known: Mapping[str, float | None]) -> Self:
+        """Return the same data in a vehicle with known values of keys that ``[vehicle]`` lacks."""
+        found = {key: value for key, value in known.items() if getattr(self.vehicle, key) is None}
+        return self.model_copy(update={"vehicle": self.vehicle.model_copy(update=found)})
 
     def rate_key(self, part: str) -> str:
         """Return the key of the rate of a part, "spring" or "damper", or of the spring's curve."""

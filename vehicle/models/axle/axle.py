@@ -325,6 +325,10 @@ class Axle(DescribedParts):
         """Return the axle on another tyre, see `Suspension.on_tyre`."""
         return replace(self, right=self.right.on_tyre(tyre), left=self.left.on_tyre(tyre))
 
+    def in_vehicle(self, known: Mapping[str, float | None]) -> Self:
+        """Return the axle in a vehicle, see `WheeledSection.in_vehicle`."""
+        return replace(self, right=self.right.in_vehicle(known), left=self.left.in_vehicle(known))
+
     def heading(self) -> str:
         """Return the name of the axle."""
         kinds = " and ".join(dict.fromkeys(side.TITLE for side in self.sides.values()))

@@ -171,10 +171,16 @@ class Car(DescribedParts):
     def axles(self) -> dict[str, AnyAxle]:
         """The front and the rear axle, by end; empty for a quarter car.
 
-        Those of a car that drives are on its tyres: their ``[tyre]`` is the tyre of ``[tyres]``
-        under the static load, see `under_load`.
+        Their ``[vehicle]`` has the data of the car, where their files lack them. Those of a car
+        that drives are on its tyres: their ``[tyre]`` is the tyre of ``[tyres]`` under the static
+        load, see `under_load`.
         """
-        axles = self.described_axles
+        known = {
+            "wheelbase_mm": self.described.wheelbase_mm,
+            "center_of_gravity_height_mm": float(1e3 * center_of_gravity(self)[2]),
+            "front_brake_share": self.front_brake_share,
+        }
+        axles = {end: axle.in_vehicle(known) for end, axle in self.described_axles.items()}
         if not self.drives:
             return axles
         return {
@@ -315,7 +321,9 @@ class Car(DescribedParts):
     def _unused_of_driving(self) -> list[str]:
         """Return the unused keys of driving; of a driving car those that its tyres replace."""
         if not self.drives:
-            return [f"[{k}]" for k in OF_DRIVING if getattr(self.described, k) is not None]
+            given = [key for key in OF_DRIVING if getattr(self.described, key) is not None]
+            # the share of the brakes is one of the data of the vehicle
+            return ["[brakes] torque_Nm" if key == "brakes" else f"[{key}]" for key in given]
         words = [f"{end} axle: [tyre] (a car that drives takes [tyres])" for end in ENDS]
         return words + [
             f"[tyres] {end}: {', '.join(tyre.left_out)}"
@@ -443,6 +451,13 @@ def _problems_of_shared(car: Car) -> list[str]:
             f"[vehicle] front_brake_share is {' and '.join(f'{s:g}' for s in sorted(shares))} in "
             "the files of the axles. Make them equal."
         )
+    brakes = car.described.brakes
+    if brakes is not None and brakes.front_share is not None:
+        problems += [
+            f"[brakes] front_share = {brakes.front_share:g}, and front_brake_share is {other:g} in "
+            "the file of an axle. Make them equal, or remove the first."
+            for other in sorted(shares - {brakes.front_share})
+        ]
     return problems
 
 
@@ -466,8 +481,11 @@ def _problems_of_driving(car: Car) -> list[str]:
         )
     if car.column is not None:
         problems += _problems_of_column(car.described_axles["front"])
-    if car.described.brakes is not None:
-        problems += _problems_of_brakes(car)
+    if car.described.brakes is not None and car.front_brake_share is None:
+        problems.append(
+            "[brakes] front_share is missing: the part of the torque at the front wheels. Add it, "
+            "or front_brake_share in [vehicle] of an axle's file."
+        )
     for end, tyre in car.tyres.items():
         height = max(float(car.wheel_centers[f"{end}_{side}"][2]) for side in SIDES)
         if not height < tyre.free_radius + _HIGHEST:
@@ -509,25 +527,6 @@ def _problems_of_column(front: AnyAxle) -> list[str]:
     else:
         return []
     return [f"[steering_column]: {problem}"]
-
-
-def _problems_of_brakes(car: Car) -> list[str]:
-    own = car.described.brakes.front_share if car.described.brakes is not None else None
-    shares = (axle.vehicle.front_brake_share for axle in car.described_axles.values())
-    theirs = {share for share in shares if share is not None}
-    if own is None and not theirs:
-        problem = (
-            "[brakes] front_share is missing: the part of the torque at the front wheels. Add it, "
-            "or front_brake_share in [vehicle] of an axle's file."
-        )
-        return [problem]
-    if own is None:
-        return []
-    return [
-        f"[brakes] front_share = {own:g}, and front_brake_share is {other:g} in the file of an "
-        "axle. Make them equal, or remove the first."
-        for other in sorted(theirs - {own})
-    ]
 
 
 def masses(car: Car) -> list[tuple[float, Array]]:
