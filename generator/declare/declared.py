@@ -22,7 +22,8 @@ from typing import Annotated, Any, SupportsFloat, TypeVar, cast, get_type_hints
 
 import numpy as np
 from pydantic import AfterValidator, BeforeValidator, Field, ValidationError, validate_call
-from pydantic_core import PydanticCustomError
+from pydantic_core import CoreSchema, PydanticCustomError
+from pydantic_core.core_schema import is_instance_schema
 
 from ...core.errors import KintrafoError
 from ...core.legible import strange
@@ -98,10 +99,19 @@ Numeral = Annotated[int, Field(ge=0)]
 
 
 def declared(cls: Declared) -> Declared:
-    """Return a dataclass that checks its arguments."""
+    """Return a dataclass that checks its arguments.
+
+    Its objects are checked when they are made: as arguments of others, their type is sufficient.
+    """
+    setattr(cls, "__get_pydantic_core_schema__", classmethod(_of_type))  # noqa: B010 (as below)
     checked_init = _checked(vars(cls)["__init__"], cls.__name__, cls)
     setattr(cls, "__init__", checked_init)  # noqa: B010 (mypy allows no assignment to a method)
     return cls
+
+
+def _of_type(cls: type, _source: object, _handler: object) -> CoreSchema:
+    """Return the schema of an argument that is an object of a class."""
+    return is_instance_schema(cls)
 
 
 def checked(function: Function) -> Function:
