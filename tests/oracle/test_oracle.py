@@ -30,7 +30,7 @@ ROUND_OFF = 1e-14
 
 
 @pytest.fixture(scope="module")
-def car() -> Mechanism:
+def car():
     return Mechanism(reference_parameters())
 
 
@@ -39,7 +39,7 @@ def car() -> Mechanism:
     params=[(make, seed) for make in (perturbed_parameters, general_parameters) for seed in (0, 1)],
     ids=lambda value: f"{value[0].__name__}-{value[1]}",
 )
-def other_car(request: pytest.FixtureRequest) -> Mechanism:
+def other_car(request):
     make, seed = request.param
     return Mechanism(make(np.random.default_rng(seed)))
 
@@ -82,7 +82,7 @@ class Path:
         return solve_pose(self._mechanism, self._mechanism.beta1_design + beta1, rack, spin, start)
 
 
-def test_parameters_round_trip() -> None:
+def test_parameters_round_trip():
     parameters = perturbed_parameters(np.random.default_rng(7))
     copy = dict(parameters)
     for body in GENERAL_BODIES:
@@ -98,24 +98,24 @@ def test_parameters_round_trip() -> None:
     assert mirrored_parameters(mirrored_parameters(parameters)) == parameters
 
 
-def test_design_position(car: Mechanism) -> None:
+def test_design_position(car):
     assert car.beta1_design == pytest.approx(BETA1_DESIGN, abs=1e-15)
     assert car.joints.size == 33
     assert residual_norm(car, car.design) < ROUND_OFF
 
 
 @pytest.mark.parametrize(("arm", "rack"), [(0.0, 0.3), (0.0, -0.3), (-1.44, 0.0)])
-def test_refuses_what_cannot_be_assembled(car: Mechanism, arm: float, rack: float) -> None:
+def test_refuses_what_cannot_be_assembled(car, arm, rack):
     with pytest.raises(AssemblyError):
         solve_pose(car, car.beta1_design + arm, rack)
 
 
-def test_lagrange_equations_from_energies_alone(other_car: Mechanism) -> None:
+def test_lagrange_equations_from_energies_alone(other_car):
     """d/dt (dT/dq') - dT/dq = Q, with T from the twists and no acceleration or Euler equation."""
     path = Path(other_car)
     q = np.array([other_car.beta1_design + path.value[0], path.value[1], path.value[2]])
 
-    def mass_matrix(coordinates: Array) -> Array:
+    def mass_matrix(coordinates):
         pose = solve_pose(other_car, coordinates[0], coordinates[2], coordinates[1], path.start)
         unit = [solve_twist(other_car, pose, *column) for column in np.eye(3)]
         matrix = np.zeros((3, 3))
@@ -140,17 +140,17 @@ def test_lagrange_equations_from_energies_alone(other_car: Mechanism) -> None:
     assert reduced.inertial == pytest.approx(inertial, rel=1e-8, abs=1e-7)
 
 
-def test_generalised_forces_are_virtual_work(other_car: Mechanism) -> None:
+def test_generalised_forces_are_virtual_work(other_car):
     """The forces again, from the points and directions in words, by displacing them."""
     path = Path(other_car)
     given = other_car.parameters
     inputs = {"rack_force": 55.0, "road_height": 0.05, "road_velocity": 0.4, "strut_force": 700.0}
     reduced = reduced_equations(other_car, path.start, *path.rate, **inputs)
 
-    def length(t: float) -> Array:
+    def length(t):
         return np.array(observe(other_car, path.pose(t)).strut_length)
 
-    def height(t: float) -> Array:
+    def height(t):
         return np.array(observe(other_car, path.pose(t)).wheel_center[2])
 
     now = observe(other_car, path.start)
@@ -174,7 +174,7 @@ def test_generalised_forces_are_virtual_work(other_car: Mechanism) -> None:
     sine = now.spin_axis[2]
     tyre = load * (np.array([0.0, 0.0, 1.0]) - sine * now.spin_axis) / (1.0 - sine**2)
 
-    def work(step: Array) -> Array:
+    def work(step):
         beta1, spin, rack = path.value + step
         pose = solve_pose(other_car, other_car.beta1_design + beta1, rack, spin, path.start)
         there = observe(other_car, pose)
@@ -190,7 +190,7 @@ def test_generalised_forces_are_virtual_work(other_car: Mechanism) -> None:
     assert reduced.applied == pytest.approx(expected, rel=1e-9, abs=1e-8)
 
 
-def test_absent_parts_are_the_papers_suspension() -> None:
+def test_absent_parts_are_the_papers_suspension():
     parameters = perturbed_parameters(np.random.default_rng(3))
     complete = completed(parameters)
     assert {name: complete[name] for name in parameters} == parameters

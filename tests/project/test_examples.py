@@ -207,7 +207,7 @@ def run_line(kintrafo: Any, line: str, files: Files) -> tuple[str, list[Path]]:
 @pytest.mark.usefixtures("coarse_report", "first_page_of_curves", "one_picture")
 @pytest.mark.usefixtures("few_frames", "few_generations")
 @pytest.mark.parametrize("line", [line for line in EXAMPLES if line not in ON_PAGES])
-def test_every_example_of_a_help_text_runs(kintrafo: Any, line: str) -> None:
+def test_every_example_of_a_help_text_runs(kintrafo, line):
     run_line(kintrafo, line, FILES | FILES_OF.get(shlex.split(line)[1], {}))
 
 
@@ -343,12 +343,7 @@ def toe_at_60_mm(car: Suspension) -> float:
 
 @pytest.mark.parametrize("page", PAGES)
 @pytest.mark.usefixtures("coarse_report", "one_picture", "few_frames", "few_generations")
-def test_the_commands_of_a_page_run(
-    kintrafo: Any,
-    page: str,
-    request: pytest.FixtureRequest,
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_the_commands_of_a_page_run(kintrafo, page, request, capsys):
     """In their order, in one folder; one page draws all groups of curves."""
     if page in COMPILED and find_compiler() is None:
         pytest.skip("no C compiler")

@@ -10,9 +10,9 @@ TOLERANCE = 1e-10
 
 @pytest.mark.numbers
 @pytest.mark.parametrize("subject", SUBJECTS)
-def test_no_number_has_changed(subject: str) -> None:
+def test_no_number_has_changed(subject):
     assert differences(subject, TOLERANCE) == [], "if on purpose: make golden ARGS=store"
 
 
-def test_commands_have_the_same_exit_codes_columns_and_keys() -> None:
+def test_commands_have_the_same_exit_codes_columns_and_keys():
     assert differences(COMMANDS, TOLERANCE) == []

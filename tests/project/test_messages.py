@@ -6,7 +6,7 @@ import pytest
 from support import messages
 
 
-def test_every_message_is_of_a_test(request: pytest.FixtureRequest) -> None:
+def test_every_message_is_of_a_test(request):
     """Of the files that are run; of a part of a file, nothing is known."""
     if request.config.option.keyword:
         pytest.skip("a part of the tests")

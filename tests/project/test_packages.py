@@ -12,7 +12,7 @@ ROOTS = {
 }
 
 
-def test_every_folder_of_modules_is_packaged() -> None:
+def test_every_folder_of_modules_is_packaged():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     named = project["tool"]["setuptools"]["packages"]
     folders = {

@@ -215,7 +215,7 @@ def link(place: Path, target: Path) -> None:
 
 
 @pytest.fixture
-def copy(tmp_path: Path) -> Path:
+def copy(tmp_path):
     """Return a folder in which ``kintrafo`` has the files of all walks."""
     package = tmp_path / "kintrafo"
     package.mkdir()
@@ -246,7 +246,7 @@ def own_folder(package: Path, parts: tuple[str, ...]) -> Path:
     return here
 
 
-def test_the_walks_are_done_on_a_copy(copy: Path) -> None:
+def test_the_walks_are_done_on_a_copy(copy):
     done = subprocess.run(
         [sys.executable, "-c", FOUND],
         cwd=copy,
@@ -269,7 +269,7 @@ def section(name: str) -> str:
 
 
 @pytest.mark.parametrize("name", WALKS)
-def test_a_walk_names_the_folders_of_its_files(name: str) -> None:
+def test_a_walk_names_the_folders_of_its_files(name):
     text = section(name)
     for path in WALKS[name]:
         parts = Path(path)
@@ -277,7 +277,7 @@ def test_a_walk_names_the_folders_of_its_files(name: str) -> None:
         assert any(words in text for words in where), path
 
 
-def test_the_walk_of_a_joint_names_every_file_that_distinguishes_joints() -> None:
+def test_the_walk_of_a_joint_names_every_file_that_distinguishes_joints():
     """Those of closed forms and mechanisms are found in their folders."""
     text = section("A joint")
     for path in sorted((ROOT / "generator").rglob("*.py")):

@@ -59,7 +59,7 @@ else:
 
 
 @pytest.fixture(scope="module")
-def alone(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def alone(tmp_path_factory):
     """Return a folder with a package `kintrafo` that has no `vehicle`."""
     folder = tmp_path_factory.mktemp("alone")
     unwanted = shutil.ignore_patterns("node_modules")
@@ -69,7 +69,7 @@ def alone(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def test_it_compiles_moves_and_shows_a_mechanism(alone: Path) -> None:
+def test_it_compiles_moves_and_shows_a_mechanism(alone):
     environment = {**os.environ, "PYTHONPATH": str(alone)}
     command = [sys.executable, "-c", WITHOUT_THIS_CHECKOUT + MOVE]
     done = subprocess.run(
@@ -113,7 +113,7 @@ def words_of(name: str) -> set[str]:
     return {word.lower() for word in re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])", name)}
 
 
-def test_no_name_of_the_runtime_is_of_a_wheel() -> None:
+def test_no_name_of_the_runtime_is_of_a_wheel():
     """The front door hands over names of the application, by their words alone."""
     found = {
         (path.relative_to(RUNTIME).as_posix(), name)

@@ -15,11 +15,11 @@ from kintrafo.vehicle.models.car.equations import CarModel, _parameters, declare
 
 
 @pytest.fixture(scope="module")
-def quarter() -> CarModel:
+def quarter():
     return CarModel(Car.load("quarter_car"))
 
 
-def test_load_returns_a_car() -> None:
+def test_load_returns_a_car():
     car = kintrafo.load("reference_vehicle")
     assert isinstance(car, Car)
     assert car.coordinates == ("heave", "pitch", "roll")
@@ -27,13 +27,13 @@ def test_load_returns_a_car() -> None:
     assert [round(float(c[0]), 9) for c in car.wheel_centers.values()] == [0.0, 0.0, -2.6, -2.6]
 
 
-def test_a_car_is_written_and_read_again() -> None:
+def test_a_car_is_written_and_read_again():
     for name in ("quarter_car", "reference_vehicle"):
         car = Car.load(name)
         assert Car.from_dict(car.to_dict()).to_dict() == car.to_dict()
 
 
-def test_paths_count_from_the_file(tmp_path: Any) -> None:
+def test_paths_count_from_the_file(tmp_path):
     kintrafo.load("reference_car").save(tmp_path / "corner.toml")
     (tmp_path / "car.toml").write_text(
         'car = "heave"\ncorner = "corner.toml"\n[body]\nmass_kg = 300.0\n', encoding="utf-8"
@@ -63,18 +63,18 @@ def test_paths_count_from_the_file(tmp_path: Any) -> None:
         {"front.side.vehicle.front_brake_share": 0.6},
     ],
 )
-def test_what_contradicts_itself_is_refused(changes: dict[str, Any], refused: Any) -> None:
+def test_what_contradicts_itself_is_refused(changes, refused):
     refused(kintrafo.InputError, lambda: Car.load("reference_vehicle").with_changes(changes))
 
 
-def test_what_is_not_taken_is_named() -> None:
+def test_what_is_not_taken_is_named():
     car = Car.load("reference_vehicle")
     assert [word.partition(":")[0] for word in car.unused] == ["rear axle"]
     ride = car.with_changes({"car": "ride"})
     assert ride.unused[:2] == ("[body] inertia_xx_kg_m2", "[body] inertia_zz_kg_m2")
 
 
-def test_the_gravity_centre_is_that_of_all_masses() -> None:
+def test_the_gravity_centre_is_that_of_all_masses():
     car = Car.load("reference_vehicle")
     assert sum(mass for mass, _ in masses(car)) == pytest.approx(1382.4 + 2 * 42.0 + 2 * 41.5)
     # by the numbers of the files: body, and of both sides arm, knuckle, wheel; arms, knuckle, wheel
@@ -105,7 +105,7 @@ def _of_any_car(name: str) -> dict[str, Any]:
         ("steered_rigid_axle", "rigid_axle"),
     ],
 )
-def test_masses_are_those_of_the_bodies_in_the_equations(front: str, rear: str) -> None:
+def test_masses_are_those_of_the_bodies_in_the_equations(front, rear):
     body = Car.load("reference_vehicle").to_dict()["body"]
     data = {"car": "roll", "wheelbase_mm": 2600.0, "rear_origin_mm": -2600.0, "body": body}
     axles = {"front": _of_any_car(front), "rear": _of_any_car(rear)}
@@ -123,7 +123,7 @@ def test_masses_are_those_of_the_bodies_in_the_equations(front: str, rear: str) 
     np.testing.assert_allclose(center_of_gravity(car), center, rtol=0.0, atol=1e-14)
 
 
-def test_characteristics_have_the_data_of_the_car() -> None:
+def test_characteristics_have_the_data_of_the_car():
     """Wheelbase, brakes and masses are those of its file if those of its axles lack them."""
     given = Car.load("reference_vehicle")
     lacking = {"front": _of_any_car("reference_axle"), "rear": _of_any_car("rear_axle")}
@@ -141,7 +141,7 @@ def test_characteristics_have_the_data_of_the_car() -> None:
 
 
 @pytest.mark.parametrize("end", ["front", "rear"])
-def test_a_car_with_different_sides_of_one_axle_is_not_symmetric(end: str) -> None:
+def test_a_car_with_different_sides_of_one_axle_is_not_symmetric(end):
     car = Car.load("reference_vehicle")
     assert CarAssembly(car).symmetric
     assert kintrafo.sheet.sheet(car).attrs["sides"] == "mirror images"
@@ -150,7 +150,7 @@ def test_a_car_with_different_sides_of_one_axle_is_not_symmetric(end: str) -> No
     assert kintrafo.sheet.sheet(other).attrs["sides"] == "different"
 
 
-def test_a_quarter_car_rests_on_its_spring(quarter: CarModel) -> None:
+def test_a_quarter_car_rests_on_its_spring(quarter):
     state = kintrafo.equilibrium(quarter)
     assert quarter.signal("tyre_force", state) == pytest.approx(
         9.81 * (345.36 + 42.0), rel=1e-12
@@ -160,7 +160,7 @@ def test_a_quarter_car_rests_on_its_spring(quarter: CarModel) -> None:
     assert raised[1] == pytest.approx(state[1], abs=1e-12)
 
 
-def test_a_car_without_rest_is_refused() -> None:
+def test_a_car_without_rest_is_refused():
     car = Car.load("quarter_car")
     heavy = car.with_changes({"body.mass_kg": 4000.0})
     with pytest.raises(
@@ -170,7 +170,7 @@ def test_a_car_without_rest_is_refused() -> None:
 
 
 @pytest.mark.parametrize("motion", ["heave", "pitch", "roll"])
-def test_characteristics_are_those_of_the_axles(motion: str) -> None:
+def test_characteristics_are_those_of_the_axles(motion):
     car = Car.load("reference_vehicle")
     along = np.array([-0.02, 0.0, 0.02])
     found = datasets.over(car, motion, along)
@@ -188,7 +188,7 @@ def test_characteristics_are_those_of_the_axles(motion: str) -> None:
     assert np.isnan(found["bar_torque"].sel(axle="rear")).all()
 
 
-def test_other_analyses_refuse_a_car() -> None:
+def test_other_analyses_refuse_a_car():
     car = Car.load("reference_vehicle")
     for analysis in (kintrafo.checkup.checkup, kintrafo.loads.static):
         with pytest.raises(kintrafo.InputError, match="this is a whole car"):

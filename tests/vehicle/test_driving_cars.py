@@ -19,12 +19,12 @@ _ANGLES = ("camber", "steer")
 
 
 @pytest.fixture(scope="module")
-def assembly() -> CarAssembly:
+def assembly():
     car = light_car()
     return CarAssembly(car, CarModel(car))
 
 
-def test_a_packaged_car_drives() -> None:
+def test_a_packaged_car_drives():
     car = kintrafo.load("driving_car")
     assert car.drives
     assert {wheel: car.tyre(wheel).name for wheel in car.wheels} == dict.fromkeys(
@@ -36,7 +36,7 @@ def test_a_packaged_car_drives() -> None:
     assert unused[:3] == ("[tyres]", "[brakes] torque_Nm", "[air]")
 
 
-def test_tyres_are_files_beside_the_car_or_tables(tmp_path: Any) -> None:
+def test_tyres_are_files_beside_the_car_or_tables(tmp_path):
     tyre = kintrafo.tyres.load("passenger_205_55")
     kintrafo.tyres.write_tir(tyre, tmp_path / "own.tir")
     data = FILE | {"tyres": {"front": "own.tir", "rear": TYRE}}
@@ -72,12 +72,12 @@ def test_tyres_are_files_beside_the_car_or_tables(tmp_path: Any) -> None:
         {"tyres.front.vertical_stiffness_N_per_mm": 5.0},
     ],
 )
-def test_what_contradicts_itself_is_refused(changes: dict[str, Any], refused: Any) -> None:
+def test_what_contradicts_itself_is_refused(changes, refused):
     refused(kintrafo.InputError, lambda: light_car(**changes))
 
 
 @pytest.mark.parametrize("key", ["inertia_zz_kg_m2", "inertia_xx_kg_m2"])
-def test_a_missing_moment_of_inertia_is_named(key: str) -> None:
+def test_a_missing_moment_of_inertia_is_named(key):
     body = {name: value for name, value in FILE["body"].items() if name != key}
     with pytest.raises(kintrafo.InputError, match=rf"\[body\] {key} is missing"):
         Car.from_dict(FILE | {"body": body})
@@ -101,7 +101,7 @@ def on_a_rigid_axle() -> dict[str, Any]:
     ],
     ids=["packaged", "roll", "twist beam", "twist beam that rolls", "rigid axle"],
 )
-def test_equations_have_every_number_of_the_files(described: Any) -> None:
+def test_equations_have_every_number_of_the_files(described):
     """All but those of bodies without mass, free angles of bars, and the slope of the road."""
     car = Car.load(described) if isinstance(described, str) else Car.from_dict(described)
     formulation = declared(car)
@@ -118,7 +118,7 @@ def test_equations_have_every_number_of_the_files(described: Any) -> None:
         assert found[name.replace("right", "left")] == -found[name] != 0.0
 
 
-def test_controls_are_inputs_by_name() -> None:
+def test_controls_are_inputs_by_name():
     controls = CarAssembly(light_car()).controls
     assert controls.drive(300.0) == {
         "front_left_drive_torque": 150.0,
@@ -145,11 +145,11 @@ def test_controls_are_inputs_by_name() -> None:
         lambda c: CarAssembly(c.car.with_changes({"car": "roll"})).controls,
     ],
 )
-def test_what_is_not_possible_is_refused(asked: Any, refused: Any) -> None:
+def test_what_is_not_possible_is_refused(asked, refused):
     refused(kintrafo.InputError, lambda: asked(CarAssembly(light_car())))
 
 
-def test_a_car_rests_on_its_tyres(assembly: CarAssembly) -> None:
+def test_a_car_rests_on_its_tyres(assembly):
     """Loads carry the weight, with its moment about the wheels; tyres are pressed by them."""
     model, car = assembly.model, assembly.car
     rest = kintrafo.ride.at_rest(assembly)
@@ -170,7 +170,7 @@ def test_a_car_rests_on_its_tyres(assembly: CarAssembly) -> None:
         assert signals["fy"] == pytest.approx(0.0, abs=1e-9)
 
 
-def test_its_axles_are_on_its_tyres(assembly: CarAssembly) -> None:
+def test_its_axles_are_on_its_tyres(assembly):
     """The tyre of each axle has the height, stiffness and slopes of the equations at rest."""
     model, car = assembly.model, assembly.car
     state = np.asarray(kintrafo.equilibrium(model))
@@ -213,7 +213,7 @@ def _numbers(car: Car) -> dict[str, Any]:
     }
 
 
-def test_the_tyre_in_the_file_of_an_axle_has_no_effect(assembly: CarAssembly) -> None:
+def test_the_tyre_in_the_file_of_an_axle_has_no_effect(assembly):
     others = {"rate_N_per_m": 4e5, "radius_mm": 500.0, "free_height_mm": 290.0}
     changes = {
         f"{end}.side.tyre.{key}": v for end in ("front", "rear") for key, v in others.items()
@@ -223,7 +223,7 @@ def test_the_tyre_in_the_file_of_an_axle_has_no_effect(assembly: CarAssembly) ->
         np.testing.assert_array_equal(found[name], numbers, err_msg=name)
 
 
-def test_it_runs_straight_at_a_steady_speed(assembly: CarAssembly) -> None:
+def test_it_runs_straight_at_a_steady_speed(assembly):
     """Drag and the forces of toed-in tyres are what the drive overcomes; nothing leaves that."""
     model = assembly.model
     start = assembly.running(SPEED)
@@ -245,7 +245,7 @@ def test_it_runs_straight_at_a_steady_speed(assembly: CarAssembly) -> None:
     assert ahead == pytest.approx(drag - leant, rel=1e-6)
 
 
-def test_the_rack_keeps_a_lopsided_car_straight(assembly: CarAssembly) -> None:
+def test_the_rack_keeps_a_lopsided_car_straight(assembly):
     car = light_car(**{"body.com_mm.y": 60.0})
     lopsided = CarAssembly(car, CarModel(car))
     assert lopsided.model.equations is assembly.model.equations
@@ -258,7 +258,7 @@ def test_the_rack_keeps_a_lopsided_car_straight(assembly: CarAssembly) -> None:
     assert np.ptp(found.y[1]) < 1e-6
 
 
-def test_a_brake_does_not_drive_and_a_locked_wheel_slips_by_one(assembly: CarAssembly) -> None:
+def test_a_brake_does_not_drive_and_a_locked_wheel_slips_by_one(assembly):
     model, start = assembly.model, assembly.running(SPEED)
     row, moment = model.input_names.index("rear_left_brake_torque"), "rear_left_brake_moment"
     acting = np.array(start.inputs)
@@ -276,7 +276,7 @@ def test_a_brake_does_not_drive_and_a_locked_wheel_slips_by_one(assembly: CarAss
     assert -1.0 - 1e-3 < slips.min() < -0.98
 
 
-def test_a_small_angle_steers_it_like_the_bicycle_model(assembly: CarAssembly) -> None:
+def test_a_small_angle_steers_it_like_the_bicycle_model(assembly):
     """r = v (d_f - d_r) / (L + K v^2), with the angles that the wheels have to the body."""
     model, car = assembly.model, assembly.car
     start = assembly.running(SPEED)
@@ -293,7 +293,7 @@ def test_a_small_angle_steers_it_like_the_bicycle_model(assembly: CarAssembly) -
     acting[model.input_names.index("rack_position")] = turn["rack_position"]
     signals = model.signals(state, acting)
 
-    def steer(end: str) -> float:
+    def steer(end):
         return sum(
             0.5 * float(signals[f"{end}_{side}_steer"] - straight[f"{end}_{side}_steer"])
             for side in ("left", "right")
@@ -309,7 +309,7 @@ def test_a_small_angle_steers_it_like_the_bicycle_model(assembly: CarAssembly) -
     assert rate == pytest.approx(expected, rel=0.01)
 
 
-def test_camber_is_to_the_vertical_and_inclination_follows_from_it(assembly: CarAssembly) -> None:
+def test_camber_is_to_the_vertical_and_inclination_follows_from_it(assembly):
     """The axis of a steered wheel in the world, of a car with yaw, pitch and roll, has them."""
     model = assembly.model
     state, inputs = model.design_state.copy(), np.zeros(len(model.input_names))

@@ -42,14 +42,14 @@ def written(folder: Path, name: str, text: str) -> Path:
 
 
 class TestTables:
-    def test_two_tracks_are_read_in_any_unit(self, tmp_path: Path) -> None:
+    def test_two_tracks_are_read_in_any_unit(self, tmp_path):
         text = "distance_m,left_height_mm,Right height [cm]\n0,0,0\n1,10,-1\n1.5,20,2\n4,0,0\n"
         road = road_profiles.read(written(tmp_path, "road.csv", text))
         assert road.spacing == 0.5
         np.testing.assert_allclose(road.left[:4], [0.0, 0.005, 0.01, 0.02], atol=1e-15)
         np.testing.assert_allclose(road.right[:4], [0.0, -0.005, -0.01, 0.02], atol=1e-15)
 
-    def test_one_height_is_under_both_tracks(self, tmp_path: Path) -> None:
+    def test_one_height_is_under_both_tracks(self, tmp_path):
         text = "distance_m,road_height_m\n0,0\n1,0.1\n2,0\n3,0\n"
         road = road_profiles.read(written(tmp_path, "road.csv", text))
         np.testing.assert_array_equal(road.left, road.right)
@@ -65,7 +65,7 @@ class TestTables:
         ],
         ids=["one track", "unit", "falls", "nan", "short"],
     )
-    def test_what_is_no_road_is_refused(self, tmp_path: Path, text: str, refused: Any) -> None:
+    def test_what_is_no_road_is_refused(self, tmp_path, text, refused):
         refused(InputError, lambda: road_profiles.read(written(tmp_path, "road.csv", text)))
 
 
@@ -77,7 +77,7 @@ class TestOpenCrg:
         )
         return written(folder, "road.crg", CRG + rows)
 
-    def test_the_tracks_are_to_either_side_of_the_line(self, tmp_path: Path) -> None:
+    def test_the_tracks_are_to_either_side_of_the_line(self, tmp_path):
         pytest.importorskip("pyopencrg")
         along, aside = np.arange(9) * 0.5, np.arange(5) * 0.5 - 1.0
         heights = 0.02 * along[:, None] ** 2 + 0.03 * aside
@@ -86,7 +86,7 @@ class TestOpenCrg:
         np.testing.assert_allclose(road.left, 0.02 * along**2 + 0.03 * 0.75, atol=2e-6)
         np.testing.assert_allclose(road.right, 0.02 * along**2 - 0.03 * 0.75, atol=2e-6)
 
-    def test_gaps_and_narrow_roads_are_refused(self, tmp_path: Path) -> None:
+    def test_gaps_and_narrow_roads_are_refused(self, tmp_path):
         pytest.importorskip("pyopencrg")
         heights = np.zeros((9, 5))
         path = self.file(tmp_path, heights)
@@ -96,7 +96,7 @@ class TestOpenCrg:
         with pytest.raises(InputError, match="no height"):
             road_profiles.read(self.file(tmp_path, heights), track=1.5)
 
-    def test_a_file_that_is_none_is_refused(self, tmp_path: Path) -> None:
+    def test_a_file_that_is_none_is_refused(self, tmp_path):
         pytest.importorskip("pyopencrg")
         with pytest.raises(InputError):
             road_profiles.read(written(tmp_path, "road.crg", "nothing"))
@@ -117,7 +117,7 @@ class TestEnveloping:
             low, high = (low, height) if clear else (height, high)
         return high
 
-    def test_is_the_mean_height_of_two_cams_on_the_road(self) -> None:
+    def test_is_the_mean_height_of_two_cams_on_the_road(self):
         rng = np.random.default_rng(2)
         x = 0.02 * np.arange(200)
         heights = np.where(x > 2.0, 0.05, 0.0) + 0.01 * rng.normal(size=x.size)
@@ -134,7 +134,7 @@ class TestEnveloping:
                 pytest.approx(own, abs=1e-3)
             )
 
-    def test_a_kerb_is_climbed_before_it_is_there_and_in_full(self) -> None:
+    def test_a_kerb_is_climbed_before_it_is_there_and_in_full(self):
         road = road_profiles.kerb(0.06, radius=RADIUS, contact_length=CONTACT, at=3.0, end=6.0)
         x = road.spacing * np.arange(road.left.size)
         assert road.left[-1] == pytest.approx(0.06)
@@ -144,7 +144,7 @@ class TestEnveloping:
         begins = 3.0 - LENGTH * RADIUS * rise ** (1.0 / ORDER) - 0.5 * SHIFT * CONTACT
         assert x[np.flatnonzero(road.left > 1e-6)[0]] == pytest.approx(begins, abs=2 * road.spacing)
 
-    def test_long_waves_stay(self) -> None:
+    def test_long_waves_stay(self):
         road = road_profiles.sine(0.02, 20.0, end=60.0)
         found = road_profiles.enveloped(road, radius=RADIUS, contact_length=CONTACT)
         own = np.interp(
@@ -159,7 +159,7 @@ class TestEnveloping:
     @pytest.mark.parametrize(
         "how", [{"height": 0.4}, {"height": np.nan}, {"height": 0.05, "at": 60.0}]
     )
-    def test_what_no_wheel_climbs_is_refused(self, how: dict[str, float], refused: Any) -> None:
+    def test_what_no_wheel_climbs_is_refused(self, how, refused):
         refused(
             InputError, lambda: road_profiles.kerb(**how, radius=RADIUS, contact_length=CONTACT)
         )
@@ -169,7 +169,7 @@ class TestCommand:
     def run(self, *given: str) -> Any:
         return CliRunner().invoke(app, ["ride", "quarter_car", *given])
 
-    def test_a_measured_road_is_driven_to_its_end(self, tmp_path: Path) -> None:
+    def test_a_measured_road_is_driven_to_its_end(self, tmp_path):
         x = 0.1 * np.arange(200)
         rows = "".join(f"{a:.1f},{5.0 * np.sin(a):.4f}\n" for a in x)
         path = written(tmp_path, "road.csv", f"distance_m,road_height_mm\n{rows}")
@@ -183,17 +183,17 @@ class TestCommand:
         [["--kerb", "50"], ["--kerb", "50", "--bump-height", "20"], ["--road", "K"],
          ["--road", "nothing.csv"]],
     )  # fmt: skip
-    def test_roads_that_are_none_are_refused(self, given: list[str]) -> None:
+    def test_roads_that_are_none_are_refused(self, given):
         assert self.run(*given).exit_code in (1, 2)
 
-    def test_only_cars_are_proposed_for_a_file_that_is_not_there(self) -> None:
+    def test_only_cars_are_proposed_for_a_file_that_is_not_there(self):
         result = CliRunner().invoke(app, ["ride", "nowhere_at_all"])
         assert result.exit_code == 1
         assert "reference_vehicle" in str(result.exception)
         assert "trailing_arm_car" not in str(result.exception)
 
 
-def test_curves_of_four_wheels_are_those_of_each_axle() -> None:
+def test_curves_of_four_wheels_are_those_of_each_axle():
     import xarray as xr
 
     wheels = ["front_left", "front_right", "rear_left", "rear_right"]

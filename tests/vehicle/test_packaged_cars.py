@@ -37,7 +37,7 @@ def loads(car: Car) -> dict[str, float]:
 
 
 @pytest.mark.parametrize("name", CARS)
-def test_its_springs_and_tyres_carry_it(name: str) -> None:
+def test_its_springs_and_tyres_carry_it(name):
     car = kintrafo.load(name)
     assembly = assembly_of(car)
     for end, load in loads(car).items():
@@ -50,7 +50,7 @@ def test_its_springs_and_tyres_carry_it(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", [n for n in CARS if n not in ("reference_vehicle", "driving_car")])
-def test_its_tyres_leave_the_road_and_its_axles_pass_their_check(name: str) -> None:
+def test_its_tyres_leave_the_road_and_its_axles_pass_their_check(name):
     assembly = assembly_of(kintrafo.load(name))
     for part in assembly.held_parts.values():
         assert all(tyre.lifts_off for tyre in part.tyres)
@@ -58,7 +58,7 @@ def test_its_tyres_leave_the_road_and_its_axles_pass_their_check(name: str) -> N
 
 
 @pytest.mark.parametrize("name", CARS)
-def test_its_modes_keep_their_names_while_its_damping_grows(name: str) -> None:
+def test_its_modes_keep_their_names_while_its_damping_grows(name):
     """The modes are those of a body on four sprung masses, with masses and rates of the car."""
     car = kintrafo.load(name)
     body, axles = car.described.body, suspension_masses(car)
@@ -93,7 +93,7 @@ def test_its_modes_keep_their_names_while_its_damping_grows(name: str) -> None:
         before, clear_before = frequencies, clear
 
 
-def test_the_bmw_has_the_mass_of_its_source() -> None:
+def test_the_bmw_has_the_mass_of_its_source():
     """All parts of Chrono's: chassis, rack, bars; of both sides spindle, arms, rod, rim, tyre."""
     front = 9.962477554 + 13.5 + 13.51 + 2.72 + 1.13 + 18.0 + 37.6
     rear = 14.705 + 5.813 + 23.965 + 19.45 + 6.0 + 15.4 + 37.6
@@ -102,14 +102,14 @@ def test_the_bmw_has_the_mass_of_its_source() -> None:
     assert sum(mass for mass, _ in masses(car)) == pytest.approx(expected, abs=0.01)
 
 
-def test_fed_alpha_has_the_mass_of_its_source() -> None:
+def test_fed_alpha_has_the_mass_of_its_source():
     side = 13.08 + 36.27 + 8.45 + 31.55 + 6.0 + 18.8 + 56.1
     expected = 5672.87 + 3.6814844109 + 1.605 + 2.0 * 15.02 + 4.0 * side
     car = kintrafo.load("fed_alpha")
     assert sum(mass for mass, _ in masses(car)) == pytest.approx(expected, abs=0.01)
 
 
-def test_the_bmw_rolls_by_some_two_degrees_at_0_6_g() -> None:
+def test_the_bmw_rolls_by_some_two_degrees_at_0_6_g():
     """By the linear formula of a body on two axles; its source cites 2.0 (SAE 2007-01-0817).
 
     The body turns about the line through the roll centres, on the roll stiffness of both axles and
@@ -129,7 +129,7 @@ def test_the_bmw_rolls_by_some_two_degrees_at_0_6_g() -> None:
     assert np.rad2deg(roll) == pytest.approx(2.1, abs=0.01)
 
 
-def test_the_formula_student_car_has_the_front_corner_of_the_tutorial() -> None:
+def test_the_formula_student_car_has_the_front_corner_of_the_tutorial():
     car = kintrafo.load("formula_student_car")
     assert car.axles["front"].right == kintrafo.load("formula_student")
     assert sum(mass for mass, _ in masses(car)) == pytest.approx(290.0, abs=1e-9)

@@ -134,7 +134,7 @@ def meaning(expression: sp.Expr) -> sp.Expr:
 
 @given(expressions)
 @calm
-def test_text_means_the_expression(expression: sp.Expr) -> None:
+def test_text_means_the_expression(expression):
     plain = meaning(expression)
     sizes = [abs(part.evalf(20, subs=EXACT)) for part in sp.preorder_traversal(plain)]
     with mpmath.workdps(50):
@@ -208,14 +208,14 @@ def operations_by_ast(text: str) -> Counter[str]:
 
 @given(expressions)
 @calm
-def test_count_is_that_of_the_text(expression: sp.Expr) -> None:
+def test_count_is_that_of_the_text(expression):
     found = counted([schedule(expression)])
     assert found == operations_by_ast(write(expression, NUMPY))
 
 
 @given(expressions)
 @calm
-def test_c_is_the_same_arithmetic(expression: sp.Expr) -> None:
+def test_c_is_the_same_arithmetic(expression):
     """The dialects differ in the names of functions only, so what holds for one holds for C."""
     in_c, in_numpy = write(expression), write(expression, NUMPY)
     renamed = in_numpy.replace("np.arc", "a").replace("np.maximum", "at_least")
@@ -256,27 +256,27 @@ x, y, z = SYMBOLS
     ],
     ids=str,
 )
-def test_written_examples(expression: sp.Expr, text: str) -> None:
+def test_written_examples(expression, text):
     assert write(expression) == text
     assert count(tokens(f"out[0] = {text};")) == counted([schedule(expression)])
 
 
 @pytest.mark.parametrize("exponent", [5, sp.Rational(1, 3), y, -7], ids=str)
-def test_powers_without_products_are_refused(exponent: sp.Expr) -> None:
+def test_powers_without_products_are_refused(exponent):
     """There is no pow in the emitted code, and no long product in its place."""
     with pytest.raises((ValueError, TypeError)):
         write(x**exponent)
 
 
-def test_pi() -> None:
+def test_pi():
     assert write(sp.pi * x) == "3.14159265358979323846*x"
 
 
-def test_guard_is_differentiated_as_the_identity() -> None:
+def test_guard_is_differentiated_as_the_identity():
     assert Guarded(x**2, FLOOR).diff(x) == 2 * x
 
 
-def test_kinks_are_differentiated_on_their_sides() -> None:
+def test_kinks_are_differentiated_on_their_sides():
     assert Positive(x**3).diff(x) == 3 * x**2 * IsPositive(x**3)
     assert Positive(x - y).diff(y) == -IsPositive(x - y)
     assert Positive(x).diff(y) == 0
@@ -285,7 +285,7 @@ def test_kinks_are_differentiated_on_their_sides() -> None:
 
 
 @pytest.mark.parametrize("value", [-2.0, -1e-300, -0.0, 0.0, 1e-300, 3.0, np.inf, -np.inf])
-def test_kinks_in_numpy(value: float) -> None:
+def test_kinks_in_numpy(value):
     """At zero itself the derivative is that of the side where nothing acts."""
     names = {"np": np, "x": np.array([value])}
     (positive_part,) = eval(write(Positive(x), NUMPY), names)
@@ -294,13 +294,13 @@ def test_kinks_in_numpy(value: float) -> None:
     assert side == float(value > 0.0)
 
 
-def test_no_number_goes_through_a_kink_unseen() -> None:
+def test_no_number_goes_through_a_kink_unseen():
     names = {"np": np, "x": np.array([np.nan])}
     for kink in (Positive(x), Guarded(x, FLOOR), Positive(x) * IsPositive(x)):
         assert np.isnan(eval(write(kink, NUMPY), names)).all()
 
 
-def test_what_is_there_first_is_put_together_first() -> None:
+def test_what_is_there_first_is_put_together_first():
     late = schedule(x + y + z * x, {y: 40})
     assert text_of(late, FORMULA) == "x + x*z + y"
     assert late.ready == 44  # y waits for nothing but its own addition

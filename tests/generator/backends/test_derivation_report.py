@@ -233,7 +233,7 @@ def is_point(part: Any) -> bool:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_printed_motion_is_what_the_compiled_functions_give(name: str) -> None:
+def test_printed_motion_is_what_the_compiled_functions_give(name):
     """Poses and velocities of each body, from the printed formulas alone.
 
     Angles have been through sine and arc: lengths of metres keep 1e-12 m, rates of 0.02/s as much.

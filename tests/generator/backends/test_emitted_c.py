@@ -7,15 +7,13 @@ import re
 import shutil
 import subprocess
 from collections import Counter
-from collections.abc import Callable
 from functools import cache
-from pathlib import Path
 
 import mpmath
 import numpy as np
 import pytest
 from cars.instants import MODELS, car_parameters, random_instants
-from kintrafo.generator.equations.outputs import BOUNDED, Derivation
+from kintrafo.generator.equations.outputs import BOUNDED
 from oracle.newton import Mechanism
 from support.c_text import (
     EMITTED,
@@ -61,9 +59,7 @@ def given_names(compiled) -> list[str]:
 
 @pytest.mark.parametrize("seed", SEEDS)
 @each_suspension
-def test_functions_against_the_symbolic_program(
-    derived: Callable[[str], Derivation], name: str, seed: int
-) -> None:
+def test_functions_against_the_symbolic_program(derived, name, seed):
     model, compiled = derived(name), MODELS[name]
     parameters = car_parameters(seed, compiled)
     constants = compiled.prepare(parameters)
@@ -95,9 +91,7 @@ def test_functions_against_the_symbolic_program(
 
 @pytest.mark.parametrize("seed", SEEDS)
 @each_suspension
-def test_constants_against_the_symbolic_program(
-    derived: Callable[[str], Derivation], name: str, seed: int
-) -> None:
+def test_constants_against_the_symbolic_program(derived, name, seed):
     parameters = car_parameters(seed, MODELS[name])
     found = MODELS[name].prepare(parameters)
     prepare = derived(name).prepare
@@ -123,7 +117,7 @@ STRICT = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"]
 
 
 @each_model
-def test_compiles_silently(name: str) -> None:
+def test_compiles_silently(name):
     # the front end alone: in a straight line of constants, each defined once from those before it,
     # an analysis of the flow of data has nothing to warn of
     run(["gcc", "-std=c99", *STRICT, "-fsyntax-only", *map(str, sources(name))])
@@ -132,7 +126,7 @@ def test_compiles_silently(name: str) -> None:
 @pytest.mark.parametrize(
     "option", ["-ffast-math", "-Ofast", "-funsafe-math-optimizations", "-ffinite-math-only"]
 )
-def test_other_arithmetic_is_refused(option: str) -> None:
+def test_other_arithmetic_is_refused(option):
     """A sine would be that of zero: to round, a large number is added, and taken away again.
 
     And a state that is NaN would have no status.
@@ -145,7 +139,7 @@ def test_other_arithmetic_is_refused(option: str) -> None:
     assert "make sines wrong and hide NaN. Leave them out." in done.stderr
 
 
-def test_headers_are_cpp(tmp_path: Path) -> None:
+def test_headers_are_cpp(tmp_path):
     """Both headers together, twice, in C++."""
     source = tmp_path / "all.cpp"
     includes = "".join(f'#include "{name}.h"\n' for name in (*EMITTED, *EMITTED))
@@ -159,7 +153,7 @@ def test_headers_are_cpp(tmp_path: Path) -> None:
 
 
 @each_model
-def test_constants_are_the_order_of_their_array(name: str) -> None:
+def test_constants_are_the_order_of_their_array(name):
     match = re.search(rf"struct {name}_constants \{{\s*double\s+(.*?);", header(name), re.DOTALL)
     assert match is not None
     names = EMITTED[name].CONSTANTS
@@ -175,14 +169,14 @@ OF_PREPARE = {"fabs", "either", "first_not_finite"}
 
 
 @each_model
-def test_straight_line(name: str) -> None:
+def test_straight_line(name):
     """No branch and no loop, in the checks of parameters neither."""
     for function, body in functions(name).items():
         assert not BRANCHES & set(body), function
 
 
 @each_straight_model
-def test_calls_only_cheap_functions(name: str) -> None:
+def test_calls_only_cheap_functions(name):
     """Of the C library only these: no pow above all, and nothing that keeps a state."""
     for function, body in functions(name).items():
         called = {f for f, after in itertools.pairwise(body) if after == "(" and f.isidentifier()}
@@ -191,7 +185,7 @@ def test_calls_only_cheap_functions(name: str) -> None:
 
 
 @each_model
-def test_every_step_is_used(name: str) -> None:
+def test_every_step_is_used(name):
     """The program is pruned: what is computed has an effect."""
     for function, body in functions(name).items():
         places = (i for i, token in enumerate(body) if token == "=" and body[i - 2] != "->")
@@ -202,7 +196,7 @@ def test_every_step_is_used(name: str) -> None:
 
 
 @each_model
-def test_no_step_is_written_twice(name: str) -> None:
+def test_no_step_is_written_twice(name):
     """Neither for two functions of a file nor for one."""
     for source in sources(name):
         steps = definitions(whole_of(source))
@@ -216,7 +210,7 @@ LIBRARY_FLAGS = ["-std=c99", "-fno-math-errno", "-ffp-contract=off", "-fPIC", "-
 
 
 @pytest.mark.parametrize("compiler", ["gcc -O0", "gcc -O1", "gcc -O3", "clang -O2"])
-def test_compiler_and_optimisation_change_no_bit(compiler: str, tmp_path: Path) -> None:
+def test_compiler_and_optimisation_change_no_bit(compiler, tmp_path):
     """Of what `compute` holds a function keeps what it needs, or all, and returns the same."""
     library = tmp_path / "four_bar.so"
     run([*compiler.split(), *LIBRARY_FLAGS, *FOUR_BAR, "-o", str(library), "-lm"])
@@ -235,7 +229,7 @@ def test_compiler_and_optimisation_change_no_bit(compiler: str, tmp_path: Path) 
         np.testing.assert_array_equal(*outs)
 
 
-def test_compiled_functions_keep_only_what_they_need(tmp_path: Path) -> None:
+def test_compiled_functions_keep_only_what_they_need(tmp_path):
     """As many products and quotients as counted, or fewer, in the machine code of each function."""
     if platform.machine() not in ("x86_64", "AMD64"):
         pytest.skip("reads the instructions of x86-64")
@@ -279,7 +273,7 @@ def counted(name: str, function: str) -> dict[str, int]:
 
 
 @each_straight_model
-def test_counts_in_the_header(name: str) -> None:
+def test_counts_in_the_header(name):
     for function in functions(name).keys() - {"prepare", BOUNDED}:
         comment = rf"/\*((?:(?!\*/).)*)\*/\s*int {name}_{function}\("
         match = re.search(comment, header(name), re.DOTALL)
@@ -288,14 +282,14 @@ def test_counts_in_the_header(name: str) -> None:
 
 
 @each_straight_model
-def test_count_at_the_head_of_the_files(name: str) -> None:
+def test_count_at_the_head_of_the_files(name):
     for text in (header(name), *(p.read_text(encoding="utf-8") for p in sources(name))):
         head = text[: text.index("*/")]
         assert described_counts(head.split("rhs:")[1]) == counted(name, "rhs")
 
 
 @each_straight_model
-def test_counts_in_python(name: str) -> None:
+def test_counts_in_python(name):
     """Those of the compiled function that computes it, beside what else that returns."""
     for result in EMITTED[name].equations.functions:
         call = getattr(EMITTED[name], result)
@@ -304,7 +298,7 @@ def test_counts_in_python(name: str) -> None:
 
 
 @each_straight_model
-def test_counts_in_the_report(name: str) -> None:
+def test_counts_in_the_report(name):
     report = (FOLDER.parent / f"{name}.md").read_text(encoding="utf-8")
     table = report.split("## Functions")[1]
     for function in functions(name).keys() - {BOUNDED}:
@@ -332,7 +326,7 @@ TABLES = {
 
 
 @each_model
-def test_enums_are_the_order_of_the_arrays(name: str) -> None:
+def test_enums_are_the_order_of_the_arrays(name):
     for kind, table in TABLES.items():
         entries = getattr(EMITTED[name], table)
         match = re.search(rf"enum {name}_{kind} \{{(.*?)\}};", header(name), re.DOTALL)
@@ -346,7 +340,7 @@ def test_enums_are_the_order_of_the_arrays(name: str) -> None:
                 assert f"/* [{entry['unit']}] {entry['meaning']} */" in match[1]
 
 
-def test_texts_are_those_of_the_model() -> None:
+def test_texts_are_those_of_the_model():
     """Axes have the name of what rests; only the paper's model cites the paper."""
     axes = {name: set(re.findall(r"(\w+) axes[.,]", header(name))) for name in EMITTED}
     assert axes["four_bar"] == {"ground"}
@@ -356,7 +350,7 @@ def test_texts_are_those_of_the_model() -> None:
 
 
 @each_model
-def test_ranges_are_left_to_the_manifest(name: str) -> None:
+def test_ranges_are_left_to_the_manifest(name):
     """`prepare` compares no parameter with a number, and the header contains no range."""
     ranges = {bound for entry in EMITTED[name].PARAMETERS.values() for bound in entry}
     assert ranges & {"least", "above", "most"}
@@ -367,7 +361,7 @@ def test_ranges_are_left_to_the_manifest(name: str) -> None:
 
 
 @each_model
-def test_a_shared_value_is_named_after_a_formula_or_what_reads_it(name: str) -> None:
+def test_a_shared_value_is_named_after_a_formula_or_what_reads_it(name):
     """No name is a mere number: a part has the name of a step, or of a function, in the file."""
     for path in FOLDER.glob(f"{name}*.c"):
         text = path.read_text(encoding="utf-8")

@@ -14,9 +14,7 @@ SHOWN = [m for m in MODELS if m.name in ("macpherson", "andrews")]
 
 
 @pytest.fixture(scope="module", params=SHOWN, ids=lambda model: model.name)
-def drawn(
-    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
-) -> tuple[CataloguePlan, dict[str, list[str]], Path]:
+def drawn(request, tmp_path_factory):
     """Return a plan and the words of each figure."""
     plan, folder = CataloguePlan.of(request.param), tmp_path_factory.mktemp("figures")
     draw_figures(plan, folder)
@@ -32,17 +30,13 @@ def texts(path: Path) -> list[str]:
     return [t.strip() for t in (*words, *re.findall(r"<!-- (.*?\$.*?) -->", written))]
 
 
-def test_every_body_has_its_number_once(
-    drawn: tuple[CataloguePlan, dict[str, list[str]], Path],
-) -> None:
+def test_every_body_has_its_number_once(drawn):
     plan, words, _ = drawn
     found = Counter(words["bodies"])
     assert {found[str(n)] for n in plan.formulation.mechanism.numbers.values()} == {1}
 
 
-def test_every_joint_and_fictitious_body_is_in_the_graph(
-    drawn: tuple[CataloguePlan, dict[str, list[str]], Path],
-) -> None:
+def test_every_joint_and_fictitious_body_is_in_the_graph(drawn):
     plan, words, _ = drawn
     found, joints = Counter(words["graph"]), plan.formulation.mechanism.joints
     assert {found[f"{j.name.replace('_', ' ')}: {j.freedoms}"] for j in joints} == {1}
@@ -51,9 +45,7 @@ def test_every_joint_and_fictitious_body_is_in_the_graph(
     assert found["P"] == sum(j.kind in ("prismatic", "cylindrical") for j in joints)
 
 
-def test_every_coordinate_is_a_wire_once(
-    drawn: tuple[CataloguePlan, dict[str, list[str]], Path],
-) -> None:
+def test_every_coordinate_is_a_wire_once(drawn):
     plan, words, _ = drawn
     names = [c.name for c in plan.formulation.mechanism.coordinates]
     written = " , ".join(words["transformers"])
@@ -63,9 +55,7 @@ def test_every_coordinate_is_a_wire_once(
         assert len(re.findall(rf"(?<![\w]){re.escape(shown)}(?![\w])", written)) == 1, name
 
 
-def test_letters_are_those_of_the_paper(
-    drawn: tuple[CataloguePlan, dict[str, list[str]], Path],
-) -> None:
+def test_letters_are_those_of_the_paper(drawn):
     """Figure 1 of the paper: O, A, B, C, D, E, and HG of the wheel's bearing."""
     plan, words, _ = drawn
     if plan.formulation.name != "macpherson":
@@ -74,9 +64,7 @@ def test_letters_are_those_of_the_paper(
     assert [found[letter] for letter in ("O", "A", "B", "C", "D", "E", "HG")] == [1] * 7
 
 
-def test_figures_are_the_same_bytes_again(
-    drawn: tuple[CataloguePlan, dict[str, list[str]], Path], tmp_path: Path
-) -> None:
+def test_figures_are_the_same_bytes_again(drawn, tmp_path):
     plan, _, folder = drawn
     if plan.formulation.name != "macpherson":
         pytest.skip("another mechanism")

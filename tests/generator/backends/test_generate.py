@@ -37,7 +37,7 @@ def encoded(texts: dict[str, str]) -> dict[str, bytes]:
     return {name: text.encode() for name, text in texts.items()}
 
 
-def test_every_model_is_committed_and_nothing_else() -> None:
+def test_every_model_is_committed_and_nothing_else():
     """Contents of the files are compared where they are generated again: ``make generate``."""
     names = {model.name for model in MODELS}
     found = read(COMMITTED)
@@ -69,7 +69,7 @@ for model in sorted((m for m in MODELS if m.name in wanted), key=lambda m: wante
 
 
 @pytest.mark.slow
-def test_deriving_in_another_process_gives_the_committed_files(tmp_path: Path) -> None:
+def test_deriving_in_another_process_gives_the_committed_files(tmp_path):
     """If this fails, run ``make generate``.
 
     With other hashes sets come in another order; the locale and the time zone matter no more.
@@ -93,7 +93,7 @@ def test_deriving_in_another_process_gives_the_committed_files(tmp_path: Path) -
     assert differing(found, {name: committed.get(name, b"") for name in found}) == {}
 
 
-def test_no_trace_of_machine_or_day() -> None:
+def test_no_trace_of_machine_or_day():
     """The emitted files contain no dates and no paths, and all lines end in the same way."""
     for name, text in read(COMMITTED).items():
         assert not re.search(rb"\b20\d\d-\d\d-\d\d\b|/(home|tmp|work|Users)/", text), name
@@ -102,7 +102,7 @@ def test_no_trace_of_machine_or_day() -> None:
         text.decode("utf-8")
 
 
-def test_difference_is_reported() -> None:
+def test_difference_is_reported():
     same, other = {"a": b"1\n2\n", "b": b"x\n"}, {"a": b"1\n3\n", "b": b"x\n"}
     assert differing(same, other) == {"a": "line 2: b'2' and b'3'"}
     assert list(differing(same, {"a": b"1\n2\n"})) == ["b"]

@@ -66,7 +66,7 @@ def difference(stored: Counts, present: Counts) -> list[str]:
     ]
 
 
-def test_counts_are_those_of_the_baseline(request: pytest.FixtureRequest) -> None:
+def test_counts_are_those_of_the_baseline(request):
     present = present_counts()
     if request.config.getoption("--update-baseline"):
         for model, counts in present.items():
@@ -88,7 +88,7 @@ def test_counts_are_those_of_the_baseline(request: pytest.FixtureRequest) -> Non
         ("double_wishbone_general", "rhs", 950),
     ],
 )
-def test_limits_that_no_baseline_may_pass(model: str, function: str, limit: int) -> None:
+def test_limits_that_no_baseline_may_pass(model, function, limit):
     """The limit with the rack held is what a careful derivation by hand came to (569), beaten.
 
     All that cars have beyond the paper costs twice as much; the curves of spring and damper are
@@ -97,7 +97,7 @@ def test_limits_that_no_baseline_may_pass(model: str, function: str, limit: int)
     assert count(functions(model)[function]).total() <= limit
 
 
-def test_a_changed_count_is_named() -> None:
+def test_a_changed_count_is_named():
     present = present_counts()
     stored = json.loads(json.dumps(present))
     stored["macpherson"]["rhs"]["divide"] += 1
@@ -108,7 +108,7 @@ def test_a_changed_count_is_named() -> None:
     assert gone.startswith("macpherson.margins: stored none; now ")
 
 
-def test_counting_by_hand() -> None:
+def test_counting_by_hand():
     """The counter itself, on a text that can be counted by eye."""
     from support.c_text import tokens
 

@@ -27,7 +27,7 @@ EXPECTED = {
 
 
 @pytest.mark.parametrize("name", EMITTED)
-def test_digest(name: str) -> None:
+def test_digest(name):
     system = kintrafo.System(EMITTED[name])
     shape = STATES, len(system.state_names)
     # sums and products alone make these numbers
@@ -41,7 +41,7 @@ def test_digest(name: str) -> None:
 
 
 @pytest.mark.skipif(not native_available(), reason="built without SUNDIALS")
-def test_digest_of_a_motion() -> None:
+def test_digest_of_a_motion():
     """By the method of our own: half a second over a ramp."""
     car = kintrafo.Model("reference_car")
     ramp = kintrafo.Samples([0.0, 0.1, 0.2, 0.5], [0.0, 0.0, 0.02, 0.02], "linear")
@@ -53,7 +53,7 @@ def test_digest_of_a_motion() -> None:
 
 
 @needs_gcc
-def test_equations_are_known_by_their_sines_too() -> None:
+def test_equations_are_known_by_their_sines_too():
     """Kept results of others would be taken for those of these, bits and all."""
     for equations in (EMITTED["four_bar"], own(FOUR_BARS[0])):
         known = words_of(equations)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import atan2, cos, degrees, pi, radians, sin
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -23,8 +23,6 @@ from support.changes import changed
 from support.models import Built, own
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from kintrafo.generator import Formulation
 
 TURNS = np.linspace(-pi, pi, 25)
@@ -47,7 +45,7 @@ def off(found: float, expected: float) -> float:
 
 @pytest.mark.parametrize("bends", [(35, 35), (35, -35), (20, 50), (-40, 15)])
 @pytest.mark.parametrize("phase", [0, 90, 37])
-def test_both_crosses_turn_as_hooke_says(bends: tuple[float, float], phase: float) -> None:
+def test_both_crosses_turn_as_hooke_says(bends, phase):
     """Both angles count from the fork across the plane; the shaft's is in between."""
     first, second, lead = (radians(angle) for angle in (*bends, phase))
     built, names = answers(column("hooke", first, second, lead))
@@ -69,13 +67,13 @@ def turn_about_x(axes: np.ndarray) -> float:
     return atan2(axes[2, 1], axes[1, 1])
 
 
-def test_a_shaft_at_a_right_angle_to_the_pinion_is_refused() -> None:
+def test_a_shaft_at_a_right_angle_to_the_pinion_is_refused():
     """The bracket swings until the shaft is there, from a bend of 80 degrees on."""
     model = column("swung", 0.0, radians(-80), 0.0, swinging=True)
     built, _ = answers(model)
     axis = np.array([cos(radians(80)), 0.0, sin(radians(80))])
 
-    def bend(swing: float) -> float:
+    def bend(swing):
         arm = np.array([0.2, 0.0, -0.3])  # from the bracket's bearing to the upper cross
         x = arm[0] * cos(swing) + arm[2] * sin(swing)
         z = arm[2] * cos(swing) - arm[0] * sin(swing)
@@ -87,20 +85,20 @@ def test_a_shaft_at_a_right_angle_to_the_pinion_is_refused() -> None:
         built("relative_coordinates", np.array([there, 0.0, 0.0, 0.0]))
 
 
-def test_a_shaft_along_the_fork_of_the_column_is_refused() -> None:
+def test_a_shaft_along_the_fork_of_the_column_is_refused():
     built, _ = answers(column("square", radians(90), 0.2, 0.0))
     assert np.isfinite(built("relative_coordinates", np.array([1.5, 0.0]))).all()
     with pytest.raises(ValueError, match=r"upper lies along the first axis of .* upper_cross"):
         built("relative_coordinates", np.array([pi / 2, 0.0]))
 
 
-def test_a_pinion_across_its_shaft_is_refused_at_the_design_position() -> None:
+def test_a_pinion_across_its_shaft_is_refused_at_the_design_position():
     built, _ = answers(column("stopped", 0.2, radians(90), 0.0))
     with pytest.raises(ParameterError, match="does not turn pinion"):
         built("relative_coordinates", np.zeros(2))
 
 
-def test_a_bearing_that_moves_as_given_moves_the_pinion(tmp_path: Path) -> None:
+def test_a_bearing_that_moves_as_given_moves_the_pinion(tmp_path):
     model = steering_shaft("given_shaft")
     tilt, steer, shake = model.independent
     forces = tuple(f for f in model.mechanism.forces if f.along != shake)
@@ -113,7 +111,7 @@ def test_a_bearing_that_moves_as_given_moves_the_pinion(tmp_path: Path) -> None:
     check_with_the_oracle(given, tmp_path, 0.3)
 
 
-def test_the_pinion_may_turn_the_column(tmp_path: Path) -> None:
+def test_the_pinion_may_turn_the_column(tmp_path):
     model = column("backwards", 0.3, 0.5, 0.4)
     rolling = model.mechanism.joint("rolling")
     forces = (JointForce(rolling, Input("torque", "N m", "torque on the pinion")),)
@@ -170,7 +168,7 @@ def series() -> Formulation:
     )
 
 
-def test_shafts_in_a_row_go_round_as_the_oracle_says(tmp_path: Path) -> None:
+def test_shafts_in_a_row_go_round_as_the_oracle_says(tmp_path):
     model = series()
     steps = [type(transformer.step) for transformer in CataloguePlan.of(model).transformers]
     assert steps == [CardanShaft, CardanShaft]
@@ -180,7 +178,7 @@ def test_shafts_in_a_row_go_round_as_the_oracle_says(tmp_path: Path) -> None:
 # -- errors ----------------------------------------------------------------------------------------
 
 
-def test_a_guide_beside_the_line_of_the_crosses_is_reported_by_how_much() -> None:
+def test_a_guide_beside_the_line_of_the_crosses_is_reported_by_how_much():
     model = column("askew", 0.3, 0.3, 0.0, along=(1.0, 0.0, 0.02))
     message = (
         f"guide spline of upper and lower must be along .*{degrees(np.arctan(0.02)):.3g} degrees"
@@ -190,12 +188,12 @@ def test_a_guide_beside_the_line_of_the_crosses_is_reported_by_how_much() -> Non
 
 
 @pytest.mark.parametrize("sense", [1.0, -2.0])
-def test_a_guide_of_its_own_direction_counts_along_it(sense: float, tmp_path: Path) -> None:
+def test_a_guide_of_its_own_direction_counts_along_it(sense, tmp_path):
     model = column("own_way", 0.3, 0.4, 0.2, along=(sense, 0.0, 0.0), swinging=True)
     check_with_the_oracle(model, tmp_path, 0.5)
 
 
-def test_a_hinge_beside_its_cross_is_reported_by_how_much() -> None:
+def test_a_hinge_beside_its_cross_is_reported_by_how_much():
     model = column("beside", 0.3, 0.3, 0.0, beside=0.004)
     message = r"hinge rolling must go through the centre lower_center .* 4 mm"
     with pytest.raises(DeclarationError, match=message):
@@ -207,15 +205,13 @@ BETWEEN = r"Only the crosses '\w+' and '\w+' hold '{}'\. {}"
 
 @pytest.mark.parametrize("allowed", [False, True], ids=["closed form", "iteration"])
 @pytest.mark.parametrize("links", ["rigid", "turned"])
-def test_what_is_no_such_shaft_is_refused_with_a_remedy(
-    links: str, refused: Any, *, allowed: bool
-) -> None:
+def test_what_is_no_such_shaft_is_refused_with_a_remedy(links, refused, *, allowed):
     """A shaft that cannot telescope, and a cross whose second body is not the shaft."""
     model = replace(column("other", 0.3, 0.3, 0.0, links=links), allow_iteration=allowed)
     refused(NoClosedFormError, lambda: CataloguePlan.of(model))
 
 
-def test_a_rod_with_two_crosses_holds_no_carrier_by_iteration() -> None:
+def test_a_rod_with_two_crosses_holds_no_carrier_by_iteration():
     """Its second cross would be one equation more, which used to be left out."""
     model = next(m for m in held_by_rods.MODELS if m.name == "control_arm_multi_link")
     ball = model.mechanism.joint("toe_link_ball")

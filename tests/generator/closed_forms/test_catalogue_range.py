@@ -262,10 +262,10 @@ def compiled(model: Formulation) -> Built:
 
 
 @pytest.fixture(scope="session")
-def loop() -> Callable[[str], Loop]:
+def loop():
     """Return a loop by its name."""
 
-    def find(name: str) -> Loop:
+    def find(name):
         if name == "upper arm":
             return upper_arm(Built.of(BY_NAME["double_wishbone"], double_wishbone))
         if name.startswith("knuckle"):
@@ -307,7 +307,7 @@ NAMES = [
 
 @pytest.mark.parametrize("side", [1, -1])
 @pytest.mark.parametrize("name", NAMES)
-def test_over_the_whole_range(name: str, side: int, loop: Callable[[str], Loop]) -> None:
+def test_over_the_whole_range(name, side, loop):
     case = loop(name)
     with mpmath.workdps(DIGITS):
         path = case.followed(side)
@@ -321,7 +321,7 @@ def test_over_the_whole_range(name: str, side: int, loop: Callable[[str], Loop])
 
 @pytest.mark.parametrize("side", [1, -1])
 @pytest.mark.parametrize("name", NAMES)
-def test_to_the_end_of_the_range(name: str, side: int, loop: Callable[[str], Loop]) -> None:
+def test_to_the_end_of_the_range(name, side, loop):
     case = loop(name)
     with mpmath.workdps(DIGITS):
         end = case.end(side)
@@ -345,9 +345,7 @@ def test_to_the_end_of_the_range(name: str, side: int, loop: Callable[[str], Loo
 
 
 @pytest.mark.parametrize("off", [1e-1, 1e-3, 1e-5, 1e-7])
-def test_a_shaft_next_to_the_first_axis_of_its_cross(
-    off: float, loop: Callable[[str], Loop]
-) -> None:
+def test_a_shaft_next_to_the_first_axis_of_its_cross(off, loop):
     """The cross is singular there; its rotation is as exact as the distance from that allows.
 
     Where that is worse than 1e-9 in the worst case, within some 1e-5 rad, it is refused.

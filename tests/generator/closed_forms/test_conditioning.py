@@ -133,7 +133,7 @@ def singular(place: Place, guard: int, random: np.random.Generator) -> tuple[Arr
 
 @needs_gcc
 @pytest.mark.parametrize("model", CASES, ids=lambda model: model.name)
-def test_right_or_refused_beside_a_singular_set(model: Any) -> None:
+def test_right_or_refused_beside_a_singular_set(model):
     for number, (guard, _) in enumerate(module_of(model).GUARDS):
         if guard.startswith(NO_POSE):
             continue

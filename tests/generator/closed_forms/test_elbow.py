@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -17,9 +16,6 @@ from kintrafo.generator.planning.plan import CataloguePlan
 from mechanisms.iterated_loops import KNEE, planar
 from oracle.random_states import check_with_the_oracle
 from support.changes import changed, named
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 def other_way_round(model: Formulation) -> Formulation:
@@ -54,7 +50,7 @@ def counted_to_a_point() -> Formulation:
     ],
     ids=lambda value: getattr(value, "name", ""),
 )
-def test_it_moves_as_the_oracle_says(model: Formulation, form: type, tmp_path: Path) -> None:
+def test_it_moves_as_the_oracle_says(model, form, tmp_path):
     plan = CataloguePlan.of(model)
     (transformer,) = plan.transformers
     assert isinstance(transformer.step, form)
@@ -70,7 +66,7 @@ def test_it_moves_as_the_oracle_says(model: Formulation, form: type, tmp_path: P
         np.testing.assert_allclose(built.residuals(given, state, inputs), 0.0, atol=1e-14)
 
 
-def test_a_driven_elbow_may_hang_at_moving_bodies(tmp_path: Path) -> None:
+def test_a_driven_elbow_may_hang_at_moving_bodies(tmp_path):
     """A five-bar, two coordinates: its left crank, and the pin between the two couplers."""
     bars = planar(
         "five_bar_at_its_pin",
@@ -97,7 +93,7 @@ def test_a_driven_elbow_may_hang_at_moving_bodies(tmp_path: Path) -> None:
     check_with_the_oracle(given, tmp_path, 0.2)
 
 
-def test_links_that_cannot_reach_are_refused(tmp_path: Path) -> None:
+def test_links_that_cannot_reach_are_refused(tmp_path):
     far = planar(
         "far_knee",
         [

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import kintrafo
 import mpmath
@@ -33,8 +33,6 @@ from support.models import Built, needs_gcc, own
 from support.symbolic import constants_of, derivatives_of, python
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from oracle.constraints import Array
 
 ARM, FIVE, STRUT = MODELS
@@ -49,16 +47,16 @@ TRAVEL = {ARM.name: 0.35, FIVE.name: 0.5, STRUT.name: 0.08}
 
 
 @pytest.fixture(scope="session")
-def derive() -> Callable[[str], Derivation]:
+def derive():
     return lambda name: models.derive(BY_NAME[name], derivatives=False)
 
 
 @pytest.fixture(scope="session")
-def built() -> Callable[[str], Built]:
+def built():
     """Return a compiled model."""
 
     @cache
-    def found(name: str) -> Built:
+    def found(name):
         model = BY_NAME[name]
         return Built.of(model, own(model, derivatives=name == ARM.name))
 
@@ -84,7 +82,7 @@ WITH_STRUT = pytest.mark.parametrize("name", [ARM.name, FIVE.name, STRUT.name])
 
 
 @pytest.mark.parametrize("size", [1, 2, 3, 4, 6])
-def test_adjugate_and_determinant_in_integers(size: int) -> None:
+def test_adjugate_and_determinant_in_integers(size):
     rng = np.random.default_rng(size)
     numbers = sp.Matrix(size, size, [int(n) for n in rng.integers(-9, 10, size * size)])
     numbers[size - 1, :] = numbers[0, :] if size == 4 else numbers[size - 1, :]  # a singular one
@@ -105,7 +103,7 @@ def test_adjugate_and_determinant_in_integers(size: int) -> None:
 
 
 @WITH_STRUT
-def test_bodies_fulfil_all_joints(name: str, built: Callable[[str], Built]) -> None:
+def test_bodies_fulfil_all_joints(name, built):
     model = built(name)
     for state, inputs in zip(*states(model, 30), strict=True):
         closure = model.oracle.closure(model.motion(state, inputs))
@@ -113,7 +111,7 @@ def test_bodies_fulfil_all_joints(name: str, built: Callable[[str], Built]) -> N
         np.testing.assert_allclose(closure.rate, 0.0, atol=1e-15 * 10 * np.abs(state[2:]).max())
 
 
-def test_a_strut_is_as_long_as_its_slide_says(built: Callable[[str], Built]) -> None:
+def test_a_strut_is_as_long_as_its_slide_says(built):
     model = built(STRUT.name)
     (state, *_), (inputs, *_) = states(model, 1)
     slide = model.oracle.driven(model.motion(state, inputs), "strut_guide")
@@ -127,9 +125,7 @@ def test_a_strut_is_as_long_as_its_slide_says(built: Callable[[str], Built]) -> 
 
 
 @WITH_STRUT
-def test_accelerations_are_those_of_the_maximal_coordinates(
-    name: str, built: Callable[[str], Built]
-) -> None:
+def test_accelerations_are_those_of_the_maximal_coordinates(name, built):
     model = built(name)
     for state, inputs in zip(*states(model, 30), strict=True):
         motion = model.motion(state, inputs)
@@ -150,9 +146,7 @@ def test_accelerations_are_those_of_the_maximal_coordinates(
 
 
 @pytest.mark.parametrize("by", ["state", "inputs"])
-def test_jacobians_are_exact(
-    by: str, built: Callable[[str], Built], derive: Callable[[str], Derivation]
-) -> None:
+def test_jacobians_are_exact(by, built, derive):
     # differences in 50 digits: every perturbed state is solved again, to 50 digits. Those of a
     # carrier on more rods are compared in `test_mechanisms`.
     model, derived = built(ARM.name), derive(ARM.name)
@@ -174,7 +168,7 @@ def test_jacobians_are_exact(
 
 
 @MODEL_NAMES
-def test_out_of_reach_is_an_error_with_the_loop(name: str, built: Callable[[str], Built]) -> None:
+def test_out_of_reach_is_an_error_with_the_loop(name, built):
     model = built(name)
     state = np.array([*model.design, 0.0, 0.0])
     inputs = np.array([1.5, 0.0, 0.0, 0.0])  # the rack: no toe link is that long
@@ -188,9 +182,7 @@ def test_out_of_reach_is_an_error_with_the_loop(name: str, built: Callable[[str]
 
 
 @MODEL_NAMES
-def test_wherever_it_is_asked_it_closes_or_says_that_it_does_not(
-    name: str, built: Callable[[str], Built]
-) -> None:
+def test_wherever_it_is_asked_it_closes_or_says_that_it_does_not(name, built):
     model, rng = built(name), np.random.default_rng(1)
     closed = refused = 0
     for _ in range(80):
@@ -208,12 +200,12 @@ def test_wherever_it_is_asked_it_closes_or_says_that_it_does_not(
     assert min(closed, refused) > 10
 
 
-def test_up_to_the_end_of_the_reach(built: Callable[[str], Built]) -> None:
+def test_up_to_the_end_of_the_reach(built):
     """Bisection for the angle at which the rods lose their hold: closed before, refused behind."""
     model = built(ARM.name)
     inside, outside = 0.3, 0.9
 
-    def margin(angle: float) -> float:
+    def margin(angle):
         state = np.array([model.design[0] + angle, 0.0, 0.0, 0.0])
         return float(model("margins", state)[0])
 
@@ -230,7 +222,7 @@ def test_up_to_the_end_of_the_reach(built: Callable[[str], Built]) -> None:
         assert np.abs(model.oracle.closure(motion).value).max() < 1e-13
 
 
-def test_what_is_not_finite_is_refused(built: Callable[[str], Built]) -> None:
+def test_what_is_not_finite_is_refused(built):
     model = built(ARM.name)
     for value in (np.nan, np.inf):
         with pytest.raises(ModelError, match="arm_angle"):
@@ -241,7 +233,7 @@ def test_what_is_not_finite_is_refused(built: Callable[[str], Built]) -> None:
 
 
 @needs_gcc
-def test_c_computes_what_numpy_computes(built: Callable[[str], Built]) -> None:
+def test_c_computes_what_numpy_computes(built):
     compiled = built(ARM.name)
     arrays = replace(compiled, module=own(ARM, arrays=True))
     state, inputs = states(arrays, 200)
@@ -272,7 +264,7 @@ def test_c_computes_what_numpy_computes(built: Callable[[str], Built]) -> None:
     assert np.isfinite(result.y).all()
 
 
-def test_documents_say_that_it_iterates(built: Callable[[str], Built]) -> None:
+def test_documents_say_that_it_iterates(built):
     module = built(ARM.name).module
     assert "Some loops of this model are solved by iteration." in module.__doc__
     assert f"held by {', '.join(RODS[ARM.name])}" in " ".join(module.__doc__.split())
@@ -281,7 +273,7 @@ def test_documents_say_that_it_iterates(built: Callable[[str], Built]) -> None:
     assert "not free of iteration" not in double_wishbone.__doc__
 
 
-def test_report_names_the_equations_of_the_loops(derive: Callable[[str], Derivation]) -> None:
+def test_report_names_the_equations_of_the_loops(derive):
     text = markdown(derive(ARM.name))
     assert "Some loops of this model are solved by iteration." in text
     for rod in RODS[ARM.name]:
@@ -289,7 +281,7 @@ def test_report_names_the_equations_of_the_loops(derive: Callable[[str], Derivat
     assert text.count("no closed form: 3 equations for the pose of carrier") == 3
 
 
-def test_angles_of_the_links_can_be_reported() -> None:
+def test_angles_of_the_links_can_be_reported():
     cross = CONTROL_ARM.joint("upper_link_cross")
     angles = (
         cross.azimuth("link_azimuth", "azimuth"),
@@ -330,7 +322,7 @@ def design_angle(derived: Derivation) -> float:
 
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda m: m.name)
-def test_without_permission_the_loop_is_refused(model: Any) -> None:
+def test_without_permission_the_loop_is_refused(model):
     with pytest.raises(NoClosedFormError) as caught:
         CataloguePlan.of(replace(model, allow_iteration=False))
     text = str(caught.value)
@@ -343,7 +335,7 @@ def test_without_permission_the_loop_is_refused(model: Any) -> None:
         kintrafo.compile(replace(model, allow_iteration=False))
 
 
-def test_a_hinge_in_place_of_a_ball_joint_has_no_block() -> None:
+def test_a_hinge_in_place_of_a_ball_joint_has_no_block():
     """A loop that is neither in the catalogue nor of a body on rods is refused in any case."""
     ball, line = held_by_rods.LOWER_BALL, Line(held_by_rods.ARM_BALL, held_by_rods.SPIN_AXIS)
     hinge = Revolute("lower_ball", held_by_rods.LOWER_ARM, held_by_rods.CARRIER, axis=line)
@@ -353,7 +345,7 @@ def test_a_hinge_in_place_of_a_ball_joint_has_no_block() -> None:
     assert "allow_iteration" not in str(caught.value)
 
 
-def test_rods_on_the_ground_only_cannot_move() -> None:
+def test_rods_on_the_ground_only_cannot_move():
     """The body they hold is a part of the ground, and its inertia is none of the equations'."""
     crosses = [FIVE_LINK.joint(f"{rod}_cross") for rod in ("toe_link", "push_rod")]
     model = changed(FIVE, *((c, replace(c, first=held_by_rods.CHASSIS)) for c in crosses))

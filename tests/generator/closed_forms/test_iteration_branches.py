@@ -14,7 +14,7 @@ import pytest
 from kintrafo import Model, PositionError, characteristics, loads, state_at_height, travel_range
 from kintrafo.vehicle.models.model_batch import ModelBatch
 from kintrafo.vehicle.models.positions import arm_angles_of_batch, design_height
-from mechanisms import iterated_loops, random_loops, random_multi_links, random_rigid_axles
+from mechanisms import iterated_loops, random_multi_links, random_rigid_axles
 from mechanisms.random_loops import FAMILIES, Judged, judged
 from scipy.spatial.transform import Rotation
 from support.placements import Placements
@@ -45,7 +45,7 @@ def assert_same_turns(found: Array, expected: Array) -> None:
     np.testing.assert_allclose((found - expected + np.pi) % (2 * np.pi), np.pi, atol=1e-13)
 
 
-def test_a_hooke_joint_goes_all_the_way_round() -> None:
+def test_a_hooke_joint_goes_all_the_way_round():
     """tan(out) = tan(in) / cos(bend), for more than three turns in either sense."""
     inputs = np.linspace(-20.0, 20.0, 161)
     answered, found = turned(iterated_loops.HOOKE, inputs)
@@ -55,7 +55,7 @@ def test_a_hooke_joint_goes_all_the_way_round() -> None:
     )
 
 
-def test_a_spherical_four_bar_goes_all_the_way_round() -> None:
+def test_a_spherical_four_bar_goes_all_the_way_round():
     """A cos(out) + B sin(out) = C, with the arc of the coupler; the branch is that at design."""
     ground, crank, rocker, last = (
         np.array(a) / np.linalg.norm(a) for a in iterated_loops.SPHERICAL_AXES
@@ -82,14 +82,14 @@ PLANAR = [
 
 
 @pytest.mark.parametrize("family", PLANAR, ids=[f.model.name for f in PLANAR])
-def test_regular_positions_of_planar_linkages_are_answered(family: random_loops.Family) -> None:
+def test_regular_positions_of_planar_linkages_are_answered(family):
     found = sum((judged(family, np.random.default_rng(seed)) for seed in range(3)), Judged())
     assert found.regular > 3
     assert found.answered == found.regular
     assert found.wrong == 0
 
 
-def test_behind_a_dead_point_is_no_answer() -> None:
+def test_behind_a_dead_point_is_no_answer():
     """The knee of a four-bar opens until coupler and crank are in line with the rocker's reach.
 
     The law of cosines says when: the distance of the far pins is at most rocker and ground in line.
@@ -147,7 +147,7 @@ def two_branches() -> Model:
     return Model(random_multi_links.CAR.with_changes(TWO_BRANCHES))
 
 
-def test_a_range_ends_where_its_branch_does() -> None:
+def test_a_range_ends_where_its_branch_does():
     model = two_branches()
     ways = random_multi_links.Ways([model.suspension], RACK)
     reach = travel_range(model, RACK)
@@ -158,7 +158,7 @@ def test_a_range_ends_where_its_branch_does() -> None:
 
 
 @pytest.mark.parametrize("travel", [-0.012, -0.0135, -0.015, -0.04, -0.08])
-def test_positions_on_another_branch_are_refused(travel: float) -> None:
+def test_positions_on_another_branch_are_refused(travel):
     model = two_branches()
     with pytest.raises(PositionError, match=r"from 286\.59 mm .*that is -11\.9\d mm to"):
         state_at_height(model, design_height(model) + travel, rack_position=RACK)
@@ -169,7 +169,7 @@ def test_positions_on_another_branch_are_refused(travel: float) -> None:
         loads.static(model, {"case": case})
 
 
-def test_positions_on_another_branch_are_no_part_of_a_batch() -> None:
+def test_positions_on_another_branch_are_no_part_of_a_batch():
     model = two_branches()
     values = {"hardpoints.tie_rod_inner.x": np.array([TWO_BRANCHES["hardpoints.tie_rod_inner"][0]])}
     batch = ModelBatch(model.suspension, values, free_rack=False)
@@ -178,7 +178,7 @@ def test_positions_on_another_branch_are_no_part_of_a_batch() -> None:
 
 
 @pytest.mark.parametrize("seed", range(2))
-def test_multi_links_are_on_the_branch_of_their_path(seed: int) -> None:
+def test_multi_links_are_on_the_branch_of_their_path(seed):
     random = np.random.default_rng([1, seed])
     found = random_multi_links.judged(
         random_multi_links.some_cars(random, 12), random.uniform(-0.06, 0.06), random
@@ -188,7 +188,7 @@ def test_multi_links_are_on_the_branch_of_their_path(seed: int) -> None:
     assert found.wrong == []
 
 
-def test_rigid_axles_are_on_the_branch_of_their_path() -> None:
+def test_rigid_axles_are_on_the_branch_of_their_path():
     random = np.random.default_rng(2)
     found = random_rigid_axles.judged(random_rigid_axles.some_axles(random, 24), random)
     assert found.wrong == found.short == []

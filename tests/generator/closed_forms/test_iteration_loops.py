@@ -30,10 +30,7 @@ from support.models import Built, own
 from support.symbolic import constants_of, derivatives_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from kintrafo.generator import Formulation
-    from kintrafo.generator.equations.outputs import Derivation
     from oracle.constraints import Array
 
 MODELS = {
@@ -70,16 +67,16 @@ DIFFERENTIATED = (SEVEN_HINGES, BRICARD, iterated_loops.PLATE_ON_A_SLOT, iterate
 
 
 @pytest.fixture(scope="session")
-def derive() -> Callable[[Formulation], Derivation]:
+def derive():
     return lambda model: models.derive(model, derivatives=False)
 
 
 @pytest.fixture(scope="session")
-def built() -> Callable[[Formulation], Built]:
+def built():
     """Return a compiled model."""
 
     @cache
-    def found(name: str) -> Built:
+    def found(name):
         model = MODELS[name]
         return Built.of(model, own(model, derivatives=model in DIFFERENTIATED))
 
@@ -131,9 +128,7 @@ EVERY = each(*MODELS.values())
 
 
 @EVERY
-def test_loops_close_and_accelerate(
-    model: Formulation, built: Callable[[Formulation], Built]
-) -> None:
+def test_loops_close_and_accelerate(model, built):
     compiled = built(model)
     inputs = given(compiled)
     named = compiled.named(inputs)
@@ -161,9 +156,7 @@ def test_loops_close_and_accelerate(
 
 
 @EVERY
-def test_motion_is_continuous_over_the_whole_span(
-    model: Formulation, built: Callable[[Formulation], Built]
-) -> None:
+def test_motion_is_continuous_over_the_whole_span(model, built):
     """No state of the span is on another branch: every step goes along the tangents."""
     compiled = built(model)
     low, high = SPANS[model.name]
@@ -184,11 +177,7 @@ def test_motion_is_continuous_over_the_whole_span(
 
 
 @each(SEVEN_HINGES, BRICARD, iterated_loops.PLATE_ON_A_SLOT)
-def test_jacobians_are_exact(
-    model: Formulation,
-    built: Callable[[Formulation], Built],
-    derive: Callable[[Formulation], Derivation],
-) -> None:
+def test_jacobians_are_exact(model, built, derive):
     # differences in 50 digits: every perturbed state is solved again, to 50 digits
     compiled, derived = built(model), derive(model)
     state = states(compiled, 5)[3]
@@ -208,9 +197,7 @@ def test_jacobians_are_exact(
 
 
 @EVERY
-def test_anywhere_it_closes_or_says_so(
-    model: Formulation, built: Callable[[Formulation], Built]
-) -> None:
+def test_anywhere_it_closes_or_says_so(model, built):
     compiled, rng = built(model), np.random.default_rng(1)
     outcomes = set()
     for _ in range(60):
@@ -228,9 +215,7 @@ def test_anywhere_it_closes_or_says_so(
     assert outcomes == {"closed"} | ({"refused"} if model.name not in rounds else set())
 
 
-def test_a_chain_that_moves_by_its_dimensions_alone_is_refused_with_others(
-    built: Callable[[Formulation], Built],
-) -> None:
+def test_a_chain_that_moves_by_its_dimensions_alone_is_refused_with_others(built):
     """Without Bricard's symmetry the loop closes at the design position alone."""
     compiled = built(BRICARD)
     parameters = dict(compiled.parameters)
@@ -240,7 +225,7 @@ def test_a_chain_that_moves_by_its_dimensions_alone_is_refused_with_others(
         broken("rhs", np.array([0.3, 0.0]))
 
 
-def test_report_names_joints_and_equations(derive: Callable[[Formulation], Derivation]) -> None:
+def test_report_names_joints_and_equations(derive):
     text = markdown(derive(iterated_loops.PLATE_ON_A_PIN))
     assert "Some loops of this model are solved by iteration." in text
     assert "bar and plate have an axis in common at plate_pin: 2 equations" in text
@@ -263,13 +248,13 @@ def test_report_names_joints_and_equations(derive: Callable[[Formulation], Deriv
         (iterated_loops.BALL_RING, r"ball_2, 1 loop\(s\) leave 3 equations for the 3 unknown"),
     ],
 )
-def test_without_permission_the_loop_is_refused(model: Formulation, words: str) -> None:
+def test_without_permission_the_loop_is_refused(model, words):
     with pytest.raises(NoClosedFormError, match=words) as caught:
         CataloguePlan.of(replace(model, allow_iteration=False))
     assert "declared with allow_iteration=True" in str(caught.value)
 
 
-def test_six_hinges_in_general_cannot_move() -> None:
+def test_six_hinges_in_general_cannot_move():
     """Bricard's chain with another place of a hinge: recognised before anything is derived."""
     model = with_default(BRICARD, place_3_x=-0.25)
     with pytest.raises(
@@ -280,7 +265,7 @@ def test_six_hinges_in_general_cannot_move() -> None:
     assert "allow_iteration" not in str(caught.value)
 
 
-def test_a_dead_point_at_design_is_refused() -> None:
+def test_a_dead_point_at_design_is_refused():
     """Bar, rod and block push on the plate along lines through one point: it turns about that."""
     places = {  # the point is at 0.3, 0.3 of the plane
         "rod_start": askew(0.3, 0.5),  # the rod ends at 0.3, 0.38
@@ -292,7 +277,7 @@ def test_a_dead_point_at_design_is_refused() -> None:
         CataloguePlan.of(with_default(iterated_loops.PLATE_ON_A_SLOT, **changes))
 
 
-def test_too_many_unknowns_are_refused() -> None:
+def test_too_many_unknowns_are_refused():
     mechanism = SEVEN_HINGES.mechanism
     branch = JointOfTree(mechanism.joint("hinge_1"), "one", "two")
     action = CoupledLoops("two", (branch,) * (MOST_UNKNOWNS + 1), (), ())
@@ -305,7 +290,7 @@ def test_too_many_unknowns_are_refused() -> None:
 # -- mobility in numbers --------------------------------------------------------------------------
 
 
-def test_mobility_at_the_design_position() -> None:
+def test_mobility_at_the_design_position():
     for model in MODELS.values():
         driven = [joint.name for joint in model.driven]
         mobility = Mobility(JointGraph(model.mechanism), driven)

@@ -126,7 +126,7 @@ TURNS = np.linspace(-np.pi, np.pi, 41)
 
 
 @pytest.mark.parametrize("side", [1, -1])
-def test_the_rocker_stays_on_the_side_of_its_design(side: int) -> None:
+def test_the_rocker_stays_on_the_side_of_its_design(side):
     built = linkage(0.1, 0.28, 0.26, 0.3, side)
     for angle in TURNS:
         with mpmath.workdps(40):
@@ -137,7 +137,7 @@ def test_the_rocker_stays_on_the_side_of_its_design(side: int) -> None:
 
 @pytest.mark.parametrize("side", [1, -1])
 @pytest.mark.parametrize("offset", [0.0, 0.03, -0.02])
-def test_the_piston_stays_on_the_side_of_its_design(side: int, offset: float) -> None:
+def test_the_piston_stays_on_the_side_of_its_design(side, offset):
     built = crank_and_slider(0.04, 0.15, side, offset)
     for angle in TURNS:
         with mpmath.workdps(40):
@@ -197,7 +197,7 @@ every_dead_point = pytest.mark.parametrize(("kind", "side"), DEAD_POINTS)
 
 
 @every_dead_point
-def test_beyond_a_dead_point_the_loop_is_named(kind: str, side: int) -> None:
+def test_beyond_a_dead_point_the_loop_is_named(kind, side):
     dead = dead_point(kind, side)
     for beyond in (1e-9, 1e-3, 0.1):
         state = np.array([dead.angle - dead.inward * beyond, 1.0])
@@ -213,7 +213,7 @@ def test_beyond_a_dead_point_the_loop_is_named(kind: str, side: int) -> None:
 
 @every_dead_point
 @pytest.mark.parametrize("before", [1e-2, 1e-4, 1e-6, 1e-8, 1e-10])
-def test_accuracy_before_a_dead_point(kind: str, side: int, before: float) -> None:
+def test_accuracy_before_a_dead_point(kind, side, before):
     dead = dead_point(kind, side)
     angle = dead.angle + dead.inward * before
     with mpmath.workdps(40):
@@ -231,7 +231,7 @@ def test_accuracy_before_a_dead_point(kind: str, side: int, before: float) -> No
 
 @every_dead_point
 @pytest.mark.parametrize("before", [1e-2, 1e-4, 1e-6])
-def test_equations_of_motion_before_a_dead_point(kind: str, side: int, before: float) -> None:
+def test_equations_of_motion_before_a_dead_point(kind, side, before):
     dead = dead_point(kind, side)
     built, inputs = dead.built, np.array([2.0])
     state = np.array([dead.angle + dead.inward * before, 0.3 * before])
@@ -245,7 +245,7 @@ def test_equations_of_motion_before_a_dead_point(kind: str, side: int, before: f
 # -- where an angle is not determined --------------------------------------------------------------
 
 
-def test_a_pin_on_the_hinge_is_named() -> None:
+def test_a_pin_on_the_hinge_is_named():
     # a kite: the crank's pin passes through the rocker's bearing, the crank turned to lie along x
     built = linkage(0.25, 0.3, 0.3, 0.25, 1)
     meeting = np.array([-np.pi / 2.0, 0.0])
@@ -255,14 +255,14 @@ def test_a_pin_on_the_hinge_is_named() -> None:
     built("positions", meeting + np.array([0.1, 0.0]))  # beside it all is well
 
 
-def test_degenerate_lengths_are_refused() -> None:
+def test_degenerate_lengths_are_refused():
     nothing = {"rocker_pin_x": 0.3, "rocker_pin_y": 0.0}  # on the rocker's own bearing
     built = Built.of(FOUR_BARS[0], four_bar, nothing)
     with pytest.raises(built.module.ParameterError, match="rocker_pin is on the line about which"):
         _ = built.constants
 
 
-def test_a_design_at_a_dead_point_is_refused() -> None:
+def test_a_design_at_a_dead_point_is_refused():
     # coupler and rocker in line: no side to be on, which only rounding would choose
     flat: dict[str, float] = {"crank_pin_y": 0.0, "crank_pin_x": 0.1, "rocker_pin_y": 0.0}
     built = Built.of(FOUR_BARS[0], four_bar, flat | {"rocker_pin_x": 0.2})

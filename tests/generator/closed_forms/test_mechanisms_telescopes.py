@@ -88,7 +88,7 @@ WAY = {"x": -0.5, "y": 0.7, "z": 0.0}
 
 
 @pytest.fixture(scope="module", params=["pivot", "bore"])
-def built(request: pytest.FixtureRequest) -> Built:
+def built(request):
     model = crane(request.param)
     return Built.of(model, own(model))
 
@@ -189,7 +189,7 @@ GEOMETRIES: dict[str, dict[str, float]] = {
 
 @needs_gcc
 @pytest.mark.parametrize("geometry", GEOMETRIES)
-def test_position_over_the_whole_range(built: Built, geometry: str) -> None:
+def test_position_over_the_whole_range(built, geometry):
     built = Built.of(built.model, built.module, GEOMETRIES[geometry])
     exact = Exact.of(built)
     for driven in np.linspace(*reach(built, exact), 43)[1:-1]:
@@ -260,7 +260,7 @@ ENDS = pytest.mark.parametrize("which", ["shortest", "longest"])
 
 @needs_gcc
 @ENDS
-def test_beyond_the_end_the_loop_is_named(built: Built, which: str) -> None:
+def test_beyond_the_end_the_loop_is_named(built, which):
     built = with_end(built, which)
     end = end_of(built, which)
     for beyond in (1e-9, 1e-3, 0.05):
@@ -274,7 +274,7 @@ def test_beyond_the_end_the_loop_is_named(built: Built, which: str) -> None:
 @needs_gcc
 @ENDS
 @pytest.mark.parametrize("before", [1e-2, 1e-4, 1e-6, 1e-8, 1e-10])
-def test_accuracy_before_the_end(built: Built, which: str, before: float) -> None:
+def test_accuracy_before_the_end(built, which, before):
     built = with_end(built, which)
     end = end_of(built, which)
     driven = end.driven + end.inward * before
@@ -288,7 +288,7 @@ def test_accuracy_before_the_end(built: Built, which: str, before: float) -> Non
 @needs_gcc
 @ENDS
 @pytest.mark.parametrize("before", [1e-2, 1e-4, 1e-6])
-def test_equations_of_motion_before_the_end(built: Built, which: str, before: float) -> None:
+def test_equations_of_motion_before_the_end(built, which, before):
     built = with_end(built, which)
     end = end_of(built, which)
     state = np.array([end.driven + end.inward * before, 0.3 * before])
@@ -301,7 +301,7 @@ def test_equations_of_motion_before_the_end(built: Built, which: str, before: fl
 
 @needs_gcc
 @pytest.mark.parametrize("built", ["bore"], indirect=True)
-def test_a_cylinder_drawn_in_beyond_its_pins_is_named(built: Built) -> None:
+def test_a_cylinder_drawn_in_beyond_its_pins_is_named(built):
     at_once = Built.of(built.model, built.module, {"piston_pin_x": BASE, "piston_pin_y": 0.2})
     with pytest.raises(built.module.ClosureError, match="drawn in until its pins") as error:
         at_once("rhs", np.array([-0.2, 0.0]))
@@ -312,7 +312,7 @@ def test_a_cylinder_drawn_in_beyond_its_pins_is_named(built: Built) -> None:
 
 
 @pytest.mark.parametrize("driven", ["pivot", "bore", "A", "guide"])
-def test_any_order_of_declaration(driven: str) -> None:
+def test_any_order_of_declaration(driven):
     """Joints in any order, and those that are not driven from either end: crane, slider-crank."""
     model = crane(driven) if driven in ("pivot", "bore") else sliding(driven)
     free = [j for j in model.mechanism.joints if j.name != driven]
@@ -346,7 +346,7 @@ def reversed_joint(joint: Joint) -> Joint:
 
 
 @needs_gcc
-def test_guide_along_the_pins_is_a_guide_that_does_not_miss_them(built: Built) -> None:
+def test_guide_along_the_pins_is_a_guide_that_does_not_miss_them(built):
     """Declared from pin to pin it costs less, and the numbers are those of a direction."""
     mechanism = built.model.mechanism
     pins = named(mechanism, Point, "barrel_pin"), named(mechanism, Point, "piston_pin")
@@ -373,7 +373,7 @@ def evaluated(derived: Any, state: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]
     return np.array([float(x) for x in python(derived.functions["rhs"])(values)])
 
 
-def test_known_telescope_in_space_is_refused_by_name() -> None:
+def test_known_telescope_in_space_is_refused_by_name():
     """A guide does not say where its line is: in space a telescope is a cylindrical joint."""
     model = crane("bore")
     pivot = model.mechanism.joint("pivot")

@@ -100,7 +100,7 @@ def last_reached(subject: Offset, side: float) -> float:
 
 @pytest.mark.parametrize("side", [-1.0, 1.0])
 @pytest.mark.parametrize("seed", range(4))
-def test_up_to_the_dead_point(seed: int, side: float) -> None:
+def test_up_to_the_dead_point(seed, side):
     """As the rack nears the place where the rod just reaches, the joints stay closed."""
     subject = random_car(2000 + seed)
     reached = last_reached(subject, side)
@@ -118,7 +118,7 @@ def test_up_to_the_dead_point(seed: int, side: float) -> None:
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_accelerations_up_to_the_dead_point(seed: int) -> None:
+def test_accelerations_up_to_the_dead_point(seed):
     """Towards it they grow without limit; their relative error grows with the slackness squared.
 
     A rounding of the equation of the rod changes its distance from the dead point, by which
@@ -158,7 +158,7 @@ def almost_touching(seed: int, reach: float) -> Offset:
 
 @pytest.mark.parametrize("exponent", range(1, 7))
 @pytest.mark.parametrize("seed", range(3))
-def test_up_to_where_the_axis_passes_the_ball_joint(seed: int, exponent: int) -> None:
+def test_up_to_where_the_axis_passes_the_ball_joint(seed, exponent):
     """The strut top as near to the ball joint as the axis is: there the reach is zero.
 
     A rounding of the square of the reach is divided by the reach, and so is the knuckle's turn.
@@ -183,7 +183,7 @@ def test_up_to_where_the_axis_passes_the_ball_joint(seed: int, exponent: int) ->
     assert solved > 0
 
 
-def test_either_branch_is_that_of_the_design() -> None:
+def test_either_branch_is_that_of_the_design():
     """The rod's end in front of the axle or behind it: two signs of the root."""
     signs = set()
     for seed in range(6):

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from itertools import permutations
 from math import pi
-from typing import TYPE_CHECKING
 
 import kintrafo
 import numpy as np
@@ -20,11 +19,8 @@ from oracle.random_states import check_with_the_oracle
 from support.changes import with_default
 from support.models import derive, own
 
-if TYPE_CHECKING:
-    from pathlib import Path
 
-
-def test_it_moves_as_the_oracle_says(tmp_path: Path) -> None:
+def test_it_moves_as_the_oracle_says(tmp_path):
     model = locomotive("four_wheels", (0.0, 0.9, 1.7, 2.6))
     plan = CataloguePlan.of(model)
     assert [type(t.step) for t in plan.transformers] == [ParallelLinks] * 3
@@ -32,7 +28,7 @@ def test_it_moves_as_the_oracle_says(tmp_path: Path) -> None:
     check_with_the_oracle(model, tmp_path, pi)
 
 
-def test_any_wheel_may_drive_and_all_turn_alike(tmp_path: Path) -> None:
+def test_any_wheel_may_drive_and_all_turn_alike(tmp_path):
     model = locomotive("rear_drive")
     swing, first = model.independent
     last = model.mechanism.joint("axle_2")
@@ -51,19 +47,19 @@ def test_any_wheel_may_drive_and_all_turn_alike(tmp_path: Path) -> None:
     np.testing.assert_allclose(residuals, 0.0, atol=1e-14)
 
 
-def test_what_can_drive_it_is_found() -> None:
+def test_what_can_drive_it_is_found():
     mechanism = replace(locomotive().mechanism, forces=())
     found = [p.independent for p in kintrafo.proposals(mechanism)]
     assert {("swing", f"axle_{i}") for i in range(3)} <= set(found)
 
 
-def test_a_crank_that_is_not_parallel_is_reported_by_how_much() -> None:
+def test_a_crank_that_is_not_parallel_is_reported_by_how_much():
     bent = with_default(locomotive("bent"), pin_2_x=1.9)
     with pytest.raises(g.DeclarationError, match=r"wheel2 and wheel0 hold rod .*off by .* mm"):
         derive(bent, derivatives=False)
 
 
-def test_parameters_that_lock_it_are_refused() -> None:
+def test_parameters_that_lock_it_are_refused():
     model = own(locomotive(), arrays=True, derivatives=False)
     with pytest.raises(ParameterError, match="not parallel and equally long, so that nothing"):
         kintrafo.System(model, {"bearing_1_z": 0.5})
@@ -80,7 +76,7 @@ LOCKED = {
 
 @pytest.mark.parametrize("allow_iteration", [False, True])
 @pytest.mark.parametrize("case", LOCKED)
-def test_links_of_bodies_that_another_loop_turns_are_refused(case, allow_iteration) -> None:
+def test_links_of_bodies_that_another_loop_turns_are_refused(case, allow_iteration):
     """Crank and rocker turn against each other, as the frame has it, and the links forbid that."""
     pins, more = LOCKED[case]
     model = replace(double_crank("locked", pins, **more), allow_iteration=allow_iteration)
@@ -93,7 +89,7 @@ def test_links_of_bodies_that_another_loop_turns_are_refused(case, allow_iterati
     assert "without turning" in text
 
 
-def test_in_whatever_order_links_are_declared_they_are_refused() -> None:
+def test_in_whatever_order_links_are_declared_they_are_refused():
     for pins in permutations(PINS):
         model = double_crank("locked", pins, lean=0.05)
         joints = model.mechanism.joints
@@ -104,7 +100,7 @@ def test_in_whatever_order_links_are_declared_they_are_refused() -> None:
 
 
 @pytest.mark.parametrize("also", ["crank_0", "axle_1", "crank_1", "axle_2", "crank_2"])
-def test_what_the_links_determine_cannot_be_driven_too(also: str) -> None:
+def test_what_the_links_determine_cannot_be_driven_too(also):
     model = locomotive("driven_twice")
     driven = tuple(map(model.mechanism.joint, ("swing", "axle_0", also)))
     with pytest.raises(NoClosedFormError) as error:
@@ -114,7 +110,7 @@ def test_what_the_links_determine_cannot_be_driven_too(also: str) -> None:
 
 
 @pytest.mark.parametrize("driven", ["crank_bearing", "rocker_bearing"])
-def test_a_frame_that_is_one_more_parallel_link_moves_with_them(driven, tmp_path) -> None:
+def test_a_frame_that_is_one_more_parallel_link_moves_with_them(driven, tmp_path):
     """Behind the dead points, too, where a four-bar of one link would leave the parallelogram."""
     model = double_crank(f"by_{driven}", driven=("swing", driven))
     plan = CataloguePlan.of(model)
@@ -123,17 +119,17 @@ def test_a_frame_that_is_one_more_parallel_link_moves_with_them(driven, tmp_path
     check_with_the_oracle(model, tmp_path, pi)
 
 
-def test_a_frame_that_is_no_longer_parallel_is_refused_by_its_name() -> None:
+def test_a_frame_that_is_no_longer_parallel_is_refused_by_its_name():
     model = own(double_crank("double_crank"), arrays=True, derivatives=False)
     with pytest.raises(ParameterError, match="link0 and frame hold rocker on crank"):
         kintrafo.System(model, {"d_x": 0.5})
 
 
-def test_links_on_the_same_pins_turn_with_the_first(tmp_path) -> None:
+def test_links_on_the_same_pins_turn_with_the_first(tmp_path):
     check_with_the_oracle(double_crank("same", PINS[:1] * 3, lean=0.05), tmp_path, 0.5)
 
 
-def test_links_whose_pins_are_no_longer_the_same_are_refused() -> None:
+def test_links_whose_pins_are_no_longer_the_same_are_refused():
     model = own(double_crank("same", PINS[:1] * 3, lean=0.05), arrays=True, derivatives=False)
     moved = {
         f"{pin}_1_{x}": kintrafo.System(model).parameters[f"{pin}_0_{x}"] + 0.01
@@ -144,7 +140,7 @@ def test_links_whose_pins_are_no_longer_the_same_are_refused() -> None:
         kintrafo.System(model, moved)
 
 
-def test_a_table_that_guides_keep_from_turning_has_links(tmp_path) -> None:
+def test_a_table_that_guides_keep_from_turning_has_links(tmp_path):
     model = table_on_links("table")
     assert ParallelLinks in [type(t.step) for t in CataloguePlan.of(model).transformers]
     check_with_the_oracle(model, tmp_path, 0.02)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -13,17 +12,11 @@ from kintrafo.generator.planning.plan import CataloguePlan
 from mechanisms.scotch_yokes import yoke
 from oracle.random_states import check_with_the_oracle
 
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from kintrafo.generator import Formulation
-
-
 CASES = (yoke("scotch_yoke"), yoke("turned_yoke", turned=True), yoke("carried_yoke", carried=True))
 
 
 @pytest.mark.parametrize("model", CASES, ids=lambda model: model.name)
-def test_it_moves_as_the_oracle_says_all_around(model: Formulation, tmp_path: Path) -> None:
+def test_it_moves_as_the_oracle_says_all_around(model, tmp_path):
     (transformer,) = CataloguePlan.of(model).transformers
     assert type(transformer.step) is ScotchYoke
     built = check_with_the_oracle(model, tmp_path, np.pi)
@@ -34,7 +27,7 @@ def test_it_moves_as_the_oracle_says_all_around(model: Formulation, tmp_path: Pa
         np.testing.assert_allclose(residuals, 0.0, atol=1e-14)
 
 
-def test_a_crank_that_is_driven_by_what_is_given_drives_it_too(tmp_path: Path) -> None:
+def test_a_crank_that_is_driven_by_what_is_given_drives_it_too(tmp_path):
     model = yoke("given_yoke", carried=True)
     frame, crank = model.independent
     turn = Motion("turn", "rad", "turn of the frame")
@@ -42,7 +35,7 @@ def test_a_crank_that_is_driven_by_what_is_given_drives_it_too(tmp_path: Path) -
     check_with_the_oracle(given, tmp_path, 1.0)
 
 
-def test_a_slot_along_the_guide_is_refused(tmp_path: Path) -> None:
+def test_a_slot_along_the_guide_is_refused(tmp_path):
     built = check_with_the_oracle(CASES[0], tmp_path, 1.0, count=1)
     along = {**built.parameters, "slot_x": 1.0, "slot_y": 0.2}
     with pytest.raises(ValueError, match="the slot slot of yoke is along its guide guide"):

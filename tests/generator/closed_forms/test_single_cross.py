@@ -22,15 +22,13 @@ from support.changes import changed, with_default
 from support.models import Built, own
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from kintrafo.generator import Formulation
 
 TURNS = np.linspace(-pi, pi, 25)
 
 
 @pytest.mark.parametrize("bend", [35, -50])
-def test_it_turns_as_hooke_says(bend: float) -> None:
+def test_it_turns_as_hooke_says(bend):
     model = column("one_cross", radians(bend), 0.0, 0.0, links="one")
     module = own(model, derivatives=False)
     built, row = Built.of(model, module), list(module.RELATIVE_COORDINATES).index("rolling_angle")
@@ -41,7 +39,7 @@ def test_it_turns_as_hooke_says(bend: float) -> None:
         assert abs((found - angle + pi) % (2 * pi) - pi) < 1e-14
 
 
-def test_crosses_in_a_row_on_bodies_that_move(tmp_path: Path) -> None:
+def test_crosses_in_a_row_on_bodies_that_move(tmp_path):
     model = crosses_in_a_row()
     plan = CataloguePlan.of(model)
     assert [type(t.step) for t in plan.transformers] == [SingleCross, SingleCross]
@@ -49,14 +47,14 @@ def test_crosses_in_a_row_on_bodies_that_move(tmp_path: Path) -> None:
     check_with_the_oracle(model, tmp_path, 0.4)
 
 
-def test_beyond_a_right_angle_it_is_refused() -> None:
+def test_beyond_a_right_angle_it_is_refused():
     model = crosses_in_a_row()
     built = Built.of(model, own(model, derivatives=False))
     with pytest.raises(ClosureError, match="middle is bent too far at universal joint cross_2"):
         built("rhs", np.array([0.0, 1.0, 1.5, 0.0, 0.0, 0.0]))
 
 
-def test_a_hinge_that_misses_the_center_is_refused() -> None:
+def test_a_hinge_that_misses_the_center_is_refused():
     """Two axes that do not meet leave nothing to move."""
     model = crosses_in_a_row()
     rolling = model.mechanism.joint("rolling")
@@ -66,7 +64,7 @@ def test_a_hinge_that_misses_the_center_is_refused() -> None:
         CataloguePlan.of(changed(model, (rolling, moved)))
 
 
-def test_numbers_that_take_a_hinge_off_the_center_are_refused() -> None:
+def test_numbers_that_take_a_hinge_off_the_center_are_refused():
     """The point of the hinge is one of its own, at the same place."""
     model = crosses_in_a_row()
     rolling = model.mechanism.joint("rolling")
@@ -99,7 +97,7 @@ def through_its_cross() -> Formulation:
     [through_its_cross(), with_crosses(CROSSED_RING, "reported_ring")],
     ids=["closed", "iterated"],
 )
-def test_what_turns_with_a_reported_cross(model: Formulation) -> None:
+def test_what_turns_with_a_reported_cross(model):
     """The absolute Jacobian along the chain of reported angles, times the relative one (Eq. 16)."""
     built = Built.of(model, own(model, derivatives=False))
     random = np.random.default_rng(3)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
 
 import pytest
 from kintrafo.generator import (
@@ -31,10 +30,6 @@ from kintrafo.generator import (
 from mechanisms.every_force import loaded_bar, loaded_crank
 from oracle.random_states import check_with_the_oracle
 from support.changes import changed
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
 
 TILTED = Weight(upward=Direction("uphill", (0.5, -0.4, 2.0)))
 
@@ -66,11 +61,11 @@ def under_a_slope(model: Formulation) -> Formulation:
 @pytest.mark.parametrize(
     "model", [under_a_slope(loaded_crank()), loaded_bar()], ids=lambda m: m.name
 )
-def test_accelerations_are_those_of_maximal_coordinates(model: Formulation, tmp_path: Path) -> None:
+def test_accelerations_are_those_of_maximal_coordinates(model, tmp_path):
     check_with_the_oracle(model, tmp_path, reach=0.2)
 
 
-def test_only_the_direction_of_fixed_components_counts(tmp_path: Path) -> None:
+def test_only_the_direction_of_fixed_components_counts(tmp_path):
     """A guide along (1.0, 0.3, -0.2), which is no unit vector, slides by metres."""
     model = loaded_crank("fixed_way")
     way = model.mechanism.joint("way")
@@ -89,5 +84,5 @@ def test_only_the_direction_of_fixed_components_counts(tmp_path: Path) -> None:
         lambda: ForceElement("coil", LINE, (Actuator(TURN),)),
     ],
 )
-def test_what_cannot_act_is_refused(wrong: Callable[[], object], refused: Any) -> None:
+def test_what_cannot_act_is_refused(wrong, refused):
     refused(DeclarationError, wrong)

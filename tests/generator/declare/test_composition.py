@@ -7,7 +7,7 @@ mechanism has the same accelerations, and its bodies are where a mirror shows th
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -95,7 +95,7 @@ def evaluated(derived: Derivation, function: str, values: dict[str, float]) -> A
 
 
 @pytest.mark.parametrize("name", DECLARED)
-def test_a_mirror_image_moves_as_a_mirror_shows(name: str) -> None:
+def test_a_mirror_image_moves_as_a_mirror_shows(name):
     model = DECLARED[name]
     built = Built.of(model, shipped(model), parameters_of(model))
     rng = np.random.default_rng([*name.encode()])
@@ -119,7 +119,7 @@ def test_a_mirror_image_moves_as_a_mirror_shows(name: str) -> None:
     np.testing.assert_allclose(turns, expected, atol=1e-13)
 
 
-def test_the_image_of_an_image_is_the_original() -> None:
+def test_the_image_of_an_image_is_the_original():
     source = double_wishbone.DOUBLE_WISHBONE
     once = Copy(source, "a_", mirrored=True).mechanism
     twice = Copy(once, "b_", mirrored=True).mechanism
@@ -132,7 +132,7 @@ def test_the_image_of_an_image_is_the_original() -> None:
     assert axis == end - start
 
 
-def test_fixed_directions_that_are_their_own_image_stay() -> None:
+def test_fixed_directions_that_are_their_own_image_stay():
     source = macpherson.mechanism()
     image = Copy(source, "m_", mirrored=True).mechanism
     assert image.joint("m_C").first_axis is source.joint("C").first_axis
@@ -142,7 +142,7 @@ def test_fixed_directions_that_are_their_own_image_stay() -> None:
 # -- parameters and names --------------------------------------------------------------------------
 
 
-def test_copies_read_the_parameters_of_the_declaration() -> None:
+def test_copies_read_the_parameters_of_the_declaration():
     source = macpherson.mechanism()
     shared = (macpherson.RACK, RACK_FORCE)
     left = Copy(source, "left_", mirrored=True, shared=shared).mechanism
@@ -160,7 +160,7 @@ def test_copies_read_the_parameters_of_the_declaration() -> None:
     assert "left_road_height" in left.input_names
 
 
-def test_a_copy_may_have_parameters_of_its_own() -> None:
+def test_a_copy_may_have_parameters_of_its_own():
     source = macpherson.mechanism()
     own_ones = (macpherson.SPRING_RATE, macpherson.BALL_JOINT)
     left = Copy(source, "left_", mirrored=True, own=own_ones).mechanism
@@ -171,7 +171,7 @@ def test_a_copy_may_have_parameters_of_its_own() -> None:
     assert "spring_rate" not in {p.name for p in left.parameters}
 
 
-def test_what_parts_have_in_common_is_there_once() -> None:
+def test_what_parts_have_in_common_is_there_once():
     source = macpherson.mechanism()
     shared = (macpherson.RACK, RACK_FORCE)
     parts = [Copy(source, p, shared=shared) for p in ("a_", "b_")]
@@ -189,11 +189,11 @@ def test_what_parts_have_in_common_is_there_once() -> None:
 @pytest.mark.parametrize(
     "asked", [{"shared": (Input("track", "m", "track"),)}, {"own": (macpherson.STRUT_LOWER,)}]
 )
-def test_what_a_copy_does_not_know(asked: dict[str, tuple[object]], refused: Any) -> None:
+def test_what_a_copy_does_not_know(asked, refused):
     refused(DeclarationError, lambda: Copy(macpherson.mechanism(), "left_", **asked))
 
 
-def test_a_direction_that_the_mirror_would_turn_both_ways() -> None:
+def test_a_direction_that_the_mirror_would_turn_both_ways():
     source = macpherson.mechanism()
     hinge = source.joint("OA")
     skew = replace(hinge, axis=Line(hinge.axis.through, macpherson.RACK_AXIS))
@@ -201,7 +201,7 @@ def test_a_direction_that_the_mirror_would_turn_both_ways() -> None:
         Copy(changed(source, (hinge, skew)), "left_", mirrored=True)
 
 
-def test_a_prefix_that_makes_the_name_of_a_parameter() -> None:
+def test_a_prefix_that_makes_the_name_of_a_parameter():
     source = macpherson.mechanism()
     clash = replace(macpherson.TYRE_RATE, name="left_spring_rate")
     with pytest.raises(DeclarationError, match="'left_spring_rate' is the name of a"):
@@ -260,7 +260,7 @@ def pendulum(first: str, second: str) -> Formulation:
 
 
 @pytest.mark.parametrize("order", [("shoulder", "elbow"), ("elbow", "shoulder")])
-def test_moments_between_hinges_are_those_of_their_angles(order: tuple[str, str]) -> None:
+def test_moments_between_hinges_are_those_of_their_angles(order):
     """Both hinges are driven, so the moment acts on the coordinates as it is, with both signs."""
     model = pendulum(*order)
     derived = generate(model, derivatives=False)
@@ -310,7 +310,7 @@ def pair_of_pendulums(*, roped: bool) -> Formulation:
     return Formulation("pendulums", "Two pendulums", both, joints)
 
 
-def test_a_spring_between_parts_is_that_of_the_maximal_coordinates() -> None:
+def test_a_spring_between_parts_is_that_of_the_maximal_coordinates():
     model = pair_of_pendulums(roped=True)
     derived = generate(model, derivatives=False)
     given = {p.name: p.default for p in model.mechanism.parameters}
@@ -339,7 +339,7 @@ def test_a_spring_between_parts_is_that_of_the_maximal_coordinates() -> None:
     assert signals["rope_velocity"] == pytest.approx(length.rate[0], rel=1e-13)
 
 
-def test_a_mirror_image_has_the_constants_of_the_original() -> None:
+def test_a_mirror_image_has_the_constants_of_the_original():
     one, both = (
         generate(m) for m in (pendulum("shoulder", "elbow"), pair_of_pendulums(roped=False))
     )

@@ -57,7 +57,7 @@ def declared() -> Formulation:
 
 
 @pytest.fixture(scope="module")
-def built(tmp_path_factory: pytest.TempPathFactory) -> Built:
+def built(tmp_path_factory):
     model = declared()
     folder: Path = tmp_path_factory.mktemp("outputs") / "shown_crank-arrays"
     folder.mkdir()
@@ -84,7 +84,7 @@ def vector(signals: dict[str, float], name: str) -> np.ndarray:
     return np.array([signals[f"{name}_{axis}"] for axis in "xyz"])
 
 
-def test_points_lengths_and_angles_are_those_of_maximal_coordinates(built: Built) -> None:
+def test_points_lengths_and_angles_are_those_of_maximal_coordinates(built):
     oracle, model = built.oracle, built.model
     place, end = np.array(POINT.place), oracle.place(named(model, Point, "slider_end"))
     for state, inputs in states(built):
@@ -103,7 +103,7 @@ def test_points_lengths_and_angles_are_those_of_maximal_coordinates(built: Built
         assert signals["bend"] == pytest.approx(sense * np.arccos(cosine), abs=1e-12)
 
 
-def test_accelerations_are_those_of_the_equations_of_motion(built: Built) -> None:
+def test_accelerations_are_those_of_the_equations_of_motion(built):
     oracle, place = built.oracle, np.array(POINT.place)
     for state, inputs in states(built):
         signals, motion = shown(built, state, inputs), built.motion(state, inputs)
@@ -117,13 +117,13 @@ def test_accelerations_are_those_of_the_equations_of_motion(built: Built) -> Non
         np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-11 * size)
 
 
-def test_velocities_are_differences_of_positions(built: Built) -> None:
+def test_velocities_are_differences_of_positions(built):
     """Along the motion, by central differences."""
     rates = list(built.module.INPUTS).index("tilt_position")
     for state, inputs in states(built):
         step = 1e-5
 
-        def at(ahead: float, state=state, inputs=inputs) -> np.ndarray:
+        def at(ahead, state=state, inputs=inputs):
             moved, given = state.copy(), inputs.copy()
             moved[: built.size] += ahead * state[built.size :]
             given[rates] += ahead * inputs[rates + 1]
@@ -136,14 +136,14 @@ def test_velocities_are_differences_of_positions(built: Built) -> None:
         np.testing.assert_allclose(found, expected, atol=1e-8)  # of the differences
 
 
-def test_the_force_of_an_element_is_the_sum_of_its_laws(built: Built) -> None:
+def test_the_force_of_an_element_is_the_sum_of_its_laws(built):
     for state, inputs in states(built):
         signals = shown(built, state, inputs)
         total = signals["spring_force"] + signals["damper_force"]
         assert signals["push"] == pytest.approx(total, rel=1e-14)
 
 
-def test_signals_have_units_and_meanings(built: Built) -> None:
+def test_signals_have_units_and_meanings(built):
     entries = built.module.SIGNALS
     assert entries["mark_x"] == {"unit": "m", "meaning": "position of the mark on the rod, x"}
     assert entries["mark_acceleration_z"]["unit"] == "m/s^2"
@@ -152,7 +152,7 @@ def test_signals_have_units_and_meanings(built: Built) -> None:
     assert entries["push"]["unit"] == "N"
 
 
-def test_copies_have_the_outputs_of_their_own() -> None:
+def test_copies_have_the_outputs_of_their_own():
     mechanism = declared().mechanism
     pair = combined(
         "pair", "Two", (Copy(mechanism, "a_"), Copy(mechanism, "b_", mirrored=True)), outputs=()
@@ -163,7 +163,7 @@ def test_copies_have_the_outputs_of_their_own() -> None:
     assert pair.derived["b_line_x"] == pair.derived["a_line_x"]
 
 
-def test_mistakes() -> None:
+def test_mistakes():
     model = declared()
     rod, mechanism = model.mechanism.body("rod"), model.mechanism
     with pytest.raises(DeclarationError, match="both ends are on 'rod'"):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import pi
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import kintrafo
 import numpy as np
@@ -29,8 +29,6 @@ from support.changes import changed
 from support.models import derive
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from kintrafo.generator import Formulation
 
 
@@ -73,7 +71,7 @@ CASES = {
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_what_follows_moves_as_the_oracle_says(case: str, tmp_path: Path) -> None:
+def test_what_follows_moves_as_the_oracle_says(case, tmp_path):
     model, form = CASES[case]
     if form is not None:
         plan = CataloguePlan.of(model)
@@ -120,7 +118,7 @@ def train() -> kintrafo.System:
     return kintrafo.System(kintrafo.compile(mechanism))
 
 
-def test_a_train_of_gears_has_the_inertia_that_the_motor_feels() -> None:
+def test_a_train_of_gears_has_the_inertia_that_the_motor_feels():
     system = train()
     for ratio, belt in ((-0.25, 2.0), (0.7, -3.0), (0.0, 1.0)):
         numbers = kintrafo.System(system.equations, {"ratio": ratio, "belt": belt})
@@ -156,7 +154,7 @@ def screw_press(name: str = "press") -> g.Mechanism:
     )
 
 
-def test_a_thread_swings_on_its_spring_as_a_pendulum_of_torsion() -> None:
+def test_a_thread_swings_on_its_spring_as_a_pendulum_of_torsion():
     system = kintrafo.System(kintrafo.compile(screw_press()))
     inertia, rate = 0.1 + 4.0 * 0.012**2, 900.0 * 0.012**2
     (mode,) = kintrafo.linearise(system, [0.01 / 0.012, 0.0]).modes
@@ -171,17 +169,17 @@ def test_a_thread_swings_on_its_spring_as_a_pendulum_of_torsion() -> None:
 # -- with other forces and joints ------------------------------------------------------------------
 
 
-def test_what_follows_is_no_candidate_and_what_is_followed_must_be() -> None:
+def test_what_follows_is_no_candidate_and_what_is_followed_must_be():
     press = screw_press()
     assert [p.independent for p in kintrafo.proposals(press)] == [("turning",)]
 
 
-def test_tables_say_what_follows_what() -> None:
+def test_tables_say_what_follows_what():
     report = markdown(derive(model_of(screw_press()), derivatives=False))
     assert report.count("slide = lead x angle of turning") == 2, "joints and coordinates"
 
 
-def test_a_mirror_image_turns_with_its_original() -> None:
+def test_a_mirror_image_turns_with_its_original():
     left = g.Copy(screw_press(), "left_")
     right = g.Copy(screw_press(), "right_", mirrored=True)
     both = g.combined("presses", "Two presses", (left, right))
@@ -199,7 +197,7 @@ def test_a_mirror_image_turns_with_its_original() -> None:
 # -- errors ----------------------------------------------------------------------------------------
 
 
-def test_a_number_alone_is_no_ratio() -> None:
+def test_a_number_alone_is_no_ratio():
     with pytest.raises(DeclarationError, match="a Parameter is needed: write Ratio"):
         g.Gear(DRIVE, 0.25)
 
@@ -207,21 +205,21 @@ def test_a_number_alone_is_no_ratio() -> None:
 @pytest.mark.parametrize(
     ("kind", "ratio"), [(g.Revolute, g.Lead("r", 1.0, "")), (g.Prismatic, g.Ratio("r", 1.0, ""))]
 )
-def test_a_ratio_in_wrong_units_is_refused(kind: type, ratio: g.Parameter, refused: Any) -> None:
+def test_a_ratio_in_wrong_units_is_refused(kind, ratio, refused):
     along = WHEEL_LINE if kind is g.Revolute else AXIS
     refused(
         DeclarationError, lambda: kind("turning", FRAME, WHEEL, along, follows=g.Gear(DRIVE, ratio))
     )
 
 
-def test_an_angle_that_counts_to_a_point_is_refused() -> None:
+def test_an_angle_that_counts_to_a_point_is_refused():
     mark = g.Point("mark", (0.0, 0.0, 0.3))
     counted = g.Revolute("counted", FRAME, MOTOR, MOTOR_LINE, angle_to=mark)
     with pytest.raises(DeclarationError, match="angle of 'counted' counts from 'up' to a point"):
         g.Revolute("turning", FRAME, WHEEL, WHEEL_LINE, follows=g.Gear(counted, RATIO))
 
 
-def test_only_hinges_and_guides_are_followed() -> None:
+def test_only_hinges_and_guides_are_followed():
     ball = g.Spherical("ball", FRAME, MOTOR, MOTOR.center)
     with pytest.raises(DeclarationError, match="it follows 'ball', which is spherical"):
         g.Revolute("turning", FRAME, WHEEL, WHEEL_LINE, follows=g.Gear(ball, RATIO))
@@ -234,13 +232,13 @@ def two_shafts() -> tuple[g.Mechanism, g.Joint]:
     return g.Mechanism("mesh", "Two wheels", (DRIVE, turning), (), angles), turning
 
 
-def test_what_follows_cannot_be_driven() -> None:
+def test_what_follows_cannot_be_driven():
     mechanism, turning = two_shafts()
     with pytest.raises(DeclarationError, match="make 'drive' independent or prescribed instead"):
         g.Formulation("mesh", "Two wheels", mechanism, (turning,))
 
 
-def test_what_is_followed_must_be_driven() -> None:
+def test_what_is_followed_must_be_driven():
     model = geared(oblique_four_bar(), "spinning", "drive", 3.0)
     swing, drive = model.independent
     knuckle = model.mechanism.joint("knuckle")
@@ -250,7 +248,7 @@ def test_what_is_followed_must_be_driven() -> None:
         replace(model, mechanism=mechanism, independent=(swing, knuckle))
 
 
-def test_a_gear_that_would_lock_what_it_joins_is_refused() -> None:
+def test_a_gear_that_would_lock_what_it_joins_is_refused():
     """Crank and rocker of a four-bar in mesh: the loop has no freedom left."""
     model = oblique_four_bar()
     drive, pivot = (model.mechanism.joint(name) for name in ("drive", "pivot"))

@@ -71,7 +71,7 @@ def force_of(law: Law, given: Mapping[str, float]) -> Callable[..., float]:
     return lambda **state: evaluated(function, given, **state)[0]
 
 
-def test_spring_by_slide_and_by_length() -> None:
+def test_spring_by_slide_and_by_length():
     """Both push when the element is short: the slide grows as the length falls."""
     rate = SpringRate("k", 2e4, "rate")
     free_slide, free_length = Displacement("free", 0.05, "slide"), Length("free", 0.8, "length")
@@ -84,14 +84,14 @@ def test_spring_by_slide_and_by_length() -> None:
     assert by_length(length=0.85) == pytest.approx(-1000.0, rel=1e-13)
 
 
-def test_damper_resists() -> None:
+def test_damper_resists():
     force = force_of(LinearDamper(DamperRate("c", 1.0, "rate")), {"c": 1500.0})
     assert force(velocity=-2.0) == 3000.0
     assert force(velocity=2.0) == -3000.0
     assert force(velocity=0.0) == 0.0
 
 
-def test_actuator_is_its_input() -> None:
+def test_actuator_is_its_input():
     push = Actuator(Input("push", "N", "push"))
     assert force_of(push, {"push": 123.0})() == 123.0
 
@@ -103,7 +103,7 @@ FRICTION = Friction(ForceLevel("level", 80.0, "level"), Speed("speed", 0.02, "sp
 
 @given(velocities, st.floats(1e-3, 1.0))
 @calm
-def test_friction_is_a_saturated_odd_resistance(velocity: float, speed: float) -> None:
+def test_friction_is_a_saturated_odd_resistance(velocity, speed):
     force = force_of(FRICTION, {"level": 80.0, "speed": speed})
     found = force(velocity=velocity)
     # the sine of the angle whose tangent is velocity / speed, to a few roundings
@@ -113,7 +113,7 @@ def test_friction_is_a_saturated_odd_resistance(velocity: float, speed: float) -
     assert abs(found) <= 80.0
 
 
-def test_friction_at_its_speed_and_at_rest() -> None:
+def test_friction_at_its_speed_and_at_rest():
     given_values = {"level": 80.0, "speed": 0.02}
     force = force_of(FRICTION, given_values)
     assert force(velocity=0.0) == 0.0
@@ -138,7 +138,7 @@ STOP = {"touch": 0.6, "rate": 3e4, "progression": 2e7}
 
 
 @pytest.mark.parametrize(("side", "sense"), [("bump", 1.0), ("rebound", -1.0)])
-def test_stops_act_on_their_side_only(side: str, sense: float) -> None:
+def test_stops_act_on_their_side_only(side, sense):
     force = force_of(STOPS[side], STOP)
     _, slopes = programs(STOPS[side])
     for depth in (1e-12, 1e-4, 0.01, 0.05):
@@ -155,7 +155,7 @@ def test_stops_act_on_their_side_only(side: str, sense: float) -> None:
     assert evaluated(slopes, STOP, length=0.6) == [0.0, 0.0, 0.0]
 
 
-def test_names_of_signals() -> None:
+def test_names_of_signals():
     assert [stop.signal for stop in STOPS.values()] == ["bump_stop_force", "rebound_stop_force"]
     assert [stop.meaning for stop in STOPS.values()] == [
         "force of the bump stop",
@@ -181,7 +181,7 @@ CURVES = [(count, seed) for count in (2, 5, 11) for seed in range(3)]
 
 
 @pytest.mark.parametrize(("count", "seed"), CURVES)
-def test_table_is_the_curve_with_straight_ends(count: int, seed: int) -> None:
+def test_table_is_the_curve_with_straight_ends(count, seed):
     curve, parameters = table(count, seed)
     force = force_of(TABLE, parameters)
     _, slopes = programs(TABLE)
@@ -198,7 +198,7 @@ def test_table_is_the_curve_with_straight_ends(count: int, seed: int) -> None:
 
 
 @pytest.mark.parametrize(("count", "seed"), CURVES)
-def test_table_is_smooth_at_its_knots(count: int, seed: int) -> None:
+def test_table_is_smooth_at_its_knots(count, seed):
     """Value and slope at each knot, and beside it, are those of the curve: no jump, no gap."""
     curve, parameters = table(count, seed)
     force = force_of(TABLE, parameters)
@@ -214,7 +214,7 @@ def test_table_is_smooth_at_its_knots(count: int, seed: int) -> None:
 
 @given(velocities, st.integers(0, 50))
 @calm
-def test_table_is_that_of_the_oracle(velocity: float, seed: int) -> None:
+def test_table_is_that_of_the_oracle(velocity, seed):
     """With coefficients of no interpolation at all, as no program of ours would write them."""
     rng = np.random.default_rng(seed)
     names = [p.name for p in TABLE.numbers]
@@ -231,7 +231,7 @@ def test_table_is_that_of_the_oracle(velocity: float, seed: int) -> None:
     )
 
 
-def test_table_without_force() -> None:
+def test_table_without_force():
     """The defaults are no damper at all."""
     parameters = {p.name: p.default for p in TABLE.numbers}
     force = force_of(TABLE, parameters)
@@ -249,7 +249,7 @@ def spring(seed: int) -> dict[str, float]:
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_a_spring_of_lengths_is_that_of_the_oracle(seed: int) -> None:
+def test_a_spring_of_lengths_is_that_of_the_oracle(seed):
     """Value and slope, at the knots as well: a spring that is shorter pushes more."""
     parameters = spring(seed)
     force, (_, slopes) = force_of(SPRING, parameters), programs(SPRING)
@@ -269,12 +269,12 @@ def test_a_spring_of_lengths_is_that_of_the_oracle(seed: int) -> None:
         assert by_velocity == by_slide == 0.0
 
 
-def test_a_spring_of_lengths_without_force() -> None:
+def test_a_spring_of_lengths_without_force():
     force = force_of(SPRING, {p.name: p.default for p in SPRING.numbers})
     assert [force(length=length) for length in (0.1, 0.6, 3.0)] == [0.0] * 3
 
 
-def test_a_twist_has_no_lengths() -> None:
+def test_a_twist_has_no_lengths():
     ground, crank = Ground("ground", 1), Body("crank", 1.0, (0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
     axis = Line(Point("pivot", (0.0, 0.0, 0.0), "pivot"), UP)
     hinge = Revolute("hinge", ground, crank, axis=axis)
@@ -294,7 +294,7 @@ def test_a_twist_has_no_lengths() -> None:
     ],
     ids=lambda law: type(law).__name__,
 )
-def test_slopes_are_the_differences_of_the_force(law: Law) -> None:
+def test_slopes_are_the_differences_of_the_force(law):
     """Away from kinks: a central difference of the sixth order, good to 1e-9."""
     given_values = STOP | {"level": 80.0, "speed": 0.3, "touch": 0.61} | table(11, 1)[1]
     value, slopes = programs(law)

@@ -344,7 +344,7 @@ def after_jumps(
 
 
 @pytest.mark.skipif(find_compiler() is None, reason="no compiler")
-def test_many_jumps_are_passed_as_accurately_as_the_page_says(tmp_path: Any) -> None:
+def test_many_jumps_are_passed_as_accurately_as_the_page_says(tmp_path):
     """The errors of docs/mechanisms/own-mechanism.md; a few times those on other machines."""
     far, jump = 0.04, 0.08
     moment = -jump * sum(sp.Heaviside(q - (i + 0.5) * far, 1) for i in range(50))

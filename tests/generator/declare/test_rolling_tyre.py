@@ -85,7 +85,7 @@ def folder(tmp_path_factory):
 @pytest.fixture(scope="module")
 def system_of(folder):
     @cache
-    def built(name: str):
+    def built(name):
         plain = name == "linear"
         backend = "numpy" if name == "ellipse" else "c"
         model = rig(LAWS[name], f"rig_{name}", damped=plain)
@@ -93,7 +93,7 @@ def system_of(folder):
         return kintrafo.System(equations, {} if plain else tyre_of(name).parameters())
 
     @cache
-    def tyre_of(name: str):
+    def tyre_of(name):
         path = folder / f"{name}.tir"
         path.write_text(FILES[name], encoding="utf-8")
         return kintrafo.tyres.load(path)
@@ -264,7 +264,7 @@ def test_what_no_tyre_has_is_refused(system_of, name):
 @pytest.fixture(scope="module")
 def relaxing(folder):
     @cache
-    def built(name: str):
+    def built(name):
         laws = {
             "linear": LAWS["linear"],
             "newer": LAWS["newer"],

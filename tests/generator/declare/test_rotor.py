@@ -6,7 +6,6 @@ with the spin angle. Where the tensor is that of a body of revolution both must 
 where it is not, the unfolded equations must still be those of the oracle.
 """
 
-from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 
@@ -82,7 +81,7 @@ def instants(name: str, seed: int) -> tuple[Parameters, list[Instant]]:
 
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("name", MODELS)
-def test_folding_is_exact(derived: Callable[[str], Derivation], name: str, seed: int) -> None:
+def test_folding_is_exact(derived, name, seed):
     parameters, at_instants = instants(name, seed)
     with mpmath.workdps(50):
         general = with_tensor(parameters, exact_tensor(parameters))
@@ -102,7 +101,7 @@ def test_folding_is_exact(derived: Callable[[str], Derivation], name: str, seed:
 
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("name", MODELS)
-def test_unbalanced_wheel(name: str, seed: int) -> None:
+def test_unbalanced_wheel(name, seed):
     """A wheel that is no body of revolution: the equations depend on the spin angle."""
     parameters, at_instants = instants(name, seed)
     tensor = inertia(parameters, "wheel") + np.array(

@@ -1,7 +1,6 @@
 """Mechanisms whose motion is given as a whole: no state, and all the same a motion with signals."""
 
 from dataclasses import replace
-from typing import Any
 
 import kintrafo
 import numpy as np
@@ -41,7 +40,7 @@ def swing(time: float) -> float:
 
 
 @pytest.fixture(scope="module")
-def lift() -> kintrafo.System:
+def lift():
     """An arm on a block on a guide: no loop, both joints prescribed."""
     ground, block = Ground("ground"), Body("block", 2.0, (0.0, 0.0, 0.3), (0.1, 0.1, 0.1))
     arm = Body("arm", 1.0, (0.2, 0.0, 0.3), (0.01, 0.02, 0.02))
@@ -66,7 +65,7 @@ def lift() -> kintrafo.System:
 
 
 @pytest.fixture(scope="module", params=["driven", "driven_without_signals"])
-def driven(request: pytest.FixtureRequest) -> kintrafo.System:
+def driven(request):
     """A four-bar whose rocker is prescribed, and whose crank has dead points."""
     name = request.param
     given = {four_bar.D: Motion("drive", "rad", "angle of the rocker")}
@@ -78,7 +77,7 @@ def driven(request: pytest.FixtureRequest) -> kintrafo.System:
     return kintrafo.System(kintrafo.compile(formulation))
 
 
-def test_what_has_no_loop_is_placed(lift: kintrafo.System) -> None:
+def test_what_has_no_loop_is_placed(lift):
     """All bodies hang on the ground by what is given: the tip is where trigonometry has it."""
     assert lift.state_names == ()
     times = np.linspace(0.0, 1.0, 7)
@@ -91,7 +90,7 @@ def test_what_has_no_loop_is_placed(lift: kintrafo.System) -> None:
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_events_are_at_their_times(lift: kintrafo.System, method: Any) -> None:
+def test_events_are_at_their_times(lift, method):
     """No step passes over a turn of an input, so each crossing between two turns is seen."""
     found = kintrafo.simulate(
         lift,
@@ -118,7 +117,7 @@ def test_events_are_at_their_times(lift: kintrafo.System, method: Any) -> None:
 
 @pytest.mark.parametrize("turns", [1.0, 1000.0])
 @pytest.mark.parametrize("method", METHODS)
-def test_a_motion_ends_at_a_dead_point(driven: kintrafo.System, method: Any, turns: float) -> None:
+def test_a_motion_ends_at_a_dead_point(driven, method, turns):
     """Also where the loop would close again at the next output, or within a step."""
     crank, coupler, rocker = 0.1, float(np.hypot(0.24, 0.16)), float(np.hypot(0.06, 0.26))
     # the coupler folded back over the crank: ground and rocker make a triangle with both
@@ -139,9 +138,7 @@ def test_a_motion_ends_at_a_dead_point(driven: kintrafo.System, method: Any, tur
 
 @pytest.mark.parametrize("rate", [1.0, -1.0])
 @pytest.mark.parametrize("method", METHODS)
-def test_a_motion_that_begins_beyond_a_dead_point_ends_there(
-    driven: kintrafo.System, method: Any, rate: float
-) -> None:
+def test_a_motion_that_begins_beyond_a_dead_point_ends_there(driven, method, rate):
     """Whether it moves on, or back to where the loop closes."""
     with pytest.raises(kintrafo.SimulationError, match="beyond its dead point") as caught:
         kintrafo.simulate(
@@ -155,13 +152,13 @@ def test_a_motion_that_begins_beyond_a_dead_point_ends_there(
     assert caught.value.partial.t.tolist() == [2.0]
 
 
-def test_methods_that_need_a_state_say_so(lift: kintrafo.System) -> None:
+def test_methods_that_need_a_state_say_so(lift):
     for method in ("Adams", "Verner"):
         with pytest.raises(kintrafo.InputError, match="all that moves here is prescribed"):
             kintrafo.simulate(lift, (0.0, 1.0), [], method=method)  # type: ignore[arg-type]
 
 
-def test_its_linear_equations_are_those_of_the_signals(lift: kintrafo.System) -> None:
+def test_its_linear_equations_are_those_of_the_signals(lift):
     linear = kintrafo.linearise(lift, lift.state(), outputs=["tip_x", "tip_z"])
     assert (linear.A.shape, linear.B.shape, linear.C.shape) == ((0, 0), (0, 6), (2, 0))
     # of x = 0.4 cos(swing) and z = 0.3 + lift + 0.4 sin(swing), at zero
@@ -172,7 +169,7 @@ def test_its_linear_equations_are_those_of_the_signals(lift: kintrafo.System) ->
     np.testing.assert_allclose(response["tip_z"], [0.4, 0.4])
 
 
-def test_a_loop_that_is_driven() -> None:
+def test_a_loop_that_is_driven():
     model = spatial_four_bar("all_given")
     forces = tuple(f for f in model.mechanism.forces if not isinstance(f, JointForce))
     mechanism = replace(model.mechanism, forces=forces)

@@ -189,7 +189,7 @@ SLIDER_CRANK = declared(
 )
 
 
-def test_a_guide_that_leaves_the_plane_of_its_loop_is_refused() -> None:
+def test_a_guide_that_leaves_the_plane_of_its_loop_is_refused():
     modules, values = make(SLIDER_CRANK), numbers(SLIDER_CRANK)
     length = np.linalg.norm(vector(values, "way_axis"))
     for degrees in (-40.0, 1e-3, 1e-6, 0.0573):
@@ -201,7 +201,7 @@ def test_a_guide_that_leaves_the_plane_of_its_loop_is_refused() -> None:
         assert amount(text, "degrees") == pytest.approx(abs(degrees), rel=5e-3)  # three digits
 
 
-def test_rounding_of_a_direction_is_no_error() -> None:
+def test_rounding_of_a_direction_is_no_error():
     modules, values = make(SLIDER_CRANK), numbers(SLIDER_CRANK)
     for factor in (1e-9, 1.0 / 3.0, 1e9):  # a direction may have any length
         scaled = {k: factor * v if k.startswith("way_axis") else v for k, v in values.items()}
@@ -214,7 +214,7 @@ def test_rounding_of_a_direction_is_no_error() -> None:
     accepted(modules, far)
 
 
-def test_equations_do_not_read_what_must_be_zero() -> None:
+def test_equations_do_not_read_what_must_be_zero():
     model = derive(SLIDER_CRANK, derivatives=False)
     (assumption,) = model.assumptions
     assert str(assumption.quantity) in model.prepare.labels
@@ -243,7 +243,7 @@ def crane(*, reverse: bool = False) -> Formulation:
     )
 
 
-def test_pins_of_a_cylinder_at_different_places_along_their_hinges_are_refused() -> None:
+def test_pins_of_a_cylinder_at_different_places_along_their_hinges_are_refused():
     model = crane()
     modules, values = make(model), numbers(model)
     span = vector(values, "piston_pin") - vector(values, "barrel_pin")
@@ -263,9 +263,7 @@ def test_pins_of_a_cylinder_at_different_places_along_their_hinges_are_refused()
 
 
 @pytest.mark.parametrize("reverse", [False, True])
-def test_defaults_that_leave_the_plane_are_refused_before_anything_is_compiled(
-    *, reverse: bool
-) -> None:
+def test_defaults_that_leave_the_plane_are_refused_before_anything_is_compiled(*, reverse):
     model = crane(reverse=reverse)
     beside = moved(numbers(model), "barrel_pin", 0.05 * unit(NORMAL))
     with pytest.raises(DeclarationError, match="guide bore is not across the hinge"):
@@ -276,7 +274,7 @@ def test_defaults_that_leave_the_plane_are_refused_before_anything_is_compiled(
 
 
 @pytest.mark.parametrize("at_rocker", [False, True])
-def test_a_shaft_that_is_not_the_line_of_its_rod_is_refused(*, at_rocker: bool) -> None:
+def test_a_shaft_that_is_not_the_line_of_its_rod_is_refused(*, at_rocker):
     model = spatial_four_bar("bent", cross_at_rocker=at_rocker)
     declared_cross = model.mechanism.joint("cross")
     assert isinstance(declared_cross, Universal)
@@ -323,7 +321,7 @@ def fan(*, axis: Place = (0.3, 0.9, -0.2), center: Place = (0.1, 0.2, 0.3)) -> F
     return Formulation("fan", "Fan", mechanism, independent=joints)
 
 
-def test_a_rotor_beside_its_bearing_is_refused() -> None:
+def test_a_rotor_beside_its_bearing_is_refused():
     modules, values = make(fan()), numbers(fan())
     accepted(modules, moved(values, "blades_com", 0.4 * np.array([0.3, 0.9, -0.2])))  # along it
     across = 0.004 * unit(np.cross((0.3, 0.9, -0.2), (0.0, 0.0, 1.0)))
@@ -338,7 +336,7 @@ def test_a_rotor_beside_its_bearing_is_refused() -> None:
 
 @pytest.mark.parametrize("sense", [1.0, -1.0])
 @pytest.mark.parametrize("tip", [None, (0.4, 0.1, 0.2), (-0.4, 0.3, 0.2)])
-def test_the_axis_of_a_rotor_may_point_against_its_hinge(sense: float, tip: Place | None) -> None:
+def test_the_axis_of_a_rotor_may_point_against_its_hinge(sense, tip):
     """The sense of the angle is that of the hinge: its line, or as an ``angle_to`` makes it."""
     x, y, z = (sense * component for component in (0.3, 0.9, -0.2))
     model = fan(axis=(x, y, z))
@@ -349,7 +347,7 @@ def test_the_axis_of_a_rotor_may_point_against_its_hinge(sense: float, tip: Plac
     by_the_oracle(model, own(model, derivatives=False), numbers(model))
 
 
-def test_all_that_is_wrong_with_the_defaults_is_reported_at_once() -> None:
+def test_all_that_is_wrong_with_the_defaults_is_reported_at_once():
     wrong = fan(axis=(0.3, 0.9, 0.0), center=(0.1, 0.2, 0.31))
     with pytest.raises(DeclarationError) as caught:
         generate(wrong)
@@ -376,7 +374,7 @@ def gate(line: Place, **flap: Any) -> Formulation:
     return with_joint(model, replace(model.mechanism.joint("edge"), **flap))
 
 
-def test_a_hinge_may_have_any_direction_then_and_later() -> None:
+def test_a_hinge_may_have_any_direction_then_and_later():
     """Upright with the defaults, and turned all around afterwards."""
     upright = gate((0.0, 0.0, 1.0))
     for module in make(upright):
@@ -394,7 +392,7 @@ def test_a_hinge_may_have_any_direction_then_and_later() -> None:
 
 
 @pytest.mark.parametrize("axis", [(1, 0, 0), (0, 1, 0), (0, 0, 1), (-1, 0, 0), (0, 0, -1)])
-def test_a_hinge_along_a_chassis_axis_needs_no_other_direction(axis: Place) -> None:
+def test_a_hinge_along_a_chassis_axis_needs_no_other_direction(axis):
     """Not even as a parameter: the direction that the angle would count from is not read."""
     fixed = Line(EDGE_AT, Direction("fixed", fixed=Vector.of(*axis)))
     models = [gate((0.1, 0.2, 1.0), axis=fixed, angle_from=start) for start in (UP, FORWARD)]
@@ -404,7 +402,7 @@ def test_a_hinge_along_a_chassis_axis_needs_no_other_direction(axis: Place) -> N
         by_the_oracle(models[0], module, numbers(models[0]))
 
 
-def test_an_angle_that_counts_from_along_its_hinge_is_refused_by_name() -> None:
+def test_an_angle_that_counts_from_along_its_hinge_is_refused_by_name():
     with pytest.raises(DeclarationError, match="'edge': angle_from, which is up, lies along"):
         gate(
             (0.0, 0.0, 1.0),
@@ -446,9 +444,7 @@ def driven_crane() -> Formulation:
 
 @pytest.mark.parametrize("lines", [by_directions, by_points])
 @pytest.mark.parametrize("declare", [four_bar, lambda: SLIDER_CRANK, crane, driven_crane])
-def test_hinges_parallel_or_opposite_by_their_numbers_make_a_plane(
-    declare: Callable[[], Formulation], lines: Callable[[Formulation], Formulation]
-) -> None:
+def test_hinges_parallel_or_opposite_by_their_numbers_make_a_plane(declare, lines):
     """Angles are right-handed about the axis of their own hinge, wherever that points."""
     model = lines(declare())
     built = Built.of(model, own(model, derivatives=False))
@@ -470,9 +466,7 @@ def test_hinges_parallel_or_opposite_by_their_numbers_make_a_plane(
 
 
 @pytest.mark.parametrize("lines", [by_directions, by_points])
-def test_a_hinge_that_leaves_the_others_is_refused(
-    lines: Callable[[Formulation], Formulation],
-) -> None:
+def test_a_hinge_that_leaves_the_others_is_refused(lines):
     model = lines(four_bar())
     modules, values = make(model), numbers(model)
     along = vector(values, "c_line")

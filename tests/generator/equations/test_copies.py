@@ -53,17 +53,17 @@ SAMPLE = (
 
 
 @pytest.mark.parametrize("name", SAMPLE)
-def test_a_copy_and_an_image_move_as_the_original_does(name: str) -> None:
+def test_a_copy_and_an_image_move_as_the_original_does(name):
     check_in_company(EVERY[name], np.random.default_rng([*name.encode()]))
 
 
-def test_the_sample_has_every_step_of_the_catalogue() -> None:
+def test_the_sample_has_every_step_of_the_catalogue():
     found = {type(action) for name in SAMPLE for action in CataloguePlan.of(EVERY[name]).steps}
     # the one is in no model but test_struts', the other has no equations yet
     assert found >= STEPS - {PlacePassive, PlaceFree}
 
 
-def test_a_step_does_not_take_the_name_of_a_parameter_of_a_copy() -> None:
+def test_a_step_does_not_take_the_name_of_a_parameter_of_a_copy():
     """A step of that name would be replaced by the expression of the parameter."""
     height, angle = sp.symbols("rod_end_x angle")
     stage = ConstantStage(
@@ -84,7 +84,7 @@ def test_a_copy_and_its_mirror_image_are_distinguished_where_their_defaults_do_n
 
 
 @needs_gcc
-def test_names_that_are_longer_than_a_line_stay_whole() -> None:
+def test_names_that_are_longer_than_a_line_stay_whole():
     """Lines of C end between words, also where a signature leaves no room beside it."""
     one = Copy(chains.BRICARD.mechanism, "of_a_copy_whose_name_alone_takes_nearly_the_whole_line_")
     model = Formulation(

@@ -31,7 +31,7 @@ each_with_held_rack = pytest.mark.parametrize(
 
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("model", MODELS.values(), ids=MODELS.keys())
-def test_accelerations(model, seed: int) -> None:
+def test_accelerations(model, seed):
     parameters = car_parameters(seed, model)
     car = Mechanism(counted_by(model, parameters))
     constants = model.prepare(parameters)
@@ -60,7 +60,7 @@ def regimes(car: Mechanism, instant: Instant, solution: Solution) -> set[str]:
     return found | {f"tyre {on_road if deflection > 0.0 else in_air}"}
 
 
-def test_every_regime_of_the_force_laws() -> None:
+def test_every_regime_of_the_force_laws():
     """Each segment of the damper, each stop, and all that a tyre can do, against the oracle."""
     model = macpherson_general
     parameters = car_parameters(1, model)
@@ -82,7 +82,7 @@ def test_every_regime_of_the_force_laws() -> None:
 
 @each_with_held_rack
 @pytest.mark.parametrize("seed", SEEDS)
-def test_held_rack(model, seed: int) -> None:
+def test_held_rack(model, seed):
     """With the rack held, its velocity and acceleration are zero for any inputs."""
     parameters = car_parameters(seed, model)
     constants = model.prepare(parameters)
@@ -100,7 +100,7 @@ def test_held_rack(model, seed: int) -> None:
 
 @each_with_held_rack
 @pytest.mark.parametrize("seed", range(1, 4))
-def test_masses_left_out(model, seed: int) -> None:
+def test_masses_left_out(model, seed):
     """The models with a prescribed rack do not ask for masses that they leave out."""
     parameters = car_parameters(seed, model)
     constants = model.prepare(parameters)
@@ -111,7 +111,7 @@ def test_masses_left_out(model, seed: int) -> None:
     )
 
 
-def test_defaults_are_the_reference_car() -> None:
+def test_defaults_are_the_reference_car():
     """In both models, so that a call without constants means the same car."""
     for model in MODELS.values():
         constants = model.prepare(of_model(model, reference_parameters()))
@@ -119,7 +119,7 @@ def test_defaults_are_the_reference_car() -> None:
         assert pytest.approx(constants, rel=1e-15, abs=1e-16) == model.DEFAULT_CONSTANTS
 
 
-def test_reference_car_rests_at_design() -> None:
+def test_reference_car_rests_at_design():
     """Spring and tyre carry the car at a wheel height of 0.3 m, at any speed of the wheel."""
     for spin_rate in (0.0, SPIN_RATE):
         state = Instant(BETA1_DESIGN, spin_rate=spin_rate).state(macpherson)
@@ -128,7 +128,7 @@ def test_reference_car_rests_at_design() -> None:
         assert np.abs(macpherson.rhs_rack_held(state)[2:]).max() < 1e-11
 
 
-def test_eigenvalues_at_rest() -> None:
+def test_eigenvalues_at_rest():
     state = Instant(BETA1_DESIGN, spin_rate=SPIN_RATE).state(macpherson)
     matrix = macpherson.rhs_jacobian_rack_held(state)
     found = np.linalg.eigvals(matrix)

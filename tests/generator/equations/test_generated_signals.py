@@ -31,7 +31,7 @@ def spring_velocity(car: Mechanism, pose: Pose, twist: Array) -> float:
 
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("model", MODELS.values(), ids=MODELS.keys())
-def test_signals(model, seed: int) -> None:
+def test_signals(model, seed):
     parameters = car_parameters(seed, model)
     constants = model.prepare(parameters)
     car = Mechanism(counted_by(model, parameters))
@@ -79,7 +79,7 @@ def test_signals(model, seed: int) -> None:
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_tyre_force_is_in_the_wheel_plane(seed: int) -> None:
+def test_tyre_force_is_in_the_wheel_plane(seed):
     """Q of the spin is zero: the force has no moment about the spin axis (Eq. 24)."""
     for model in MODELS.values():
         parameters = car_parameters(seed, model)

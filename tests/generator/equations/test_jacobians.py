@@ -6,8 +6,6 @@ differentiated in 50 digits by a central difference with a step of 1e-15, whose 
 `test_mechanisms` compares the other Jacobians with the oracle.
 """
 
-from collections.abc import Callable
-
 import mpmath
 import numpy as np
 import pytest
@@ -50,9 +48,7 @@ def gradient_of_program(model: Derivation, function: str, at: At, names: list[st
     ("name", "jacobian"),
     [(n, j) for n, model in MODELS.items() for j in DERIVATIVES if hasattr(model, j)],
 )
-def test_derivatives_of_the_program(
-    derived: Callable[[str], Derivation], name: str, jacobian: str, seed: int
-) -> None:
+def test_derivatives_of_the_program(derived, name, jacobian, seed):
     model, (function, by) = MODELS[name], DERIVATIVES[jacobian]
     parameters = car_parameters(seed, model)
     constants = model.prepare(parameters)
@@ -78,14 +74,12 @@ def test_derivatives_of_the_program(
         ("tyre_free_height", "wheel_center_z"),
     ],
 )
-def test_derivatives_on_both_sides_of_a_kink(
-    derived: Callable[[str], Derivation], parameter: str, signal: str
-) -> None:
+def test_derivatives_on_both_sides_of_a_kink(derived, parameter, signal):
     """A nanometre from first touch, or from the air, the derivative is that of its own side."""
     name, touch = "macpherson_general", {"tyre_damper_rate": 0.0}
     instant = Instant(BETA1_DESIGN, 0.5, 0.01, 0.3, 50.0, 0.1)
 
-    def at_kink(distance: float) -> At:
+    def at_kink(distance):
         model, parameters = MODELS[name], car_parameters(1, MODELS[name]) | touch
         now = At(model, instant, model.prepare(parameters))("signals")
         place = now[list(model.SIGNALS).index(signal)]

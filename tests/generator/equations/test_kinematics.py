@@ -51,7 +51,7 @@ def poses(car_of: ModuleType, seed: int) -> tuple[Mechanism, list[tuple[Instant,
     params=[(name, seed) for name in MODELS for seed in SEEDS[name]],
     ids=lambda value: f"{value[0]}-car{value[1]}",
 )
-def travel(request: pytest.FixtureRequest) -> list[Placed]:
+def travel(request):
     name, seed = request.param
     model = MODELS[name]
     # the two models of the paper's suspension have the same poses
@@ -61,7 +61,7 @@ def travel(request: pytest.FixtureRequest) -> list[Placed]:
 
 
 @pytest.mark.parametrize("row", KINEMATICS, ids=lambda row: f"{row[0]:.3f}m")
-def test_reference_car(row: Array) -> None:
+def test_reference_car(row):
     """Heights, branch and signs of all angles, as tabulated with 16 digits."""
     expected = dict(zip(KINEMATICS_COLUMNS, row, strict=True))
     arm = BETA1_DESIGN - expected.pop("arm_rise")
@@ -74,7 +74,7 @@ def test_reference_car(row: Array) -> None:
     assert {name: found[name] for name in expected} == pytest.approx(expected, rel=0.0, abs=2e-13)
 
 
-def test_positions_and_orientations_are_newtons(travel: list[Placed]) -> None:
+def test_positions_and_orientations_are_newtons(travel):
     """Both sides carry a few roundings of numbers of order one; Newton's conditioning adds ten."""
     for place in travel:
         assert np.abs(place("positions") - place.pose.position).max() < 1e-12
@@ -125,7 +125,7 @@ def coordinates_of(car: Mechanism, pose: Pose) -> dict[str, float]:
     }
 
 
-def test_relative_coordinates_are_the_papers(travel: list[Placed]) -> None:
+def test_relative_coordinates_are_the_papers(travel):
     for place in travel:
         beta = place("relative_coordinates")
         found = dict(zip(place.model.RELATIVE_COORDINATES, beta, strict=True))

@@ -89,7 +89,7 @@ def knuckle_off_axis(car: Mechanism, pose: Pose) -> dict[str, float]:
 
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("model", MODELS.values(), ids=MODELS.keys())
-def test_margins(model, seed: int) -> None:
+def test_margins(model, seed):
     parameters = car_parameters(seed, model)
     constants = model.prepare(parameters)
     car = Mechanism(counted_by(model, parameters))

@@ -15,13 +15,13 @@ from support.symbolic import constants_of, derivatives_of, python
 
 
 @pytest.fixture(scope="module")
-def arms() -> Derivation:
+def arms():
     """A car of trailing arms, whose body heaves, pitches and rolls."""
     return derive(declared(car_on_arms()))
 
 
 @pytest.fixture(scope="module")
-def strut() -> Derivation:
+def strut():
     """A strut with a rack that moves, on a body in the air."""
     return generate(freed(model_named("macpherson")))
 
@@ -41,7 +41,7 @@ def values_of(model: Derivation, seed: int = 0, **changed: float) -> dict[str, m
 
 
 @pytest.mark.parametrize("name", ["arms", "strut"])
-def test_derivatives_are_exact(name: str, request: pytest.FixtureRequest) -> None:
+def test_derivatives_are_exact(name, request):
     model = request.getfixturevalue(name)
     with mpmath.workdps(50):
         values = values_of(model)
@@ -56,7 +56,7 @@ def test_derivatives_are_exact(name: str, request: pytest.FixtureRequest) -> Non
             )
 
 
-def test_a_corner_is_in_no_derivative_by_another(arms: Derivation) -> None:
+def test_a_corner_is_in_no_derivative_by_another(arms):
     corners = [f"{end}_{side}_" for end in ("front", "rear") for side in ("right", "left")]
     steps = [s.symbol.name.partition("__") for s in arms.functions["rhs_jacobian"].steps]
     for corner in corners:
@@ -68,7 +68,7 @@ def test_a_corner_is_in_no_derivative_by_another(arms: Derivation) -> None:
         assert all("acceleration" in name or "more" in name for name in mixed), mixed
 
 
-def test_a_body_may_be_without_mass(strut: Derivation) -> None:
+def test_a_body_may_be_without_mass(strut):
     """Its centre of mass is then its origin, and all is as with hardly any mass."""
     light = [p.name for p in strut.formulation.mechanism.parameters]
     light = [n for n in light if n.startswith("knuckle_") and n.endswith(("mass", "inertia"))]

@@ -76,11 +76,11 @@ def by_differences(
 
 
 @pytest.fixture(scope="module", params=MECHANISMS, ids=lambda m: m.name)
-def mechanism(request: pytest.FixtureRequest) -> Formulation:
+def mechanism(request):
     return request.param
 
 
-def test_along_a_direction(mechanism: Formulation) -> None:
+def test_along_a_direction(mechanism):
     system, model = system_of(mechanism), derive(mechanism)
     state, inputs, along = place_and_direction(system)
     for function, expected in by_differences(model, system, (state, inputs), along):
@@ -89,7 +89,7 @@ def test_along_a_direction(mechanism: Formulation) -> None:
         assert np.abs(found - expected).max() <= ROUNDED * np.abs(expected).max(), function
 
 
-def test_backwards_is_forwards(mechanism: Formulation) -> None:
+def test_backwards_is_forwards(mechanism):
     system = system_of(mechanism)
     state, inputs, along = place_and_direction(system)
     random = np.random.default_rng(3)
@@ -102,7 +102,7 @@ def test_backwards_is_forwards(mechanism: Formulation) -> None:
         assert abs(terms.sum() - forward.sum()) <= ROUNDED * scale, function
 
 
-def test_states_and_inputs_as_the_jacobians_have_them(mechanism: Formulation) -> None:
+def test_states_and_inputs_as_the_jacobians_have_them(mechanism):
     system = system_of(mechanism)
     state, inputs, _ = place_and_direction(system)
     for jacobian, names in (
@@ -115,7 +115,7 @@ def test_states_and_inputs_as_the_jacobians_have_them(mechanism: Formulation) ->
         assert np.abs(np.transpose(columns) - expected).max() <= ROUNDED * scale
 
 
-def test_numpy_as_c() -> None:
+def test_numpy_as_c():
     four_bar = SHIPPED["four_bar"]
     compiled, arrays = system_of(four_bar), system_of(four_bar, "numpy")
     state, inputs, along = place_and_direction(compiled)
@@ -132,7 +132,7 @@ def test_numpy_as_c() -> None:
         assert all(np.allclose(one[name], other[name], rtol=1e-12, atol=1e-12) for name in one)
 
 
-def test_many_directions_at_once() -> None:
+def test_many_directions_at_once():
     system = system_of(SHIPPED["four_bar"])
     state, inputs, along = place_and_direction(system)
     names = [*along][:5]
@@ -144,7 +144,7 @@ def test_many_directions_at_once() -> None:
         )
 
 
-def test_mirrored_direction_mirrors() -> None:
+def test_mirrored_direction_mirrors():
     """The left wheel of a mirrored car moves as the right one does when both change alike."""
     module = kintrafo.compile(SHIPPED["macpherson"], parameter_derivatives=True)
     across = {n for n in module.PARAMETERS if n.endswith("_y")}
@@ -164,7 +164,7 @@ def test_mirrored_direction_mirrors() -> None:
     assert np.abs(one * [1.0, -1.0, 1.0] - two).max() <= 1e-12
 
 
-def test_the_design_position_moves_along() -> None:
+def test_the_design_position_moves_along():
     """An angle that is measured to a point follows that point: the arm is where it was drawn."""
     system = system_of(SHIPPED["macpherson"])
     named = {"ball_joint_z": 1.0}
@@ -184,7 +184,7 @@ def test_the_design_position_moves_along() -> None:
     assert np.abs(still[0]).max() <= ROUNDED
 
 
-def test_what_leaves_the_equations_is_refused() -> None:
+def test_what_leaves_the_equations_is_refused():
     system = system_of(WHEEL_ON_A_YOKE)
     assumed = [a for a in system.equations.equations.manifest["assumptions"] if "least" not in a]
     assert {"slot_out_of_plane", "wheel_rotor_askew"} <= {a["quantity"] for a in assumed}
@@ -207,7 +207,7 @@ def test_what_leaves_the_equations_is_refused() -> None:
     assert np.isclose(weights @ found, by[kept], rtol=1e-10)
 
 
-def test_a_loop_that_cannot_close_is_refused() -> None:
+def test_a_loop_that_cannot_close_is_refused():
     system = system_of(SHIPPED["four_bar"])
     system = kintrafo.System(system.equations, system.parameters | {"crank_pin_y": 0.35})
     far = system.state(crank_angle=1.5)
@@ -222,7 +222,7 @@ def test_a_loop_that_cannot_close_is_refused() -> None:
         assert found.value.margins == expected.value.margins
 
 
-def test_arguments_are_refused_by_name() -> None:
+def test_arguments_are_refused_by_name():
     system = system_of(SHIPPED["four_bar"])
     at = system.design_state
     for given, message in (
@@ -242,7 +242,7 @@ def test_arguments_are_refused_by_name() -> None:
 
 
 @pytest.fixture(scope="module")
-def page() -> dict[str, Any]:
+def page():
     """Return what the examples of the page find."""
     found: dict[str, Any] = {}
     text = (ROOT / "docs/simulation/derivatives.md").read_text(encoding="utf-8")
@@ -250,7 +250,7 @@ def page() -> dict[str, Any]:
     return found
 
 
-def test_kinematics_as_the_study_has_them(page: dict[str, Any]) -> None:
+def test_kinematics_as_the_study_has_them(page):
     """Toe with the wheel centre held, by hardpoints, and the cars of `sensitivity`."""
     car = kintrafo.Suspension.load("reference_car")
     travel = np.linspace(-0.06, 0.06, 13)
@@ -262,7 +262,7 @@ def test_kinematics_as_the_study_has_them(page: dict[str, Any]) -> None:
     assert np.abs(exact - study.values).max() <= 1e-9 * np.abs(exact).max()
 
 
-def test_gradients_cost_three_times_the_function() -> None:
+def test_gradients_cost_three_times_the_function():
     model = generate(SHIPPED["four_bar"], parameter_derivatives=True)
     functions = {f.name: f for f in (*model.functions.values(), model.prepare)}
     derivatives = (*model.by_parameters.functions, *model.by_parameters.of_parameters)

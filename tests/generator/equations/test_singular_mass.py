@@ -32,7 +32,7 @@ def compiled(name: str, first, second) -> kintrafo.System:
 
 
 @pytest.fixture(scope="module")
-def slides() -> kintrafo.System:
+def slides():
     """A slide on a slide, on one line: the mass matrix is a constant."""
     bodies = (Body(n, 1.0, (0.0, 0.0, 0.0), (0.1, 0.1, 0.1)) for n in ("a", "b"))
     ground, (a, b) = Ground("ground"), bodies
@@ -40,7 +40,7 @@ def slides() -> kintrafo.System:
 
 
 @pytest.fixture(scope="module")
-def pendulum() -> kintrafo.System:
+def pendulum():
     """A pendulum on a pendulum, which moves the other way when both are in line."""
     ground, across = Ground("ground"), Direction("across", (0.0, 1.0, 0.0))
     a = Body("a", 1.0, (0.0, 0.0, -0.3), (0.1, 0.1, 0.1))
@@ -59,7 +59,7 @@ def of(system: kintrafo.System, mass: float) -> dict[str, float]:
     return light | {"b_mass": float(mass)}
 
 
-def test_a_constant_mass_matrix(slides: kintrafo.System) -> None:
+def test_a_constant_mass_matrix(slides):
     """Each mass is refused, for any rounding; the smallest mass between is enough."""
     for mass in MASSES:
         with pytest.raises(kintrafo.ParameterError, match="'high' can change, alone or with"):
@@ -70,7 +70,7 @@ def test_a_constant_mass_matrix(slides: kintrafo.System) -> None:
     np.testing.assert_allclose(falling[2:], [-9.81 * 0.8, 0.0], atol=1e-4)
 
 
-def test_one_that_varies(pendulum: kintrafo.System) -> None:
+def test_one_that_varies(pendulum):
     """Refused in line, where only both together move the mass; not where they are not."""
     for mass in MASSES:
         point = kintrafo.System(pendulum.equations, of(pendulum, mass))

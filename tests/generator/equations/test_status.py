@@ -46,7 +46,7 @@ REFUSING = {name: [f for f in found if f != "margins"] for name, found in COMMON
 
 
 @each_model
-def test_a_rod_that_does_not_reach(model) -> None:
+def test_a_rod_that_does_not_reach(model):
     """Beyond the dead point every function names the loop, the coordinates and their values."""
     for function in REFUSING[model.NAME]:
         instant = Instant(BETA1_DESIGN, 0.5, 0.31, 1.5, SPIN_RATE)
@@ -67,7 +67,7 @@ def test_a_rod_that_does_not_reach(model) -> None:
 
 
 @each_model
-def test_residuals_do_not_need_the_loops_to_close(model) -> None:
+def test_residuals_do_not_need_the_loops_to_close(model):
     """They are functions of given coordinates: that they do not vanish is their result."""
     state, inputs = Instant(BETA1_DESIGN, 0.0, 0.31).arrays(model)
     beta = model.relative_coordinates(Instant(BETA1_DESIGN).state(model))
@@ -76,7 +76,7 @@ def test_residuals_do_not_need_the_loops_to_close(model) -> None:
 
 
 @each_model
-def test_margins_show_how_far_a_loop_is_from_closing(model) -> None:
+def test_margins_show_how_far_a_loop_is_from_closing(model):
     closure = [name for name, _ in model.GUARDS].index("knuckle_closure")
     found = [
         model.margins(*Instant(BETA1_DESIGN, rack=rack).arrays(model))[closure]
@@ -87,7 +87,7 @@ def test_margins_show_how_far_a_loop_is_from_closing(model) -> None:
 
 
 @each_model
-def test_the_element_of_an_array_is_named(model) -> None:
+def test_the_element_of_an_array_is_named(model):
     for function in REFUSING[model.NAME]:
         good, bad = (Instant(BETA1_DESIGN, 0.0, rack) for rack in (0.0, -0.31))
         states = np.tile(good.state(model), (2, 3, 1))
@@ -102,7 +102,7 @@ def test_the_element_of_an_array_is_named(model) -> None:
 
 
 @each_model
-def test_the_element_of_broadcast_arrays_is_named(model) -> None:
+def test_the_element_of_broadcast_arrays_is_named(model):
     """The index is that of the broadcast result; the values are those of the element."""
     lengths = np.array([0.0, 0.0, -0.31, 0.0])
     states = np.array([Instant(BETA1_DESIGN, 0.0, rack).state(model) for rack in lengths])
@@ -114,7 +114,7 @@ def test_the_element_of_broadcast_arrays_is_named(model) -> None:
     assert -0.31 in caught.value.coordinates.values()
 
 
-def test_errors_travel_between_processes() -> None:
+def test_errors_travel_between_processes():
     with pytest.raises(ClosureError) as caught:
         macpherson.rhs(*Instant(BETA1_DESIGN, rack=0.31).arrays(macpherson))
     copy = pickle.loads(pickle.dumps(caught.value))
@@ -289,7 +289,7 @@ EDGES_OF = {
     [(model, edge) for model, edges in EDGES_OF.items() for edge in edges],
     ids=lambda value: getattr(value, "NAME", getattr(value, "guard", None)),
 )
-def test_every_guard_acts_at_its_edge(model, edge: Edge) -> None:
+def test_every_guard_acts_at_its_edge(model, edge):
     parameters, instant = edge.build()
     constants = model.prepare(of_model(model, parameters))
     arrays = *instant.arrays(model), constants
@@ -303,7 +303,7 @@ def test_every_guard_acts_at_its_edge(model, edge: Edge) -> None:
 
 
 @each_model
-def test_every_guard_has_an_edge(model) -> None:
+def test_every_guard_has_an_edge(model):
     assert {guard for guard, _ in model.GUARDS} == {edge.guard for edge in EDGES_OF[model]}
 
 
@@ -328,7 +328,7 @@ def reads(model: ModuleType, function: str) -> set[str]:
 
 @pytest.mark.parametrize("wrong", [np.nan, np.inf, -np.inf])
 @each_model
-def test_nan_and_infinity_are_named(model, wrong: float) -> None:
+def test_nan_and_infinity_are_named(model, wrong):
     """A function rejects such an element if it reads it, and ignores it otherwise."""
     for function in COMMON[model.NAME]:
         names = (*model.STATE, *model.INPUTS)
@@ -349,7 +349,7 @@ def test_nan_and_infinity_are_named(model, wrong: float) -> None:
 
 
 @each_model
-def test_nan_in_an_array_is_placed(model) -> None:
+def test_nan_in_an_array_is_placed(model):
     states = np.tile(Instant(BETA1_DESIGN).state(model), (4, 1))
     states[2, 0] = np.nan
     with pytest.raises(ModelError, match=r"NaN or infinite: beta1 \(element \[2\]"):
@@ -358,7 +358,7 @@ def test_nan_in_an_array_is_placed(model) -> None:
 
 @each_model
 @pytest.mark.parametrize("index", range(10))
-def test_nan_in_given_coordinates_is_refused(model, index: int) -> None:
+def test_nan_in_given_coordinates_is_refused(model, index):
     state = Instant(BETA1_DESIGN).state(model)
     beta = model.relative_coordinates(state)
     beta[index] = np.nan
@@ -368,13 +368,13 @@ def test_nan_in_given_coordinates_is_refused(model, index: int) -> None:
 
 @each_model
 @pytest.mark.parametrize("rate", [1e160, 1e308])
-def test_overflow_is_no_silent_nan(model, rate: float) -> None:
+def test_overflow_is_no_silent_nan(model, rate):
     with pytest.raises(ModelError):
         model.rhs(*Instant(BETA1_DESIGN, beta1_rate=rate, spin_rate=rate).arrays(model))
 
 
 @each_model
-def test_nan_among_the_constants_is_no_silent_number(model) -> None:
+def test_nan_among_the_constants_is_no_silent_number(model):
     """No constant that is read may vanish, as in a law that takes a NaN for "not touched"."""
     for function in REFUSING[model.NAME]:
         constants = model.prepare(car_parameters(1, model))
@@ -394,14 +394,14 @@ def test_nan_among_the_constants_is_no_silent_number(model) -> None:
 
 @each_model
 @pytest.mark.parametrize("wrong", [np.nan, np.inf])
-def test_parameters_that_are_no_numbers(model, wrong: float) -> None:
+def test_parameters_that_are_no_numbers(model, wrong):
     parameters = reference_parameters() | {"tyre_rate": wrong, "gravity": wrong}
     with pytest.raises(ParameterError, match=r"NaN or infinite: tyre_rate, gravity$"):
         model.prepare(of_model(model, parameters))
 
 
 @each_model
-def test_each_parameter_that_is_no_number(model) -> None:
+def test_each_parameter_that_is_no_number(model):
     """Also those that a law may ignore, as the stiffness of a stop that is not touched."""
     parameters = car_parameters(1, model)
     for name in parameters:
@@ -410,7 +410,7 @@ def test_each_parameter_that_is_no_number(model) -> None:
 
 
 @each_model
-def test_parameters_by_wrong_names(model) -> None:
+def test_parameters_by_wrong_names(model):
     parameters = of_model(model, reference_parameters()) | {"sprung_rate": 1.0}
     del parameters["spring_rate"]
     message = "unknown parameters: sprung_rate; missing parameters: spring_rate"
@@ -419,7 +419,7 @@ def test_parameters_by_wrong_names(model) -> None:
 
 
 @each_model
-def test_parameters_in_an_array(model) -> None:
+def test_parameters_in_an_array(model):
     parameters = car_parameters(1, model)
     values = [parameters[name] for name in model.PARAMETERS]
     assert model.prepare(values).tolist() == model.prepare(parameters).tolist()
@@ -458,14 +458,14 @@ DEGENERATE = {
 
 @each_model
 @pytest.mark.parametrize("case", DEGENERATE)
-def test_degenerate_geometry(model, case: str) -> None:
+def test_degenerate_geometry(model, case):
     with pytest.raises(
         ParameterError, match=r"design position is degenerate|at the design position"
     ):
         model.prepare(of_model(model, DEGENERATE[case]))
 
 
-def test_offset_strut_without_length() -> None:
+def test_offset_strut_without_length():
     parameters = car_parameters(1, macpherson_general)
     set_vector(parameters, "strut_lower", vector(parameters, "strut_top"))
     with pytest.raises(
@@ -474,7 +474,7 @@ def test_offset_strut_without_length() -> None:
         macpherson_general.prepare(parameters)
 
 
-def test_a_tie_rod_may_end_on_the_axis_of_an_offset_strut() -> None:
+def test_a_tie_rod_may_end_on_the_axis_of_an_offset_strut():
     """Only with the ball joint on the axis too would the rod have no lever."""
     parameters = car_parameters(1, macpherson_general)
     set_vector(parameters, "tie_rod_outer", vector(parameters, "strut_lower"))
@@ -488,7 +488,7 @@ def test_a_tie_rod_may_end_on_the_axis_of_an_offset_strut() -> None:
 
 
 @each_model
-def test_wrong_shapes(model) -> None:
+def test_wrong_shapes(model):
     for function in COMMON[model.NAME]:
         call = getattr(model, function)
         state, inputs = Instant(BETA1_DESIGN).arrays(model)
@@ -509,7 +509,7 @@ def test_wrong_shapes(model) -> None:
 
 
 @each_model
-def test_wrong_shapes_of_residuals(model) -> None:
+def test_wrong_shapes_of_residuals(model):
     state, inputs = Instant(BETA1_DESIGN).arrays(model)
     beta = model.relative_coordinates(state)
     for arguments, name in (
@@ -523,7 +523,7 @@ def test_wrong_shapes_of_residuals(model) -> None:
 
 
 @each_model
-def test_residuals_of_arrays_are_those_of_their_elements(model) -> None:
+def test_residuals_of_arrays_are_those_of_their_elements(model):
     instants = [Instant(BETA1_DESIGN + 0.1 * i, 0.2, 0.01 * i) for i in range(3)]
     states = np.array([instant.state(model) for instant in instants])
     inputs = np.array([instant.inputs(model) for instant in instants])
@@ -535,7 +535,7 @@ def test_residuals_of_arrays_are_those_of_their_elements(model) -> None:
 
 
 @each_model
-def test_arrays_are_single_states_side_by_side(model) -> None:
+def test_arrays_are_single_states_side_by_side(model):
     """Leading dimensions broadcast, and each element equals the result of a single call."""
     for function in COMMON[model.NAME]:
         call = getattr(model, function)
@@ -554,14 +554,14 @@ def test_arrays_are_single_states_side_by_side(model) -> None:
 
 
 @each_model
-def test_nothing_in_nothing_out(model) -> None:
+def test_nothing_in_nothing_out(model):
     for function in COMMON[model.NAME]:
         call = getattr(model, function)
         assert call(np.empty((0, len(model.STATE)))).shape == (0, *call.shape)
 
 
 @each_model
-def test_results_are_new_and_constants_are_fixed(model) -> None:
+def test_results_are_new_and_constants_are_fixed(model):
     """A second call does not change the first result, and shared constants cannot be changed."""
     state = Instant(BETA1_DESIGN).state(model)
     first = model.rhs(state)
@@ -633,7 +633,7 @@ any_instants = st.builds(Instant, *[anything] * len(fields(Instant)))
 @given(any_instants)
 @calm
 @each_model
-def test_any_finite_state(model, instant: Instant) -> None:
+def test_any_finite_state(model, instant):
     """Up to 1e308, where squares overflow."""
     finite_or_refused(model, instant, usual_constants(model))
 
@@ -641,7 +641,7 @@ def test_any_finite_state(model, instant: Instant) -> None:
 @given(any_instants, number(0.6), number(0.1))
 @calm
 @each_model
-def test_any_finite_rates(model, instant: Instant, turn: float, rack: float) -> None:
+def test_any_finite_rates(model, instant, turn, rack):
     """The same where the loops close, so that the dynamics have something to compute."""
     reachable = replace(instant, beta1=BETA1_DESIGN + turn, rack=rack)
     finite_or_refused(model, reachable, usual_constants(model))
@@ -668,9 +668,7 @@ def plausible_cars(draw: st.DrawFn) -> Parameters:
 @given(plausible_cars(), number(0.6), number(0.1), number(20.0), number(200.0))
 @calm
 @each_model
-def test_plausible_cars(
-    model, parameters: Parameters, turn: float, rack: float, rate: float, spin_rate: float
-) -> None:
+def test_plausible_cars(model, parameters, turn, rack, rate, spin_rate):
     constants, error = attempt(lambda: model.prepare(of_model(model, parameters)))
     if error is not None:
         assert "degenerate" in str(error)
@@ -691,12 +689,12 @@ def test_plausible_cars(
 
 @each_model
 @pytest.mark.parametrize("side", [-1.0, 1.0])
-def test_both_sides_of_a_dead_point(model, side: float) -> None:
+def test_both_sides_of_a_dead_point(model, side):
     """The rack is moved to where the rod just reaches, by bisection down to the last digit."""
     reached, missed = 0.0, 0.31 * side
     constants = usual_constants(model)
 
-    def instant_at(rack: float) -> Instant:
+    def instant_at(rack):
         return Instant(BETA1_DESIGN, 0.0, rack, 1.0, 50.0, 0.1)
 
     while True:
@@ -719,7 +717,7 @@ def test_both_sides_of_a_dead_point(model, side: float) -> None:
     assert 0.0 < margins["knuckle_closure"] < 1e-15
 
 
-def test_what_nothing_has_mass_to_move_is_not_called_geometry() -> None:
+def test_what_nothing_has_mass_to_move_is_not_called_geometry():
     """An arm on a hinge, whose mass matrix is a constant."""
     parameters = System(trailing_arm).parameters
     parameters |= {name: 0.0 for name in parameters if name.endswith("_mass") or "_inertia" in name}
@@ -728,6 +726,6 @@ def test_what_nothing_has_mass_to_move_is_not_called_geometry() -> None:
 
 
 @pytest.mark.parametrize(("margin", "words"), [(-1e-9, "must be positive"), (1e-9, "must stay")])
-def test_a_motion_may_end_where_a_margin_is_positive_still(margin: float, words: str) -> None:
+def test_a_motion_may_end_where_a_margin_is_positive_still(margin, words):
     """At the last state before a dead point, where "must be positive" would contradict itself."""
     assert words in str(ClosureError("rhs", ["it cannot close"], {"closure": margin}, {}, (), {}))

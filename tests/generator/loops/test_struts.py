@@ -40,7 +40,7 @@ def compiled(model: Formulation) -> Built:
 # -- struts ---------------------------------------------------------------------------------------
 
 
-def test_a_strut_is_as_long_as_the_way_between_its_ends() -> None:
+def test_a_strut_is_as_long_as_the_way_between_its_ends():
     """All around, and down to a tenth of a millimetre before the ends meet: that alone is singular.
 
     From some hundredths of a millimetre on its direction would be worse than 1e-9, and is refused.
@@ -72,7 +72,7 @@ def test_a_strut_is_as_long_as_the_way_between_its_ends() -> None:
             assert slide == pytest.approx(length - start, abs=1e-15 + 1e-16 / beside)
 
 
-def test_ends_that_meet_are_named() -> None:
+def test_ends_that_meet_are_named():
     built = compiled(turret("closed_strut", "stroke"))
     start = np.linalg.norm([0.8, -0.2, 1.1])  # from foot to eye, as declared
     with pytest.raises(ClosureError, match="strut of barrel and piston is drawn in until its ends"):
@@ -101,7 +101,7 @@ def telescope(name: str, *, ball_at_boom: bool) -> Formulation:
     return replace(model, mechanism=mechanism, massive=massive)
 
 
-def test_two_crosses_hold_a_telescope_that_turns() -> None:
+def test_two_crosses_hold_a_telescope_that_turns():
     built = compiled(telescope("two_crosses", ball_at_boom=False))
     rng = np.random.default_rng(0)
     for state in rng.uniform(-0.4, 0.4, (20, 4)) * [1.0, 1.0, 5.0, 5.0]:
@@ -115,7 +115,7 @@ def test_two_crosses_hold_a_telescope_that_turns() -> None:
         np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-12 * np.abs(expected).max())
 
 
-def test_a_piston_without_mass_may_turn_as_it_likes() -> None:
+def test_a_piston_without_mass_may_turn_as_it_likes():
     model = telescope("free_piston", ball_at_boom=True)
     assert [body.name for body in model.massive] == ["turret", "boom", "barrel"]
     (spring,) = model.mechanism.elements
@@ -145,7 +145,7 @@ def on_two_balls(massive: tuple[str, ...]) -> Formulation:
     )
 
 
-def test_a_rod_without_mass_on_two_balls_is_like_one_with_a_cross() -> None:
+def test_a_rod_without_mass_on_two_balls_is_like_one_with_a_cross():
     model = on_two_balls(("crank", "rocker"))
     balls = compiled(model)
     crossed = spatial_four_bar("with_cross")
@@ -171,7 +171,7 @@ def test_a_rod_without_mass_on_two_balls_is_like_one_with_a_cross() -> None:
         np.testing.assert_allclose(found, motion.twist[2, 3:], atol=1e-8)
 
 
-def test_a_rod_with_mass_on_two_balls_is_refused() -> None:
+def test_a_rod_with_mass_on_two_balls_is_refused():
     with pytest.raises(DeclarationError, match=r"'rod' may turn about the line"):
         on_two_balls(("crank", "rod", "rocker"))
 
@@ -200,9 +200,7 @@ FOOT, HEAD = Point("foot", (0.3, 0.05, 0.0)), Point("head", (0.4, 0.1, 1.0))
 
 
 @pytest.mark.parametrize("numbers", [(0.1, 0.05, 1.0), (-0.1, -0.05, -0.99)])
-def test_a_strut_whose_direction_is_given_as_numbers_must_be_between(
-    numbers: tuple[float, float, float],
-) -> None:
+def test_a_strut_whose_direction_is_given_as_numbers_must_be_between(numbers):
     """The remedy in the message leads to a closed form."""
     words = re.escape("Direction('leg', between=(foot, head))")
     with pytest.raises(NoClosedFormError, match=words):

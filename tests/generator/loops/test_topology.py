@@ -1,10 +1,8 @@
 """Mobility, shortest paths, cycles and characteristic pairs, against the paper and at large."""
 
-import random
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import combinations, pairwise
-from typing import Any
 
 import networkx as nx
 import numpy as np
@@ -47,12 +45,12 @@ SUSPENSION = MODEL.mechanism
 
 
 @pytest.fixture(scope="module")
-def topology() -> JointGraph:
+def topology():
     return JointGraph(SUSPENSION)
 
 
 @pytest.fixture(scope="module", params=PAPER, ids=lambda model: model.name)
-def plan(request: pytest.FixtureRequest) -> CataloguePlan:
+def plan(request):
     return CataloguePlan.of(request.param)
 
 
@@ -63,7 +61,7 @@ def numbers(cycle: Cycle) -> set[int]:
 # -- the paper's suspension -----------------------------------------------------------------------
 
 
-def test_mobility_and_loops(topology: JointGraph) -> None:
+def test_mobility_and_loops(topology):
     """Eq. 1, f = 6 x 6 - (5 + 3 + 4 + 4 + 3 + 4 + 5 + 5) = 3, and section 4, 8 - (7 - 1) = 2."""
     freedoms = {joint.name: joint.freedoms for joint in SUSPENSION.joints}
     assert freedoms == {"OA": 1, "B": 3, "BC": 2, "C": 2, "D": 3, "E": 2, "y": 1, "HG": 1}
@@ -90,7 +88,7 @@ PATHS = {
 
 
 @pytest.mark.parametrize(("ends", "edges"), PATHS.items(), ids=str)
-def test_table_2(topology: JointGraph, ends: tuple[int, int], edges: str) -> None:
+def test_table_2(topology, ends, edges):
     """The paper shows one shortest path of each pair; it must be among all that we find."""
     by_number = {number: name for name, number in SUSPENSION.numbers.items()}
     steps = edges.split(",")
@@ -111,7 +109,7 @@ def length_of(topology: JointGraph, path: Sequence[str]) -> int:
     return sum(topology.joint_between(a, b).freedoms for a, b in pairwise(path))
 
 
-def test_three_cycles(topology: JointGraph) -> None:
+def test_three_cycles(topology):
     found = [(numbers(cycle), cycle.length) for cycle in topology.candidate_cycles]
     assert found[0] == ({1, 2, 3, 6}, 8)
     assert len(found) == 3
@@ -119,14 +117,14 @@ def test_three_cycles(topology: JointGraph) -> None:
     assert ({1, 2, 3, 4, 5}, 10) in found
 
 
-def test_basis(plan: CataloguePlan) -> None:
+def test_basis(plan):
     assert [(numbers(t.cycle), t.cycle.length) for t in plan.transformers] == [
         ({1, 6, 3, 2}, 8),
         ({1, 6, 3, 4, 5}, 10),
     ]
 
 
-def test_why_the_second_loop_is_preferred(plan: CataloguePlan) -> None:
+def test_why_the_second_loop_is_preferred(plan):
     """Of the two loops of length 10 the one with the strut has two unknowns fewer by then."""
     first, second = plan.transformers
     assert first.rivals == ()
@@ -135,7 +133,7 @@ def test_why_the_second_loop_is_preferred(plan: CataloguePlan) -> None:
     assert (second.unknowns, unknowns) == (6, 8)
 
 
-def test_characteristic_pairs(plan: CataloguePlan) -> None:
+def test_characteristic_pairs(plan):
     pairs = [{joint.name for joint in t.pair.joints} for t in plan.transformers]
     assert pairs == [{"B", "C"}, {"D", "E"}]
     for transformer in plan.transformers:
@@ -144,7 +142,7 @@ def test_characteristic_pairs(plan: CataloguePlan) -> None:
         assert transformer.pair.eliminated == max(c.eliminated for c in transformer.candidates)
 
 
-def test_blocks_hand_on_what_they_solve(plan: CataloguePlan) -> None:
+def test_blocks_hand_on_what_they_solve(plan):
     """Figure 3: the strut's slide and direction go from the first transformer to the second."""
     first, second = plan.transformers
     assert first.inputs == ("OA.angle",)
@@ -168,9 +166,7 @@ def test_blocks_hand_on_what_they_solve(plan: CataloguePlan) -> None:
         ("excavator", 3, 4, [RevoluteByLength] * 4),
     ],
 )
-def test_loops_are_found_and_solved(
-    name: str, mobility: int, loops: int, solutions: list[type]
-) -> None:
+def test_loops_are_found_and_solved(name, mobility, loops, solutions):
     """The spatial count of Eq. 1 would give planar loops minus two freedoms each."""
     plan = CataloguePlan.of(BY_NAME[name])
     assert plan.topology.mobility == mobility
@@ -179,13 +175,13 @@ def test_loops_are_found_and_solved(
     assert all(t.pair.equations == 1 for t in plan.transformers)
 
 
-def test_strut_that_misses_the_ball_joint_gets_its_direction_from_the_rod() -> None:
+def test_strut_that_misses_the_ball_joint_gets_its_direction_from_the_rod():
     first, second = CataloguePlan.of(BY_NAME["macpherson_general"]).transformers
     assert first.outputs == ("BC.slide",)
     assert {"BC.angle", "C.azimuth", "C.elevation"} <= set(second.outputs)
 
 
-def test_two_ball_joints_leave_the_turn_of_the_link_between_them_out() -> None:
+def test_two_ball_joints_leave_the_turn_of_the_link_between_them_out():
     first, _ = CataloguePlan.of(BY_NAME["double_wishbone"]).transformers
     assert {joint.name for joint in first.pair.joints} == {"lower_ball", "upper_ball"}
     assert (first.pair.eliminated, first.unknowns) == (6, 7)
@@ -193,13 +189,13 @@ def test_two_ball_joints_leave_the_turn_of_the_link_between_them_out() -> None:
 
 
 @pytest.mark.parametrize("count", [1, 2, 5])
-def test_chain_of_four_bars_has_one_freedom(count: int) -> None:
+def test_chain_of_four_bars_has_one_freedom(count):
     plan = CataloguePlan.of(n_four_bar(count))
     assert plan.topology.mobility == 1
     assert len(plan.transformers) == plan.topology.planar_loop_count == count
 
 
-def test_hinges_along_lines_between_points_are_not_taken_for_parallel() -> None:
+def test_hinges_along_lines_between_points_are_not_taken_for_parallel():
     cycle = MinimalBasis(JointGraph(loop_of(*[Revolute] * 4).mechanism)).options()[0]
     assert not cycle.planar
     planar = MinimalBasis(JointGraph(BY_NAME["four_bar"].mechanism)).options()[0]
@@ -250,7 +246,7 @@ def mechanisms(draw: st.DrawFn) -> Mechanism:
 
 @given(mechanisms(), st.randoms(use_true_random=False))
 @settings(deadline=None, max_examples=60)
-def test_minimal_cycle_basis(mechanism: Mechanism, choice: random.Random) -> None:
+def test_minimal_cycle_basis(mechanism, choice):
     """Any choice among the shortest extensions ends at a basis as short as networkx's."""
     topology = JointGraph(mechanism)
     chosen: list[Cycle] = []
@@ -280,7 +276,7 @@ def in_order(graph: nx.Graph, cycles: list[list[str]]) -> list[list[str]]:
 
 @given(mechanisms())
 @settings(deadline=None, max_examples=60)
-def test_sum_of_two_cycles_is_dependent(mechanism: Mechanism) -> None:
+def test_sum_of_two_cycles_is_dependent(mechanism):
     """Independence is that of the edges modulo two."""
     topology = JointGraph(mechanism)
     for a, b in combinations(topology.candidate_cycles, 2):
@@ -294,14 +290,14 @@ def test_sum_of_two_cycles_is_dependent(mechanism: Mechanism) -> None:
 # -- mechanisms without an analysis ---------------------------------------------------------------
 
 
-def test_unreachable_body() -> None:
+def test_unreachable_body():
     caliper, piston = (Body(name, 1.0, (0.0, 0.0, 0.0)) for name in ("caliper", "piston"))
     loose = joint_between(Spherical, "loose", caliper, piston)
     with pytest.raises(TopologyError, match=r"no joint path.*caliper"):
         JointGraph(replace(SUSPENSION, joints=(*SUSPENSION.joints, loose)))
 
 
-def test_two_joints_between_the_same_bodies() -> None:
+def test_two_joints_between_the_same_bodies():
     bodies = (SUSPENSION.body(name) for name in ("control_arm", "chassis"))
     second = joint_between(Spherical, "second", *bodies)
     with pytest.raises(TopologyError, match=r"control_arm.*chassis.*two joints"):
@@ -320,7 +316,7 @@ def loop_of(*kinds: type[Joint]) -> Formulation:
     return Formulation("loop", "loop", mechanism, independent=(driven,), massive=())
 
 
-def test_loop_without_closed_form() -> None:
+def test_loop_without_closed_form():
     """Two universal joints leave two equations with three revolute joints: none in general."""
     with pytest.raises(NoClosedFormError) as caught:
         CataloguePlan.of(loop_of(Revolute, Revolute, Universal, Universal, Revolute))
@@ -330,20 +326,20 @@ def test_loop_without_closed_form() -> None:
     assert "j2/j3 leaves 2 equation(s) in 2 unknown(s)" in message
 
 
-def test_loop_of_hinges_has_no_closed_form() -> None:
+def test_loop_of_hinges_has_no_closed_form():
     """The seven hinges of a general loop are a polynomial of degree 16: nothing to cut at."""
     with pytest.raises(NoClosedFormError, match="none, since no two of its joints"):
         CataloguePlan.of(loop_of(*[Revolute] * 7))
 
 
-def test_undetermined_body() -> None:
+def test_undetermined_body():
     """Without the spin coordinate nothing determines the turn of the wheel."""
     model = replace(MODEL, independent=MODEL.independent[:1])
     with pytest.raises(NoClosedFormError, match="nothing determines the pose of wheel"):
         CataloguePlan.of(model)
 
 
-def test_too_few_coordinates_for_a_loop() -> None:
+def test_too_few_coordinates_for_a_loop():
     """Without the rack coordinate the steering loop cannot be solved, and is named."""
     free = replace(SUSPENSION, forces=())  # none along the rack
     model = replace(MODEL, mechanism=free, prescribed={}, held={})
@@ -352,9 +348,7 @@ def test_too_few_coordinates_for_a_loop() -> None:
 
 
 @pytest.mark.parametrize("independent", [("A", "D"), ()])
-def test_number_of_coordinates_is_compared_with_the_mobility(
-    independent: tuple[str, ...], refused: Any
-) -> None:
+def test_number_of_coordinates_is_compared_with_the_mobility(independent, refused):
     four_bar = BY_NAME["four_bar"]
     free = replace(four_bar.mechanism, forces=())  # none along the crank
     joints = tuple(map(free.joint, independent))
@@ -364,7 +358,7 @@ def test_number_of_coordinates_is_compared_with_the_mobility(
     )
 
 
-def test_driven_joint_declared_the_wrong_way_round() -> None:
+def test_driven_joint_declared_the_wrong_way_round():
     bearing = SUSPENSION.joint("HG")
     turned = replace(bearing, first=bearing.second, second=bearing.first)
     model = changed(MODEL, (bearing, turned))
@@ -372,7 +366,7 @@ def test_driven_joint_declared_the_wrong_way_round() -> None:
         CataloguePlan.of(model)
 
 
-def test_directions_and_points_are_values() -> None:
+def test_directions_and_points_are_values():
     """The same declaration twice is the same geometry, so joints may be declared on other pages."""
     assert Point("p", (0.0, 0.0, 0.0)) == P
     assert Direction("d", (1, 2, 3)) == Direction("d", (1.0, 2.0, 3.0))

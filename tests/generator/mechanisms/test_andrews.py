@@ -12,8 +12,6 @@ rates of beta and theta have nine to ten digits right as well; those of the slow
 to eight, and leave up to 1e-8 m/s in the derivatives of the constraints, where ours leave nothing.
 """
 
-from collections.abc import Callable
-
 import mpmath
 import numpy as np
 import pytest
@@ -211,7 +209,7 @@ def book_angles(ours: dict[str, mpf]) -> dict[str, mpf]:
 
 
 @pytest.fixture(scope="module")
-def exact(derived: Callable[[str], Derivation]) -> ExactModel:
+def exact(derived):
     with mpmath.workdps(DIGITS):
         return ExactModel(derived("andrews"))
 
@@ -219,7 +217,7 @@ def exact(derived: Callable[[str], Derivation]) -> ExactModel:
 # -- tests -----------------------------------------------------------------------------------------
 
 
-def test_first_accelerations_are_the_published_ones() -> None:
+def test_first_accelerations_are_the_published_ones():
     state, torque = np.zeros(2), [float(TORQUE)]
     acceleration = compiled.rhs(state, torque)[1]
     theta = list(compiled.RELATIVE_COORDINATES).index("theta")
@@ -234,7 +232,7 @@ PLACES = [(0, 0), (1, 300), (3, -900), (6, 1100), (11, 40), (16, 1140)]
 
 
 @pytest.mark.parametrize("place", PLACES, ids=str)
-def test_the_program_is_the_problem_of_the_book(exact: ExactModel, place: tuple[int, int]) -> None:
+def test_the_program_is_the_problem_of_the_book(exact, place):
     # 1e-20: 25 digits, of which the cancellation of forces takes a few
     with mpmath.workdps(DIGITS):
         angles, rates = exact.angles(*map(mpf, place))
@@ -244,7 +242,7 @@ def test_the_program_is_the_problem_of_the_book(exact: ExactModel, place: tuple[
 
 
 @pytest.fixture(scope="module")
-def end(exact: ExactModel) -> tuple[dict[str, mpf], dict[str, mpf]]:
+def end(exact):
     """Angles and rates at the end of the compiled model's motion."""
     torque = [float(TORQUE)]
     result = solve_ivp(
@@ -255,7 +253,7 @@ def end(exact: ExactModel) -> tuple[dict[str, mpf], dict[str, mpf]]:
         return exact.angles(*map(mpf, result.y[:, -1]))
 
 
-def test_ten_digits_of_the_published_angles(end: tuple[dict[str, mpf], dict[str, mpf]]) -> None:
+def test_ten_digits_of_the_published_angles(end):
     with mpmath.workdps(DIGITS):
         angles, rates = end
         off = {n: _nearest(angles[n] - mpf(PUBLISHED[n][0])) for n in ANGLES}
@@ -268,7 +266,7 @@ def test_ten_digits_of_the_published_angles(end: tuple[dict[str, mpf], dict[str,
             assert abs(off[name] - shift * rates[name]) < 4e-15
 
 
-def test_digits_of_the_published_rates(end: tuple[dict[str, mpf], dict[str, mpf]]) -> None:
+def test_digits_of_the_published_rates(end):
     with mpmath.workdps(DIGITS):
         angles, rates = end
         published = {n: mpf(PUBLISHED[n][1]) for n in ANGLES}

@@ -15,8 +15,6 @@ from oracle.random_states import check_with_the_oracle
 from support.models import Built, own
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from kintrafo.generator import Formulation
 
 WISHBONES = model_named("double_wishbone")
@@ -48,13 +46,11 @@ def axles_without_sides() -> tuple[Formulation, Formulation]:
         ),
     ],
 )
-def test_accelerations_are_those_of_the_oracle(
-    model: Formulation, operations: int | None, tmp_path: Path
-) -> None:
+def test_accelerations_are_those_of_the_oracle(model, operations, tmp_path):
     check_with_the_oracle(model, tmp_path, reach=0.05, count=3, operations=operations)
 
 
-def test_a_car_that_moves_freely_is_that_of_the_oracle() -> None:
+def test_a_car_that_moves_freely_is_that_of_the_oracle():
     arms = car.of_corners(model_named("trailing_arm"))
     model = car.car("free", "A car", (arms, arms), car.FREE)
     built = Built.of(model, own(model, arrays=True, derivatives=False))
@@ -65,7 +61,7 @@ def test_a_car_that_moves_freely_is_that_of_the_oracle() -> None:
         )
 
 
-def test_only_a_body_that_carries_all_is_a_base() -> None:
+def test_only_a_body_that_carries_all_is_a_base():
     assert jointed_base(car.quarter(WISHBONES)) == ([], "body")
     bodies = ["body_after_heave", "body_after_pitch"]
     rolling = car.car("rolling", "A car", front_and_rear(), car.FREEDOMS)
@@ -73,11 +69,11 @@ def test_only_a_body_that_carries_all_is_a_base() -> None:
     assert [m.name for m in MODELS if jointed_base(m)] == ["quarter_macpherson"]
 
 
-def test_a_base_takes_fewer_operations(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_base_takes_fewer_operations(monkeypatch):
     """A suspension that is solved on its body is not solved in the axes of the world."""
     model = car.quarter(WISHBONES)
 
-    def steps() -> int:
+    def steps():
         return len(generate(model, derivatives=False).functions["rhs"].steps)
 
     on_base = steps()

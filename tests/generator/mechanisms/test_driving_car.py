@@ -15,9 +15,6 @@ from oracle.random_states import check_with_the_oracle
 from support.models import Built, own
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
-
     from kintrafo.generator import Formulation
 
 PLACES = {"air_drag_area": 0.7, "air_lift_area": 0.1, "air_pitching": -0.2, "air_center_x": -1.3}
@@ -105,7 +102,7 @@ def given(built: Built, random: np.random.Generator) -> np.ndarray:
 
 
 @pytest.mark.parametrize("model", [on_arms, on_struts_and_a_beam, on_a_column, on_arms_and_rods])
-def test_accelerations_are_those_of_the_oracle(model: Callable[[], Formulation]) -> None:
+def test_accelerations_are_those_of_the_oracle(model):
     built, random = built_on(model()), np.random.default_rng(5)
     layout, names = built.module.LAYOUT, list(built.module.STATE)
     rates = slice(layout.positions, layout.positions + layout.speeds)
@@ -120,7 +117,7 @@ def test_accelerations_are_those_of_the_oracle(model: Callable[[], Formulation])
         np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9 * scale)
 
 
-def test_axes_of_the_air_are_those_of_the_body_at_design(tmp_path: Path) -> None:
+def test_axes_of_the_air_are_those_of_the_body_at_design(tmp_path):
     """An arm turns about a line of its own, which is the first of the axes that it has itself."""
     arms = model_named("trailing_arm")
     air = next(f for f in on_arms().mechanism.forces if isinstance(f, g.AirForces))
@@ -132,7 +129,7 @@ def test_axes_of_the_air_are_those_of_the_body_at_design(tmp_path: Path) -> None
     check_with_the_oracle(replace(arms, mechanism=mechanism), tmp_path, 0.1, count=3)
 
 
-def test_normal_forces_and_torques_at_rest_conserve_energy() -> None:
+def test_normal_forces_and_torques_at_rest_conserve_energy():
     """On slippery tyres without dampers, wheels on the road: what they store is in the sum."""
     model = on_arms()
     names = [p.name for p in model.mechanism.parameters]
@@ -143,7 +140,7 @@ def test_normal_forces_and_torques_at_rest_conserve_energy() -> None:
     inputs = np.zeros(len(built.module.INPUTS))
     pressed = [s.endswith("_deflection") for s in built.module.SIGNALS]
 
-    def energies(state: np.ndarray) -> np.ndarray:
+    def energies(state):
         """Return what bodies and springs have, and what tyres have by their deflection."""
         depth = np.maximum(built("signals", state, inputs)[pressed], 0.0)
         return np.array([built.oracle.energy(built.motion(state, inputs)), 1e5 * depth @ depth])
@@ -157,7 +154,7 @@ def test_normal_forces_and_torques_at_rest_conserve_energy() -> None:
     assert abs(body + tyres) < 1e-3
 
 
-def test_units_and_bearings_are_checked() -> None:
+def test_units_and_bearings_are_checked():
     arms = model_named("trailing_arm")
     (tyre,) = (f for f in arms.mechanism.forces if isinstance(f, g.LinearTyre))
     other = next(j for j in arms.driven if not isinstance(j.second, g.Rotor))
@@ -176,7 +173,7 @@ def test_units_and_bearings_are_checked() -> None:
 
 
 @pytest.mark.parametrize("on", ["chassis", "trailing_arm", "wheel"])
-def test_a_reaction_is_on_the_carrier_or_on_what_all_hangs_on(on: str) -> None:
+def test_a_reaction_is_on_the_carrier_or_on_what_all_hangs_on(on):
     arms = model_named("trailing_arm")
     (tyre,) = (f for f in arms.mechanism.forces if isinstance(f, g.LinearTyre))
     bearing = next(j for j in arms.driven if isinstance(j.second, g.Rotor))

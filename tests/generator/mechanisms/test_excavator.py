@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -28,7 +28,7 @@ def state_at(strokes: Array) -> Array:
 EPSILON = 2.0**-52
 
 
-def test_signs_are_those_of_the_table() -> None:
+def test_signs_are_those_of_the_table():
     """Extended, the boom rises, the arm comes in, and the bucket curls in."""
     angles = ("boom_angle", "arm_angle", "bucket_angle")
     names = list(excavator.RELATIVE_COORDINATES)
@@ -52,7 +52,7 @@ def test_signs_are_those_of_the_table() -> None:
         ("bucket", 1.5, "arm - rocker - bucket_rod - bucket_barrel"),
     ],
 )
-def test_a_stroke_out_of_reach_names_its_loop(cylinder: str, beyond: float, loop: str) -> None:
+def test_a_stroke_out_of_reach_names_its_loop(cylinder, beyond, loop):
     strokes = np.zeros(3)
     strokes[CYLINDERS.index(cylinder)] = beyond
     with pytest.raises(excavator.ClosureError, match="cannot close") as error:
@@ -61,7 +61,7 @@ def test_a_stroke_out_of_reach_names_its_loop(cylinder: str, beyond: float, loop
 
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.name)
-def test_loops_wait_for_those_that_they_hang_on(model: Any) -> None:
+def test_loops_wait_for_those_that_they_hang_on(model):
     """The bucket's loops declared first and its bodies numbered first: the same loops."""
     mechanism = model.mechanism
     backward = ((body, replace(body, order=-body.order)) for body in mechanism.bodies)
@@ -73,7 +73,7 @@ def test_loops_wait_for_those_that_they_hang_on(model: Any) -> None:
     assert plan.transformers[0].cycle.key == expected.transformers[0].cycle.key
 
 
-def test_mobility() -> None:
+def test_mobility():
     assert excavator.MOBILITY == 3
     assert len(MODELS[1].inputs) == 3 * (excavator_lifting.MOBILITY - 1)
     assert len(excavator.LOOPS) == 4

@@ -114,7 +114,7 @@ class Compared:
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_signals_of_each_side_are_those_of_its_suspension(seed: int) -> None:
+def test_signals_of_each_side_are_those_of_its_suspension(seed):
     at = Compared.of(seed, bar_rate=0.0)
     found = at.axle.signals(at.state, at.inputs)
     for side, part in at.parts.items():
@@ -129,7 +129,7 @@ def test_signals_of_each_side_are_those_of_its_suspension(seed: int) -> None:
 # -- the bar ---------------------------------------------------------------------------------------
 
 
-def test_halves_of_the_bar_may_have_mass() -> None:
+def test_halves_of_the_bar_may_have_mass():
     """Declared so, the equations are those of the maximal coordinates with these masses."""
     heavy = {
         "bar_mass": 2.0,
@@ -170,13 +170,13 @@ def counts_of(model: str) -> dict[str, dict[str, int]]:
 
 
 @pytest.mark.parametrize("function", COUNTED)
-def test_operations_on_the_page_are_the_present_ones(function: str) -> None:
+def test_operations_on_the_page_are_the_present_ones(function):
     one, axle = (sum(counts_of(m)[function].values()) for m in ("macpherson", "front_axle"))
     row = cells(PAGE.read_text(encoding="utf-8"), COUNTED[function])
     assert [row[0], row[1], row[3]] == [str(one), str(2 * one), str(axle)]
 
 
-def test_two_suspensions_in_one_cost_what_they_cost_alone_but_for_signs() -> None:
+def test_two_suspensions_in_one_cost_what_they_cost_alone_but_for_signs():
     bare = generate(declaration.model(declaration.without_bar()))
     stored = counts_of("macpherson")
     page = PAGE.read_text(encoding="utf-8")
@@ -190,7 +190,7 @@ def test_two_suspensions_in_one_cost_what_they_cost_alone_but_for_signs() -> Non
     assert operations_of(functions["prepare"]).total() < 1.03 * sum(stored["prepare"].values())
 
 
-def test_wheel_rates_on_the_page_are_the_present_ones() -> None:
+def test_wheel_rates_on_the_page_are_the_present_ones():
     assert rates() in PAGE.read_text(encoding="utf-8")
     # equal travel: the suspension's own rate; opposite travel: the bar adds to it
     assert wheel_rate(WITH, 1.0) == pytest.approx(wheel_rate(WITHOUT, -1.0), rel=1e-6)

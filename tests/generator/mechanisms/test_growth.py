@@ -1,13 +1,12 @@
 """A chain of many loops: its exact motion, what grows with its length, and which loop fails."""
 
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
 from kintrafo.generator.backends.counting import operations_of
 from kintrafo.generator.backends.numpy.printer import numpy_source
-from kintrafo.generator.equations.outputs import Derivation, generate
+from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from kintrafo.generator.planning.plan import CataloguePlan
 from support.commands import ROOT, run_module
@@ -17,19 +16,19 @@ LONG = 16  # loops: more guards than a status word has bits
 
 
 @pytest.fixture(scope="module")
-def long_chain() -> Derivation:
+def long_chain():
     return derive(n_four_bar(LONG), derivatives=False)
 
 
 @pytest.fixture(scope="module")
-def chain() -> Built:
+def chain():
     model = n_four_bar(LONG)
     return Built.of(model, own(model, derivatives=False))
 
 
 @needs_gcc
 @pytest.mark.parametrize("angle", [-1.2, -0.3, 0.0, 0.7, 1.4])
-def test_chain_is_a_pendulum(chain: Built, angle: float) -> None:
+def test_chain_is_a_pendulum(chain, angle):
     """All rockers stay parallel: (N + (N + 1) / 3) angle'' = (N + (N + 1) / 2) g sin(angle)."""
     found = chain("rhs", np.array([angle, 1.7]), np.zeros(1))[1]
     ratio = (LONG + (LONG + 1) / 2) / (LONG + (LONG + 1) / 3)
@@ -40,7 +39,7 @@ def test_chain_is_a_pendulum(chain: Built, angle: float) -> None:
 
 @needs_gcc
 @pytest.mark.parametrize("loop", [1, LONG - 1, LONG])
-def test_the_loop_that_cannot_close_is_named(chain: Built, loop: int) -> None:
+def test_the_loop_that_cannot_close_is_named(chain, loop):
     """Also where guards share a bit of the status word."""
     built = Built.of(chain.model, chain.module, {f"top_{loop}_z": 2.0})  # a rocker too long
     with pytest.raises(built.module.ClosureError, match=f"coupler_{loop} cannot reach") as error:
@@ -50,13 +49,13 @@ def test_the_loop_that_cannot_close_is_named(chain: Built, loop: int) -> None:
     assert error.value.margins[first] < 0.0
 
 
-def test_arrays_share_the_last_bit_too(long_chain: Derivation) -> None:
+def test_arrays_share_the_last_bit_too(long_chain):
     source = numpy_source(long_chain)
     assert len(long_chain.guards) > 32
     assert f"{len(long_chain.guards) - 1}: " in source
 
 
-def test_operations_grow_by_the_same_for_every_loop() -> None:
+def test_operations_grow_by_the_same_for_every_loop():
     """No loop costs more than another one."""
     lengths = (1, 2, 3)
     chains = (generate(n_four_bar(n), derivatives=False) for n in lengths)
@@ -64,7 +63,7 @@ def test_operations_grow_by_the_same_for_every_loop() -> None:
     assert counts[2] - counts[1] == counts[1] - counts[0]
 
 
-def test_long_chain_is_planned_loop_by_loop() -> None:
+def test_long_chain_is_planned_loop_by_loop():
     plan = CataloguePlan.of(n_four_bar(40))
     assert plan.topology.mobility == 1
     names = [{f"rocker_{i - 1}", f"coupler_{i}", f"rocker_{i}"} for i in range(1, 41)]
@@ -72,7 +71,7 @@ def test_long_chain_is_planned_loop_by_loop() -> None:
 
 
 @needs_gcc
-def test_benchmark_writes_everything(tmp_path: Path) -> None:
+def test_benchmark_writes_everything(tmp_path):
     page = tmp_path / "docs/theory/page.md"
     page.parent.mkdir(parents=True)
     (page.parents[1] / "images").mkdir()

@@ -98,15 +98,15 @@ class At:
 
 
 @pytest.fixture(scope="session")
-def derive() -> Derived:
+def derive():
     return lambda name: models.derive(MODELS[name], derivatives=False)
 
 
 @pytest.fixture(scope="session")
-def module() -> Modules:
+def module():
 
     @cache
-    def found(name: str) -> Any:
+    def found(name):
         if name in OWN:
             return own(MODELS[name], derivatives=name in DIFFERENTIATED)
         return shipped(MODELS[name])
@@ -212,7 +212,7 @@ def random_place(built: Built, rng: np.random.Generator) -> At:
 
 
 @each_model()
-def test_the_design_position_is_the_declared_one(name: str, module: Modules) -> None:
+def test_the_design_position_is_the_declared_one(name, module):
     for built in (at.built for at in places(name, module(name))[::STATES]):
         motion = built.motion(np.concatenate((built.design, np.zeros(built.size))), None)
         # up to ninety operations on numbers of order one, each off by half of 2.2e-16 at most
@@ -222,7 +222,7 @@ def test_the_design_position_is_the_declared_one(name: str, module: Modules) -> 
 
 
 @each_model()
-def test_bodies_fulfil_all_joints(name: str, module: Modules) -> None:
+def test_bodies_fulfil_all_joints(name, module):
     # 1e-13: a hundred roundings of lengths below 1 m, times up to five near the end of the reach
     for at in places(name, module(name)):
         closure = at.built.oracle.closure(at.motion)
@@ -232,7 +232,7 @@ def test_bodies_fulfil_all_joints(name: str, module: Modules) -> None:
 
 
 @each_model()
-def test_rotations_are_rotations(name: str, module: Modules) -> None:
+def test_rotations_are_rotations(name, module):
     for at in places(name, module(name)):
         for rotation in at.motion.rotation:
             np.testing.assert_allclose(rotation @ rotation.T, np.eye(3), atol=1e-13)
@@ -240,7 +240,7 @@ def test_rotations_are_rotations(name: str, module: Modules) -> None:
 
 
 @each_model()
-def test_bodies_stand_and_move_as_the_state_says(name: str, module: Modules) -> None:
+def test_bodies_stand_and_move_as_the_state_says(name, module):
     for at in places(name, module(name)):
         driven = [at.built.oracle.driven(at.motion, j.name) for j in at.built.model.independent]
         q, rates = np.split(at.state, 2)
@@ -263,14 +263,14 @@ def reported(at: At) -> list[Jet]:
 
 
 @each_model()
-def test_relative_coordinates_are_those_of_the_joints(name: str, module: Modules) -> None:
+def test_relative_coordinates_are_those_of_the_joints(name, module):
     for at in places(name, module(name)):
         for value, jet in zip(at("relative_coordinates"), reported(at), strict=True):
             assert whole_turns_off(jet, value) < 1e-13
 
 
 @each_model()
-def test_residuals_vanish_at_the_relative_coordinates_only(name: str, module: Modules) -> None:
+def test_residuals_vanish_at_the_relative_coordinates_only(name, module):
     for at in places(name, module(name)):
         beta = at("relative_coordinates")
         left = at.built.residuals(beta, at.state, at.inputs)
@@ -285,7 +285,7 @@ def test_residuals_vanish_at_the_relative_coordinates_only(name: str, module: Mo
 
 
 @each_model()
-def test_global_jacobian_is_the_twists_for_unit_rates(name: str, module: Modules) -> None:
+def test_global_jacobian_is_the_twists_for_unit_rates(name, module):
     for at in places(name, module(name)):
         jacobian = oracle_jacobian(at)
         found = at("global_jacobian").reshape(-1, 6, at.built.size)
@@ -301,7 +301,7 @@ def oracle_jacobian(at: At) -> Array:
 
 
 @each_model()
-def test_relative_jacobian_is_the_rates_for_unit_rates(name: str, module: Modules) -> None:
+def test_relative_jacobian_is_the_rates_for_unit_rates(name, module):
     for at in places(name, module(name)):
         columns = reduced(at).jacobian.reshape(-1, at.built.size)
         found = at("relative_jacobian")
@@ -312,7 +312,7 @@ def test_relative_jacobian_is_the_rates_for_unit_rates(name: str, module: Module
 
 
 @each_model()
-def test_absolute_times_relative_is_global_jacobian(name: str, module: Modules) -> None:
+def test_absolute_times_relative_is_global_jacobian(name, module):
     found = module(name)
     if not hasattr(found, "absolute_jacobian"):
         pytest.skip("a body hangs on joints whose coordinates are not reported")
@@ -323,9 +323,7 @@ def test_absolute_times_relative_is_global_jacobian(name: str, module: Modules) 
 
 
 @each_model(DIFFERENTIATED)
-def test_state_jacobian_of_the_right_hand_side_is_exact(
-    name: str, module: Modules, derive: Derived
-) -> None:
+def test_state_jacobian_of_the_right_hand_side_is_exact(name, module, derive):
     # differences of the program in 50 digits, with errors below 1e-20; in a geometry of which
     # nothing is parallel, upright or equal that need not be
     at, derived = places(name, module(name), [1])[0], derive(name)
@@ -338,7 +336,7 @@ def test_state_jacobian_of_the_right_hand_side_is_exact(
     np.testing.assert_allclose(found / scale, expected / scale, atol=1e-11)
 
 
-def test_what_is_differentiated_has_every_step_of_the_catalogue() -> None:
+def test_what_is_differentiated_has_every_step_of_the_catalogue():
     iterating = (*held_by_rods.MODELS, *chains.MODELS)  # looked at in tests of their own
     models = (*map(MODELS.get, DIFFERENTIATED), *iterating, MODELS["macpherson"])
     found = {type(action) for model in models for action in CataloguePlan.of(model).steps}
@@ -357,9 +355,7 @@ def reduced(at: At, **given: float) -> Reduced:
 
 
 @each_model()
-def test_mass_matrix_and_forces_are_those_of_the_maximal_coordinates(
-    name: str, module: Modules
-) -> None:
+def test_mass_matrix_and_forces_are_those_of_the_maximal_coordinates(name, module):
     for at in places(name, module(name)):
         oracle = reduced(at)
         for function, expected in (
@@ -375,7 +371,7 @@ def test_mass_matrix_and_forces_are_those_of_the_maximal_coordinates(
 
 
 @each_model()
-def test_accelerations_are_those_of_the_maximal_coordinates(name: str, module: Modules) -> None:
+def test_accelerations_are_those_of_the_maximal_coordinates(name, module):
     for at in places(name, module(name)):
         oracle = reduced(at)
         allowed = 1e-11 * acceleration_scale(oracle)
@@ -391,7 +387,7 @@ def acceleration_scale(oracle: Any) -> float:
 
 
 @each_model(n for n, m in MODELS.items() if m.held)
-def test_held_joints_stand_still(name: str, module: Modules) -> None:
+def test_held_joints_stand_still(name, module):
     for at in places(name, module(name)):
         (variant, joints), *_ = MODELS[name].held.items()
         moving = [MODELS[name].prescribed[j].name for j in joints]
@@ -410,7 +406,7 @@ def test_held_joints_stand_still(name: str, module: Modules) -> None:
 
 
 @each_model(n for n, m in MODELS.items() if m.mechanism.elements)
-def test_lengths_of_force_elements(name: str, module: Modules) -> None:
+def test_lengths_of_force_elements(name, module):
     for at in places(name, module(name)):
         signals = dict(zip(at.built.module.SIGNALS, at("signals"), strict=True))
         for element in at.built.model.mechanism.elements:
@@ -450,7 +446,7 @@ AFLOAT = {
 
 
 @each_model(CONSERVATIVE)
-def test_energy_stays_where_nothing_dissipates(name: str, module: Modules) -> None:
+def test_energy_stays_where_nothing_dissipates(name, module):
     built = Built.of(MODELS[name], module(name))
     lossless = {p: 0.0 for p in built.parameters if "damper" in p and not p.endswith("_speed")}
     lossless |= AFLOAT.get(name, {p: 0.0 for p in built.parameters if p.endswith("tyre_rate")})
@@ -485,7 +481,7 @@ def four_bar(name: str, **changes: Any) -> Formulation:
 
 
 @needs_gcc
-def test_a_hardpoint_may_be_carried_by_two_bodies() -> None:
+def test_a_hardpoint_may_be_carried_by_two_bodies():
     # the seat of the second spring is where the centre of the coupler is, but on the rocker
     mechanism = MODELS["four_bar"].mechanism
     coupler, rocker = mechanism.body("coupler"), mechanism.body("rocker")
@@ -502,7 +498,7 @@ def test_a_hardpoint_may_be_carried_by_two_bodies() -> None:
 
 @pytest.mark.parametrize("joint", ["A", "B", "C", "D"])
 @pytest.mark.parametrize("counted", [False, True], ids=["from design", "to a point"])
-def test_every_angle_of_a_planar_loop_can_be_reported(joint: str, *, counted: bool) -> None:
+def test_every_angle_of_a_planar_loop_can_be_reported(joint, *, counted):
     """The pin at which the loop closes, too; also where the angle counts to a hardpoint."""
     mechanism = MODELS["four_bar"].mechanism
     plain = declared = mechanism.joint(joint)

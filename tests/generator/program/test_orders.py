@@ -14,14 +14,14 @@ def _samples() -> list[sp.Expr]:
     return [e for e in found if not e.has(sp.zoo, sp.nan)]
 
 
-def test_parts_are_in_the_order_of_sympy() -> None:
+def test_parts_are_in_the_order_of_sympy():
     """Terms and factors are written in one of these orders, common parts named in the other."""
     samples = _samples()
     assert sorted(samples, key=by_class) == sorted(samples, key=cmp_to_key(sp.Basic.compare))
     assert list(by_size(samples)) == list(sp.ordered(samples))
 
 
-def test_the_first_term_is_that_of_sympy() -> None:
+def test_the_first_term_is_that_of_sympy():
     sums = [part for sample in _samples() for part in sample.atoms(sp.Add)]
     found = {total: first_term(total) for total in sums}
     first = {total: total.as_ordered_terms()[0] for total, term in found.items() if term}

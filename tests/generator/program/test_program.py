@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo.generator.backends.counting import counted, operations_of
 from kintrafo.generator.backends.schedule import schedule
-from kintrafo.generator.equations.outputs import Derivation, generate
+from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.generator.program import ConstantStage, Function, Program, Step
 from kintrafo.generator.program.derivatives import chain_rule
@@ -46,7 +46,7 @@ def run(function: Function, values: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Expr
 # -- defining -------------------------------------------------------------------------------------
 
 
-def test_a_step_is_defined_once() -> None:
+def test_a_step_is_defined_once():
     program = new_program(A, B)
     first = program.define("product", A * X)
     assert first == sp.Symbol("product")
@@ -55,7 +55,7 @@ def test_a_step_is_defined_once() -> None:
     assert list(program.steps) == [first]
 
 
-def test_trivial_expressions_are_no_steps() -> None:
+def test_trivial_expressions_are_no_steps():
     program = new_program(A, B)
     for expression in (sp.Integer(0), sp.Rational(1, 2), X, -X, A):
         assert program.define("trivial", expression) == expression
@@ -63,7 +63,7 @@ def test_trivial_expressions_are_no_steps() -> None:
     assert not program.steps
 
 
-def test_names_are_unique() -> None:
+def test_names_are_unique():
     program = new_program(A, B)
     program.define("step", X + A)
     program.define("constant", A + B)
@@ -73,7 +73,7 @@ def test_names_are_unique() -> None:
         assert str(program.define(name, A * B + len(name))).startswith(f"{name}_")
 
 
-def test_parameters_states_and_inputs_keep_their_names() -> None:
+def test_parameters_states_and_inputs_keep_their_names():
     program = Program(ConstantStage((A, B), frozenset({"x", "shared_1"})))
     assert program.define("a", X * Y) == sp.Symbol("a_2")
     assert program.define("x", X * A) == sp.Symbol("x_2")
@@ -83,13 +83,13 @@ def test_parameters_states_and_inputs_keep_their_names() -> None:
     assert shared == [sp.Symbol("shared_2"), sp.Symbol("shared_3")]
 
 
-def test_a_constant_does_not_take_the_name_of_a_step_that_came_before() -> None:
+def test_a_constant_does_not_take_the_name_of_a_step_that_came_before():
     program = new_program(A, B)
     assert program.define("length", X + A) == sp.Symbol("length")
     assert program.define("length", A + B) == sp.Symbol("length_2")
 
 
-def test_constants_are_what_depends_on_parameters_only() -> None:
+def test_constants_are_what_depends_on_parameters_only():
     program = new_program(A, B)
     constant = program.define("constant", A + B)
     further = program.define("further", sp.sqrt(constant))
@@ -100,7 +100,7 @@ def test_constants_are_what_depends_on_parameters_only() -> None:
     assert not program.constants.contains(variable)
 
 
-def test_variants_share_their_constants() -> None:
+def test_variants_share_their_constants():
     """Two variants of a model may name different steps alike, but have one parameter stage."""
     stage = ConstantStage((A, B))
     one, other = Program(stage), Program(stage)
@@ -155,7 +155,7 @@ def assert_equal(one: sp.Expr, other: sp.Expr) -> None:
 
 @given(programs())
 @calm
-def test_functions_compute_the_results(case: tuple[Program, list[sp.Symbol]]) -> None:
+def test_functions_compute_the_results(case):
     """Pruning, sharing and the constant stage together leave the values as they are."""
     program, steps = case
     results = {str(s): s for s in steps}
@@ -174,7 +174,7 @@ def test_functions_compute_the_results(case: tuple[Program, list[sp.Symbol]]) ->
 
 @given(programs())
 @calm
-def test_functions_are_pruned(case: tuple[Program, list[sp.Symbol]]) -> None:
+def test_functions_are_pruned(case):
     """Every step is read later on, and none depends on parameters only (but for a shared sign)."""
     program, steps = case
     if not steps:
@@ -190,7 +190,7 @@ def test_functions_are_pruned(case: tuple[Program, list[sp.Symbol]]) -> None:
 
 @given(programs(), st.sampled_from([X, Y]))
 @calm
-def test_tangents_are_derivatives(case: tuple[Program, list[sp.Symbol]], along: sp.Symbol) -> None:
+def test_tangents_are_derivatives(case, along):
     program, steps = case
     targets = [*steps, sum(steps, X * Y)]
     expected = [expanded(program, target).diff(along) for target in targets]
@@ -202,7 +202,7 @@ def test_tangents_are_derivatives(case: tuple[Program, list[sp.Symbol]], along: 
 
 @given(programs())
 @calm
-def test_substitution_repeats_the_steps(case: tuple[Program, list[sp.Symbol]]) -> None:
+def test_substitution_repeats_the_steps(case):
     program, steps = case
     stand_in = sp.Symbol("given_x")
     expected = [expanded(program, step).xreplace({X: stand_in}) for step in steps]
@@ -217,14 +217,14 @@ def test_substitution_repeats_the_steps(case: tuple[Program, list[sp.Symbol]]) -
 # -- particulars ----------------------------------------------------------------------------------
 
 
-def test_common_subexpressions_are_computed_once() -> None:
+def test_common_subexpressions_are_computed_once():
     program = new_program()
     results = {"one": (X + Y) * sp.sin(X + Y), "two": (X + Y) ** 2}
     counts = operations_of(program.function("f", "Any.", results))
     assert counts == {"add": 1, "multiply": 2, "trigonometric": 1}
 
 
-def test_constant_parts_of_sums_and_products_are_computed_once() -> None:
+def test_constant_parts_of_sums_and_products_are_computed_once():
     """Of a*b*x + a + b only one product and one sum are left for every call."""
     program = new_program(A, B)
     function = program.function("f", "Any.", {"value": A * B * X + A + B})
@@ -234,7 +234,7 @@ def test_constant_parts_of_sums_and_products_are_computed_once() -> None:
     assert operations_of(prepare) == {"multiply": 1, "add": 1}
 
 
-def test_roots_are_not_taken_again_for_their_derivative() -> None:
+def test_roots_are_not_taken_again_for_their_derivative():
     program = new_program()
     root = program.define("root", sp.sqrt(1 + X**2))
     (tangent,) = program.tangents(X, [root], "tangent")
@@ -242,7 +242,7 @@ def test_roots_are_not_taken_again_for_their_derivative() -> None:
     assert operations_of(function)["root"] == 1
 
 
-def test_guards_follow_what_they_guard() -> None:
+def test_guards_follow_what_they_guard():
     program = new_program(A)
     used = program.guarded("used", X - A, "x is not above a", "m")
     unused = program.guarded("unused", Y - A, "y is not above a", "m")
@@ -256,7 +256,7 @@ def test_guards_follow_what_they_guard() -> None:
     assert constant == sp.Symbol("constant")
 
 
-def test_operations_of_a_function_are_those_of_its_steps() -> None:
+def test_operations_of_a_function_are_those_of_its_steps():
     program = new_program()
     step = program.define("step", X * Y + X)
     function = program.function("f", "Any.", {"one": step * X, "two": sp.cos(step)})
@@ -269,11 +269,11 @@ def test_operations_of_a_function_are_those_of_its_steps() -> None:
 
 
 @pytest.fixture(scope="module")
-def four_bar() -> Derivation:
+def four_bar():
     return generate(next(model for model in MODELS if model.name == "four_bar"))
 
 
-def test_derivatives_are_those_of_sympy(four_bar: Derivation) -> None:
+def test_derivatives_are_those_of_sympy(four_bar):
     x, y = sp.symbols("x y")
     composed = [sp.sin(x * y) * sp.sqrt(x**2 + y), sp.atan2(y * x, x) / (1 + y) ** 3, Positive(x)]
     steps = [step.expression for f in four_bar.functions.values() for step in f.steps]
@@ -286,7 +286,7 @@ def test_derivatives_are_those_of_sympy(four_bar: Derivation) -> None:
             assert found == expected or sp.simplify(found - expected) == 0, (expression, symbol)
 
 
-def test_what_is_common_is_what_sympy_finds() -> None:
+def test_what_is_common_is_what_sympy_finds():
     """Common parts are the same; when they are inserted, every expression is the original one."""
     a, b, c, d = sp.symbols("a b c d")
     expressions = [
@@ -308,7 +308,7 @@ def test_what_is_common_is_what_sympy_finds() -> None:
         assert sp.expand(written - expression) == 0
 
 
-def test_without_derivatives_the_other_functions_are_the_same(four_bar: Derivation) -> None:
+def test_without_derivatives_the_other_functions_are_the_same(four_bar):
     bare = generate(four_bar.formulation, derivatives=False)
     left_out = {"rhs_jacobian", "rhs_input_jacobian", "signals_jacobian", "signals_input_jacobian"}
     assert four_bar.functions.keys() - bare.functions.keys() == left_out

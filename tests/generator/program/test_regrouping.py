@@ -8,7 +8,7 @@ from support.random_expressions import random_expression
 from sympy.simplify.cse_main import opt_cse
 
 
-def test_the_same_is_regrouped_as_by_sympy() -> None:
+def test_the_same_is_regrouped_as_by_sympy():
     """The names of common parts, and the order of all operations, depend on it."""
     random_ = random.Random(1)
     for _ in range(60):

@@ -38,18 +38,18 @@ def evaluated(steps: list[Step], results: list[sp.Expr], values: dict[str, float
     return [float(eval(text_of(schedule(result), NUMPY), names)) for result in results]
 
 
-def test_a_sum_takes_up_the_sign_of_a_sum() -> None:
+def test_a_sum_takes_up_the_sign_of_a_sum():
     program = without_signs({T: -A - B}, C + T)
     assert written(program) == {"minus_t": A + B}
     assert program[1] == [C - sp.Symbol("minus_t")]
 
 
-def test_a_product_hands_the_sign_on() -> None:
+def test_a_product_hands_the_sign_on():
     program = without_signs({T: -A * B, S: T * C}, A + S)
     assert written(program) == {"minus_t": A * B, "minus_s": C * sp.Symbol("minus_t")}
 
 
-def test_a_named_negative_gives_its_name_to_what_has_none() -> None:
+def test_a_named_negative_gives_its_name_to_what_has_none():
     """A common part takes its name from the step of its negative; other steps keep theirs."""
     program = without_signs({U: A * B, T: -U}, C + T)
     assert written(program) == {"minus_t": A * B}
@@ -57,25 +57,25 @@ def test_a_named_negative_gives_its_name_to_what_has_none() -> None:
     assert written(program) == {"s": A * B}
 
 
-def test_what_needs_its_sign_has_a_step_for_it() -> None:
+def test_what_needs_its_sign_has_a_step_for_it():
     minus = sp.Symbol("minus_t")
     program = without_signs({T: -A - B}, sp.sin(T), C + T)
     assert written(program) == {"minus_t": A + B, "t": -minus}
     assert program[1] == [sp.sin(T), C - minus]
 
 
-def test_results_and_guarded_quantities_stay_as_they_are() -> None:
+def test_results_and_guarded_quantities_stay_as_they_are():
     steps = {T: -A * B, S: sp.sqrt(Guarded(T, sp.Float("1e-9")))}
     assert written(without_signs(steps, T + S, T)) == {"t": -A * B, "s": steps[S]}
 
 
-def test_a_name_that_is_taken_is_not_taken_again() -> None:
+def test_a_name_that_is_taken_is_not_taken_again():
     program = without_signs({T: -A - B}, C + T, has=["minus_t"])
     assert written(program) == {"minus_t_2": A + B}
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_same_bits_and_no_more_operations(seed: int) -> None:
+def test_same_bits_and_no_more_operations(seed):
     """On random programs of sums of products, where every sign comes up everywhere."""
     rng = random.Random(seed)
     symbols, steps = [A, B, C], []

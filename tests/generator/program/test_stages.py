@@ -1,7 +1,7 @@
 """Functions that are computed together: the same bits as alone, the same refusals, less work."""
 
 import operator
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -58,7 +58,7 @@ def evaluated(schedule: Schedule, values: dict[str, np.float64]) -> list[np.floa
 
 
 @each_model
-def test_same_bits_as_alone(derived: Callable[[str], Derivation], name: str) -> None:
+def test_same_bits_as_alone(derived, name):
     model, random = derived(name), np.random.default_rng(3)
     for stage in stages(model):
         assert not stage.blocks
@@ -69,7 +69,7 @@ def test_same_bits_as_alone(derived: Callable[[str], Derivation], name: str) -> 
 
 
 @each_model
-def test_less_work_than_alone(derived: Callable[[str], Derivation], name: str) -> None:
+def test_less_work_than_alone(derived, name):
     model = derived(name)
     for stage in stages(model):
         alone = sum(operations_of(member).total() for member in stage.members)
@@ -90,7 +90,7 @@ def function(name: str, steps: dict[str, sp.Expr], *results: sp.Expr) -> Functio
     return Function(name, "", made, results, labels, (len(results),), ())
 
 
-def test_a_name_of_two_values_is_distinguished() -> None:
+def test_a_name_of_two_values_is_distinguished():
     """A sum or product in another order has other bits, and so is another value."""
     x, y, z, a, b = sp.symbols("x y z a b")
     one = function("one", {"b": x + y, "a": b * z}, a)
@@ -100,7 +100,7 @@ def test_a_name_of_two_values_is_distinguished() -> None:
     assert [text_of(result, NUMPY) for result in order.results] == ["a", "a_2", "-a_2"]
 
 
-def test_equal_values_of_other_names_are_one() -> None:
+def test_equal_values_of_other_names_are_one():
     x, y, p, q = sp.symbols("x y p q")
     one = function("one", {"p": x * y, "r": p + 1}, sp.Symbol("r"))
     other = function("other", {"q": y * x}, q, sp.sin(q))
@@ -109,7 +109,7 @@ def test_equal_values_of_other_names_are_one() -> None:
     assert [text_of(result, NUMPY) for result in order.results] == ["r", "p", "np.sin(p)"]
 
 
-def test_a_result_refuses_for_its_own_guards_only() -> None:
+def test_a_result_refuses_for_its_own_guards_only():
     """A derivative that is zero everywhere has no guard, also if the crank is too long to turn."""
     parameters = {n: entry["default"] for n, entry in four_bar.PARAMETERS.items()}
     constants = four_bar.prepare(parameters | {"crank_pin_y": 0.25})
@@ -127,7 +127,7 @@ def test_a_result_refuses_for_its_own_guards_only() -> None:
         four_bar.linearisation(refused[0], None, constants)
 
 
-def test_parts_are_slices_of_the_stage() -> None:
+def test_parts_are_slices_of_the_stage():
     states, inputs = np.array([[0.1, 2.0], [-0.2, 1.0]]), np.array([0.5])
     whole = four_bar.dynamics(states, inputs)
     parts = [four_bar.mass_matrix, four_bar.bias, four_bar.forces]
@@ -137,13 +137,13 @@ def test_parts_are_slices_of_the_stage() -> None:
     assert all(part.operations == four_bar.dynamics.operations for part in parts)
 
 
-def test_status_bits() -> None:
+def test_status_bits():
     assert [bit_of(guard) for guard in (0, 28, 29, 30, 90)] == [0, 28, 29, 29, 29]
     assert mask_of([]) == NOT_FINITE
     assert mask_of([0, 3, 40]) == NOT_FINITE | 0b1001 | 1 << LAST_GUARD_BIT
 
 
-def test_a_sum_of_which_each_term_waits_for_the_one_before_is_cut_into_steps() -> None:
+def test_a_sum_of_which_each_term_waits_for_the_one_before_is_cut_into_steps():
     """A compiler takes some hundred brackets within each other, and a long chain makes more."""
     names = [sp.Symbol(f"term_{i}") for i in range(600)]
     start, factor = sp.symbols("start factor")

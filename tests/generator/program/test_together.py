@@ -28,7 +28,7 @@ def steps(function: Function) -> dict[str, sp.Expr]:
     return {step.symbol.name: step.expression for step in function.steps}
 
 
-def test_a_sum_is_put_together_in_one_way() -> None:
+def test_a_sum_is_put_together_in_one_way():
     """Alone, the first function would have no part of its sum in common with anything."""
     main = program(X + Y)
     sums = {"one": X + Y + Z, "other": sp.sin(X + Y) * Z}
@@ -40,7 +40,7 @@ def test_a_sum_is_put_together_in_one_way() -> None:
     assert found["other"].results == (sp.sin(common) * Z,)
 
 
-def test_a_variant_has_its_own_steps_beside_those_of_all() -> None:
+def test_a_variant_has_its_own_steps_beside_those_of_all():
     main, held = program(X * Z, guarded=True), program(Y * Z, guarded=True)
     results = {"r": sp.Symbol("distance") * sp.Symbol("speed") / sp.Symbol("scale")}
     groups = {"": [main.pruned("f", "", results)], "held": [held.pruned("f_held", "", results)]}
@@ -52,7 +52,7 @@ def test_a_variant_has_its_own_steps_beside_those_of_all() -> None:
     assert not {"speed", "scale"} & steps(found["f_held"]).keys()
 
 
-def test_a_guard_of_a_variant_watches_its_own_quantity() -> None:
+def test_a_guard_of_a_variant_watches_its_own_quantity():
     main, held = program(X * Z, guarded=True), program(Y * Z, guarded=True)
     results = [
         {"r": made.guarded("scale", sp.Symbol("speed") ** 2 + X, "too slow", "m")}
@@ -67,7 +67,7 @@ def test_a_guard_of_a_variant_watches_its_own_quantity() -> None:
     assert quantities == {"f": [("scale", "scale")], "f_held": [("scale", "scale_held")]}
 
 
-def test_steps_come_in_the_order_of_the_program() -> None:
+def test_steps_come_in_the_order_of_the_program():
     main = program(X + Z)
     groups = [main.pruned("late", "", {"r": sp.Symbol("speed")})]
     groups += [main.pruned("early", "", {"r": sp.Symbol("distance") * sp.Symbol("speed")})]

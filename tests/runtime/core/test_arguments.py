@@ -4,7 +4,6 @@ import re
 from contextlib import suppress
 from inspect import signature
 from operator import attrgetter
-from pathlib import Path
 
 import kintrafo
 import numpy as np
@@ -125,9 +124,7 @@ JUNK = (3, -1, None, "nothing", "", b"x", True, np.nan, [], [np.nan], (1, 2, 3),
 
 
 @pytest.mark.parametrize("name", DOCUMENTED)
-def test_what_no_argument_can_be_is_refused_in_words(
-    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_no_argument_can_be_is_refused_in_words(name, tmp_path, monkeypatch):
     """Every function of the interface is given what it cannot use, for all that it needs."""
     monkeypatch.chdir(tmp_path)
     function = attrgetter(name)(kintrafo)

@@ -388,7 +388,7 @@ def test_files_that_are_read_may_come_one_by_one(tmp_path):
     """They are looked at before something is written and after that."""
     path = tmp_path / "read.csv"
 
-    def write() -> None:
+    def write():
         with replacing(path, force=True, inputs=(each for each in [path])) as temporary:
             temporary.write_text("new", encoding="utf-8")
             path.write_text("appeared", encoding="utf-8")

@@ -46,7 +46,7 @@ def refusal(reader: str, path: Path) -> str:
 
 
 @pytest.mark.parametrize("reader", READERS)
-def test_a_file_that_is_too_large(reader: str, tmp_path: Path) -> None:
+def test_a_file_that_is_too_large(reader, tmp_path):
     path = tmp_path / f"large{READERS[reader][0]}"
     large = reader in ("curves of a rig", "a road")
     with path.open("wb") as file:
@@ -55,13 +55,13 @@ def test_a_file_that_is_too_large(reader: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(not Path("/dev/zero").exists(), reason="is of Unix")
-def test_a_file_without_end() -> None:
+def test_a_file_without_end():
     with pytest.raises(InputError, match="more than 4 MiB"):
         bytes_of("/dev/zero")
 
 
 @pytest.mark.parametrize("reader", READERS)
-def test_a_zero_byte(reader: str, tmp_path: Path) -> None:
+def test_a_zero_byte(reader, tmp_path):
     path = tmp_path / f"zero{READERS[reader][0]}"
     path.write_bytes(b"[a]\nb = 'x\0'\n")
     assert "not a text" in refusal(reader, path)
@@ -69,14 +69,14 @@ def test_a_zero_byte(reader: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("text", ['a = "b\\u0000"', '"b\\u001b" = 1', "[x]\na = ['\\b', \"\\b\"]"])
 @pytest.mark.parametrize("reader", TOML)
-def test_characters_that_cannot_be_shown(reader: str, text: str, tmp_path: Path) -> None:
+def test_characters_that_cannot_be_shown(reader, text, tmp_path):
     path = tmp_path / "a.toml"
     path.write_text(text, encoding="utf-8")
     assert "cannot be shown" in refusal(reader, path)
 
 
 @pytest.mark.parametrize("text", ["\0", "\ud800", "\x1b[2J"])
-def test_characters_of_json(text: str, tmp_path: Path) -> None:
+def test_characters_of_json(text, tmp_path):
     path = tmp_path / "a.json"
     for data in ({"Name": text}, {text: 1}, {"a": [{"b": text}]}):
         path.write_text(json.dumps(data), encoding="utf-8")
@@ -84,7 +84,7 @@ def test_characters_of_json(text: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("text", ["a\0b", "\ud800", "\x1b[2J"])
-def test_texts_of_declarations(text: str) -> None:
+def test_texts_of_declarations(text):
     body = Ground("ground")
     for make in (
         lambda: Point("p", (0.0, 0.0, 0.0), text),
@@ -96,7 +96,7 @@ def test_texts_of_declarations(text: str) -> None:
 
 
 @pytest.mark.parametrize("reader", READERS)
-def test_what_is_repeated_is_short(reader: str, tmp_path: Path) -> None:
+def test_what_is_repeated_is_short(reader, tmp_path):
     """A name of three million letters, and fifteen thousand names that are not known."""
     path = tmp_path / f"long{READERS[reader][0]}"
     long, many = 3_000_000 * "a", [f"name{i}" for i in range(15_000)]
@@ -115,7 +115,7 @@ def test_what_is_repeated_is_short(reader: str, tmp_path: Path) -> None:
         assert len(refusal(reader, path)) < 100_000
 
 
-def test_an_error_holds_what_can_be_read() -> None:
+def test_an_error_holds_what_can_be_read():
     error = Error((f"{i}: \0{5000 * 'a'}" for i in range(10**9)), "a\0.toml")
     assert len(error.problems) == 100
     assert {len(problem) for problem in error.problems[:-1]} == {2000}
@@ -139,12 +139,12 @@ def book_with(path: Path, cells: dict[str, Any]) -> Path:
 
 
 @pytest.mark.parametrize("cell", ["XFD1048576", "A1048576", "XFD2", "E10001", "IW1"])
-def test_a_cell_that_is_far_away(cell: str, tmp_path: Path) -> None:
+def test_a_cell_that_is_far_away(cell, tmp_path):
     path = book_with(tmp_path / "a.xlsx", {cell: "x"})
     assert f"there is a value in cell {cell};" in refusal("points", path)
 
 
-def test_cells_without_content_do_not_matter(tmp_path: Path) -> None:
+def test_cells_without_content_do_not_matter(tmp_path):
     openpyxl = pytest.importorskip("openpyxl")
     path = book_with(tmp_path / "a.xlsx", {})
     book = openpyxl.load_workbook(path)
@@ -153,12 +153,12 @@ def test_cells_without_content_do_not_matter(tmp_path: Path) -> None:
     assert read_points(path).points == {"ball_joint": (1.0, 2.0, 3.0)}
 
 
-def test_a_long_text_of_a_workbook(tmp_path: Path) -> None:
+def test_a_long_text_of_a_workbook(tmp_path):
     path = book_with(tmp_path / "a.xlsx", {"B1": 32_000 * "x"})
     assert len(refusal("points", path)) < 3000
 
 
-def test_a_text_longer_than_excel_has_them(tmp_path: Path) -> None:
+def test_a_text_longer_than_excel_has_them(tmp_path):
     path, long = book_with(tmp_path / "a.xlsx", {"B1": "HEADING"}), tmp_path / "b.xlsx"
     with ZipFile(path) as read, ZipFile(long, "w", ZIP_DEFLATED) as archive:
         for name in read.namelist():
@@ -166,7 +166,7 @@ def test_a_text_longer_than_excel_has_them(tmp_path: Path) -> None:
     assert "row 1: a text is longer" in refusal("points", long)
 
 
-def test_a_workbook_that_unpacks_to_much(tmp_path: Path) -> None:
+def test_a_workbook_that_unpacks_to_much(tmp_path):
     path = book_with(tmp_path / "a.xlsx", {})
     with ZipFile(path, "a", ZIP_DEFLATED) as archive:
         archive.writestr("xl/media.xml", bytes(33 << 20))
@@ -175,7 +175,7 @@ def test_a_workbook_that_unpacks_to_much(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("content", [b"", b"PK\x03\x04", b"no book"])
-def test_what_is_no_workbook(content: bytes, tmp_path: Path) -> None:
+def test_what_is_no_workbook(content, tmp_path):
     path = tmp_path / "a.xlsx"
     path.write_bytes(content)
     assert "not a readable Excel workbook" in refusal("points", path)

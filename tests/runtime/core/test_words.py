@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from typing import TYPE_CHECKING, Any, get_type_hints
+from typing import Any, get_type_hints
 
 import kintrafo
 import numpy as np
@@ -19,23 +19,20 @@ from kintrafo.vehicle import cli
 from kintrafo.vehicle.analysis.sheet import sheet
 from kintrafo.vehicle.cli.option_groups import with_groups
 
-if TYPE_CHECKING:
-    from pathlib import Path
-
 # -- pages -----------------------------------------------------------------------------------------
 
 TEXTS = ["<!-- <script>", "</script>", "<!--", "]]>", "a < b & c", "\u2028"]
 
 
 @pytest.mark.parametrize("text", TEXTS)
-def test_data_in_a_page_end_nothing(text: str) -> None:
+def test_data_in_a_page_end_nothing(text):
     data = {text: [text, {"meaning": text}]}
     page = embedded(data)
     assert "<" not in page
     assert json.loads(page) == data
 
 
-def test_every_page_has_its_data_without_marks(tmp_path: Path) -> None:
+def test_every_page_has_its_data_without_marks(tmp_path):
     """Of all pages that hold data: that of a mechanism, of a motion and of a suspension."""
     title = "<!-- <script>"
     system = kintrafo.System(four_bar)
@@ -75,9 +72,7 @@ def number_options() -> list[tuple[str, str, str, bool]]:
 
 
 @pytest.mark.parametrize(("command", "option", "unit", "whole"), number_options())
-def test_every_number_is_refused_with_its_unit(
-    kintrafo: Any, command: str, option: str, unit: str, whole: bool
-) -> None:
+def test_every_number_is_refused_with_its_unit(kintrafo, command, option, unit, whole):
     known = {"MM": "mm", "M": "m", "DEG": "deg", "S": "s", "MS": "ms", "HZ": "Hz", "KM/H": "km/h"}
     known |= {"REV/S": "rev/s", "1/S": "1/s", "N": "N", "%": "%"}
     assert whole or unit in (*known, "NUMBER", "TIMES"), "a unit that no message names"
@@ -91,12 +86,12 @@ def test_every_number_is_refused_with_its_unit(
         assert f"{value!r}: {wanted}" in message
 
 
-def test_there_are_such_options() -> None:
+def test_there_are_such_options():
     assert len(number_options()) > 40
 
 
 @pytest.mark.parametrize("line", ["compare a b --over x", "new a.toml --suspension x"])
-def test_a_choice_is_refused_in_our_words(kintrafo: Any, line: str) -> None:
+def test_a_choice_is_refused_in_our_words(kintrafo, line):
     code, _, err = kintrafo(*line.split())
     assert code == 2
     assert "Value error" not in err
@@ -105,20 +100,20 @@ def test_a_choice_is_refused_in_our_words(kintrafo: Any, line: str) -> None:
 # -- units and names -------------------------------------------------------------------------------
 
 
-def test_a_stroke_is_no_formula(tmp_path: Path) -> None:
+def test_a_stroke_is_no_formula(tmp_path):
     written = export.write(sheet(Model("reference_car")), tmp_path / "sheet.csv")
     rows = written.read_text(encoding="utf-8").splitlines()
     assert any(",-," in row for row in rows)
     assert "'-" not in written.read_text(encoding="utf-8")
 
 
-def test_units_with_a_one_in_them() -> None:
+def test_units_with_a_one_in_them():
     units = ["1", "", "1/s", "deg/(100 N m)", "10 N"]
     shown = [unit_or_stroke({"units": unit}) for unit in units]
     assert shown == ["-", "-", "1/s", "deg/(100 N m)", "10 N"]
 
 
-def test_states_are_called_by_what_they_are() -> None:
+def test_states_are_called_by_what_they_are():
     """Of a suspension whose equations have the symbols of the paper."""
     model = Model("reference_car")
     with pytest.raises(kintrafo.SimulationError, match=r"beta1 = \S+ rad \(arm angle\), beta5"):
@@ -128,13 +123,13 @@ def test_states_are_called_by_what_they_are() -> None:
     )
 
 
-def test_what_is_not_at_rest_has_its_own_unit() -> None:
+def test_what_is_not_at_rest_has_its_own_unit():
     system = kintrafo.System(four_bar)
     with pytest.raises(InputError, match=r"accelerated by \S+ rad/s\^2\. Start"):
         kintrafo.rest(system, inputs={"crank_torque": 1e9})
 
 
-def test_rest_of_a_mechanism_is_named() -> None:
+def test_rest_of_a_mechanism_is_named():
     with pytest.raises(InputError, match=r"for another mechanism, use kintrafo\.rest"):
         kintrafo.equilibrium(kintrafo.System(four_bar))  # type: ignore[arg-type]
 
@@ -143,7 +138,7 @@ TINY = (5e-324, 1e-320, 1e-200, 1e-13, 1e12, 1e200, 1e308)
 
 
 @pytest.mark.parametrize("value", TINY)
-def test_amounts_beyond_all_measure(value: float) -> None:
+def test_amounts_beyond_all_measure(value):
     """Their squares would be zero or infinite: no raw error in any study."""
     car = Suspension.load("reference_car")
     measured = kintrafo.characteristics.over(Model(car), "travel", [-0.02, 0.0, 0.02])[["toe"]]
@@ -185,9 +180,7 @@ GRID = "--bump 20 --rebound 20 --step 10"
         ("sensitivity reference_car --of toe", "toe", "camber"),
     ],
 )
-def test_tables_have_what_was_asked_for(
-    kintrafo: Any, tmp_path: Path, line: str, there: str, elsewhere: str
-) -> None:
+def test_tables_have_what_was_asked_for(kintrafo, tmp_path, line, there, elsewhere):
     subject = line.split()[1]
     (tmp_path / "b.toml").write_text(BUSHES.get(subject, ""), encoding="utf-8")
     code, out, err = kintrafo(*line.split())

@@ -3,10 +3,8 @@
 import _thread
 import shutil
 import threading
-from collections.abc import Callable
 from dataclasses import replace
 from importlib import import_module
-from pathlib import Path
 from typing import Any
 
 import kintrafo
@@ -47,12 +45,12 @@ WIDTHS = library.widths()
 
 
 @pytest.fixture(scope="module")
-def car() -> Model:
+def car():
     return Model("reference_car")
 
 
 @pytest.fixture(scope="module")
-def start(car: Model) -> Any:
+def start(car):
     return state_at_height(car, 0.310, spin_rate=93.0)
 
 
@@ -69,7 +67,7 @@ def alone(car: Model, cars: dict[str, np.ndarray], place: int, start: Any, **opt
 
 
 @pytest.mark.parametrize("name", EMITTED)
-def test_every_model_against_dop853(name: str) -> None:
+def test_every_model_against_dop853(name):
     """From near the design position, for so long that it moves but meets no dead point."""
     model = System(EMITTED[name])
     rng = np.random.default_rng(5)
@@ -86,7 +84,7 @@ def test_every_model_against_dop853(name: str) -> None:
         np.testing.assert_allclose(found[element].values[0], exact.y[place], atol=1e-10 * size)
 
 
-def test_inputs_that_jump_and_move(car: Model, start: Any) -> None:
+def test_inputs_that_jump_and_move(car, start):
     inputs = {"road_height": STEP, "rack_position": RACK, "strut_force": BUMP}
     options = {"rtol": 1e-11, "atol": 1e-12, "t_eval": TIMES, "inputs": inputs}
     found = ensemble(car, None, SPAN, start, signals=["camber", "tyre_force", "toe"], **options)
@@ -96,7 +94,7 @@ def test_inputs_that_jump_and_move(car: Model, start: Any) -> None:
         np.testing.assert_allclose(found[name].values[0], exact.signals[name], atol=1e-8 * size)
 
 
-def test_each_has_its_road(car: Model, start: Any) -> None:
+def test_each_has_its_road(car, start):
     """Labels choose among courses; one of them is a number, which does not vary."""
     roads = {"step": STEP, "bump": BUMP, "high": 0.005}
     racks = {0: 0.0, 1: RACK}
@@ -119,7 +117,7 @@ def test_each_has_its_road(car: Model, start: Any) -> None:
 
 @needs_native
 @pytest.mark.parametrize("road", [BUMP, STEP], ids=["smooth", "with a jump"])
-def test_two_hundred_cars_have_the_bits_of_simulate(car: Model, start: Any, road: Any) -> None:
+def test_two_hundred_cars_have_the_bits_of_simulate(car, start, road):
     cars = some_cars(200)
     options = {"t_eval": TIMES, "inputs": {"road_height": road}}
     found = ensemble(car, cars, SPAN, start, signals=["camber"], **options)
@@ -133,7 +131,7 @@ def test_two_hundred_cars_have_the_bits_of_simulate(car: Model, start: Any, road
 
 @needs_native
 @pytest.mark.parametrize("name", ["double_wishbone_car", "multi_link_car", "trailing_arm_car"])
-def test_other_kinds_have_the_bits_of_simulate(name: str) -> None:
+def test_other_kinds_have_the_bits_of_simulate(name):
     """Also where loops iterate."""
     model = Model(name)
     height = float(model.signal("wheel_center_z", model.design_state))
@@ -146,7 +144,7 @@ def test_other_kinds_have_the_bits_of_simulate(name: str) -> None:
         np.testing.assert_array_equal(found["camber"].values[place], one.signals["camber"])
 
 
-def test_rest_stays_rest(car: Model) -> None:
+def test_rest_stays_rest(car):
     """A state that knows its inputs keeps them, as in simulate."""
     rest = kintrafo.equilibrium(car, wheel_load=3000.0)
     found = ensemble(car, None, SPAN, rest, reductions={"wheel_center_z": ["min", "max"]})
@@ -154,7 +152,7 @@ def test_rest_stays_rest(car: Model) -> None:
     assert float(moved[0]) < 1e-9
 
 
-def test_design_position_of_each(car: Model) -> None:
+def test_design_position_of_each(car):
     """Without a start each is in its own design position; of a start that is varied, the rest."""
     cars = some_cars(5)
     found = ensemble(car, cars, (0.0, 1e-9), signals=["beta1", "beta1_rate"], t_eval=[0.0])
@@ -170,12 +168,12 @@ def test_design_position_of_each(car: Model) -> None:
 
 
 @pytest.fixture(scope="module")
-def mixed(car: Model, start: Any) -> xr.Dataset:
+def mixed(car, start):
     cars, options = of_all_kinds(car)
     return ensemble(car, cars, SPAN, start, lanes=2, threads=1, **options)
 
 
-def test_why_systems_fail(mixed: xr.Dataset) -> None:
+def test_why_systems_fail(mixed):
     failed = np.flatnonzero(~mixed["success"].values).tolist()
     reasons = dict(zip(failed, mixed["reason"].values[failed].tolist(), strict=True))
     assert failed == [5, 11, 17, 29, 31]
@@ -193,7 +191,7 @@ def test_why_systems_fail(mixed: xr.Dataset) -> None:
         assert not mixed["valid"].values[place]
 
 
-def test_failures_end_where_simulate_ends(car: Model, start: Any, mixed: xr.Dataset) -> None:
+def test_failures_end_where_simulate_ends(car, start, mixed):
     cars, options = of_all_kinds(car)
     inputs = {"strut_force": -1e6, "road_height": options["inputs"]["road_height"]["step"]}
     if cars["road_height"][5] == "bump":
@@ -207,15 +205,13 @@ def test_failures_end_where_simulate_ends(car: Model, start: Any, mixed: xr.Data
 
 @pytest.mark.parametrize("width", WIDTHS)
 @pytest.mark.parametrize("threads", [1, 3])
-def test_the_same_bits_in_any_number(
-    car: Model, start: Any, mixed: xr.Dataset, width: int, threads: int, monkeypatch: Any
-) -> None:
+def test_the_same_bits_in_any_number(car, start, mixed, width, threads, monkeypatch):
     monkeypatch.setattr(run, "_FEWEST", 7)  # chunks whose ends fall anywhere
     cars, options = of_all_kinds(car)
     same(ensemble(car, cars, SPAN, start, lanes=width, threads=threads, **options), mixed)
 
 
-def test_the_same_bits_in_any_order(car: Model, start: Any, mixed: xr.Dataset) -> None:
+def test_the_same_bits_in_any_order(car, start, mixed):
     cars, options = of_all_kinds(car)
     order = np.random.default_rng(9).permutation(60)
     found = ensemble(car, {n: v[order] for n, v in cars.items()}, SPAN, start, **options)
@@ -223,7 +219,7 @@ def test_the_same_bits_in_any_order(car: Model, start: Any, mixed: xr.Dataset) -
 
 
 @pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc")
-def test_the_same_bits_in_eight_lanes(tmp_path: Path, monkeypatch: Any) -> None:
+def test_the_same_bits_in_eight_lanes(tmp_path, monkeypatch):
     """Also where the processor has not so many: the compiler makes several vectors of one."""
     model, crank = System(EMITTED["four_bar"]), {"crank_mass": np.linspace(0.5, 2.0, 50)}
     options = {"reductions": {model.signal_names[0]: ["max", "rms"]}, "threads": 1}
@@ -241,14 +237,14 @@ def test_the_same_bits_in_eight_lanes(tmp_path: Path, monkeypatch: Any) -> None:
     same(ensemble(model, crank, SPAN, **options, lanes=8), expected)
 
 
-def test_the_same_bits_beside_what_fails(car: Model, start: Any, mixed: xr.Dataset) -> None:
+def test_the_same_bits_beside_what_fails(car, start, mixed):
     cars, options = of_all_kinds(car)
     good = np.flatnonzero(mixed["success"].values)
     found = ensemble(car, {n: v[good] for n, v in cars.items()}, SPAN, start, **options)
     same(found, mixed.isel(car=good))
 
 
-def test_an_error_that_no_step_keeps(car: Model, start: Any, monkeypatch: Any) -> None:
+def test_an_error_that_no_step_keeps(car, start, monkeypatch):
     """Tolerances that the arguments would refuse: no relative one, and nearly no absolute one."""
     module = import_module("kintrafo.simulation.accuracy")
     monkeypatch.setattr(module, "_SMALLEST_RTOL", 0.0)
@@ -270,7 +266,7 @@ def time_above(values: np.ndarray, times: np.ndarray, level: float) -> float:
     return float(np.diff(ends)[middles > 0.0].sum())
 
 
-def test_time_above_of_a_known_motion(car: Model) -> None:
+def test_time_above_of_a_known_motion(car):
     """A rack that is moved as a sine: above half of its amplitude for a third of its period."""
     rest = kintrafo.equilibrium(car)
     rack = Samples(np.linspace(0.0, 1.0, 201), 0.01 * np.sin(2.0 * np.pi * np.linspace(0, 1, 201)),
@@ -299,9 +295,7 @@ def welch_by_hand(series: np.ndarray, step: float, segment: int) -> np.ndarray:
 
 
 @pytest.mark.parametrize("segment", [16, 17, 41])
-def test_spectra_and_percentiles_of_what_simulate_finds(
-    car: Model, start: Any, segment: int
-) -> None:
+def test_spectra_and_percentiles_of_what_simulate_finds(car, start, segment):
     cars = some_cars(70)  # more than a transform takes together
     options = {"t_eval": TIMES, "inputs": {"road_height": BUMP}, "rtol": 1e-9, "atol": 1e-11}
     found = ensemble(
@@ -327,7 +321,7 @@ def test_spectra_and_percentiles_of_what_simulate_finds(
     )
 
 
-def test_series_do_not_fill_the_memory(car: Model, start: Any, monkeypatch: Any) -> None:
+def test_series_do_not_fill_the_memory(car, start, monkeypatch):
     """Memory has samples of a few systems at a time, for any number of systems; the same bits."""
     times = np.linspace(*SPAN, 301)
     options = {"t_eval": times, "reductions": {"camber": [("percentile", 95.0), ("psd", 64)]}}
@@ -342,9 +336,7 @@ def test_series_do_not_fill_the_memory(car: Model, start: Any, monkeypatch: Any)
     assert max(held) <= max(5, *WIDTHS)
 
 
-def test_what_is_kept_is_written_and_goes_on_in_pieces(
-    car: Model, start: Any, tmp_path: Path
-) -> None:
+def test_what_is_kept_is_written_and_goes_on_in_pieces(car, start, tmp_path):
     """An ensemble in chunks, each written to a file, is the whole, to the last bit."""
     cars = some_cars(9)
     options: dict[str, Any] = {
@@ -380,7 +372,7 @@ def sticking(friction: list[float]) -> tuple[Model, dict[str, Any], Any]:
     return model, {"strut_friction": friction}, state_at_height(model, 0.305)
 
 
-def test_what_is_stiff_is_done_by_bdf(monkeypatch: Any) -> None:
+def test_what_is_stiff_is_done_by_bdf(monkeypatch):
     monkeypatch.setattr(ensembles, "_STIFF_AFTER", 500)
     model, cars, start = sticking([0.0, 600.0, 500.0])
     cars |= {"road_height": ["flat", "flat", "step"]}
@@ -421,7 +413,7 @@ def test_what_is_stiff_is_done_by_bdf(monkeypatch: Any) -> None:
     assert found["end_time"].values.tolist() == [SPAN[1]] * 3
 
 
-def test_stiff_ones_end_with_a_reason_where_that_is_wanted(monkeypatch: Any) -> None:
+def test_stiff_ones_end_with_a_reason_where_that_is_wanted(monkeypatch):
     monkeypatch.setattr(ensembles, "_STIFF_AFTER", 500)
     model, cars, start = sticking([0.0, 600.0])
     options = {"t_eval": TIMES, "max_steps": 2000}
@@ -431,7 +423,7 @@ def test_stiff_ones_end_with_a_reason_where_that_is_wanted(monkeypatch: Any) -> 
     assert found["solver"].values.tolist() == ["DormandPrince"] * 2
 
 
-def test_what_both_methods_cannot_do_reports_both_reasons() -> None:
+def test_what_both_methods_cannot_do_reports_both_reasons():
     model, cars, start = sticking([0.0, 600.0])
     options = {"t_eval": TIMES, "max_steps": 80}
     found = ensemble(model, cars, SPAN, start, **options, rtol=1e-5, atol=1e-6)
@@ -442,7 +434,7 @@ def test_what_both_methods_cannot_do_reports_both_reasons() -> None:
     assert found["solver"].item(1) == "DormandPrince"
 
 
-def test_reductions_are_those_of_the_samples(mixed: xr.Dataset) -> None:
+def test_reductions_are_those_of_the_samples(mixed):
     good = mixed.isel(car=np.flatnonzero(mixed["success"].values))
     force, times = good["tyre_force"], good["time"].values
     assert good["tyre_force_max"].values.tolist() == force.max("time").values.tolist()
@@ -458,7 +450,7 @@ def test_reductions_are_those_of_the_samples(mixed: xr.Dataset) -> None:
         assert good["tyre_force_rms"].values[place] == pytest.approx(known["force"].rms, rel=1e-12)
 
 
-def test_bounds_are_watched_as_in_simulate(car: Model) -> None:
+def test_bounds_are_watched_as_in_simulate(car):
     high = state_at_height(car, 0.340)
     cars = {"tyre_free_height": car.parameters["tyre_free_height"] + np.array([0.0, 0.1])}
     found = ensemble(car, cars, SPAN, high, t_eval=TIMES)
@@ -476,7 +468,7 @@ def test_bounds_are_watched_as_in_simulate(car: Model) -> None:
     assert found["valid"][1]
 
 
-def test_dimensions_and_coordinates_of_a_grid(car: Model, start: Any) -> None:
+def test_dimensions_and_coordinates_of_a_grid(car, start):
     grid = xr.Dataset(
         {
             "spring_rate": (
@@ -496,7 +488,7 @@ def test_dimensions_and_coordinates_of_a_grid(car: Model, start: Any) -> None:
     assert found["camber_max"].values.ravel().tolist() == flat["camber_max"].values.tolist()
 
 
-def test_results_are_those_that_are_named(mixed: xr.Dataset) -> None:
+def test_results_are_those_that_are_named(mixed):
     """Names that no dimension of variants may have are those that results have."""
     from kintrafo.ensembles.variants import BOUND, RESULTS, STATE, TIME
 
@@ -506,19 +498,19 @@ def test_results_are_those_that_are_named(mixed: xr.Dataset) -> None:
     assert own == set(RESULTS)
 
 
-def test_a_model_without_signals() -> None:
+def test_a_model_without_signals():
     model = System(EMITTED["excavator"])
     found = ensemble(model, {"gravity": [9.81, 1.62]}, (0.0, 0.1), signals=model.state_names[:1])
     assert found["valid"].all()
     assert found[model.state_names[0]].values[0, -1] != found[model.state_names[0]].values[1, -1]
 
 
-def test_progress_is_reported(car: Model, start: Any, monkeypatch: Any) -> None:
+def test_progress_is_reported(car, start, monkeypatch):
     reported: list[int] = []
     monkeypatch.setattr(run, "_FEWEST", 10)
     real = run._wait_for
 
-    def noted(waiting: Any, report: Callable[[int], None] | None) -> None:
+    def noted(waiting, report):
         assert report is not None
         real(waiting, lambda done: (reported.append(done), report(done)))
 
@@ -529,7 +521,7 @@ def test_progress_is_reported(car: Model, start: Any, monkeypatch: Any) -> None:
 
 
 @pytest.mark.usefixtures("interruptible")
-def test_an_interruption_ends_it(car: Model, start: Any) -> None:
+def test_an_interruption_ends_it(car, start):
     """Of what would take hours; without an end at once, this test has none."""
     timer = threading.Timer(0.3, _thread.interrupt_main)
     timer.start()
@@ -539,7 +531,7 @@ def test_an_interruption_ends_it(car: Model, start: Any) -> None:
 
 
 @pytest.mark.usefixtures("interruptible")
-def test_an_interruption_ends_what_bdf_does(monkeypatch: Any) -> None:
+def test_an_interruption_ends_what_bdf_does(monkeypatch):
     """Of a hundred million steps, in a thread, which no signal reaches."""
     monkeypatch.setattr(ensembles, "_STIFF_AFTER", 100)
     model, cars, start = sticking([600.0])
@@ -645,7 +637,7 @@ WRONG: list[tuple[dict[str, Any], str]] = [
 ]
 
 
-def test_labels_of_any_kind(car: Model, start: Any) -> None:
+def test_labels_of_any_kind(car, start):
     labels = xr.DataArray(np.array(["flat", 2, 2.5, "flat"], dtype=object), dims="car")
     roads = {"flat": 0.0, 2: 0.01, 2.5: 0.02}
     found = ensemble(
@@ -658,7 +650,7 @@ def test_labels_of_any_kind(car: Model, start: Any) -> None:
     assert found["road_height"].values.tolist() == labels.values.tolist()
 
 
-def test_labels_and_coordinates_that_agree(car: Model) -> None:
+def test_labels_and_coordinates_that_agree(car):
     """A label stays what it is in a row of several kinds; coordinates repeat what they label."""
     labels = ["1", 2, 2**53 + 1, 0.5, np.int64(2)]
     given = roads(*labels[:4], given=labels)
@@ -678,7 +670,7 @@ def test_labels_and_coordinates_that_agree(car: Model) -> None:
     assert two["name"].values.tolist() == ["a", "b"]
 
 
-def test_nothing_is_known_of_what_never_began(car: Model) -> None:
+def test_nothing_is_known_of_what_never_began(car):
     """Parameters out of their range, and parameters of no mechanism, that C finds."""
     own = car.parameters
     hinge = {f"arm_rear_{x}": [own[f"arm_rear_{x}"], own[f"arm_front_{x}"]] for x in "xyz"}
@@ -689,7 +681,7 @@ def test_nothing_is_known_of_what_never_began(car: Model) -> None:
     assert np.isnan(found["final_state"]).all()
 
 
-def test_rows_of_states_do_not_forget_their_inputs(car: Model) -> None:
+def test_rows_of_states_do_not_forget_their_inputs(car):
     steered = state_at_height(car, 0.32, rack_position=0.02)
     with pytest.raises(InputError, match="has states that belong to rack_position"):
         ensemble(car, None, (0.0, 1.0), [steered, steered])
@@ -708,7 +700,7 @@ def test_rows_of_states_do_not_forget_their_inputs(car: Model) -> None:
     )
 
 
-def test_what_is_kept_is_named(car: Model) -> None:
+def test_what_is_kept_is_named(car):
     """Names of signals are broken nowhere but between words, as on the axes of a figure."""
     kinds = ["max", "min", "mean", "rms", ("above", 1.0), ("percentile", 5.0), ("psd", 8)]
     found = ensemble(car, None, (0.0, 0.1), reductions={"wheel_acceleration": kinds})
@@ -717,7 +709,7 @@ def test_what_is_kept_is_named(car: Model) -> None:
     assert all("wheel acceleration" in data.attrs["long_name"] for data in kept)
 
 
-def test_levels_are_reported_with_their_unit(car: Model) -> None:
+def test_levels_are_reported_with_their_unit(car):
     """In that for people, as the time beside them is, and with all digits that were given."""
     levels = {
         "tyre_force": (5000.0, "5000 N"),
@@ -734,19 +726,19 @@ def test_levels_are_reported_with_their_unit(car: Model) -> None:
         assert f"time for which {name.replace('_', ' ')} is above {words}" in reported
 
 
-def test_levels_that_look_alike_have_names_of_their_own(car: Model) -> None:
+def test_levels_that_look_alike_have_names_of_their_own(car):
     levels = [("above", 0.30000001), ("above", 0.3)]
     found = ensemble(car, None, (0.0, 0.01), reductions={"wheel_center_z": levels})
     assert {"wheel_center_z_above_0.30000001", "wheel_center_z_above_0.3"} <= set(found)
 
 
 @pytest.mark.parametrize("wrong", WRONG)
-def test_what_cannot_be_used(car: Model, wrong: dict[str, Any], refused: Any) -> None:
+def test_what_cannot_be_used(car, wrong, refused):
     given = {"model": car, "variants": None, "t_span": (0.0, 1.0)} | wrong
     refused(InputError, lambda: ensemble(**given))
 
 
-def test_a_mechanism_with_the_names_of_results() -> None:
+def test_a_mechanism_with_the_names_of_results():
     """No result replaces another one of its name, and none is missing after the computation."""
     named = changed(FOUR_BAR, (SPRING.rate, replace(SPRING.rate, name="steps")))
     force, highest = (ForceOf(n, named.elements[0], "force") for n in ("success", "success_max"))
@@ -763,7 +755,7 @@ def test_a_mechanism_with_the_names_of_results() -> None:
     assert found["success"].dtype == bool
 
 
-def test_own_mechanisms_are_compiled_in_lanes() -> None:
+def test_own_mechanisms_are_compiled_in_lanes():
     """The four-bar of the project, compiled here: the same bits in every width."""
     from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 
@@ -775,7 +767,7 @@ def test_own_mechanisms_are_compiled_in_lanes() -> None:
         same(found, expected)
 
 
-def test_axles_in_lanes_do_what_they_do_alone() -> None:
+def test_axles_in_lanes_do_what_they_do_alone():
     model = AxleModel(Axle.load("reference_axle"))
     road = {"left_road_height": STEP}
     rates = np.linspace(500.0, 2000.0, 5)
@@ -790,7 +782,7 @@ def test_axles_in_lanes_do_what_they_do_alone() -> None:
         np.testing.assert_allclose(found["bar_spring_moment"][place], moment, atol=1e-5 * scale)
 
 
-def test_what_iterates_beside_what_does_not_close() -> None:
+def test_what_iterates_beside_what_does_not_close():
     """Five links: each as alone, for any width; one in the middle starts out of reach."""
     model, name, count = Model("multi_link_car"), "front_upper_link_inner_y", 9
     cars = {
@@ -818,7 +810,7 @@ def test_what_iterates_beside_what_does_not_close() -> None:
                                    atol=1e-7)  # fmt: skip
 
 
-def test_without_a_compiler_own_mechanisms_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_a_compiler_own_mechanisms_are_refused(monkeypatch):
     from kintrafo.generator.mechanisms.slider_crank import SLIDER_CRANK
 
     compiled = kintrafo.compile(SLIDER_CRANK)
@@ -827,7 +819,7 @@ def test_without_a_compiler_own_mechanisms_are_refused(monkeypatch: pytest.Monke
         ensemble(System(compiled), None, (0.0, 1.0))
 
 
-def test_impossible_sets_are_those_that_are_refused_one_by_one(car: Model) -> None:
+def test_impossible_sets_are_those_that_are_refused_one_by_one(car):
     """Ranges, inertias of no body, rotors: the same answers as in words."""
     rng = np.random.default_rng(4)
     described, count = car.equations.PARAMETERS, 100

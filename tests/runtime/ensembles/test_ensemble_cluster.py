@@ -8,7 +8,6 @@ import socket
 import sys
 import threading
 import time
-from collections.abc import Iterator
 from concurrent.futures import CancelledError
 from dataclasses import replace
 from functools import partial
@@ -42,7 +41,7 @@ KEPT = {"reductions": {"camber": "max"}}
 
 
 @pytest.fixture(scope="module")
-def client() -> Iterator[Any]:
+def client():
     """Yield a client of two workers."""
     there = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": "127.0.0.1:0"}
     with distributed.LocalCluster(**there) as cluster, distributed.Client(cluster) as client:
@@ -50,28 +49,28 @@ def client() -> Iterator[Any]:
 
 
 @pytest.fixture(scope="module")
-def car() -> Model:
+def car():
     return Model("reference_car")
 
 
 @pytest.fixture(scope="module")
-def start(car: Model) -> Any:
+def start(car):
     return state_at_height(car, 0.310, spin_rate=93.0)
 
 
 @pytest.fixture
-def small(monkeypatch: Any) -> None:
+def small(monkeypatch):
     """Make chunks of seven cars."""
     monkeypatch.setattr(cutting, "_FEWEST", 7)
     monkeypatch.setattr(cutting, "_MOST", 7)
 
 
 @pytest.fixture
-def done(monkeypatch: Any) -> list[tuple[int, int]]:
+def done(monkeypatch):
     """Note which chunks are simulated here."""
     found: list[tuple[int, int]] = []
 
-    def noted(common: Any, some: Any, *given: Any) -> Any:
+    def noted(common, some, *given):
         found.append((some.first, some.first + some.systems.count))
         return chunk.found_of(common, some, *given)
 
@@ -83,7 +82,7 @@ def done(monkeypatch: Any) -> list[tuple[int, int]]:
 
 
 @pytest.mark.usefixtures("small")
-def test_the_same_bits_by_workers(client: Any, car: Model, start: Any) -> None:
+def test_the_same_bits_by_workers(client, car, start):
     """Histories, reductions and what fails, by a client and by the address of its scheduler."""
     cars, options = of_all_kinds(car)
     expected = ensemble(car, cars, SPAN, start, **options)
@@ -94,7 +93,7 @@ def test_the_same_bits_by_workers(client: Any, car: Model, start: Any) -> None:
         same(found, expected)
 
 
-def test_local_workers_share_the_threads(car: Model, start: Any) -> None:
+def test_local_workers_share_the_threads(car, start):
     """One chunk, and one worker with all threads."""
     cars = some_cars(20)
     found = ensemble(car, cars, SPAN, start, cluster=1, threads=2, **KEPT)
@@ -105,14 +104,14 @@ def test_local_workers_share_the_threads(car: Model, start: Any) -> None:
 
 
 @pytest.mark.usefixtures("small")
-def test_workers_are_measured_beside_threads(client: Any) -> None:
+def test_workers_are_measured_beside_threads(client):
     found = [*benchmark.pairs(client, 100, 2)]
     assert all(time.cores > 0 for pair in found for time in (pair.threads, pair.workers))
     assert "| 2 workers with a thread each |" in benchmark.table(found, 100)
     assert "For 100 cars, 2 local workers take" in benchmark.sentence(found, 100, 3.0)
 
 
-def test_rows_and_grids(client: Any, car: Model, start: Any, tmp_path: Path) -> None:
+def test_rows_and_grids(client, car, start, tmp_path):
     """A row of states for each, and combinations along dimensions; by threads, kept, as well."""
     states = np.array(start) + 1e-3 * np.arange(20)[:, None]
     grid = xr.Dataset(coords={"spring_rate": [2e4, 3e4, 4e4], "damper_rate": [1e3, 1.5e3, 2e3]})
@@ -122,7 +121,7 @@ def test_rows_and_grids(client: Any, car: Model, start: Any, tmp_path: Path) -> 
         assert ensemble(car, *given, signals=["camber"], **KEPT, **where).identical(expected)
 
 
-def test_equations_that_were_compiled_here(client: Any, tmp_path: Path, monkeypatch: Any) -> None:
+def test_equations_that_were_compiled_here(client, tmp_path, monkeypatch):
     """A worker receives the equations if it finds neither their folder nor a cache with them."""
     model = System(kintrafo.compile(FOUR_BAR))
     crank = {"crank_mass": np.linspace(0.5, 2.0, 5)}
@@ -141,7 +140,7 @@ def test_equations_that_were_compiled_here(client: Any, tmp_path: Path, monkeypa
 
 
 @pytest.mark.usefixtures("small")
-def test_what_stiff_cars_report(client: Any, car: Model, start: Any, monkeypatch: Any) -> None:
+def test_what_stiff_cars_report(client, car, start, monkeypatch):
     """A car that both methods fail to simulate has both reasons."""
     monkeypatch.setattr(ensembles, "_STIFF_AFTER", 50)
     cars = {"damper_rate": np.where(np.arange(20) == 15, 1e9, 1.5e3)}
@@ -155,9 +154,7 @@ def test_what_stiff_cars_report(client: Any, car: Model, start: Any, monkeypatch
 
 
 @pytest.mark.usefixtures("small")
-def test_what_a_lost_worker_did_is_done_again(
-    client: Any, car: Model, start: Any, tmp_path: Path, monkeypatch: Any
-) -> None:
+def test_what_a_lost_worker_did_is_done_again(client, car, start, tmp_path, monkeypatch):
     lost = partial(work_on_clusters.lost_once, str(tmp_path / "lost"))
     monkeypatch.setattr(queue, "_do", lost)
     found = ensemble(car, some_cars(40), SPAN, start, cluster=client, **KEPT)
@@ -165,7 +162,7 @@ def test_what_a_lost_worker_did_is_done_again(
     same(found, ensemble(car, some_cars(40), SPAN, start, **KEPT))
 
 
-def test_what_loses_one_worker_after_another() -> None:
+def test_what_loses_one_worker_after_another():
     """Messages of the scheduler about lost workers, and of a lost scheduler."""
     shown = {
         distributed.scheduler.KilledWorker("chunk", None, 3): "systems 7 to 14: several workers",
@@ -174,7 +171,7 @@ def test_what_loses_one_worker_after_another() -> None:
     }
     for error, words in shown.items():
 
-        def result(error: Exception = error) -> None:
+        def result(error=error):
             raise error
 
         with pytest.raises(queue.ClusterError, match=words):
@@ -182,13 +179,11 @@ def test_what_loses_one_worker_after_another() -> None:
 
 
 @pytest.mark.usefixtures("interruptible", "small")
-def test_an_interruption_ends_what_workers_do(
-    client: Any, car: Model, start: Any, tmp_path: Path, monkeypatch: Any
-) -> None:
+def test_an_interruption_ends_what_workers_do(client, car, start, tmp_path, monkeypatch):
     """Of what would take hours: without an end at once, the workers would not answer any more."""
     monkeypatch.setattr(queue, "_do", partial(work_on_clusters.noted, str(tmp_path)))
 
-    def interrupt() -> None:
+    def interrupt():
         while not any(tmp_path.iterdir()):
             time.sleep(0.01)
         _thread.interrupt_main()
@@ -205,19 +200,17 @@ def test_an_interruption_ends_what_workers_do(
 
 
 @pytest.mark.usefixtures("small")
-def test_few_pieces_are_held_at_a_time(
-    client: Any, car: Model, start: Any, monkeypatch: Any
-) -> None:
+def test_few_pieces_are_held_at_a_time(client, car, start, monkeypatch):
     """The number of chunks in memory does not depend on the number of systems."""
     held, most = 0, 0
 
-    def cut(*given: Any) -> Any:
+    def cut(*given):
         nonlocal held, most
         held += 1
         most = max(most, held)
         return chunk.chunk_of(*given)
 
-    def put(*given: Any) -> None:
+    def put(*given):
         nonlocal held
         held -= 1
         chunk.put(*given)
@@ -229,11 +222,11 @@ def test_few_pieces_are_held_at_a_time(
     assert most <= 6  # three for each of two threads
 
 
-def test_progress_is_reported(client: Any, car: Model, start: Any, monkeypatch: Any) -> None:
+def test_progress_is_reported(client, car, start, monkeypatch):
     shown: list[int] = []
     real = ensembles.run_in_chunks
 
-    def noted(*given: Any) -> None:
+    def noted(*given):
         *others, report = given
         real(*others, lambda count: (shown.append(count), report(count)))
 
@@ -248,14 +241,14 @@ def test_progress_is_reported(client: Any, car: Model, start: Any, monkeypatch: 
 
 @pytest.mark.usefixtures("small")
 def test_an_interrupted_ensemble_continues_from_its_chunks(
-    client: Any, car: Model, start: Any, tmp_path: Path, done: Any, monkeypatch: Any
-) -> None:
+    client, car, start, tmp_path, done, monkeypatch
+):
     """Only missing chunks are simulated, also in other sizes, and here or by a cluster."""
     cars, options = of_all_kinds(car)
     expected = ensemble(car, cars, SPAN, start, **options)
     folder = tmp_path / "kept"
 
-    def interrupted(common: Any, some: Any, *given: Any) -> Any:
+    def interrupted(common, some, *given):
         if some.first == 14:
             raise KeyboardInterrupt
         return chunk.found_of(common, some, *given)
@@ -277,7 +270,7 @@ def test_an_interrupted_ensemble_continues_from_its_chunks(
     assert len(done) == 3
 
 
-def test_what_is_left_between_what_overlaps() -> None:
+def test_what_is_left_between_what_overlaps():
     assert cutting.left_of(50, [(30, 40), (5, 12), (7, 20), (35, 38)]) == [
         (0, 5),
         (20, 30),
@@ -303,7 +296,7 @@ OTHERS: list[tuple[dict[str, Any], str]] = [
 ]
 
 
-def test_a_folder_of_another_ensemble_is_refused(car: Model, tmp_path: Path, start: Any) -> None:
+def test_a_folder_of_another_ensemble_is_refused(car, tmp_path, start):
     given: dict[str, Any] = {
         "model": car, "variants": {"damper_rate": [1e3, 2e3]}, "t_span": SPAN, "y0": start,
         "kept": tmp_path,
@@ -316,7 +309,7 @@ def test_a_folder_of_another_ensemble_is_refused(car: Model, tmp_path: Path, sta
         assert str(tmp_path) in str(caught.value)
 
 
-def test_versions_are_part_of_what_is_kept(car: Model, tmp_path: Path, monkeypatch: Any) -> None:
+def test_versions_are_part_of_what_is_kept(car, tmp_path, monkeypatch):
     ensemble(car, None, SPAN, kept=tmp_path)
     identity = import_module("kintrafo.ensembles.chunks.identity")
     monkeypatch.setattr(identity, "versions", lambda: {"NumPy": "0.1"})
@@ -324,7 +317,7 @@ def test_versions_are_part_of_what_is_kept(car: Model, tmp_path: Path, monkeypat
         ensemble(car, None, SPAN, kept=tmp_path)
 
 
-def test_a_folder_of_something_else_is_refused(car: Model, tmp_path: Path) -> None:
+def test_a_folder_of_something_else_is_refused(car, tmp_path):
     (tmp_path / "mine").write_text("x", encoding="utf-8")
     with pytest.raises(InputError, match="other things are in this folder"):
         ensemble(car, None, SPAN, kept=tmp_path)
@@ -338,7 +331,7 @@ def test_a_folder_of_something_else_is_refused(car: Model, tmp_path: Path) -> No
 
 
 @pytest.mark.usefixtures("small")
-def test_what_is_damaged_is_done_again(car: Model, start: Any, tmp_path: Path, done: Any) -> None:
+def test_what_is_damaged_is_done_again(car, start, tmp_path, done):
     cars = some_cars(28)
     expected = ensemble(car, cars, SPAN, start, kept=tmp_path, **KEPT)
     rng = np.random.default_rng(3)
@@ -388,12 +381,12 @@ WRONG: list[tuple[dict[str, Any], str]] = [
 
 
 @pytest.mark.parametrize("given", WRONG, ids=lambda value: str(value)[:40])
-def test_wrong_arguments(car: Model, given: dict[str, Any], refused: Any, monkeypatch: Any) -> None:
+def test_wrong_arguments(car, given, refused, monkeypatch):
     monkeypatch.setattr(workers, "_PATIENCE", 0.1)
     refused(InputError, lambda: ensemble(car, None, SPAN, **given))
 
 
-def test_clients_that_cannot_be_used(client: Any, car: Model) -> None:
+def test_clients_that_cannot_be_used(client, car):
     closed = distributed.Client(client.scheduler.address, set_as_default=False)
     closed.close()
     for cluster in (closed, distributed.Client, client.cluster):
@@ -401,7 +394,7 @@ def test_clients_that_cannot_be_used(client: Any, car: Model) -> None:
             ensemble(car, None, SPAN, cluster=cluster)
 
 
-def test_a_scheduler_without_workers(car: Model, monkeypatch: Any) -> None:
+def test_a_scheduler_without_workers(car, monkeypatch):
     monkeypatch.setattr(workers, "_PATIENCE", 0.3)
     there = {"n_workers": 0, "processes": False, "dashboard_address": "127.0.0.1:0"}
     with (
@@ -412,14 +405,14 @@ def test_a_scheduler_without_workers(car: Model, monkeypatch: Any) -> None:
         ensemble(car, None, SPAN, cluster=client)
 
 
-def test_a_dead_address_is_reported_at_once(car: Model) -> None:
+def test_a_dead_address_is_reported_at_once(car):
     begun = time.monotonic()
     with pytest.raises(InputError, match="start a scheduler there: dask scheduler"):
         ensemble(car, None, SPAN, cluster="tcp://127.0.0.1:1")
     assert time.monotonic() - begun < workers._PATIENCE / 2.0
 
 
-def test_what_listens_and_is_no_scheduler(car: Model, monkeypatch: Any) -> None:
+def test_what_listens_and_is_no_scheduler(car, monkeypatch):
     monkeypatch.setattr(workers, "_PATIENCE", 0.3)
     with socket.create_server(("127.0.0.1", 0)) as server:
         port = server.getsockname()[1]
@@ -435,9 +428,7 @@ SCRIPTS = {
 
 
 @pytest.mark.parametrize("script", SCRIPTS)
-def test_local_workers_that_cannot_begin(
-    car: Model, monkeypatch: Any, tmp_path: Path, script: str | None
-) -> None:
+def test_local_workers_that_cannot_begin(car, monkeypatch, tmp_path, script):
     """The error follows from whether workers could read the script, and from Dask's error."""
     main = SimpleNamespace()
     if script:
@@ -445,7 +436,7 @@ def test_local_workers_that_cannot_begin(
         Path(main.__file__).write_text(script)
     monkeypatch.setitem(sys.modules, "__main__", main)
 
-    def refused(**_: Any) -> None:
+    def refused(**_):
         raise RuntimeError from ImportError("no such module")
 
     monkeypatch.setattr(distributed, "LocalCluster", refused)
@@ -455,19 +446,19 @@ def test_local_workers_that_cannot_begin(
     assert ("if __name__" in str(shown.value)) == (script == "x")
 
 
-def test_a_worker_that_reads_the_script(monkeypatch: Any) -> None:
+def test_a_worker_that_reads_the_script(monkeypatch):
     monkeypatch.setattr(workers, "current_process", lambda: SimpleNamespace(_inheriting=True))
     assert "only below if __name__" in workers._why_not(RuntimeError())
 
 
-def test_a_missing_package(car: Model, monkeypatch: Any) -> None:
+def test_a_missing_package(car, monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
     for cluster in (1, "127.0.0.1:8786"):
         with pytest.raises(MissingPackageError, match=r'pip install "kintrafo\[cluster\]"'):
             ensemble(car, None, SPAN, cluster=cluster)
 
 
-def test_workers_with_other_versions(client: Any, car: Model, monkeypatch: Any) -> None:
+def test_workers_with_other_versions(client, car, monkeypatch):
     real = versions.versions()
     monkeypatch.setattr(versions, "version", lambda _: "9.9")
     monkeypatch.setattr(versions, "_digest", lambda: "")
@@ -480,7 +471,7 @@ def test_workers_with_other_versions(client: Any, car: Model, monkeypatch: Any) 
         versions.versions.cache_clear()
 
 
-def test_a_worker_that_came_later_with_other_versions(car: Model, monkeypatch: Any) -> None:
+def test_a_worker_that_came_later_with_other_versions(car, monkeypatch):
     real = chunk.common_of
     monkeypatch.setattr(
         gather, "common_of", lambda found: replace(real(found), versions={"kintrafo": "9.9"})
@@ -492,13 +483,13 @@ def test_a_worker_that_came_later_with_other_versions(car: Model, monkeypatch: A
         ensemble(car, None, SPAN, kept="here")
 
 
-def test_a_worker_that_cannot_load_it() -> None:
+def test_a_worker_that_cannot_load_it():
     shown = workers._other(ModuleNotFoundError("No module named 'kintrafo'"))
     assert shown.startswith("cannot load this version of kintrafo (ModuleNotFoundError: No module")
     assert not workers._other(ConnectionResetError("it was lost"))  # what it did is done again
 
 
-def test_a_folder_where_a_file_should_be(car: Model, tmp_path: Path) -> None:
+def test_a_folder_where_a_file_should_be(car, tmp_path):
     ensemble(car, None, SPAN, kept=tmp_path)
     (tmp_path / "systems-000000000-000000001.npz").unlink()
     (tmp_path / "systems-000000000-000000001.npz").mkdir()
@@ -506,7 +497,7 @@ def test_a_folder_where_a_file_should_be(car: Model, tmp_path: Path) -> None:
         ensemble(car, None, SPAN, kept=tmp_path)
 
 
-def test_what_is_kept_can_be_read(car: Model, tmp_path: Path) -> None:
+def test_what_is_kept_can_be_read(car, tmp_path):
     """As any archive of NumPy, and a list of digests."""
     found = ensemble(car, {"damper_rate": [1e3, 2e3]}, SPAN, kept=tmp_path)
     with np.load(tmp_path / "systems-000000000-000000002.npz", allow_pickle=False) as kept:

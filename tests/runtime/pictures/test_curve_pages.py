@@ -143,7 +143,7 @@ def test_lines_of_a_page_are_equally_wide():
     assert widths[0].pop() < 1.0 < widths[1].pop()
 
 
-def test_units_in_labels_are_not_broken() -> None:
+def test_units_in_labels_are_not_broken():
     assert wrapped("damping ratio of heave, deviation", 28) == "damping ratio of heave,\ndeviation"
     lines = wrapped("weighted acceleration, RMS [m/s^2 per N s/m]", 30).split("\n")
     assert lines == ["weighted acceleration, RMS", "[m/s\u00b2\xa0per\xa0N\xa0s/m]"]

@@ -26,7 +26,7 @@ def arm_error(found):
     return np.abs(found.y[0] - TRUTH.y[0]).max()
 
 
-def test_it_is_of_fifth_order_and_its_polynomial_of_fourth() -> None:
+def test_it_is_of_fifth_order_and_its_polynomial_of_fourth():
     """Half the step makes the error of steps 32 times smaller; that of the polynomial, h^5 too."""
     loose = {"rtol": 0.5, "atol": 1e3}  # so that only the greatest step limits
     steps = [
@@ -47,13 +47,13 @@ def test_it_is_of_fifth_order_and_its_polynomial_of_fourth() -> None:
         assert gains == pytest.approx([32.0, 32.0], rel=0.2), errors
 
 
-def test_outputs_cost_nothing() -> None:
+def test_outputs_cost_nothing():
     few, many = run(t_eval=[0.0, 1.0]), run(t_eval=np.linspace(*SPAN, 10_001))
     assert few.nfev == many.nfev == 6 * (few.steps + few.error_test_failures) + 1
     assert few.y[:, -1].tolist() == many.y[:, -1].tolist()
 
 
-def test_levels_are_passed_where_the_polynomial_passes_them() -> None:
+def test_levels_are_passed_where_the_polynomial_passes_them():
     events = [SignalEvent("wheel_center_z", level) for level in np.linspace(0.297, 0.303, 7)]
     found = run(events=events, dense_output=True)
     for event, times in zip(events, found.t_events, strict=True):
@@ -63,7 +63,7 @@ def test_levels_are_passed_where_the_polynomial_passes_them() -> None:
         np.testing.assert_allclose(heights, event.level, rtol=0.0, atol=1e-13)
 
 
-def test_the_way_back_leads_to_the_start() -> None:
+def test_the_way_back_leads_to_the_start():
     there = run(t_eval=TIMES, rtol=1e-10, atol=1e-13)
     back = simulate(
         MODEL, SPAN[::-1], there.y[:, -1], method="DormandPrince", t_eval=TIMES[::-1], rtol=1e-10,

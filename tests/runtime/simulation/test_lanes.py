@@ -27,7 +27,7 @@ CARS, STATES = 4, 8  # parameter sets of a model, and states of each
 
 
 @pytest.fixture(scope="module")
-def drivers(tmp_path_factory: pytest.TempPathFactory) -> dict[int, ctypes.CDLL]:
+def drivers(tmp_path_factory):
     folder = tmp_path_factory.mktemp("drivers")
     return {width: lanes.driver(folder, width) for width in widths()}
 
@@ -45,14 +45,14 @@ def angles(rng: np.random.Generator) -> np.ndarray:
 
 
 @pytest.mark.parametrize("name", ["sin", "cos"])
-def test_sine_and_cosine(drivers: dict[int, ctypes.CDLL], name: str) -> None:
+def test_sine_and_cosine(drivers, name):
     function, exact = getattr(drivers[2], f"lane_{name}"), getattr(mpmath, name)
     with mpmath.workdps(DIGITS):
         for angle in angles(np.random.default_rng(1)).tolist():
             assert off(exact(mpmath.mpf(angle)), function(angle)) <= 1.0, angle
 
 
-def test_arc_functions(drivers: dict[int, ctypes.CDLL]) -> None:
+def test_arc_functions(drivers):
     rng = np.random.default_rng(2)
     sizes = 10.0 ** rng.uniform(-8, 8, (ANGLES, 2))
     with mpmath.workdps(DIGITS):
@@ -65,18 +65,18 @@ def test_arc_functions(drivers: dict[int, ctypes.CDLL]) -> None:
 
 @pytest.mark.parametrize("y", [0.0, -0.0, 1.0, -1.0])
 @pytest.mark.parametrize("x", [0.0, -0.0, 1.0, -1.0])
-def test_arc_tangent_on_the_axes(drivers: dict[int, ctypes.CDLL], y: float, x: float) -> None:
+def test_arc_tangent_on_the_axes(drivers, y, x):
     assert drivers[2].lane_atan2(y, x) == np.arctan2(y, x)
 
 
-def test_what_has_no_sine_is_none(drivers: dict[int, ctypes.CDLL]) -> None:
+def test_what_has_no_sine_is_none(drivers):
     for angle in (np.nextafter(LARGEST, np.inf), -1e300, np.inf, -np.inf, np.nan):
         assert np.isnan(drivers[2].lane_sin(angle)), angle
         assert np.isnan(drivers[2].lane_cos(angle)), angle
     assert np.isnan(drivers[2].lane_asin(np.nextafter(1.0, 2.0)))
 
 
-def test_exponential_and_logarithm(drivers: dict[int, ctypes.CDLL]) -> None:
+def test_exponential_and_logarithm(drivers):
     rng = np.random.default_rng(4)
     exponents = [*rng.uniform(-708.0, 708.0, ANGLES), *rng.uniform(-1.0, 1.0, ANGLES), 0.0, 1e-300]
     near_one = 1.0 + rng.uniform(-1e-3, 1e-3, ANGLES)
@@ -91,7 +91,7 @@ def test_exponential_and_logarithm(drivers: dict[int, ctypes.CDLL]) -> None:
     assert np.isnan([exp(np.nan), *map(log, (0.0, -1.0, np.nan, np.inf, 1e-310))]).all()
 
 
-def test_powers_of_two(drivers: dict[int, ctypes.CDLL]) -> None:
+def test_powers_of_two(drivers):
     """Functions for the choice of a step size; bounds follow from the degrees of polynomials."""
     values = 10.0 ** np.random.default_rng(3).uniform(-60, 60, 200)
     for value in values.tolist():
@@ -154,7 +154,7 @@ def some_parameters(model, rng: np.random.Generator, width: int) -> np.ndarray:
 
 
 @pytest.mark.parametrize("name", EMITTED)
-def test_the_same_bits_as_one_by_one(drivers: dict[int, ctypes.CDLL], name: str) -> None:
+def test_the_same_bits_as_one_by_one(drivers, name):
     """Every function of a simulation, also of states that are refused, and of NaN."""
     pair = Both(name, drivers)
     for width in widths():
@@ -182,7 +182,7 @@ def compare(pair: Both, model, rng: np.random.Generator, width: int) -> None:
             pair.bounded(model.SIGNALS, constants, state, inputs)
 
 
-def test_far_angles_are_those_of_the_c_library() -> None:
+def test_far_angles_are_those_of_the_c_library():
     """One system alone takes them; the last digit of such an angle is 5e-10 rad."""
     bar = kintrafo.System(EMITTED["four_bar"])
     turns = 2.0 * np.pi * 400_000
@@ -194,7 +194,7 @@ def test_far_angles_are_those_of_the_c_library() -> None:
     assert far == pytest.approx(near, abs=1e-6)  # N; 400 N/m of a length of some 0.3 m
 
 
-def test_equations_may_name_what_the_headers_do() -> None:
+def test_equations_may_name_what_the_headers_do():
     """A mechanism and its angles are called like files, functions and types of lanes."""
     names = dict(zip(("crank_angle", "coupler_angle", "rocker_angle"), TAKEN, strict=True))
     coordinates = (replace(c, name=names[c.name]) for c in FOUR_BAR.coordinates)

@@ -24,7 +24,7 @@ ROAD = Samples([0.0, 0.1, 0.1, 0.3], [0.0, 0.01, 0.03, 0.0], "linear")
 
 
 @pytest.fixture(scope="module")
-def system() -> kintrafo.System:
+def system():
     module = kintrafo.compile(SHIPPED[CAR.equations.NAME], parameter_derivatives=True)
     return kintrafo.System(module, CAR.parameters)
 
@@ -59,7 +59,7 @@ def by_difference(
 
 
 @pytest.mark.parametrize("inputs", [{}, {"road_height": ROAD}], ids=["free", "over a jump"])
-def test_against_motions_beside_it(system: kintrafo.System, inputs: Any) -> None:
+def test_against_motions_beside_it(system, inputs):
     """Both followed to 1e-12; differences of steps of 1e-5 are known to about 1e-7."""
     tight = {"rtol": 1e-12, "atol": 1e-14}
     found = kintrafo.motion_gradient(system, SPAN, START, OF, inputs=inputs, t_eval=TIMES, **tight)
@@ -81,14 +81,14 @@ def test_against_motions_beside_it(system: kintrafo.System, inputs: Any) -> None
     assert set(found.by) == known - varied
 
 
-def test_what_is_at_rest_at_first_is_followed_too(system: kintrafo.System) -> None:
+def test_what_is_at_rest_at_first_is_followed_too(system):
     """Nothing moves until the road does, and steps that err by nothing could have any length."""
     rest = kintrafo.equilibrium(CAR)
     inputs = {"road_height": Samples([0.0, 0.2, 0.2, 0.3], [0.0, 0.0, 0.01, 0.01], "linear")}
     rows = {"rtol": 1e-9, "atol": 1e-12}
     start, of = np.array(rest), {"wheel_acceleration": "rms"}
 
-    def acceleration(parameters: Any, at: Any) -> float:
+    def acceleration(parameters, at):
         other = kintrafo.System(system.equations, parameters)
         found = kintrafo.simulate(
             other, SPAN, at, inputs=inputs, method="DOP853", t_eval=TIMES, max_step=0.002,
@@ -113,7 +113,7 @@ def test_what_is_at_rest_at_first_is_followed_too(system: kintrafo.System) -> No
         assert found.by[name] == pytest.approx((ends[0] - ends[1]) / 2.0 / step, rel=1e-4), name
 
 
-def test_it_is_the_gradient_of_the_numbers_that_the_steps_give(system: kintrafo.System) -> None:
+def test_it_is_the_gradient_of_the_numbers_that_the_steps_give(system):
     """Steps of 10 ms with any error: gradients of these numbers, not of the true motion."""
     coarse: dict[str, Any] = {"rtol": 0.5, "atol": 1e3, "max_step": 0.01}
     found = kintrafo.motion_gradient(system, SPAN, START, OF, t_eval=TIMES, **coarse)
@@ -127,7 +127,7 @@ def test_it_is_the_gradient_of_the_numbers_that_the_steps_give(system: kintrafo.
     assert max(apart) > 1e-4
 
 
-def test_a_signal_that_stays_has_no_slope_of_its_rms() -> None:
+def test_a_signal_that_stays_has_no_slope_of_its_rms():
     module = kintrafo.compile(FOUR_BAR, parameter_derivatives=True)
     floating = kintrafo.System(module, {"spring_rate": 0.0})
     start = floating.design_state
@@ -136,7 +136,7 @@ def test_a_signal_that_stays_has_no_slope_of_its_rms() -> None:
     assert not any(found.by.values())
 
 
-def test_a_mechanism_without_signals() -> None:
+def test_a_mechanism_without_signals():
     """It has the gradient of the same with a spring and a damper that do nothing."""
     bare = replace(FOUR_BAR, name="bare", forces=())
     found = []
@@ -151,7 +151,7 @@ def test_a_mechanism_without_signals() -> None:
     assert alone == pytest.approx({n: given[n] for n in alone}, rel=1e-9, abs=1e-12, nan_ok=True)
 
 
-def test_a_mechanism_that_is_prescribed_as_a_whole() -> None:
+def test_a_mechanism_that_is_prescribed_as_a_whole():
     """Nothing is integrated: against differences of the signals, of a length of some 0.1 m."""
     given = replace(
         SHIPPED["four_bar"],
@@ -162,7 +162,7 @@ def test_a_mechanism_that_is_prescribed_as_a_whole() -> None:
     system = kintrafo.System(kintrafo.compile(given, parameter_derivatives=True))
     driven = {"crank_position": lambda t: 0.1 * np.sin(20.0 * t)}
 
-    def found(**others: float) -> kintrafo.MotionGradient:
+    def found(**others):
         moved = kintrafo.System(system.equations, dict(system.parameters) | others)
         of = {"spring_length": "rms"}
         return kintrafo.motion_gradient(moved, SPAN, [], of, inputs=driven, t_eval=TIMES)
@@ -176,7 +176,7 @@ def test_a_mechanism_that_is_prescribed_as_a_whole() -> None:
         assert abs(gradient.by[name]) > 1e-4
 
 
-def test_rounding_of_what_stays_has_no_slope_either(system: kintrafo.System) -> None:
+def test_rounding_of_what_stays_has_no_slope_either(system):
     rest = kintrafo.equilibrium(CAR, rack_position=0.01)
     found = kintrafo.motion_gradient(system, SPAN, rest, {"wheel_center_z": "rms"})
     assert 0.0 < found.value < 1e-14
@@ -196,7 +196,7 @@ def test_rounding_of_what_stays_has_no_slope_either(system: kintrafo.System) -> 
         {"y0": [0.0, 1.0]},
     ],
 )
-def test_bad_arguments_are_refused(system: kintrafo.System, changes: Any, refused: Any) -> None:
+def test_bad_arguments_are_refused(system, changes, refused):
     given = {
         "system": system,
         "t_span": SPAN,

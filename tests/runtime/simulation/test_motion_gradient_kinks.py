@@ -51,7 +51,7 @@ DAMPED = with_changes(tyre={"lifts_off": True, "damper_rate_N_s_per_m": 300.0})
 
 
 @pytest.fixture(scope="module")
-def equations() -> Any:
+def equations():
     return kintrafo.compile(SHIPPED["macpherson_general"], parameter_derivatives=True)
 
 
@@ -80,9 +80,7 @@ OF: dict[str, Any] = {"wheel_acceleration": "rms", "toe": "mean"}
     ],
     ids=["stop and knots", "straight lines of a spring", "off the road"],
 )
-def test_against_motions_beside_it(
-    equations: Any, car: Model, event: str, names: list[str]
-) -> None:
+def test_against_motions_beside_it(equations, car, event, names):
     """To 1e-3 at the usual tolerance; a step over a kink made errors of 2e-2 here.
 
     Differences of motions that are known to 1e-12 over 1e-4 of a parameter are known to 1e-6.
@@ -104,7 +102,7 @@ def test_against_motions_beside_it(
         assert found.by[name] == pytest.approx((up - down) / (2.0 * step), rel=1e-3), name
 
 
-def test_steps_end_where_the_stop_is_touched(equations: Any) -> None:
+def test_steps_end_where_the_stop_is_touched(equations):
     system = kintrafo.System(equations, STOPPED.parameters)
     start = np.array(kintrafo.equilibrium(STOPPED))
     motion = kintrafo.motion_gradient(system, SPAN, start, OF, inputs=BUMP, t_eval=TIMES).motion
@@ -118,7 +116,7 @@ def test_steps_end_where_the_stop_is_touched(equations: Any) -> None:
         assert lengths[step - 1 : step + 2].min() <= 4e-3 * lengths.max()
 
 
-def test_where_rates_jump_there_is_none(equations: Any) -> None:
+def test_where_rates_jump_there_is_none(equations):
     """A damper in the tyre pushes at once when the wheel lands."""
     system = kintrafo.System(equations, DAMPED.parameters)
     start = np.array(kintrafo.equilibrium(DAMPED))
@@ -126,7 +124,7 @@ def test_where_rates_jump_there_is_none(equations: Any) -> None:
         kintrafo.motion_gradient(system, SPAN, start, OF, inputs=BUMP, t_eval=TIMES)
 
 
-def test_a_mechanism_without_inputs() -> None:
+def test_a_mechanism_without_inputs():
     """It has the gradient of the same with an input that is zero."""
     found = []
     for declared in (FOUR_BAR, replace(FOUR_BAR, name="alone", forces=FOUR_BAR.forces[:1])):

@@ -30,12 +30,12 @@ TIGHT = {"rtol": 1e-11, "atol": 1e-13}
 
 
 @pytest.fixture(scope="module")
-def system() -> kintrafo.System:
+def system():
     module = kintrafo.compile(SHIPPED[CAR.equations.NAME], parameter_derivatives=True)
     return kintrafo.System(module, CAR.parameters)
 
 
-def test_it_is_the_transpose_of_the_gradient(system: kintrafo.System) -> None:
+def test_it_is_the_transpose_of_the_gradient(system):
     weights = np.cos(40.0 * TIMES)
     of = dict.fromkeys([*SIGNALS, "beta1"], weights)
     names = [*NAMES, "spring_rate", "beta1_rate"]
@@ -48,7 +48,7 @@ def test_it_is_the_transpose_of_the_gradient(system: kintrafo.System) -> None:
     np.testing.assert_array_equal(found.motion.t, back.motion.t)
 
 
-def test_directions_of_several(system: kintrafo.System) -> None:
+def test_directions_of_several(system):
     together = {"raised": {"tie_rod_inner_z": 2.0, "damper_rate": -1.0, "beta1": 0.5}}
     found = kintrafo.motion_sensitivity(system, SPAN, START, together, t_eval=TIMES)
     alone = kintrafo.motion_sensitivity(system, SPAN, START, [*together["raised"]], t_eval=TIMES)
@@ -81,7 +81,7 @@ def same(one: Changed, other: Changed, rounding: float = 0.0) -> None:
 
 
 @needs_lanes
-def test_in_lanes_as_in_numpy(system: kintrafo.System, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_in_lanes_as_in_numpy(system, monkeypatch):
     """Over a jump of the road, and a kink: the tyre leaves it."""
     found = []
     for width in (None, widths()[-1]):
@@ -94,7 +94,7 @@ def test_in_lanes_as_in_numpy(system: kintrafo.System, monkeypatch: pytest.Monke
 
 
 @needs_lanes
-def test_what_iterates_in_lanes_as_in_numpy(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_iterates_in_lanes_as_in_numpy(monkeypatch):
     system = kintrafo.System(kintrafo.compile(STEPHENSON, parameter_derivatives=True))
     masses = {name: 0.1 for name in system.parameters if name.endswith("_mass")}
     found = []
@@ -106,14 +106,12 @@ def test_what_iterates_in_lanes_as_in_numpy(monkeypatch: pytest.MonkeyPatch) -> 
 
 
 @pytest.fixture(scope="module")
-def four_bar() -> kintrafo.System:
+def four_bar():
     return kintrafo.System(kintrafo.compile(FOUR_BAR, parameter_derivatives=True))
 
 
 @needs_lanes
-def test_the_same_bits_in_any_lanes(
-    four_bar: kintrafo.System, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_same_bits_in_any_lanes(four_bar, monkeypatch):
     """The bits depend neither on the width nor on other directions."""
     start, names = four_bar.state(), [*four_bar.parameters][8:17]  # one more than the widest has
     in_lanes(monkeypatch, widths()[0])
@@ -125,9 +123,7 @@ def test_the_same_bits_in_any_lanes(
 
 
 @needs_lanes
-def test_what_lanes_refuse_is_found_in_numpy(
-    four_bar: kintrafo.System, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_lanes_refuse_is_found_in_numpy(four_bar, monkeypatch):
     """They have no sine of so great an angle."""
     start = four_bar.state(crank_angle=0.3 + 2e6 * np.pi)
     in_lanes(monkeypatch, widths()[-1], done=False)
@@ -138,9 +134,7 @@ def test_what_lanes_refuse_is_found_in_numpy(
     same(kintrafo.motion_sensitivity(four_bar, (0.0, 0.1), start, ["crank_mass"]), found, 1e-5)
 
 
-def test_against_a_motion_of_complex_numbers(
-    four_bar: kintrafo.System, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_against_a_motion_of_complex_numbers(four_bar, monkeypatch):
     """By another method, of the printed NumPy."""
     model = printed(FOUR_BAR, monkeypatch)
     moved = {"crank_mass": 1.0, "rocker_bearing_x": 1e-2, "spring_rate": -30.0, "crank_angle": 0.1}
@@ -148,7 +142,7 @@ def test_against_a_motion_of_complex_numbers(
     start = four_bar.state(crank_angle=0.3) + STEP * np.array([moved["crank_angle"], 0.0])
     constants, times = np.array(model.prepare(parameters)[0]), np.linspace(0.0, 0.5, 11)
 
-    def rates(_: float, state: np.ndarray) -> np.ndarray:
+    def rates(_, state):
         return np.array(model.rhs(constants, state, np.zeros(1))[0])
 
     exact = solve_ivp(
@@ -177,8 +171,6 @@ def test_against_a_motion_of_complex_numbers(
         {"by": ["gravity"], "rtol": -1.0},
     ],
 )
-def test_what_cannot_be_used_is_refused(
-    system: kintrafo.System, changes: dict[str, object], refused: Any
-) -> None:
+def test_what_cannot_be_used_is_refused(system, changes, refused):
     asked: dict[str, object] = {"t_span": SPAN, "y0": START, **changes}
     refused(InputError, lambda: kintrafo.motion_sensitivity(system, **asked))  # type: ignore[arg-type]

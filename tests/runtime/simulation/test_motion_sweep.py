@@ -58,9 +58,7 @@ def through(model: Any, constants: Any, state: Any, borders: Any, torque_at: Any
 
 @pytest.mark.parametrize("backend", ["c", "numpy"])
 @pytest.mark.parametrize("varies", [False, True], ids=["held", "over a jump"])
-def test_against_the_same_steps_in_complex_numbers(
-    monkeypatch: pytest.MonkeyPatch, backend: Any, *, varies: bool
-) -> None:
+def test_against_the_same_steps_in_complex_numbers(monkeypatch, backend, *, varies):
     """By everything: they share neither derivatives nor the coefficients of the method."""
     module = kintrafo.compile(FOUR_BAR, parameter_derivatives=True, backend=backend)
     system = kintrafo.System(module)
@@ -87,7 +85,7 @@ def test_against_the_same_steps_in_complex_numbers(
         assert found.by[name] == pytest.approx(value, rel=1e-11, abs=1e-13), name
 
 
-def test_compiled_as_over_arrays(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_compiled_as_over_arrays(monkeypatch):
     """Of a car over a jump of the road, to the rounding of some hundred steps."""
     car = kintrafo.Model("reference_car")
     same = next(model for model in MODELS if model.name == car.equations.NAME)
@@ -96,7 +94,7 @@ def test_compiled_as_over_arrays(monkeypatch: pytest.MonkeyPatch) -> None:
     of: Any = {"wheel_acceleration": "rms", "toe": "mean", "beta1": WEIGHTS}
     road: Any = {"road_height": Samples([0.0, 0.1, 0.1, 0.4], [0.0, 0.01, 0.03, 0.0], "linear")}
 
-    def found() -> kintrafo.MotionGradient:
+    def found():
         return kintrafo.motion_gradient(system, SPAN, start, of, inputs=road, t_eval=TIMES)
 
     compiled, refused = found(), []
@@ -109,7 +107,7 @@ def test_compiled_as_over_arrays(monkeypatch: pytest.MonkeyPatch) -> None:
     assert compiled.by == pytest.approx(over_arrays.by, rel=1e-10, abs=most)
 
 
-def test_what_is_refused_on_the_way_is_reported() -> None:
+def test_what_is_refused_on_the_way_is_reported():
     """With its place, as by the functions themselves."""
     four_bar = kintrafo.System(kintrafo.compile(FOUR_BAR, parameter_derivatives=True))
     start = four_bar.state(crank_angle=ANGLE)
@@ -127,7 +125,7 @@ def test_what_is_refused_on_the_way_is_reported() -> None:
 
 
 @pytest.mark.usefixtures("interruptible")
-def test_an_interrupt_is_seen_on_the_way() -> None:
+def test_an_interrupt_is_seen_on_the_way():
     """The function that is called at every stage does nothing but send one."""
     interrupt = ctypes.cast(ctypes.pythonapi.PyErr_SetInterrupt, ctypes.c_void_p).value
     count, (one, none) = 10_000, (np.ones(1), np.zeros(0))

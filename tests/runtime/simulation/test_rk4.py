@@ -39,7 +39,7 @@ def run(step=1e-3, span=SPAN, start=START, model=MODEL, **options):
     return simulate(model, span, start, method="RK4", step=step, **options)
 
 
-def test_it_is_of_fourth_order() -> None:
+def test_it_is_of_fourth_order():
     """Half the step makes an error 16 times smaller, at the ends of steps as between them."""
     within = np.linspace(*SPAN, 334)[1:]
     for times in (TIMES, within):
@@ -50,7 +50,7 @@ def test_it_is_of_fourth_order() -> None:
         assert gains == pytest.approx([16.0, 16.0], rel=0.1), errors
 
 
-def test_a_step_is_four_evaluations_and_one_length() -> None:
+def test_a_step_is_four_evaluations_and_one_length():
     found = run(1e-3, t_eval=None)
     assert (found.steps, found.nfev, found.order) == (1000, 4001, 4)
     # each time is rounded once
@@ -67,7 +67,7 @@ def loops_of_the_page(language):
     return re.findall(rf"```{language}\n(.*?)```", page, flags=re.DOTALL)
 
 
-def test_the_loops_of_the_page_do_the_same(tmp_path) -> None:
+def test_the_loops_of_the_page_do_the_same(tmp_path):
     found = run(1e-3, span=(0.0, 0.1))
     inputs, names = np.zeros(len(MODEL.input_names)), {}
     for code in loops_of_the_page("python"):
@@ -90,7 +90,7 @@ def test_the_loops_of_the_page_do_the_same(tmp_path) -> None:
     np.testing.assert_allclose(found.y[:, -1], state, rtol=1e-12, atol=1e-13)
 
 
-def test_inputs_that_jump_and_turn_keep_the_order() -> None:
+def test_inputs_that_jump_and_turn_keep_the_order():
     road = (np.array([0.0, 0.1234, 0.1234, 0.5]), np.array([0.0, 0.01, 0.02, 0.0]))
     options = {"inputs": {"road_height": road}, "t_eval": [0.5]}
     truth = simulate(
@@ -100,7 +100,7 @@ def test_inputs_that_jump_and_turn_keep_the_order() -> None:
     assert errors[0] / errors[1] > 12.0, errors
 
 
-def test_zeros_of_events_are_found_by_the_cubic() -> None:
+def test_zeros_of_events_are_found_by_the_cubic():
     def event(time, _):
         return np.sin(np.pi * (16.7 * time - 0.3))
 
@@ -143,7 +143,7 @@ def allowed_step(error):
 
 
 @pytest.mark.parametrize("rate", [0.0, 1500.0, 1e5])
-def test_the_longest_stable_step_is_named(rate) -> None:
+def test_the_longest_stable_step_is_named(rate):
     """Eigenvalues across, slanting and along the axis: that step is stable, much more is not."""
     model, start = damped(rate), np.array(START)
     longest = 2.61 / fastest(model, start)
@@ -157,7 +157,7 @@ def test_the_longest_stable_step_is_named(rate) -> None:
     assert found.success
 
 
-def test_what_is_beyond_the_limit_would_be_nonsense() -> None:
+def test_what_is_beyond_the_limit_would_be_nonsense():
     """The same steps by hand, from beside rest, grow; those that are allowed do not."""
     rest, inputs = np.array(equilibrium(MODEL)), np.zeros(len(MODEL.input_names))
     model = damped(1e5)  # which does not change what is at rest
@@ -179,7 +179,7 @@ def test_what_is_beyond_the_limit_would_be_nonsense() -> None:
         run(1.2 * longest, model=model, start=rest)
 
 
-def test_a_motion_that_becomes_stiff_ends_there() -> None:
+def test_a_motion_that_becomes_stiff_ends_there():
     """A strut that comes to stick: slow while it slides, and fast when it does no more."""
     model, start = with_friction(600.0, 1e-5)
     with pytest.raises(SimulationError, match=r"needs steps of .* s or less") as caught:
@@ -202,7 +202,7 @@ def stiffest_of(model, found):
 
 @pytest.mark.parametrize("step", [3e-4, 1e-3, 3e-3, 1e-2])
 @pytest.mark.parametrize("friction", [(50.0, 1e-3), (200.0, 1e-2), (600.0, 1e-2), (600.0, 1e-5)])
-def test_no_step_of_a_result_is_unstable(friction, step) -> None:
+def test_no_step_of_a_result_is_unstable(friction, step):
     """Eigenvalues by LAPACK at each step, of a strut that slides or sticks."""
     model, start = with_friction(*friction)
     try:
@@ -243,7 +243,7 @@ def thrown():
 
 @pytest.mark.parametrize("fast", [3.0, 8.0, 20.0])
 @pytest.mark.parametrize("push", [0.0, -20.0])
-def test_no_step_begins_on_something_stiff(thrown, push: float, fast: float) -> None:
+def test_no_step_begins_on_something_stiff(thrown, push, fast):
     """In free motion all eigenvalues are zero; contact begins at a stage of a step."""
     step, refusals = 1e-3, 0
     model = System(thrown, {"stop_rate": 2.0 * (fast / step) ** 2})
@@ -262,14 +262,14 @@ def test_no_step_begins_on_something_stiff(thrown, push: float, fast: float) -> 
     assert refusals >= 5
 
 
-def test_the_jacobian_is_evaluated_where_it_is_needed() -> None:
+def test_the_jacobian_is_evaluated_where_it_is_needed():
     """At one step in 128 of a slow motion, at nearly all steps near the limit."""
     assert run(1e-3).njev <= 10
     step = 0.9 * 2.61 / fastest(damped(1e5), np.array(START))
     assert run(step, model=damped(1e5), span=(0.0, 100 * step)).njev > 90
 
 
-def test_a_stepper_that_is_elsewhere_is_checked_there() -> None:
+def test_a_stepper_that_is_elsewhere_is_checked_there():
     """A state that a caller changes between steps has a Jacobian of its own."""
     model, start = with_friction(600.0, 1e-3)
     stepper = Stepper(model, 1e-3, start)
@@ -280,7 +280,7 @@ def test_a_stepper_that_is_elsewhere_is_checked_there() -> None:
 
 
 @pytest.mark.parametrize("method", ["RK4", "RODASP"])
-def test_dead_points_are_those_of_other_methods(method: str) -> None:
+def test_dead_points_are_those_of_other_methods(method):
     inputs = {"strut_force": -1e6}
     ended = []
     for options in ({"method": method, "step": 1e-4}, {"method": "DOP853", "rtol": 1e-10}):
@@ -291,13 +291,13 @@ def test_dead_points_are_those_of_other_methods(method: str) -> None:
     assert ended[0] == pytest.approx(ended[1], rel=1e-3)
 
 
-def test_the_way_back_leads_to_the_start() -> None:
+def test_the_way_back_leads_to_the_start():
     there = run(1e-3, span=(0.0, 0.2))
     back = run(1e-3, span=(0.2, 0.0), start=there.y[:, -1])
     np.testing.assert_allclose(back.y[:, -1], START, rtol=0.0, atol=1e-5)
 
 
-def test_a_model_that_is_at_rest_goes_on() -> None:
+def test_a_model_that_is_at_rest_goes_on():
     model = System(import_module("kintrafo.generated.slider_crank"))
     assert run(1e-3, model=model, start=model.design_state).success
 
@@ -319,7 +319,7 @@ WRONG = [
 
 
 @pytest.mark.parametrize("wrong", WRONG)
-def test_what_cannot_be_used(wrong, refused) -> None:
+def test_what_cannot_be_used(wrong, refused):
     refused(
         InputError, lambda: simulate(MODEL, SPAN, START, **{"method": "RK4", "step": 1e-3} | wrong)
     )

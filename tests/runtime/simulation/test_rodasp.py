@@ -28,7 +28,7 @@ from support.folders import ROOT
 from support.models import needs_gcc, own
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
 pytestmark = pytest.mark.skipif(not native_available(), reason="nothing is integrated in C")
 
@@ -121,7 +121,7 @@ def weights(part: Fraction) -> list[Fraction]:
 @pytest.mark.parametrize(
     ("part", "order"), [(Fraction(1), 4), (Fraction(1, 3), 3), (Fraction(7, 8), 3)]
 )
-def test_the_order_conditions_hold(part: Fraction, order: int) -> None:
+def test_the_order_conditions_hold(part, order):
     """Of order 4 at the end of a step, of 3 within it."""
     for of, product, value in TREES:
         if of <= order:
@@ -129,13 +129,13 @@ def test_the_order_conditions_hold(part: Fraction, order: int) -> None:
             assert abs(found - value * part**of) < ROUNDED, (of, float(found))
 
 
-def test_nodes_and_terms_by_time_are_sums_of_rows() -> None:
+def test_nodes_and_terms_by_time_are_sums_of_rows():
     for written, sums in ((numbers("NODES")[0], NODE), (numbers("BY_TIME")[0], by(GAMMAS, ONES))):
         assert max(abs(a - b) for a, b in zip(written, sums, strict=True)) < ROUNDED
     assert all(GAMMAS[i][i] == GAMMA for i in range(STAGES))
 
 
-def test_it_is_l_stable_and_stiffly_accurate() -> None:
+def test_it_is_l_stable_and_stiffly_accurate():
     """R = P / (1 - gamma z)^6 has a P of degree 5, and |R| <= 1 along the imaginary axis."""
     end = weights(Fraction(1))
     assert max(abs(b - beta) for b, beta in zip(end, BETA[-1], strict=True)) < ROUNDED
@@ -163,7 +163,7 @@ def test_it_is_l_stable_and_stiffly_accurate() -> None:
 
 
 @pytest.mark.parametrize("road", [None, lambda t: 0.01 * np.sin(10.0 * np.pi * t)])
-def test_it_is_of_fourth_order(road: Callable[[float], float] | None) -> None:
+def test_it_is_of_fourth_order(road):
     """At ends of steps and within them; inputs that move cost two evaluations more."""
     inputs = {} if road is None else {"road_height": road}
     truth = simulate(
@@ -188,7 +188,7 @@ def test_it_is_of_fourth_order(road: Callable[[float], float] | None) -> None:
     assert found[0].order == 4
 
 
-def test_it_is_of_fourth_order_backward_from_kinks() -> None:
+def test_it_is_of_fourth_order_backward_from_kinks():
     """The rate of an input at a kink is that on the side of the step."""
     times = np.linspace(0.0, 0.2, 5)
     road = kintrafo.Samples(times, np.array([0.0, 0.01, -0.005, 0.008, 0.0]), "linear")
@@ -200,7 +200,7 @@ def test_it_is_of_fourth_order_backward_from_kinks() -> None:
     assert errors[0] / errors[1] > 11.0, errors
 
 
-def test_events_are_found_by_the_polynomial() -> None:
+def test_events_are_found_by_the_polynomial():
     level = kintrafo.SignalEvent("wheel_center_z", 0.3)
     found = run(events=level, dense_output=True)
     heights = MODEL.signals(found.sol(found.t_events[0]).T)["wheel_center_z"]
@@ -208,7 +208,7 @@ def test_events_are_found_by_the_polynomial() -> None:
     np.testing.assert_allclose(heights, 0.3, rtol=0.0, atol=1e-13)
 
 
-def test_steps_of_a_stepper_have_the_same_bits() -> None:
+def test_steps_of_a_stepper_have_the_same_bits():
     stepper = kintrafo.Stepper(MODEL, 1e-3, START, method="RODASP")
     states = [stepper.step().copy() for _ in range(200)]
     still = {"rack_position": ([0.0, 0.2], [0.0, 0.0])}  # equations for a rack that may move
@@ -261,12 +261,12 @@ FOLLOWING = g.Formulation(
 
 
 @pytest.fixture(scope="module")
-def following() -> Any:
+def following():
     return own(FOLLOWING)
 
 
 @needs_gcc
-def test_no_order_is_lost_on_what_is_stiff(following: Any) -> None:
+def test_no_order_is_lost_on_what_is_stiff(following):
     """Prothero and Robinson: u' = (sin t + lag cos t - u) / lag has u = sin t for any lag."""
     errors = {}
     for lag in (1.0, 1e-2, 1e-4, 1e-7):
@@ -287,7 +287,7 @@ def test_no_order_is_lost_on_what_is_stiff(following: Any) -> None:
         assert all(a > b for a, b in zip(longer, shorter, strict=True)), errors
 
 
-def test_a_stiff_strut_is_integrated_where_runge_kutta_is_not() -> None:
+def test_a_stiff_strut_is_integrated_where_runge_kutta_is_not():
     """A damper of 200 times the rate: 1 ms is three times too long, and the motion that of BDF."""
     model, start = System(MODEL.equations, MODEL.parameters | {"damper_rate": 3e5}), np.array(START)
     with pytest.raises(SimulationError, match="RODASP and BDF are for stiff equations"):
@@ -306,7 +306,7 @@ def test_a_stiff_strut_is_integrated_where_runge_kutta_is_not() -> None:
     np.testing.assert_allclose(moved[5:], moved[-1], rtol=1e-3, atol=0.0)
 
 
-def test_friction_is_passed_over_in_no_step() -> None:
+def test_friction_is_passed_over_in_no_step():
     """Friction that sticks: right by steps that see it, refused by those that jump over it."""
     found = {}
     for velocity in (1e-3, 1e-5):
@@ -325,7 +325,7 @@ def test_friction_is_passed_over_in_no_step() -> None:
 
 
 @needs_gcc
-def test_a_step_without_a_solution_is_refused(following: Any) -> None:
+def test_a_step_without_a_solution_is_refused(following):
     """Back in time what lags grows, here with exactly the rate 1 / (gamma h): no pivot is left."""
     system = System(following, {"lag": 0.125})
     start = system.state(pull=0.1)
@@ -337,13 +337,13 @@ def test_a_step_without_a_solution_is_refused(following: Any) -> None:
 
 
 @pytest.mark.parametrize("wrong", [{"step": None}, {"step": 1e-9}, {"rtol": 1e-6, "max_step": 0.1}])
-def test_what_cannot_be_used(wrong: dict[str, Any], refused: Any) -> None:
+def test_what_cannot_be_used(wrong, refused):
     given = {"method": "RODASP", "step": 1e-3} | wrong
     refused(InputError, lambda: simulate(MODEL, SPAN, START, **given))
 
 
 @pytest.mark.parametrize("method", ["RODASP", "RK4", "BDF"])
-def test_equations_without_a_jacobian_are_refused(method: str, monkeypatch: Any) -> None:
+def test_equations_without_a_jacobian_are_refused(method, monkeypatch):
     monkeypatch.delattr(MODEL.equations, "rhs_jacobian")
     step = {} if method == "BDF" else {"step": 1e-3}
     with pytest.raises(InputError, match="macpherson was derived without derivatives"):

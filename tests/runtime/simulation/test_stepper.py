@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import runpy
 import tracemalloc
-from typing import Any
 
 import kintrafo
 import numpy as np
@@ -25,7 +24,7 @@ def place(name: str) -> int:
     return MODEL.input_names.index(name)
 
 
-def test_steps_have_the_bits_of_simulate() -> None:
+def test_steps_have_the_bits_of_simulate():
     start = kintrafo.state_at_height(MODEL, 0.325, spin_rate=93.0)
     stepper = kintrafo.Stepper(MODEL, STEP, start)
     states = [stepper.step().copy() for _ in range(200)]
@@ -38,7 +37,7 @@ def test_steps_have_the_bits_of_simulate() -> None:
     np.testing.assert_array_equal(stepper.step(), states[0])
 
 
-def test_inputs_that_change_are_jumps_at_the_steps() -> None:
+def test_inputs_that_change_are_jumps_at_the_steps():
     rest = kintrafo.equilibrium(MODEL)
     stepper = kintrafo.Stepper(MODEL, STEP, rest)
     times, forces = [], []
@@ -55,7 +54,7 @@ def test_inputs_that_change_are_jumps_at_the_steps() -> None:
     np.testing.assert_allclose(stepper.state, whole.y[:, -1], rtol=0.0, atol=1e-13)
 
 
-def test_an_input_goes_on_by_its_rate() -> None:
+def test_an_input_goes_on_by_its_rate():
     """The rack accelerates: its place and velocity follow, and the motion is that of the curve."""
     rest = kintrafo.equilibrium(MODEL)
     stepper = kintrafo.Stepper(
@@ -73,7 +72,7 @@ def test_an_input_goes_on_by_its_rate() -> None:
     np.testing.assert_allclose(stepper.state, whole.y[:, -1], rtol=0.0, atol=1e-13)
 
 
-def test_tolerances_within_a_step() -> None:
+def test_tolerances_within_a_step():
     start = kintrafo.state_at_height(MODEL, 0.325)
     stepper = kintrafo.Stepper(MODEL, 0.02, start, method="DormandPrince", rtol=1e-9, atol=1e-12)
     for _ in range(25):
@@ -84,7 +83,7 @@ def test_tolerances_within_a_step() -> None:
     assert signals["wheel_center_z"] == pytest.approx(truth.signals["wheel_center_z"][-1], abs=1e-8)
 
 
-def test_no_step_allocates_memory_in_python() -> None:
+def test_no_step_allocates_memory_in_python():
     stepper = kintrafo.Stepper(MODEL, STEP, kintrafo.equilibrium(MODEL))
     stepper.step()
     tracemalloc.start()
@@ -105,9 +104,7 @@ def test_no_step_allocates_memory_in_python() -> None:
         ({"strut_force": -2e5}, kintrafo.SimulationError),
     ],
 )
-def test_a_step_that_cannot_be_taken_changes_nothing(
-    changed: dict[str, float], error: type[Exception], refused: Any
-) -> None:
+def test_a_step_that_cannot_be_taken_changes_nothing(changed, error, refused):
     stepper = kintrafo.Stepper(MODEL, STEP, kintrafo.equilibrium(MODEL))
     for name, value in changed.items():
         stepper.inputs[place(name)] = value
@@ -117,7 +114,7 @@ def test_a_step_that_cannot_be_taken_changes_nothing(
     assert stepper.time == (len(states) - 1) * STEP
 
 
-def test_a_step_that_is_not_stable_names_one_that_is() -> None:
+def test_a_step_that_is_not_stable_names_one_that_is():
     stepper = kintrafo.Stepper(MODEL, 0.1, kintrafo.equilibrium(MODEL))
     with pytest.raises(kintrafo.SimulationError, match=r"not stable: .* steps of 0\.0"):
         stepper.step()
@@ -138,11 +135,11 @@ def test_a_step_that_is_not_stable_names_one_that_is() -> None:
         {"step": STEP, "t0": np.inf},
     ],
 )
-def test_what_cannot_be_stepped_is_refused(arguments: dict[str, Any], refused: Any) -> None:
+def test_what_cannot_be_stepped_is_refused(arguments, refused):
     refused(kintrafo.InputError, lambda: kintrafo.Stepper(MODEL, **arguments))
 
 
-def test_what_is_assigned_is_copied() -> None:
+def test_what_is_assigned_is_copied():
     """A controller that assigns its inputs is obeyed, as one that writes into the array."""
     rest = kintrafo.equilibrium(MODEL)
     written, assigned, handed = (kintrafo.Stepper(MODEL, STEP, rest) for _ in range(3))
@@ -176,7 +173,7 @@ def test_what_is_assigned_is_copied() -> None:
         ([1j] * 5, "numbers are needed"),
     ],
 )
-def test_inputs_of_a_step_are_as_many_as_the_model_has(inputs: Any, words: str) -> None:
+def test_inputs_of_a_step_are_as_many_as_the_model_has(inputs, words):
     """One number would be the place of the rack, and every other input."""
     stepper = kintrafo.Stepper(MODEL, STEP, kintrafo.equilibrium(MODEL))
     before = stepper.inputs.copy()
@@ -188,7 +185,7 @@ def test_inputs_of_a_step_are_as_many_as_the_model_has(inputs: Any, words: str) 
     assert stepper.time == 0.0
 
 
-def test_any_mechanism_is_stepped() -> None:
+def test_any_mechanism_is_stepped():
     system = kintrafo.System(four_bar)
     start = system.state(crank_angle_rate=5.0)
     stepper = kintrafo.Stepper(system, STEP, start)
@@ -199,7 +196,7 @@ def test_any_mechanism_is_stepped() -> None:
 
 
 @pytest.mark.filterwarnings("ignore:.*WARN")  # no bounds, and nothing to render
-def test_the_learning_environment_keeps_the_rules_of_gymnasium() -> None:
+def test_the_learning_environment_keeps_the_rules_of_gymnasium():
     checker = pytest.importorskip("gymnasium.utils.env_checker")
     module = runpy.run_path(str(EXAMPLE))
     environment = module["ActiveDamping"]()

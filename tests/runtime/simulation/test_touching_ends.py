@@ -79,7 +79,7 @@ def time_of_meeting() -> float:
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_a_motion_ends_where_the_ends_meet(method: str) -> None:
+def test_a_motion_ends_where_the_ends_meet(method):
     with pytest.raises(SimulationError, match="the ends of spring coincide") as caught:
         simulate(system(), (0.0, END), [START, SPEED], method=method, **options(method))
     # ends have met where they are a 100,000th of their extent, 0.4 m, apart: at 22 m/s, 2e-7 s
@@ -96,7 +96,7 @@ def followed_closely() -> np.ndarray:
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_a_motion_that_passes_beside_goes_on(method: str) -> None:
+def test_a_motion_that_passes_beside_goes_on(method):
     """The force turns round over some 0.02 rad, within a fifth of a millisecond."""
     arm = system(0.003)
     found = simulate(arm, (0.0, END), [START, SPEED], method=method, **options(method))
@@ -105,7 +105,7 @@ def test_a_motion_that_passes_beside_goes_on(method: str) -> None:
     assert found.y[:, -1] == pytest.approx(followed_closely(), abs=1e-4)
 
 
-def test_an_ensemble_ends_like_each_of_its_systems() -> None:
+def test_an_ensemble_ends_like_each_of_its_systems():
     masses = np.linspace(0.9, 1.1, 9)
     found = ensemble(system(), {"arm_mass": masses}, (0.0, END), [START, SPEED])
     assert not found.success.values.any()
@@ -118,7 +118,7 @@ def test_an_ensemble_ends_like_each_of_its_systems() -> None:
         np.testing.assert_array_equal(beside.final_state.values[2], alone.y[:, -1])
 
 
-def test_all_but_pivots_is_watched() -> None:
+def test_all_but_pivots_is_watched():
     """Divisors of positions and forces are checked, for example of a wheel that lies flat."""
     from kintrafo.generated import macpherson_free_rack
 

@@ -19,7 +19,6 @@ from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.systems.compile.loader import forget
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from types import ModuleType
 
 pytestmark = pytest.mark.skipif(find_compiler() is None, reason="no compiler")
@@ -27,7 +26,7 @@ NAME, STRUCTURE = "four_bar", "four bars"
 
 
 @pytest.fixture
-def archive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+def archive(tmp_path, monkeypatch):
     """Return the only archive, that of a four-bar linkage, beside an empty cache."""
     path = packed.pack(kintrafo.compile(FOUR_BAR), STRUCTURE, tmp_path)
     monkeypatch.setattr(packed, "files", lambda _: tmp_path)
@@ -46,7 +45,7 @@ def folder_of(equations: ModuleType | None) -> Path:
     return Path(str(equations.__file__)).parent
 
 
-def test_it_is_what_was_compiled(archive: Path) -> None:
+def test_it_is_what_was_compiled(archive):
     equations = found()
     assert equations is not None
     assert folder_of(equations).parent == archive.parent / "cache"
@@ -55,9 +54,7 @@ def test_it_is_what_was_compiled(archive: Path) -> None:
     derived_again(equations)  # exports derive the equations from the declaration
 
 
-def test_a_changed_structure_or_source_has_no_archive(
-    archive: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_changed_structure_or_source_has_no_archive(archive, monkeypatch):
     assert found("four bars, one of them longer") is None
     assert packed_mechanism("five_bar", STRUCTURE, lambda: model_of(FOUR_BAR)) is None
     monkeypatch.setattr(packed, "sources_hash", lambda: "that of an edited file")
@@ -65,7 +62,7 @@ def test_a_changed_structure_or_source_has_no_archive(
     assert not (archive.parent / "cache").exists()
 
 
-def test_a_damaged_file_in_the_cache_is_unpacked_again(archive: Path) -> None:
+def test_a_damaged_file_in_the_cache_is_unpacked_again(archive):
     equations = found()
     assert equations is not None
     folder = archive.parent / "cache" / folder_of(equations).name
@@ -77,7 +74,7 @@ def test_a_damaged_file_in_the_cache_is_unpacked_again(archive: Path) -> None:
     assert (folder / "four_bar.json").stat().st_size > 1000
 
 
-def test_archives_of_several_versions_share_a_cache(archive: Path) -> None:
+def test_archives_of_several_versions_share_a_cache(archive):
     """Files without influence on the key, such as options of the compiler, may differ."""
     first = folder_of(found())
     rewritten(archive, {"another_version.c": b"int another_version;"})
@@ -86,7 +83,7 @@ def test_archives_of_several_versions_share_a_cache(archive: Path) -> None:
     assert (second / "another_version.c").exists()
 
 
-def test_a_cut_archive_is_refused(archive: Path) -> None:
+def test_a_cut_archive_is_refused(archive):
     archive.write_bytes(archive.read_bytes()[:2000])
     with pytest.raises(kintrafo.InputError, match=r"(?s)four_bar-\w+\.zip.* Install kintrafo"):
         found()
@@ -94,7 +91,7 @@ def test_a_cut_archive_is_refused(archive: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["../outside.py", "folder/inside.py", "/outside.py", ".."])
-def test_files_of_other_folders_are_refused(archive: Path, name: str) -> None:
+def test_files_of_other_folders_are_refused(archive, name):
     rewritten(archive, {name: b""})
     with pytest.raises(kintrafo.InputError, match="another folder"):
         found()
@@ -108,9 +105,7 @@ def rewritten(archive: Path, more: dict[str, bytes]) -> None:
             opened.writestr(name, content)
 
 
-def test_python_without_its_module_for_archives_has_none(
-    archive: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_python_without_its_module_for_archives_has_none(archive, monkeypatch):
     monkeypatch.setattr(packed, "find_spec", lambda _: None)
     assert archive.is_file()
     assert found() is None

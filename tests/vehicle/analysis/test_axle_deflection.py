@@ -42,7 +42,7 @@ def without_bar(car: Suspension) -> Axle:
 # -- the anti-roll bar --------------------------------------------------------------------------
 
 
-def test_derivatives_of_the_twist_are_those_along_screws() -> None:
+def test_derivatives_of_the_twist_are_those_along_screws():
     """Slopes against differences, and the whole second-order polynomial against values."""
     rng = np.random.default_rng(5)
     left, right = (axle_of(WISHBONES).halves[side] for side in SIDES)
@@ -173,7 +173,7 @@ class Whole:
 
 
 @pytest.mark.parametrize("car", [STRUT, WISHBONES], ids=lambda car: car.suspension)
-def test_nothing_is_left_of_the_potential(car: Suspension) -> None:
+def test_nothing_is_left_of_the_potential(car):
     """Slopes of the energy of both sides, the bar and the rack are what the joints carry.
 
     As `test_deflection` has it for one side: to 1e-2 N of some thousand.
@@ -206,7 +206,7 @@ def test_nothing_is_left_of_the_potential(car: Suspension) -> None:
 
 
 @pytest.mark.parametrize("held", ["height", "tyre", "spring", "locked"])
-def test_wheels_that_share_nothing_are_those_of_one_side(held: Any) -> None:
+def test_wheels_that_share_nothing_are_those_of_one_side(held):
     """No bar, a rigid rack: each side by itself, its image among them, to rounding."""
     parts = 0.4, -1.0
     for under in ("lateral", "braking"):
@@ -235,7 +235,7 @@ def test_wheels_that_share_nothing_are_those_of_one_side(held: Any) -> None:
 
 
 @pytest.mark.parametrize("car", [WISHBONES, TRAILING], ids=lambda car: car.suspension)
-def test_curves_of_wheels_that_share_nothing_are_those_of_one_side(car: Suspension) -> None:
+def test_curves_of_wheels_that_share_nothing_are_those_of_one_side(car):
     travels = np.array([-0.04, 0.0, 0.03])
     both = flat(compliance.elastokinematics(without_bar(car), BUSHES_OF[car], "left", travels))
     alone = flat(compliance.elastokinematics(Model(car), BUSHES_OF[car], along=travels))
@@ -247,7 +247,7 @@ def test_curves_of_wheels_that_share_nothing_are_those_of_one_side(car: Suspensi
         np.testing.assert_allclose(both[f"{name}_left"], alone[name], rtol=1e-7)
 
 
-def test_rates_are_slopes_of_the_loads() -> None:
+def test_rates_are_slopes_of_the_loads():
     """Wheel rates and the stiffness in roll against differences of what both wheels carry."""
     # the stop begins at design, where rates would jump
     car = WISHBONES.with_changes({"bump_stop": None})
@@ -306,12 +306,12 @@ def _contact(corner: Any) -> np.ndarray:
         {"bushings": None},
     ],
 )
-def test_what_cannot_be_is_refused(given: dict[str, Any], refused: Any) -> None:
+def test_what_cannot_be_is_refused(given, refused):
     usual = {"bushings": RACK, "under": "lateral", "amounts": [100.0]}
     refused(InputError, lambda: compliance.nonlinear(axle_of(STRUT), **usual | given))
 
 
-def test_motions_that_cannot_be_are_refused() -> None:
+def test_motions_that_cannot_be_are_refused():
     for motion, along, words in (
         ("jump", None, "motion"),
         ("steer", None, "not steered"),
@@ -330,9 +330,7 @@ def test_motions_that_cannot_be_are_refused() -> None:
         compliance.elastokinematics(heavy, weak, "roll", np.deg2rad([1.5]), hardpoints="relaxed")
 
 
-def test_loads_that_nothing_holds_are_refused(
-    monkeypatch: pytest.MonkeyPatch, refused: Any
-) -> None:
+def test_loads_that_nothing_holds_are_refused(monkeypatch, refused):
     module = import_module("kintrafo.vehicle.analysis.compliance.under_load")
     monkeypatch.setattr(module, "_LEAST_STEP", 0.3)  # a short search for the greatest one
     weak = {"arm_rear": {"axial_N_per_mm": 1.0, "radial_N_per_mm": 1.0}}
@@ -342,7 +340,7 @@ def test_loads_that_nothing_holds_are_refused(
 # -- tables and messages --------------------------------------------------------------------------
 
 
-def test_tables_have_each_wheel_and_both() -> None:
+def test_tables_have_each_wheel_and_both():
     found = compliance.elastokinematics(axle_of(STRUT), RACK, "roll", [0.0, 0.02])
     chapter = elastokinematics_chapter(found)
     left, right, both = chapter.tables
@@ -369,7 +367,7 @@ def test_tables_have_each_wheel_and_both() -> None:
         ("reference_axle --over roll --at 5", "--at is only for the file of one suspension"),
     ],
 )
-def test_options_that_do_not_go_together_are_refused(kintrafo: Any, line: str, words: str) -> None:
+def test_options_that_do_not_go_together_are_refused(kintrafo, line, words):
     bushes = str(DATA / "studies/bushes.toml")
     file, *options = line.split()
     code, _, err = kintrafo("compliance", file, "--bushes", bushes, "--nonlinear", *options)

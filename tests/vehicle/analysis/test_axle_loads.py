@@ -30,7 +30,7 @@ def of(found: xr.Dataset, part: str, by: str = "", point: str = "") -> xr.Datase
     return found.isel(case=0).isel(load=(rows & found["point"].str.startswith(point)).values)
 
 
-def test_mounts_name_what_they_carry() -> None:
+def test_mounts_name_what_they_carry():
     found = loads.static(AXLE, PUSHED)
     by = dict(zip(found["mount"].values, found["total_by"].values, strict=True))
     assert by["rack_middle"] == "steering, rack"
@@ -38,7 +38,7 @@ def test_mounts_name_what_they_carry() -> None:
 
 
 @pytest.mark.parametrize("axle", [AXLE, BENT], ids=["reference", "bent"])
-def test_links_do_the_work_of_the_bar(axle: Axle) -> None:
+def test_links_do_the_work_of_the_bar(axle):
     """Virtual work: force of a link on the path of its foot, against the energy of the bar."""
     found = loads.static(axle, PUSHED)
     travels = {side: float(found["travel"].sel(wheel=side)[0]) for side in SIDES}
@@ -60,7 +60,7 @@ def test_links_do_the_work_of_the_bar(axle: Axle) -> None:
         assert np.linalg.norm(np.cross(along, force)) < 1e-9 * np.linalg.norm(force)
 
 
-def test_the_steering_holds_both_tie_rods() -> None:
+def test_the_steering_holds_both_tie_rods():
     """The axis of the rack points to the left, and the rods push it across only."""
     found = loads.static(AXLE, PUSHED)
     rods = of(found, "rack", "tie_rod")["force"].values
@@ -68,7 +68,7 @@ def test_the_steering_holds_both_tie_rods() -> None:
     assert float(found["rack_force"][0]) == pytest.approx(-rods[:, 1].sum(), abs=1e-9)
 
 
-def test_a_bar_bends_where_one_wheel_is_held() -> None:
+def test_a_bar_bends_where_one_wheel_is_held():
     """The free wheel goes along with the held one, less than it, and the road holds the other."""
     case = {"one": {"left": {"contact_g": [0.0, 0.0, 1.0]}, "right": {"travel_mm": 30.0}}}
     found = loads.static(AXLE, case)
@@ -78,7 +78,7 @@ def test_a_bar_bends_where_one_wheel_is_held() -> None:
     assert float(found["wheel_load"].sel(wheel="right")[0]) > float(alone["wheel_load"][0]) + 100.0
 
 
-def test_rest_is_that_of_the_whole_axle() -> None:
+def test_rest_is_that_of_the_whole_axle():
     """A bar that is bent at rest lifts one wheel's load: without cases in newtons."""
     if find_compiler() is None:
         pytest.skip("no C compiler")
@@ -92,7 +92,7 @@ def test_rest_is_that_of_the_whole_axle() -> None:
 
 
 @pytest.mark.parametrize("axle", [AXLE, BENT], ids=["reference", "bent"])
-def test_the_axle_rests_in_the_position_of_the_equations(axle: Axle) -> None:
+def test_the_axle_rests_in_the_position_of_the_equations(axle):
     """Forces of the compiled equations of the whole, by the work of vertical ones at the wheels."""
     if find_compiler() is None:
         pytest.skip("no C compiler")
@@ -114,7 +114,7 @@ def test_the_axle_rests_in_the_position_of_the_equations(axle: Axle) -> None:
         np.testing.assert_allclose(left, 0.0, atol=1e-5)
 
 
-def test_a_motion_needs_nothing_else() -> None:
+def test_a_motion_needs_nothing_else():
     """The equations of the whole axle and the balance of its parts agree, bar and all."""
     if find_compiler() is None:
         pytest.skip("no C compiler")
@@ -131,7 +131,7 @@ def test_a_motion_needs_nothing_else() -> None:
     assert float(abs(found["bar_torque"]).max()) > 10.0
 
 
-def test_a_search_that_leads_out_of_reach_ends_no_other_case() -> None:
+def test_a_search_that_leads_out_of_reach_ends_no_other_case():
     """Newton's method may step to where the arm or a drop link does not reach."""
     awkward = {"left": {"contact_g": [0.0, 0.0, 0.2]}, "right": {"contact_g": [0.0, 1.5, 0.5]}}
     still = {"contact_g": [0.0, 0.0, 1.0]}

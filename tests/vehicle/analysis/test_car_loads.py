@@ -57,7 +57,7 @@ def air(motion):
     return force, moment
 
 
-def test_loads_of_the_joints_agree_with_the_equations_of_motion(loads) -> None:
+def test_loads_of_the_joints_agree_with_the_equations_of_motion(loads):
     """Equations in minimal coordinates and the balance of all parts agree."""
     # rounding of differences of velocities, times masses
     assert np.abs(loads["holding_force"]).max() < 1e-5
@@ -66,7 +66,7 @@ def test_loads_of_the_joints_agree_with_the_equations_of_motion(loads) -> None:
     assert {"wheel_front_left", "knuckle_rear_right", "rack"} < {*loads["moving_part"].values}
 
 
-def test_forces_on_the_body_move_it(motion, loads) -> None:
+def test_forces_on_the_body_move_it(motion, loads):
     the_body_is_balanced(motion, loads)
 
 
@@ -92,7 +92,7 @@ def the_body_is_balanced(motion, loads, vertical=UP) -> None:
     np.testing.assert_allclose(about, dp @ tensor + np.cross(p, p @ tensor), atol=1e-4)
 
 
-def test_at_rest_they_are_those_of_the_axle_under_its_load(car) -> None:
+def test_at_rest_they_are_those_of_the_axle_under_its_load(car):
     model = kintrafo.CarModel(car)
     rest = kintrafo.equilibrium(model)
     found = of_car(driving_car("test", car).assembly, np.array([rest]), np.array([rest.inputs]))
@@ -107,7 +107,7 @@ def test_at_rest_they_are_those_of_the_axle_under_its_load(car) -> None:
         assert here == pytest.approx(there, abs=3e-3 * load)
 
 
-def test_forces_over_a_bump_on_a_slope_move_the_body(car) -> None:
+def test_forces_over_a_bump_on_a_slope_move_the_body(car):
     bump = kintrafo.road_profiles.bump(0.03, 0.8, at=1.0, sides="left")
     run = drive(car, "straight", {"duration_s": 0.4}, road=bump, grade=0.05, crossfall=0.1).runs[-1]
     motion = CarInMotion(run.car.assembly, run.states, run.inputs)
@@ -150,7 +150,7 @@ def power_of_wheels(motion):
     return total
 
 
-def test_the_steering_does_the_work_that_is_missing(motion) -> None:
+def test_the_steering_does_the_work_that_is_missing(motion):
     """The rack adds the difference between the rate of the kinetic energy and all other power."""
     model, signals = motion.model, motion.signals
     twists, rates = motion.twists.twists, motion.twists.rates
@@ -193,7 +193,7 @@ def tensor_of(motion, name):
     return group.masses()[part].tensor
 
 
-def test_the_torque_turns_to_the_side_to_which_the_driver_pushes(result) -> None:
+def test_the_torque_turns_to_the_side_to_which_the_driver_pushes(result):
     run = result.runs[-1]
     # a car whose tyres have trail is held in a turn to the left by a torque to the left
     assert float(run.motion["steering_torque"][-1]) > 1.0
@@ -201,7 +201,7 @@ def test_the_torque_turns_to_the_side_to_which_the_driver_pushes(result) -> None
 
 
 @pytest.mark.parametrize("name", ["twist_beam", "rigid_axle"])
-def test_an_axle_without_sides_has_its_parts_in_a_car(name) -> None:
+def test_an_axle_without_sides_has_its_parts_in_a_car(name):
     """Positions of its parts from states by name, and names of its bodies in the car."""
     held = assembly_of(kintrafo.load(name))
     states = held.model.design_state[None] + 0.01
@@ -217,7 +217,7 @@ def test_an_axle_without_sides_has_its_parts_in_a_car(name) -> None:
     assert {f"rear_{mass.body}" for mass in found.masses().values()} <= bodies
 
 
-def test_loads_of_a_car_on_a_twist_beam() -> None:
+def test_loads_of_a_car_on_a_twist_beam():
     """The smallest car with one: trailing arms in front, no steering; it turns, rolls and leaps."""
     own = {"vehicle.end": "front", "vehicle.center_of_gravity_height_mm": None}
     arm = kintrafo.load("trailing_arm_car").with_changes(own)
@@ -240,7 +240,7 @@ def test_loads_of_a_car_on_a_twist_beam() -> None:
     the_body_is_balanced(motion, found)
 
 
-def test_peaks_are_the_greatest_of_all_outputs(loads) -> None:
+def test_peaks_are_the_greatest_of_all_outputs(loads):
     found = peaks(loads)
     sizes = np.linalg.norm(loads["force"].transpose("time", "load", "axis").values, axis=-1)
     np.testing.assert_array_equal(found["force_peak"], sizes.max(axis=0))
@@ -249,7 +249,7 @@ def test_peaks_are_the_greatest_of_all_outputs(loads) -> None:
     np.testing.assert_array_equal(found["force"][0], loads["force"].isel(load=0, time=first))
 
 
-def test_a_gradient_of_the_torque_is_its_slope(car) -> None:
+def test_a_gradient_of_the_torque_is_its_slope(car):
     near = [3.9, 4.0, 4.1]
     turns = circle(car, speed=20.0, lateral_acceleration=near).curves[""]
     torque = turns["steering_torque"].values
@@ -259,7 +259,7 @@ def test_a_gradient_of_the_torque_is_its_slope(car) -> None:
     np.testing.assert_allclose(right["steering_torque"], -torque, rtol=1e-6)
 
 
-def test_a_simulation_of_the_equations_has_them_too(car) -> None:
+def test_a_simulation_of_the_equations_has_them_too(car):
     assembly = driving_car("test", car).assembly
     start = assembly.running(15.0)
     found = kintrafo.simulate(assembly.model, (0.0, 0.1), start)
@@ -270,7 +270,7 @@ def test_a_simulation_of_the_equations_has_them_too(car) -> None:
         along(model, found)
 
 
-def test_the_command_writes_them_and_prints_the_greatest(kintrafo, tmp_path) -> None:
+def test_the_command_writes_them_and_prints_the_greatest(kintrafo, tmp_path):
     file = tmp_path / "short.toml"
     file.write_text(
         'manoeuvre = "braking"\nspeed_km_per_h = 20.0\nuntil_km_per_h = 18.0\n'

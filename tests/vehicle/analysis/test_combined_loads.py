@@ -21,7 +21,7 @@ CLOSE = 1e-11
 
 
 @pytest.mark.parametrize("name", SUBJECTS)
-def test_without_a_load_it_is_the_motion_on_bushes(name: str) -> None:
+def test_without_a_load_it_is_the_motion_on_bushes(name):
     subject, bushes = load(name), SUBJECTS[name]
     found = compliance.combined(subject, bushes, "lateral", LOADS, AT).sel(load=0.0)
     alone = compliance.elastokinematics(subject, bushes, along=AT).isel(data_set=-1)
@@ -32,7 +32,7 @@ def test_without_a_load_it_is_the_motion_on_bushes(name: str) -> None:
 
 @pytest.mark.parametrize("held", ["height", "spring"])
 @pytest.mark.parametrize("name", SUBJECTS)
-def test_at_a_travel_it_is_the_load_there(name: str, held: Any) -> None:
+def test_at_a_travel_it_is_the_load_there(name, held):
     subject, bushes = load(name), SUBJECTS[name]
     found = compliance.combined(subject, bushes, "lateral", LOADS, AT, held=held)
     for travel in AT:
@@ -50,7 +50,7 @@ def test_at_a_travel_it_is_the_load_there(name: str, held: Any) -> None:
     assert np.ptp(found["toe"].values, axis=-2).max() > 1e-5
 
 
-def test_what_cannot_be_used_is_refused() -> None:
+def test_what_cannot_be_used_is_refused():
     car = load("reference_car")
     for given, words in (
         ({"under": "sideways"}, "under"),

@@ -4,7 +4,6 @@ import json
 import re
 import tomllib
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -33,9 +32,7 @@ DATA = ROOT / "vehicle/data"
 )
 @pytest.mark.parametrize("some", [False, True])
 @pytest.mark.parametrize("car", [STRUT, WISHBONES, LINKED, TRAILING], ids=lambda car: car.TITLE)
-def test_the_wheel_deflects_as_on_springs(
-    car: Suspension, some: bool, held: Any, travel: float, rack: float
-) -> None:
+def test_the_wheel_deflects_as_on_springs(car, some, held, travel, rack):
     """Forces by statics and least energy against stiffnesses and constraints, two theories."""
     bushes, rack = BUSHES_OF[car], rack if car.steered() else 0.0
     if some:
@@ -59,7 +56,7 @@ def test_the_wheel_deflects_as_on_springs(
 # -- signs and names ------------------------------------------------------------------------------
 
 
-def test_signs_and_units() -> None:
+def test_signs_and_units():
     """A soft rear bush: braking and a lateral force turn the wheel as they turn the arm."""
     model = Model("reference_car")
     found = compliance.linear(model, {"arm_rear": {"radial_N_per_mm": 1000.0}}, [0.0])
@@ -77,7 +74,7 @@ def test_signs_and_units() -> None:
     assert float(at["toe_by_aligning"]) < 0.0 < float(at["displacement_by_braking"])
 
 
-def test_a_rod_deflects_at_either_end() -> None:
+def test_a_rod_deflects_at_either_end():
     model = Model("reference_car")
     inner, outer = (
         compliance.linear(model, {f"tie_rod_{end}": {"axial_N_per_mm": 500.0}}, [0.0])
@@ -86,7 +83,7 @@ def test_a_rod_deflects_at_either_end() -> None:
     np.testing.assert_allclose(inner["flexibility"], outer["flexibility"], rtol=1e-9, atol=1e-18)
 
 
-def test_a_locked_spring_needs_no_rate() -> None:
+def test_a_locked_spring_needs_no_rate():
     car = Suspension.load("reference_car")
     bush = {"arm_rear": {"radial_N_per_mm": np.array([1e3, 2e3])}}
     one, other = (
@@ -96,7 +93,7 @@ def test_a_locked_spring_needs_no_rate() -> None:
     np.testing.assert_allclose(one, other, rtol=1e-9, atol=1e-18)
 
 
-def test_a_bearing_tilts_across_the_spin_axis_whatever_its_axis_is() -> None:
+def test_a_bearing_tilts_across_the_spin_axis_whatever_its_axis_is():
     model = Model(WISHBONES)
     plain, turned = (
         compliance.linear(model, {"wheel_center": {"tilt_Nm_per_deg": 3000.0} | axis}, [0.0])
@@ -131,11 +128,11 @@ WRONG: list[tuple[Any, dict[str, Any], str]] = [
 
 
 @pytest.mark.parametrize(("bushings", "options"), WRONG)
-def test_what_cannot_be_used(bushings: Any, options: dict[str, Any], refused: Any) -> None:
+def test_what_cannot_be_used(bushings, options, refused):
     refused(InputError, lambda: compliance.linear(Model("reference_car"), bushings, **options))
 
 
-def test_without_a_spring_nothing_holds_the_wheel() -> None:
+def test_without_a_spring_nothing_holds_the_wheel():
     loose = Suspension.load("reference_car").with_changes({"strut.spring_rate_N_per_m": 0.0})
     with pytest.raises(InputError, match="nothing holds it"):
         compliance.linear(Model(loose), {"arm_rear": {"radial_N_per_mm": 1e3}}, [0.0])
@@ -150,7 +147,7 @@ BUSH: dict[str, Any] = {"arm_rear": {"axial_N_per_mm": 500.0, "radial_N_per_mm":
 RODS = {"panhard_rod_chassis": {"axial_N_per_mm": 5000.0}}
 
 
-def test_a_contact_patch_moves_as_wheel_and_tyre_in_series() -> None:
+def test_a_contact_patch_moves_as_wheel_and_tyre_in_series():
     """Each by what it carries: the wheel's linkage, and the tyre's rate along the force."""
     rigid = compliance.linear(Model("reference_car"), BUSH, [0.0])
     found = compliance.linear(Model(SOFT_CAR), BUSH, [0.0])
@@ -175,7 +172,7 @@ def test_a_contact_patch_moves_as_wheel_and_tyre_in_series() -> None:
         (RigidAxle.load("rigid_axle").with_changes(ON_TYRES), RODS),
     ],
 )
-def test_contact_patches_of_both_wheels_go_with_their_own_loads(axle: Any, bushes: Any) -> None:
+def test_contact_patches_of_both_wheels_go_with_their_own_loads(axle, bushes):
     """A force to the left is inward on the right wheel and outward on the left one."""
     found = flat(compliance.linear(axle, bushes, [0.0]))
     for how, inward in (("parallel", (-1.0, 1.0)), ("opposed", (1.0, 1.0))):
@@ -189,7 +186,7 @@ def test_contact_patches_of_both_wheels_go_with_their_own_loads(axle: Any, bushe
         np.testing.assert_allclose(give, 2000.0 * part / LATERAL, rtol=1e-9)
 
 
-def test_a_tyre_without_rate_holds_no_wheel() -> None:
+def test_a_tyre_without_rate_holds_no_wheel():
     free = {"tyre.rate_N_per_m": 0.0}
     car = Suspension.load("reference_car").with_changes(free)
     rigid = RigidAxle.load("rigid_axle").with_changes(free)
@@ -213,7 +210,7 @@ OF_THE_FILE: dict[str, Any] = {
 WITH_BUSHES = Suspension.load("reference_car").with_changes({"bushings": OF_THE_FILE})
 
 
-def test_bushes_of_the_file_are_those_that_are_given() -> None:
+def test_bushes_of_the_file_are_those_that_are_given():
     plain, soft = Model("reference_car"), Model(WITH_BUSHES)
     assert compliance.linear(soft, None, [0.0]).equals(compliance.linear(plain, OF_THE_FILE, [0.0]))
     other = {"arm_rear": {"axial_N_per_mm": 100.0}}
@@ -230,7 +227,7 @@ def test_bushes_of_the_file_are_those_that_are_given() -> None:
         compliance.linear(plain)
 
 
-def test_bushes_are_written_and_mirrored(tmp_path: Path) -> None:
+def test_bushes_are_written_and_mirrored(tmp_path):
     path = write_toml(WITH_BUSHES, tmp_path / "soft.toml")
     assert Suspension.load(path) == WITH_BUSHES
     image = WITH_BUSHES.mirrored()
@@ -247,7 +244,7 @@ def test_bushes_are_written_and_mirrored(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_a_new_file_shows_how_bushes_are_written(kind: str) -> None:
+def test_a_new_file_shows_how_bushes_are_written(kind):
     """The lines that are comments there are an input file without their signs."""
     text = (DATA / f"{KINDS[kind].STARTER}.toml").read_text(encoding="utf-8")
     (lines,) = re.findall(r"(# \[bushings\..*?)\n\n", text, flags=re.DOTALL)
@@ -256,7 +253,7 @@ def test_a_new_file_shows_how_bushes_are_written(kind: str) -> None:
     assert abs(float(compliance.linear(Model(soft), None, [0.0])["camber_by_lateral"][0])) > 0.0
 
 
-def test_each_side_of_an_axle_has_its_own_bushes() -> None:
+def test_each_side_of_an_axle_has_its_own_bushes():
     other = WITH_BUSHES.mirrored().with_changes({"bushings.arm_rear.axial_N_per_mm": 5000.0})
     even = Axle.from_dict({"axle": "front", "side": WITH_BUSHES})
     odd = Axle.from_dict({"axle": "front", "right": WITH_BUSHES, "left": other})
@@ -283,13 +280,13 @@ def test_each_side_of_an_axle_has_its_own_bushes() -> None:
         {"rack": {}},
     ],
 )
-def test_bushes_of_the_file_that_are_none(bushings: Any, refused: Any) -> None:
+def test_bushes_of_the_file_that_are_none(bushings, refused):
     refused(
         InputError, lambda: Suspension.load("reference_car").with_changes({"bushings": bushings})
     )
 
 
-def test_commands_take_bushes_from_the_file(kintrafo: Any, tmp_path: Path) -> None:
+def test_commands_take_bushes_from_the_file(kintrafo, tmp_path):
     write_toml(WITH_BUSHES, tmp_path / "soft.toml")
     text = "[bushings.arm_rear]\naxial_N_per_mm = 400.0\n"
     (tmp_path / "b.toml").write_text(text, encoding="utf-8")
@@ -306,7 +303,7 @@ def test_commands_take_bushes_from_the_file(kintrafo: Any, tmp_path: Path) -> No
     assert "hardpoint file has none" in " ".join(err.split())
 
 
-def test_the_report_shows_the_bushes_of_the_file() -> None:
+def test_the_report_shows_the_bushes_of_the_file():
     """Each as a section of the input data, and what it does as a chapter of its own."""
     tables = {table.name: table.rows for table in input_tables(WITH_BUSHES)}
     assert tables["bushings.arm_rear"][1][:2] == ("radial_N_per_mm", "2000, 900")

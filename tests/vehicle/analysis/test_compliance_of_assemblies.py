@@ -72,9 +72,7 @@ HELD = [
 
 
 @pytest.mark.parametrize(("of", "bushes", "options", "held"), HELD)
-def test_small_loads_are_those_of_the_unit_load_theorem(
-    of: Any, bushes: Any, options: dict[str, Any], held: Any
-) -> None:
+def test_small_loads_are_those_of_the_unit_load_theorem(of, bushes, options, held):
     """Without a static load both differ by a part in proportion to the load."""
     off, sizes = [], np.array([20.0, 2.0])
     for under in UNDER:
@@ -121,7 +119,7 @@ each_loaded = pytest.mark.parametrize(("of", "bushes"), LOADED.values(), ids=LOA
 
 
 @each_loaded
-def test_loaded_bushes_leave_the_design_as_it_is(of: Any, bushes: Any) -> None:
+def test_loaded_bushes_leave_the_design_as_it_is(of, bushes):
     found = compliance.elastokinematics(of, bushes, along=[0.0, 0.03])
     at_design = found.isel({dim: 0 for dim in found.dims if dim not in ("data_set", "wheel")})
     for name in ("toe", "camber", "half_track_change", "wheelbase_change"):
@@ -139,9 +137,7 @@ def test_loaded_bushes_leave_the_design_as_it_is(of: Any, bushes: Any) -> None:
 
 
 @each_loaded
-def test_many_positions_are_looked_at_in_parts(
-    of: Any, bushes: Any, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_many_positions_are_looked_at_in_parts(of, bushes, monkeypatch):
     """The bearing that holds an arm along its axis does not depend on the positions either."""
     places = np.linspace(-0.05, 0.05, 7)
     whole = compliance.elastokinematics(of, bushes, along=places)
@@ -156,7 +152,7 @@ def test_many_positions_are_looked_at_in_parts(
 
 @pytest.mark.parametrize("hardpoints", ["loaded", "relaxed"])
 @each_loaded
-def test_other_positions_change_nothing(of: Any, bushes: Any, hardpoints: Any) -> None:
+def test_other_positions_change_nothing(of, bushes, hardpoints):
     """Axes across the spin axis are chosen anew where toe and camber change their sizes."""
     places = np.array([-0.04, -0.02, 0.0, 0.02])
     whole = compliance.elastokinematics(of, bushes, along=places, hardpoints=hardpoints)

@@ -2,7 +2,6 @@
 
 import re
 import tomllib
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -66,7 +65,7 @@ def random_measures(rng: np.random.Generator) -> list[Any]:
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_derivatives_are_those_along_screws(seed: int) -> None:
+def test_derivatives_are_those_along_screws(seed):
     """Slopes against differences, and the whole second-order polynomial against values."""
     rng = np.random.default_rng(seed)
     turned = Rotation.random(3, rng=rng).as_matrix()[None]
@@ -115,9 +114,7 @@ def pushed(
 @pytest.mark.parametrize(
     ("travel", "force"), [(0.03, [-4000.0, 0.0, 0.0]), (-0.03, [1000.0, -5000.0, 300.0])]
 )
-def test_nothing_is_left_of_the_potential(
-    car: Suspension, like: Suspension, travel: float, force: list[float]
-) -> None:
+def test_nothing_is_left_of_the_potential(car, like, travel, force):
     """Joints hold, and what is left of the potential's slopes is what they can carry.
 
     Differences over 1e-6 are off by 1e-16 of 100 J by that, 1e-8 N, and by 1e-12 of third ones;
@@ -153,7 +150,7 @@ def test_nothing_is_left_of_the_potential(
 
 
 @pytest.mark.parametrize("travel", [-0.06, 0.0, 0.05])
-def test_torsion_of_the_arm_adds_to_the_wheel_rate(travel: float) -> None:
+def test_torsion_of_the_arm_adds_to_the_wheel_rate(travel):
     """A bush that only resists torsion leaves the joints where they are: virtual work."""
     model = Model("reference_car")
     stiffness = {"arm_front": {"torsion_Nm_per_deg": 2.0}, "arm_rear": {"torsion_Nm_per_deg": 3.0}}
@@ -176,7 +173,7 @@ def test_torsion_of_the_arm_adds_to_the_wheel_rate(travel: float) -> None:
 
 
 @pytest.mark.parametrize("hardpoints", ["loaded", "relaxed"])
-def test_a_radial_curve_is_the_same_to_all_sides(hardpoints: Any) -> None:
+def test_a_radial_curve_is_the_same_to_all_sides(hardpoints):
     model = Model("reference_car")
     curve = {"mm": [0.0, 1.0, 3.0], "N": [0.0, 1200.0, 9000.0]}
     found = [
@@ -195,7 +192,7 @@ def test_a_radial_curve_is_the_same_to_all_sides(hardpoints: Any) -> None:
         )
 
 
-def test_a_curve_goes_on_as_its_last_points_rise() -> None:
+def test_a_curve_goes_on_as_its_last_points_rise():
     """A monotone cubic would end with a zero slope, and carry no further force."""
     places, forces = 1e-3 * np.arange(-2.0, 2.5), np.array([-9, -8, 0.0, 8, 9.0])
     curve = Curve(places, forces, "cubic", as_secants=True)
@@ -210,7 +207,7 @@ def test_a_curve_goes_on_as_its_last_points_rise() -> None:
     np.testing.assert_allclose(*found["toe"].values, rtol=0.0, atol=1e-9)
 
 
-def test_a_curve_of_straight_lines() -> None:
+def test_a_curve_of_straight_lines():
     """Between its points, and in what a load does: as the cubic through points on these lines."""
     lines = {"mm": [0.0, 1.0, 4.0], "N": [0.0, 600.0, 9000.0], "interpolation": "linear"}
     places = np.array([0.0, 1.0, 4.0])
@@ -234,14 +231,14 @@ def test_a_curve_of_straight_lines() -> None:
     np.testing.assert_allclose(one, other, rtol=1e-4)
 
 
-def test_torsion_alone_has_no_linear_deflection() -> None:
+def test_torsion_alone_has_no_linear_deflection():
     bushes = {"arm_rear": {"torsion_Nm_per_deg": 2.0}}
     found = compliance.nonlinear(Model("reference_car"), bushes, "braking", [1000.0], held="spring")
     assert found["displacement"][1, 0] == 0.0
     assert abs(found["displacement"][0, 0]) > 1e-6
 
 
-def test_a_curve_is_a_stiffness_where_it_is_straight() -> None:
+def test_a_curve_is_a_stiffness_where_it_is_straight():
     model = Model("reference_car")
     straight = {"arm_rear": {"axial_N_per_mm": 500.0, "radial_N_per_mm": 2000.0}}
     curve = {"mm": [0.0, 5.0], "N": [0.0, 10e3]}
@@ -263,7 +260,7 @@ def test_a_curve_is_a_stiffness_where_it_is_straight() -> None:
 
 
 @pytest.mark.parametrize("name", ["push_rod_car", "pull_rod_car", "offset_strut_car"])
-def test_other_kinds_deflect_nearly_linearly(name: str) -> None:
+def test_other_kinds_deflect_nearly_linearly(name):
     model = Model(name)
     point = "arm_rear" if name == "offset_strut_car" else "lower_arm_rear"
     bushes = {point: {"axial_N_per_mm": 400.0, "radial_N_per_mm": 3000.0}}
@@ -276,7 +273,7 @@ def test_other_kinds_deflect_nearly_linearly(name: str) -> None:
 
 
 @pytest.mark.parametrize("side", ["right", "left"])
-def test_no_load_presses_a_damper_in_farther_than_it_goes(side: str) -> None:
+def test_no_load_presses_a_damper_in_farther_than_it_goes(side):
     """By hand: a brake lifts the contact of a trailing arm as the hinge is high over how far.
 
     The spring takes that over the wheel rate, and the damper its ratio of the travel. Rates and
@@ -292,7 +289,7 @@ def test_no_load_presses_a_damper_in_farther_than_it_goes(side: str) -> None:
     most = 0.005 / ratio * float(design["wheel_rate"][0]) / slope
     stiff = {"arm_inner": {"axial_N_per_mm": 1e6, "radial_N_per_mm": 1e6}}
 
-    def under(amounts: list[float]) -> Any:
+    def under(amounts):
         return compliance.nonlinear(model, stiff, "braking", amounts, held="spring")
 
     assert under([-2.0 * most, 0.93 * most])["displacement"].shape == (2, 2)
@@ -302,7 +299,7 @@ def test_no_load_presses_a_damper_in_farther_than_it_goes(side: str) -> None:
     compliance.nonlinear(model, stiff, "braking", [2.0 * most])
 
 
-def test_what_the_suspension_cannot_do_ends_a_command_with_1(kintrafo: Any, tmp_path: Path) -> None:
+def test_what_the_suspension_cannot_do_ends_a_command_with_1(kintrafo, tmp_path):
     """As the page of the command line says of all that is no mistake in what was given."""
     soft = "[bushings.arm_rear]\naxial_N_per_mm = 1.0\nradial_N_per_mm = 1.0\n"
     (tmp_path / "soft.toml").write_text(soft, encoding="utf-8")
@@ -313,7 +310,7 @@ def test_what_the_suspension_cannot_do_ends_a_command_with_1(kintrafo: Any, tmp_
     assert code == 2
 
 
-def test_what_cannot_be_is_refused(refused: Any) -> None:
+def test_what_cannot_be_is_refused(refused):
     model = Model("reference_car")
     bushes: dict[str, Any] = {"arm_rear": {"axial_N_per_mm": 500.0}}
     with pytest.raises(InputError, match="under"):
@@ -388,7 +385,7 @@ def _given_way(bush: Any, force: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("kind", BEARINGS)
 @pytest.mark.parametrize("on", ["suspension", "axle"])
-def test_two_bearings_share_a_force_as_their_bushes_do(kind: str, on: str) -> None:
+def test_two_bearings_share_a_force_as_their_bushes_do(kind, on):
     """Along their axis the bearings of a rigid arm move alike: there the energy is least."""
     front, rear = BEARINGS[kind]
     names = {"reference_car": ("arm_front", "arm_rear", "control_arm"),
@@ -423,7 +420,7 @@ def test_two_bearings_share_a_force_as_their_bushes_do(kind: str, on: str) -> No
 
 @pytest.mark.parametrize("subject", ["suspension", "axle", "rigid axle"])
 @pytest.mark.parametrize("what", ["bush", "tyre"])
-def test_loads_that_no_rubber_carries_are_refused(subject: str, what: str) -> None:
+def test_loads_that_no_rubber_carries_are_refused(subject, what):
     """They are what a slip of the hand makes, and used to give metres without a word."""
     bushes: dict[str, Any] = {"arm_rear": {"axial_N_per_mm": 400.0, "radial_N_per_mm": 1200.0}}
     tyre = {"tyre.lateral_rate_N_per_m": 55e3} if what == "tyre" else {}
@@ -448,7 +445,7 @@ def test_loads_that_no_rubber_carries_are_refused(subject: str, what: str) -> No
     assert doors[subject](4e3).sizes["load"] == 1
 
 
-def test_wheels_that_lie_in_their_bushes_at_rest_are_refused() -> None:
+def test_wheels_that_lie_in_their_bushes_at_rest_are_refused():
     of, soft = "upper_arm_front", {"axial_N_per_mm": 1.0, "radial_N_per_mm": 1.0}
     bushes = {of: soft | {"axis": [0.0, 0.0, 1.0]}}
     with pytest.raises(PositionError, match=f"without another load the bush at {of} deflects by"):
@@ -471,7 +468,7 @@ def _slope_over_first_order(changes: Any) -> float:
     return float(slopes[0] / slopes[1])
 
 
-def test_what_the_pages_say_of_small_loads_under_a_static_one() -> None:
+def test_what_the_pages_say_of_small_loads_under_a_static_one():
     """Preloaded parts turn, which first order leaves out."""
     small = [-10.0, 10.0]
     car = compliance.nonlinear(

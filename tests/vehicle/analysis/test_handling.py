@@ -54,7 +54,7 @@ def bicycle(car):
 
 
 @pytest.mark.parametrize("speed", [10.0, 20.0, 40.0])
-def test_gradients_are_those_of_the_bicycle_model(car, speed) -> None:
+def test_gradients_are_those_of_the_bicycle_model(car, speed):
     _, b, front, rear = bicycle(car)
     # of small turns: the next term is of the second order in the acceleration
     found = circle(car, speed=speed, lateral_acceleration=[1e-4]).metrics
@@ -70,7 +70,7 @@ def test_gradients_are_those_of_the_bicycle_model(car, speed) -> None:
     assert float(found["steering_wheel_gradient"]) == pytest.approx(ratio * straight, rel=1e-6)
 
 
-def test_a_turn_of_a_car_with_linkages_is_where_its_simulation_ends() -> None:
+def test_a_turn_of_a_car_with_linkages_is_where_its_simulation_ends():
     car = driving_car("test", CarModel(load("driving_car")))
     turns = Turns(car, SteadyCondition("speed", 20.0), -1)
     straight = turns.begin(0.0)
@@ -89,7 +89,7 @@ def test_a_turn_of_a_car_with_linkages_is_where_its_simulation_ends() -> None:
     assert float(last["lateral_acceleration"]) == pytest.approx(-5.0, rel=1e-4)
 
 
-def test_a_turn_fulfils_the_balance_of_forces(car) -> None:
+def test_a_turn_fulfils_the_balance_of_forces(car):
     found = (
         circle(car, radius=60.0, lateral_acceleration=[6.0]).curves[""].isel(lateral_acceleration=0)
     )
@@ -106,7 +106,7 @@ def test_a_turn_fulfils_the_balance_of_forces(car) -> None:
     assert 1.0 / float(found["curvature"]) == pytest.approx(60.0, rel=1e-9)
 
 
-def test_turns_to_both_sides_are_mirror_images_and_end_at_the_friction(car) -> None:
+def test_turns_to_both_sides_are_mirror_images_and_end_at_the_friction(car):
     left, right = (circle(car, speed=25.0, step=2.0, turn=side) for side in ("left", "right"))
     for name in ("steering_wheel_angle", "sideslip_angle", "roll_angle"):
         one, other = (found.curves[""][name].values for found in (left, right))
@@ -118,7 +118,7 @@ def test_turns_to_both_sides_are_mirror_images_and_end_at_the_friction(car) -> N
         run(car, "step_steer", lateral_acceleration_m_per_s2=beyond, speed_km_per_h=90.0)
 
 
-def test_straight_running_by_speed_is_that_of_the_bicycle_model(car) -> None:
+def test_straight_running_by_speed_is_that_of_the_bicycle_model(car):
     found = run(car, "speed_range", from_km_per_h=40.0, to_km_per_h=300.0, step_km_per_h=20.0)
     _, _, front, rear = bicycle(car)
     by_front, by_rear = (
@@ -136,7 +136,7 @@ def test_straight_running_by_speed_is_that_of_the_bicycle_model(car) -> None:
     assert characteristic == pytest.approx(np.sqrt(car.wheelbase / gradient), rel=1e-4)
 
 
-def test_the_critical_speed_is_that_of_the_bicycle_model(car) -> None:
+def test_the_critical_speed_is_that_of_the_bicycle_model(car):
     swapped = {"front": CORNERING["rear"], "rear": CORNERING["front"]}
     changed = {f"{end}_tyre_cornering_stiffness": 0.5 * c for end, c in swapped.items()}
     loose = rail_car.car(**(car.model.parameters | changed))
@@ -152,7 +152,7 @@ def test_the_critical_speed_is_that_of_the_bicycle_model(car) -> None:
     assert growth[-1] > 1e-2
 
 
-def test_slow_harmonic_steering_is_a_steady_turn(car) -> None:
+def test_slow_harmonic_steering_is_a_steady_turn(car):
     turns = Turns(car, SteadyCondition("speed", 20.0), 1)
     straight = turns.begin(0.0)
     found = steering_response(car, straight, np.array([1e-4]))
@@ -166,7 +166,7 @@ def test_slow_harmonic_steering_is_a_steady_turn(car) -> None:
 # -- manoeuvres -----------------------------------------------------------------------------------
 
 
-def test_a_sweep_measures_what_the_linear_equations_have(car) -> None:
+def test_a_sweep_measures_what_the_linear_equations_have(car):
     found = run(car, "sine_sweep", lateral_acceleration_m_per_s2=0.1, duration_s=12.0, settle_s=2.0,
                 highest_Hz=3.0, step_ms=2.0, output_step_ms=4.0)  # fmt: skip
     curves = found.curves["_response"]
@@ -180,7 +180,7 @@ def test_a_sweep_measures_what_the_linear_equations_have(car) -> None:
     assert found.curves[""].attrs["not_valid"] == []
 
 
-def test_a_step_steer_ends_in_its_turn(car) -> None:
+def test_a_step_steer_ends_in_its_turn(car):
     found = run(car, "step_steer", holds_speed=True, turn="right").metrics
     # in the last half second a thousandth of the speed is missing still
     assert float(found["lateral_acceleration_steady"]) == pytest.approx(-4.0, rel=2e-3)
@@ -193,7 +193,7 @@ def test_a_step_steer_ends_in_its_turn(car) -> None:
     assert 0.0 < float(found["yaw_rate_response_time"]) < float(found["yaw_rate_peak_time"]) < 1.0
 
 
-def test_slow_steering_finds_the_angle_of_the_turn(car) -> None:
+def test_slow_steering_finds_the_angle_of_the_turn(car):
     found = run(car, "slowly_increasing_steer").metrics
     turn = circle(car, speed=80 / 3.6, lateral_acceleration=[0.3 * 9.80665]).curves[""]
     # a line through a curve, and 0.05 s of delay at 13.5 deg/s
@@ -201,13 +201,13 @@ def test_slow_steering_finds_the_angle_of_the_turn(car) -> None:
     assert float(found["reference_angle"]) == pytest.approx(angle, rel=0.06)
 
 
-def test_a_driver_passes_between_the_cones(car) -> None:
+def test_a_driver_passes_between_the_cones(car):
     found = run(car, "double_lane_change").metrics
     assert float(found["cones_hit"]) == 0.0
     assert float(found["clearance"]) > 0.0
 
 
-def test_a_driver_does_the_same_again_and_on_the_other_side(car) -> None:
+def test_a_driver_does_the_same_again_and_on_the_other_side(car):
     points = {"x_m": [0.0, 8.0, 16.0, 24.0, 32.0], "step_ms": 2.0, "output_step_ms": 4.0}
     left, again, right = (
         run(car, "path_following", y_m=[0.0, 0.0, side, side, 0.0], **points).curves[""]
@@ -217,7 +217,7 @@ def test_a_driver_does_the_same_again_and_on_the_other_side(car) -> None:
     assert np.allclose(right["y"], -left["y"], atol=1e-6)
 
 
-def test_braking_and_coasting_follow_newton(car) -> None:
+def test_braking_and_coasting_follow_newton(car):
     found = run(car, "braking", deceleration_m_per_s2=5.0, rise_s=0.0).metrics
     torque = 5.0 * car.mass * float(np.mean(car.radii))
     height = np.mean([*rail_car.HEIGHTS.values()])
@@ -227,7 +227,7 @@ def test_braking_and_coasting_follow_newton(car) -> None:
     assert float(found["lateral_deviation"]) < 1e-9
 
 
-def test_braking_in_a_turn_begins_in_the_turn(car) -> None:
+def test_braking_in_a_turn_begins_in_the_turn(car):
     found = run(car, "braking_in_turn", speed_km_per_h=70.0, deceleration_m_per_s2=2.0,
                 until_km_per_h=50.0)  # fmt: skip
     motion = found.curves[""].sel(time=slice(0.0, 0.5))
@@ -237,7 +237,7 @@ def test_braking_in_a_turn_begins_in_the_turn(car) -> None:
     assert np.allclose(speed / motion["yaw_rate"].values, 100.0, rtol=1e-6)
 
 
-def test_sine_with_dwell_judges_every_amplitude(car) -> None:
+def test_sine_with_dwell_judges_every_amplitude(car):
     found = run(car, "sine_with_dwell", reference_deg=20.0, amplitudes_deg=[30.0, 110.0])
     metrics = found.metrics
     assert metrics["yaw_rate_ratio_1_00"].values[0] == pytest.approx(0.0, abs=0.05)
@@ -248,7 +248,7 @@ def test_sine_with_dwell_judges_every_amplitude(car) -> None:
     assert found.curves[""].sizes["amplitude"] == 2
 
 
-def test_a_car_that_overturns_is_named(car) -> None:
+def test_a_car_that_overturns_is_named(car):
     falling = rail_car.car(**(car.model.parameters | {"body_com_z": 1.4}))
     found = run(falling, "step_steer", steering_wheel_deg=300.0,
                 lateral_acceleration_m_per_s2=None, duration_s=8.0)  # fmt: skip
@@ -263,7 +263,7 @@ def test_a_car_that_overturns_is_named(car) -> None:
     steering.sine_with_dwell(0.5, 0.7, 0.5, ease=0.05),
     steering.sine_sweep(0.2, (0.3, 2.0), 5.0, start=0.1, ease=0.1),
 ])  # fmt: skip
-def test_rate_and_acceleration_are_those_of_the_angle(course) -> None:
+def test_rate_and_acceleration_are_those_of_the_angle(course):
     time = np.linspace(-0.1, course.end + 0.2, 40001)
     found = course.at(time)
     step = time[1] - time[0]
@@ -276,7 +276,7 @@ def test_rate_and_acceleration_are_those_of_the_angle(course) -> None:
         assert found.acceleration[at] == 0.0
 
 
-def test_sines_have_their_amplitudes() -> None:
+def test_sines_have_their_amplitudes():
     course = steering.sine_with_dwell(0.5, 0.7, 0.5)
     time = np.linspace(0.0, course.end, 200001)
     angle = course.at(time).angle
@@ -289,7 +289,7 @@ def test_sines_have_their_amplitudes() -> None:
     )
 
 
-def test_a_step_response_of_second_order() -> None:
+def test_a_step_response_of_second_order():
     omega, damping, begun = 6.0, 0.4, 1.0
     time = np.linspace(0.0, 10.0, 10001)
     t = np.maximum(time - begun, 0.0)
@@ -306,7 +306,7 @@ def test_a_step_response_of_second_order() -> None:
     assert np.isnan(responses.first_crossing(time, values, 1.0))
 
 
-def test_a_frequency_response_of_first_order() -> None:
+def test_a_frequency_response_of_first_order():
     time = np.linspace(0.0, 30.0, 30001)
     cause = np.exp(-((time - 5.0) ** 2))
     effect = np.zeros_like(cause)
@@ -319,7 +319,7 @@ def test_a_frequency_response_of_first_order() -> None:
     assert np.allclose(found, 1.0 / (1.0 + 2j * np.pi * frequency), rtol=1e-6)
 
 
-def test_offsets_from_a_circle_are_radii() -> None:
+def test_offsets_from_a_circle_are_radii():
     angle = np.linspace(0.0, 1.5, 40)
     path = Path(50.0 * np.array([np.sin(angle), 1.0 - np.cos(angle)]).T)
     at = np.linspace(0.2, 1.3, 7)
@@ -329,7 +329,7 @@ def test_offsets_from_a_circle_are_radii() -> None:
         assert np.allclose(path.offsets(x, y), 50.0 - radius, atol=1e-5)
 
 
-def test_a_path_keeps_to_the_middle_of_its_lanes() -> None:
+def test_a_path_keeps_to_the_middle_of_its_lanes():
     lanes = [Lane(0.0, 15.0, -1.0, 1.0), Lane(45.0, 70.0, 2.5, 4.9)]
     path = through(lanes, before=10.0, after=5.0)
     for lane in lanes:
@@ -341,7 +341,7 @@ def test_a_path_keeps_to_the_middle_of_its_lanes() -> None:
 @pytest.mark.parametrize(("reference", "last", "count"), [
     (30.0, 270.0, 16), (45.0, 292.5, 11), (50.0, 300.0, 10),
 ])  # fmt: skip
-def test_amplitudes_end_by_the_standard(reference, last, count) -> None:
+def test_amplitudes_end_by_the_standard(reference, last, count):
     found = amplitudes_of(reference)
     assert found[0] == 1.5 * reference
     assert found[-1] == last
@@ -349,7 +349,7 @@ def test_amplitudes_end_by_the_standard(reference, last, count) -> None:
     assert np.allclose(np.diff(found[:-1]), 0.5 * reference)
 
 
-def test_a_run_is_judged_at_the_times_of_the_standard() -> None:
+def test_a_run_is_judged_at_the_times_of_the_standard():
     course = steering.sine_with_dwell(1.0, 0.7, 0.5, ease=0.02)
     time = np.linspace(0.0, course.end + 2.0, 20001)
     late = np.maximum(time - 1.2, 0.0)
@@ -374,7 +374,7 @@ def test_a_run_is_judged_at_the_times_of_the_standard() -> None:
     (-1.0, np.nan),  # turns on to the left: there is no peak to the right, and no limit is kept
     (0.3, -0.3 / 0.5),  # swings back beyond zero: the ratio has the sign of the yaw rates
 ])  # fmt: skip
-def test_the_peak_of_the_yaw_rate_is_one_of_the_way_back(rate, ratio) -> None:
+def test_the_peak_of_the_yaw_rate_is_one_of_the_way_back(rate, ratio):
     course = steering.sine_with_dwell(1.0, 0.7, 0.5)
     time = np.linspace(0.0, course.end + 2.0, 4001)
     back = np.interp(time, [0.0, 0.8, 1.0, course.end, course.end + 0.5], [0, 0, 0.5, 0, -0.3])
@@ -393,7 +393,7 @@ def test_the_peak_of_the_yaw_rate_is_one_of_the_way_back(rate, ratio) -> None:
 
 
 @pytest.mark.parametrize("name", manoeuvres())
-def test_a_packaged_manoeuvre_has_all_keys_with_a_comment(name) -> None:
+def test_a_packaged_manoeuvre_has_all_keys_with_a_comment(name):
     text = manoeuvres()[name].read_text(encoding="utf-8")
     model = load_manoeuvre(name)
     for key, field in type(model).model_fields.items():
@@ -431,7 +431,7 @@ def test_a_packaged_manoeuvre_has_all_keys_with_a_comment(name) -> None:
     ("sine_sweep", {"highest_Hz": 0.1}, "more than lowest_Hz"),
     ("sine_sweep", {"output_step_ms": 50.0}, "20 outputs in a period"),
 ])  # fmt: skip
-def test_a_mistake_in_a_manoeuvre_is_named(name, changes, words) -> None:
+def test_a_mistake_in_a_manoeuvre_is_named(name, changes, words):
     with pytest.raises(InputError, match=re.escape(words)):
         load_manoeuvre(name, changes)
 
@@ -444,7 +444,7 @@ def test_a_mistake_in_a_manoeuvre_is_named(name, changes, words) -> None:
     ("acceleration", {"duration_s": 0.5}, "Raise torque_Nm"),
     ("slowly_increasing_steer", {"largest_deg": 10.0}, "Raise speed_km_per_h"),
 ])  # fmt: skip
-def test_what_a_car_cannot_do_is_named(car, name, changes, words) -> None:
+def test_what_a_car_cannot_do_is_named(car, name, changes, words):
     with pytest.raises(InputError, match=re.escape(words)):
         run(car, name, **changes)
 
@@ -456,7 +456,7 @@ def test_what_a_car_cannot_do_is_named(car, name, changes, words) -> None:
     ("coast_down", {}, {"front.drive": None}, "no axle is driven"),
     ("circle", {}, {"front.side.rack.travel_per_turn_mm": None}, "ratio of the steering wheel"),
 ])  # fmt: skip
-def test_a_car_is_checked_before_its_equations_are_derived(name, changes, of_car, words) -> None:
+def test_a_car_is_checked_before_its_equations_are_derived(name, changes, of_car, words):
     model = load_manoeuvre(name, changes)
     with pytest.raises(InputError, match=re.escape(words)):
         drive(light_car(**of_car), model)  # whose equations take half a minute

@@ -1,6 +1,5 @@
 """Loads as cards of programs for strength."""
 
-from pathlib import Path
 from typing import Any
 
 import kintrafo
@@ -20,7 +19,7 @@ FORCE, MOMENT = 1e-4, 1e-4
 
 
 @pytest.fixture(scope="module")
-def found() -> dict[str, xr.Dataset]:
+def found():
     """Loads of all subjects; the rack of the first is moved."""
     one = {
         "bump": {"travel_mm": 30.0, "contact_N": [900.0, 400.0, 0.0], "rack_mm": 9.0},
@@ -36,9 +35,7 @@ def found() -> dict[str, xr.Dataset]:
 @pytest.mark.parametrize("ending", READERS)
 @pytest.mark.parametrize(("axes", "length"), [("part", "mm"), ("vehicle", "m")])
 @pytest.mark.parametrize("name", SUBJECTS)
-def test_cards_carry_what_the_dataset_does(
-    tmp_path: Path, found: dict[str, xr.Dataset], name: str, axes: str, length: str, ending: str
-) -> None:
+def test_cards_carry_what_the_dataset_does(tmp_path, found, name, axes, length, ending):
     """Every part, and by its file it is in equilibrium."""
     dataset = found[name]
     scale = {"mm": 1e3, "m": 1.0}[length]
@@ -60,9 +57,7 @@ def test_cards_carry_what_the_dataset_does(
                 np.testing.assert_allclose(there, 0.0, atol=1e-7)
 
 
-def test_points_of_a_part_are_its_hardpoints_at_design(
-    tmp_path: Path, found: dict[str, xr.Dataset]
-) -> None:
+def test_points_of_a_part_are_its_hardpoints_at_design(tmp_path, found):
     (file,) = loads.write_cards(found["corner"], tmp_path / "l.inp", ["control_arm"])
     nodes, steps = READERS[".inp"](file)
     points = CAR.suspension.hardpoints
@@ -75,9 +70,7 @@ def test_points_of_a_part_are_its_hardpoints_at_design(
     assert "** Not carried: far: " in text
 
 
-def test_the_mount_of_a_strut_carries_rod_and_spring(
-    tmp_path: Path, found: dict[str, xr.Dataset]
-) -> None:
+def test_the_mount_of_a_strut_carries_rod_and_spring(tmp_path, found):
     (file,) = loads.write_cards(found["corner"], tmp_path / "l.bdf", ["chassis"])
     nodes, sets = READERS[".bdf"](file)
     text = file.read_text(encoding="ascii")
@@ -89,7 +82,7 @@ def test_the_mount_of_a_strut_carries_rod_and_spring(
     np.testing.assert_allclose(sum(forces), total, rtol=1e-9, atol=1e-6)
 
 
-def test_inertia_keeps_parts_of_a_motion_in_equilibrium(tmp_path: Path) -> None:
+def test_inertia_keeps_parts_of_a_motion_in_equilibrium(tmp_path):
     start = kintrafo.state_at_height(CAR, 0.325)
     motion = kintrafo.simulate(CAR, (0.0, 0.05), start, t_eval=np.array([0.0, 0.02, 0.05]))
     moving = loads.along(CAR, motion)
@@ -113,16 +106,14 @@ def test_inertia_keeps_parts_of_a_motion_in_equilibrium(tmp_path: Path) -> None:
         ({"dataset": 3}, "static or along is needed"),
     ],
 )
-def test_what_cannot_be_written(
-    tmp_path: Path, found: dict[str, xr.Dataset], changes: dict[str, Any], words: str
-) -> None:
+def test_what_cannot_be_written(tmp_path, found, changes, words):
     given: dict[str, Any] = {"dataset": found["corner"], "path": "loads.inp"} | changes
     with pytest.raises(InputError, match=words):
         loads.write_cards(**given | {"path": tmp_path / given["path"]})
     assert not [*tmp_path.iterdir()]
 
 
-def test_files_of_others_stay(tmp_path: Path, found: dict[str, xr.Dataset]) -> None:
+def test_files_of_others_stay(tmp_path, found):
     (tmp_path / "l_rack.bdf").write_text("mine", encoding="utf-8")
     with pytest.raises(InputError, match="exists already"):
         loads.write_cards(found["corner"], tmp_path / "l.bdf")
@@ -130,7 +121,7 @@ def test_files_of_others_stay(tmp_path: Path, found: dict[str, xr.Dataset]) -> N
     assert len(loads.write_cards(found["corner"], tmp_path / "l.bdf", force=True)) == 7
 
 
-def test_the_command(request: pytest.FixtureRequest, tmp_path: Path) -> None:
+def test_the_command(request, tmp_path):
     command = request.getfixturevalue("kintrafo")
     line = "loads reference_car --part knuckle,total --axes part -o l.bdf -o l.inp -o l.csv"
     code, out, err = command(*line.split(), "--units", "m")

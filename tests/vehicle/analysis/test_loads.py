@@ -4,7 +4,6 @@ import csv
 import math
 import re
 from contextlib import suppress
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -70,7 +69,7 @@ def total(found: xr.Dataset, part: str, by: str, about: np.ndarray) -> np.ndarra
 
 @pytest.mark.parametrize("free", [False, True])
 @pytest.mark.parametrize("seed", range(4))
-def test_loads_of_the_joints_are_the_multipliers(seed: int, free: bool) -> None:
+def test_loads_of_the_joints_are_the_multipliers(seed, free):
     """Newton and Euler in closed form against maximal coordinates, in any motion."""
     random = np.random.default_rng(seed)
     model = Model(heavy(OFFSET) if free else OFFSET, free_rack=free)
@@ -97,7 +96,7 @@ def test_loads_of_the_joints_are_the_multipliers(seed: int, free: bool) -> None:
     pairs = [(0, ARM), (ARM, KNUCKLE), (KNUCKLE, UPPER_STRUT), (0, UPPER_STRUT),
              (KNUCKLE, TIE_ROD), (RACK, TIE_ROD), (KNUCKLE, WHEEL)]  # fmt: skip
 
-    def multipliers(first: int, second: int) -> np.ndarray:
+    def multipliers(first, second):
         own = (bodies == (first, second)).all(axis=1)
         wrench: np.ndarray = -(rows[own].T @ solved.multipliers[:count][own]).reshape(6, 6)
         return wrench[second - 1]
@@ -123,7 +122,7 @@ EVERY = (CAR, OFFSET, WISHBONES, PUSHED, PULLED, LINKED, TRAILING)
 
 
 @pytest.mark.parametrize("car", EVERY, ids=lambda car: car.TITLE)
-def test_a_mount_carries_the_total_of_what_is_bolted_there(car: Suspension) -> None:
+def test_a_mount_carries_the_total_of_what_is_bolted_there(car):
     found = loads.static(Model(car), STILL | {"held": {"travel_mm": 15.0}})
     names = [str(name) for name in found["mount"].values]
     own = found.isel(load=(found["part"] == "chassis").values)
@@ -150,7 +149,7 @@ def test_a_mount_carries_the_total_of_what_is_bolted_there(car: Suspension) -> N
     np.testing.assert_array_equal(totals["force_z"], found["total_force"].sel(axis="z"))
 
 
-def test_the_top_of_a_strut_has_the_spring_in_its_total(kintrafo: Any, tmp_path: Path) -> None:
+def test_the_top_of_a_strut_has_the_spring_in_its_total(kintrafo, tmp_path):
     """At rest the body carries the wheel less what hangs on it: nearly all at the mount."""
     out = tmp_path / "loads.csv"
     status, shown, _ = kintrafo(*f"loads reference_car --out {out}".split())
@@ -164,7 +163,7 @@ def test_the_top_of_a_strut_has_the_spring_in_its_total(kintrafo: Any, tmp_path:
 
 
 @pytest.mark.parametrize("car", EVERY, ids=lambda car: car.TITLE)
-def test_joints_do_no_work(car: Suspension) -> None:
+def test_joints_do_no_work(car):
     """In any motion, the forces of a joint on its two parts have no power in sum."""
     model = Model(car)
     random = np.random.default_rng(3)
@@ -199,7 +198,7 @@ def test_joints_do_no_work(car: Suspension) -> None:
     ("car", "free"),
     [(CAR, False), (WISHBONES, False), (PUSHED, False), (STOPPED, False), (heavy(CAR), True)],
 )
-def test_motions_need_no_other_force(car: Suspension, free: bool) -> None:
+def test_motions_need_no_other_force(car, free):
     """The compiled equations and the balance of every part agree: nothing is left to hold."""
     model = Model(car, free_rack=free)
     rest = equilibrium(model, spin_rate=50.0)
@@ -222,7 +221,7 @@ def test_motions_need_no_other_force(car: Suspension, free: bool) -> None:
 
 
 @pytest.mark.parametrize("car", EVERY, ids=lambda car: car.TITLE)
-def test_at_rest_positions_are_those_of_the_equations(car: Suspension) -> None:
+def test_at_rest_positions_are_those_of_the_equations(car):
     model = Model(car)
     rest = equilibrium(model)
     found = loads.static(model, STILL).sel(case="static")
@@ -240,7 +239,7 @@ def state_of(model: Model, travel: float, rack: float) -> tuple[np.ndarray, np.n
     return at_rest(model, arm_angles(model, design_height(model) + travel, rack), rack)
 
 
-def test_a_wheel_held_at_a_travel_takes_the_load_that_presses_it_there() -> None:
+def test_a_wheel_held_at_a_travel_takes_the_load_that_presses_it_there():
     model = Model(CAR)
     pressed = loads.static(model, {"a": {"contact_N": [-500.0, 300.0, 4400.0]}})
     travel = 1e3 * float(pressed["travel"][0])
@@ -250,7 +249,7 @@ def test_a_wheel_held_at_a_travel_takes_the_load_that_presses_it_there() -> None
     np.testing.assert_allclose(held["force"], pressed["force"], atol=1e-6)
 
 
-def test_forces_have_the_axes_of_the_tyre() -> None:
+def test_forces_have_the_axes_of_the_tyre():
     """A steered wheel is braked along its own plane."""
     model = Model(CAR)
     found = loads.static(model, {"a": {"contact_N": [-1000.0, 0.0, 3800.0], "rack_mm": 40.0}})
@@ -266,7 +265,7 @@ def test_forces_have_the_axes_of_the_tyre() -> None:
     assert torque == pytest.approx(1000.0 * 0.3, rel=0.01)
 
 
-def test_stops_carry_what_springs_do_not() -> None:
+def test_stops_carry_what_springs_do_not():
     hard = {"bump_3g": {"contact_g": [0.0, 0.0, 3.0]}}
     stopped = loads.static(Model(STOPPED), hard)
     assert 0.04 < float(stopped["travel"][0]) < 0.1
@@ -283,7 +282,7 @@ def test_stops_carry_what_springs_do_not() -> None:
     assert np.isnan(some["force"].values[1]).all()
 
 
-def test_what_is_carried_without_bound_is_not_carried(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_carried_without_bound_is_not_carried(monkeypatch):
     """Cases whose equations are worse than others, as if they were at a dead point."""
     cases = {"brake": {"contact_g": [-1.0, 0.0, 1.0]}, "bump": {"contact_g": [0.0, 0.0, 3.0]}}
     model = Model(CAR)
@@ -300,7 +299,7 @@ def test_what_is_carried_without_bound_is_not_carried(monkeypatch: pytest.Monkey
     assert sorted(set(shown)) == [1, 2]
 
 
-def test_a_spring_without_leverage_is_no_dead_point() -> None:
+def test_a_spring_without_leverage_is_no_dead_point():
     """The forces in joints are finite where the leverage of the damper passes through zero."""
     odd = WISHBONES.with_changes({f"hardpoints.spring_top.{a}": v for a, v in
                                   zip("xyz", (-30.0, -500.0, 320.0), strict=True)})  # fmt: skip
@@ -310,7 +309,7 @@ def test_a_spring_without_leverage_is_no_dead_point() -> None:
     assert "there is no equilibrium" in str(found["reason"].values[1])
 
 
-def test_couples_are_shown_without_a_force(kintrafo: Any, tmp_path: Path) -> None:
+def test_couples_are_shown_without_a_force(kintrafo, tmp_path):
     (tmp_path / "c.toml").write_text(
         "[cases.couple]\ntravel_mm = 0\ncenter_Nm = [0, 400, 0]\n[cases.far]\n"
         "contact_N = [0, 0, 1e6]\n",
@@ -328,7 +327,7 @@ def test_couples_are_shown_without_a_force(kintrafo: Any, tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize("file", ["reference_car", "reference_axle", "rigid_axle"])
-def test_totals_are_shown_alone(kintrafo: Any, tmp_path: Path, file: str) -> None:
+def test_totals_are_shown_alone(kintrafo, tmp_path, file):
     arguments = ("loads", file, "--case", "static", "--part", "total")
     code, out, _ = kintrafo(*arguments, "-o", "a.csv", "--plot", "b.png", "--part", "wheel_left"
                             if "axle" in file else "wheel")  # fmt: skip
@@ -345,7 +344,7 @@ def test_totals_are_shown_alone(kintrafo: Any, tmp_path: Path, file: str) -> Non
     assert "total is not a part that can be drawn" in " ".join(err.split())
 
 
-def test_extremes_are_printed(kintrafo: Any) -> None:
+def test_extremes_are_printed(kintrafo):
     code, out, _ = kintrafo("loads", "offset_strut_car", "--envelope", "--part", "knuckle")
     assert code == 0
     ends = loads.envelope(loads.static(Model(OFFSET)))
@@ -355,7 +354,7 @@ def test_extremes_are_printed(kintrafo: Any) -> None:
         assert re.search(words, out), words
 
 
-def test_tables_need_all_of_it() -> None:
+def test_tables_need_all_of_it():
     found = loads.static(Model(CAR), STILL)
     for wrong in (found[["force"]], loads.envelope(found)):
         for function in (loads.table, loads.envelope):
@@ -363,7 +362,7 @@ def test_tables_need_all_of_it() -> None:
                 function(wrong)
 
 
-def test_envelope_names_the_cases() -> None:
+def test_envelope_names_the_cases():
     found = loads.static(Model(STOPPED))
     assert not found["reason"].values.any()
     ends = loads.envelope(found)
@@ -373,7 +372,7 @@ def test_envelope_names_the_cases() -> None:
     assert str(end["force_max_case"].values) == str(values["case"][values.values.argmax()].values)
 
 
-def test_two_bearings_share_what_is_along_their_axis() -> None:
+def test_two_bearings_share_what_is_along_their_axis():
     found = loads.static(Model(CAR), {"a": {"contact_N": [-2000.0, 0.0, 3800.0]}}).sel(case="a")
     front, rear = (
         found["force"].sel(load=f"control_arm at {point} by chassis").values
@@ -394,9 +393,7 @@ def test_two_bearings_share_what_is_along_their_axis() -> None:
         ("--cases bad.toml", 1),
     ],
 )
-def test_the_exit_code_is_about_the_cases_that_were_asked_for(
-    kintrafo: Any, tmp_path: Path, words: str, code: int
-) -> None:
+def test_the_exit_code_is_about_the_cases_that_were_asked_for(kintrafo, tmp_path, words, code):
     bad = "[cases.bad]\ncontact_N = [0, 0, 1e6]\n"
     (tmp_path / "bad.toml").write_text(bad, encoding="utf-8")
     own = f"{bad}[cases.good]\ncontact_g = [0, 0, 1]\n"
@@ -416,7 +413,7 @@ def test_the_exit_code_is_about_the_cases_that_were_asked_for(
         ("[cases]\na = 3", "must be a section"),
     ],
 )
-def test_files_that_are_none(kintrafo: Any, tmp_path: Path, text: str, words: str) -> None:
+def test_files_that_are_none(kintrafo, tmp_path, text, words):
     (tmp_path / "c.toml").write_text(text, encoding="utf-8")
     code, _, err = kintrafo("loads", "reference_car", "--cases", "c.toml")
     assert code == 2
@@ -424,13 +421,13 @@ def test_files_that_are_none(kintrafo: Any, tmp_path: Path, text: str, words: st
 
 
 @pytest.mark.parametrize("option", ["--part", "--case"])
-def test_options_are_named(kintrafo: Any, option: str) -> None:
+def test_options_are_named(kintrafo, option):
     code, _, err = kintrafo("loads", "reference_car", option, "nothing")
     assert code == 2
     assert f"{option} 'nothing' is not known" in " ".join(err.split())
 
 
-def test_a_file_of_cases(tmp_path: Path) -> None:
+def test_a_file_of_cases(tmp_path):
     path = tmp_path / "cases.toml"
     path.write_text("static_load_N = 4000.0\n[cases.a]\ncontact_g = [0, 0, 1]\n", encoding="utf-8")
     read = loads.read(path)

@@ -54,7 +54,7 @@ def cases_of(subject: Any) -> dict[str, Any]:
 
 
 @each
-def test_every_part_is_in_equilibrium(subject: Any) -> None:
+def test_every_part_is_in_equilibrium(subject):
     """By all loads that are listed; the chassis has what acts from outside."""
     found = loads.static(subject, cases_of(subject))
     assert not found["reason"].values.any()
@@ -70,7 +70,7 @@ def test_every_part_is_in_equilibrium(subject: Any) -> None:
 
 
 @each
-def test_a_case_alone_is_carried_as_among_others(subject: Any) -> None:
+def test_a_case_alone_is_carried_as_among_others(subject):
     """Also where no wheel is free, so that no case is left for the search of an equilibrium."""
     every = cases_of(subject)
     together = loads.static(subject, every)
@@ -85,7 +85,7 @@ def test_a_case_alone_is_carried_as_among_others(subject: Any) -> None:
 
 
 @each
-def test_what_two_parts_exert_on_each_other_is_there_twice(subject: Any) -> None:
+def test_what_two_parts_exert_on_each_other_is_there_twice(subject):
     found = loads.static(subject, cases_of(subject))
     names = {str(name) for name in found["load"].values}
     parts = {str(name) for name in found["part"].values} - {"chassis"}
@@ -101,7 +101,7 @@ def test_what_two_parts_exert_on_each_other_is_there_twice(subject: Any) -> None
 
 
 @each
-def test_mounts_carry_together_what_the_chassis_does(subject: Any) -> None:
+def test_mounts_carry_together_what_the_chassis_does(subject):
     """But for the couple of a rigid axle's bar, which has no place on the body."""
     found = loads.static(subject, cases_of(subject))
     assert "axle_middle" not in found["mount"].values
@@ -142,7 +142,7 @@ EVEN = {"corner": CORNERS["double_wishbone_car"], "axle": AXLE} | {
 
 
 @pytest.mark.parametrize("subject", EVEN.values(), ids=EVEN)
-def test_the_mirror_image_of_a_case_is_carried_alike(subject: Any) -> None:
+def test_the_mirror_image_of_a_case_is_carried_alike(subject):
     case, image = LEFT, mirrored(LEFT)
     if not isinstance(subject, Model):
         case = {"left": LEFT, "right": RIGHT}
@@ -224,7 +224,7 @@ BEYOND: list[tuple[str, Any, str]] = [
 
 
 @pytest.mark.parametrize(("name", "cases", "words"), WRONG)
-def test_cases_that_cannot_be_used(name: str, cases: Any, words: str) -> None:
+def test_cases_that_cannot_be_used(name, cases, words):
     with pytest.raises(InputError, match=words):
         loads.static(SHORT[name], cases, static_load=6000.0)
 
@@ -233,7 +233,7 @@ LEVEL = {"level": next(iter(RIGID.values()))}
 
 
 @pytest.mark.parametrize(("name", "case", "words"), BEYOND)
-def test_a_case_that_is_not_carried_ends_no_other(name: str, case: Any, words: str) -> None:
+def test_a_case_that_is_not_carried_ends_no_other(name, case, words):
     with pytest.raises(
         PositionError, match=rf"none of the cases has an equilibrium\s+- a: .*{words}"
     ):
@@ -261,9 +261,7 @@ ON_THE_BODY = {"contact_g": [0.0, 0.0, 0.9], "center_g": [0.5, 0.0, 0.0]}
     ],
     ids=["axle", "rigid"],
 )
-def test_usual_cases_of_an_axle_act_where_its_file_holds_the_torque(
-    axle: Any, drive: Any, other: str, moved: Any
-) -> None:
+def test_usual_cases_of_an_axle_act_where_its_file_holds_the_torque(axle, drive, other, moved):
     usual = loads.standard_cases(axle)
     assert usual["brake"] == {"contact_g": [-1.3, 0.0, 1.3]}
     assert usual["drive"] == drive
@@ -279,7 +277,7 @@ def test_usual_cases_of_an_axle_act_where_its_file_holds_the_torque(
 
 
 @pytest.mark.parametrize("subject", SHORT.values(), ids=SHORT)
-def test_arguments_that_cannot_be_used(subject: Any) -> None:
+def test_arguments_that_cannot_be_used(subject):
     for load in (0.0, -3.0, np.inf, "much"):
         with pytest.raises(InputError, match="static_load"):
             loads.static(subject, static_load=load)  # type: ignore[arg-type]
@@ -290,7 +288,7 @@ def test_arguments_that_cannot_be_used(subject: Any) -> None:
         loads.along(Suspension.load("reference_car"), 3)  # type: ignore[arg-type]
 
 
-def test_dead_points_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_dead_points_are_named(monkeypatch):
     """As if all equations were at one."""
     monkeypatch.setattr("kintrafo.vehicle.analysis.loads.balance._WORST_CONDITION", 1.0)
     for name, subject in SHORT.items():
@@ -310,7 +308,7 @@ OTHERS = {
 
 
 @pytest.mark.parametrize(("name", "other"), OTHERS.values(), ids=OTHERS)
-def test_a_motion_of_another_is_refused(name: str, other: Any) -> None:
+def test_a_motion_of_another_is_refused(name, other):
     model, another = (
         of if isinstance(of, Model) else kintrafo.model_of(of) for of in (SHORT[name], other)
     )
@@ -327,9 +325,7 @@ def test_a_motion_of_another_is_refused(name: str, other: Any) -> None:
         ("rigid_axle", "beam", "panhard_rod", "beam at panhard_rod_axle by panhard_rod"),
     ],
 )  # fmt: skip
-def test_the_command_prints_both_sides(
-    request: pytest.FixtureRequest, tmp_path: Any, file: str, part: str, shown: str, load: str
-) -> None:
+def test_the_command_prints_both_sides(request, tmp_path, file, part, shown, load):
     forces = {"left": "[0, 0.5, 0.7]", "right": "[0, 1, 1.3]"}
     text = "".join(f"[cases.turn.{side}]\ncontact_g = {g}\n" for side, g in forces.items())
     (tmp_path / "cases.toml").write_text(text, encoding="utf-8")

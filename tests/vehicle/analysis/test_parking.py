@@ -23,7 +23,7 @@ def found(car):
     return drive(car, "parking", CHANGES).curves[""]
 
 
-def test_the_lifting_torque_is_the_slope_of_the_energy(car, found) -> None:
+def test_the_lifting_torque_is_the_slope_of_the_energy(car, found):
     """The energy is that of weights, springs, bar and tyres at rest."""
     model = kintrafo.CarModel(car)
     assembly = assembly_of(model)
@@ -56,7 +56,7 @@ def test_the_lifting_torque_is_the_slope_of_the_energy(car, found) -> None:
     np.testing.assert_allclose(torque[inside], energy[inside], atol=2e-4)
 
 
-def test_the_moment_of_a_wheel_is_that_of_a_round_contact() -> None:
+def test_the_moment_of_a_wheel_is_that_of_a_round_contact():
     parking = load_manoeuvre("parking", {"friction": 0.7, "pressure_kPa": 200.0, "twist_deg": 2.0})
     load, pressure = 4000.0, 200e3
     radius = np.sqrt(load / (np.pi * pressure))
@@ -67,7 +67,7 @@ def test_the_moment_of_a_wheel_is_that_of_a_round_contact() -> None:
     np.testing.assert_allclose(moments, [0.0, 1.0 - np.exp(-1.0), 1.0, back, -1.0], atol=1e-9)
 
 
-def test_the_work_of_a_turn_is_that_of_the_friction(found) -> None:
+def test_the_work_of_a_turn_is_that_of_the_friction(found):
     """From the left to the right and back, lifting does no work in total."""
     loop = found.isel(steering_wheel_angle=slice(12, None))
     angle = loop["steering_wheel_angle"].values
@@ -88,6 +88,6 @@ def test_the_work_of_a_turn_is_that_of_the_friction(found) -> None:
     ({"friction": 80.0}, "friction = 80.0 is out of range"),
     ({"largest_deg": 2000.0, "step_deg": 500.0}, "the car has no equilibrium"),
 ])  # fmt: skip
-def test_mistakes_are_named(car, changes, words) -> None:
+def test_mistakes_are_named(car, changes, words):
     with pytest.raises(kintrafo.InputError, match=words):
         drive(car, "parking", CHANGES | changes)

@@ -15,14 +15,14 @@ from support.models import own
 
 
 @pytest.fixture(scope="module")
-def car() -> kintrafo.Car:
+def car():
     return kintrafo.load("quarter_car")
 
 
 # -- roads ----------------------------------------------------------------------------------------
 
 
-def test_a_rough_road_has_the_spectrum_and_the_coherence_of_its_class() -> None:
+def test_a_rough_road_has_the_spectrum_and_the_coherence_of_its_class():
     road = iso8608("C", length=40_000.0, seed=5, track=1.5, fade=0.0)
     how = {"fs": 1.0 / road.spacing, "nperseg": 8192, "window": "hann"}
     n, left = welch(road.left, **how)
@@ -39,7 +39,7 @@ def test_a_rough_road_has_the_spectrum_and_the_coherence_of_its_class() -> None:
     assert abs(off.mean()) < 0.01
 
 
-def test_a_seed_gives_one_road() -> None:
+def test_a_seed_gives_one_road():
     one, same, other = (iso8608("B", length=200.0, seed=s) for s in (1, 1, 2))
     np.testing.assert_array_equal(one.left, same.left)
     assert np.abs(one.left - other.left).max() > 1e-3
@@ -47,7 +47,7 @@ def test_a_seed_gives_one_road() -> None:
                             ("left", "right")))  # fmt: skip
 
 
-def test_rear_wheels_meet_a_road_later() -> None:
+def test_rear_wheels_meet_a_road_later():
     road = bump(0.05, 1.0, at=4.0, end=20.0, sides="left")
     front = road.over_time("left", 10.0, 0.0, 2.0)
     rear = road.over_time("left", 10.0, 2.6, 2.0)
@@ -71,14 +71,14 @@ def test_rear_wheels_meet_a_road_later() -> None:
         lambda: iso8608("A", length=200.0, seed=1, fade=300.0),
     ],
 )
-def test_roads_that_cannot_be_are_refused(made, refused) -> None:
+def test_roads_that_cannot_be_are_refused(made, refused):
     refused(kintrafo.InputError, made)
 
 
 # -- weighting ------------------------------------------------------------------------------------
 
 
-def test_the_weighting_is_that_of_the_standard() -> None:
+def test_the_weighting_is_that_of_the_standard():
     """ISO 2631-1:1997, Table 3."""
     table = {0.5: 418, 1.0: 482, 1.25: 484, 2.0: 531, 2.5: 631, 4.0: 967, 5.0: 1039, 6.3: 1054}
     table |= {8.0: 1036, 10.0: 988, 12.5: 902, 16.0: 768, 20.0: 636, 25.0: 513, 31.5: 405}
@@ -88,7 +88,7 @@ def test_the_weighting_is_that_of_the_standard() -> None:
     np.testing.assert_allclose(found, list(table.values()), atol=1.0)  # its last digit
 
 
-def test_a_weighted_sine_has_the_size_of_the_weighting() -> None:
+def test_a_weighted_sine_has_the_size_of_the_weighting():
     step = 1e-3
     times = step * np.arange(20_000)
     found = kintrafo.ride.weighted(np.sin(2.0 * np.pi * 5.0 * times), step)[10_000:]
@@ -99,7 +99,7 @@ def test_a_weighted_sine_has_the_size_of_the_weighting() -> None:
 # -- a quarter car against two masses -------------------------------------------------------------
 
 
-def test_rest_is_that_of_a_simulation(car: kintrafo.Car) -> None:
+def test_rest_is_that_of_a_simulation(car):
     model = kintrafo.CarModel(car)
     start = model.design_state.copy()
     start[0] += 0.02
@@ -111,7 +111,7 @@ def test_rest_is_that_of_a_simulation(car: kintrafo.Car) -> None:
     assert float(found["travel"]) == pytest.approx(0.0, abs=1e-6)
 
 
-def test_the_linear_spectrum_is_that_of_a_long_simulation(car: kintrafo.Car) -> None:
+def test_the_linear_spectrum_is_that_of_a_long_simulation(car):
     speed, step = 20.0, 0.005
     road = iso8608("A", length=8000.0, seed=3, track=0.0)
     motion = kintrafo.ride.over(car, road, speed, settle=5.0, output_step=step)
@@ -132,12 +132,12 @@ def test_the_linear_spectrum_is_that_of_a_long_simulation(car: kintrafo.Car) -> 
     assert motion["body_acceleration"].attrs["weighted_rms"] == pytest.approx(weighted, rel=0.05)
 
 
-def test_a_tyre_that_pulls_at_the_road_is_named(car: kintrafo.Car) -> None:
+def test_a_tyre_that_pulls_at_the_road_is_named(car):
     motion = kintrafo.ride.over(car, bump(0.05, 0.5, at=1.0, end=20.0), 8.0, duration=1.0, settle=0)
     assert any("pulls at the road" in text for text in motion.attrs["not_valid"])
 
 
-def test_a_bump_at_the_beginning_is_judged(car: kintrafo.Car) -> None:
+def test_a_bump_at_the_beginning_is_judged(car):
     road = bump(0.01, 0.5, at=5.0, end=40.0)  # at 20 m/s it is passed after 0.28 s
     motion = kintrafo.ride.over(car, road, 20.0)["body_acceleration"]
     assert motion.attrs["largest"] == motion.values.max() > 0.5
@@ -146,24 +146,24 @@ def test_a_bump_at_the_beginning_is_judged(car: kintrafo.Car) -> None:
 
 
 @pytest.mark.parametrize("frequency", [[2.0], [3.0, 2.0, 1.0], [1.0, 2.0, 2.0]])
-def test_frequencies_over_which_nothing_can_be_summed_are_refused(car, frequency, refused) -> None:
+def test_frequencies_over_which_nothing_can_be_summed_are_refused(car, frequency, refused):
     refused(kintrafo.InputError, lambda: kintrafo.ride.response(car, 20.0, frequency=frequency))
 
 
 @pytest.mark.parametrize("options", [{"output_step": 0.02}, {"t_eval": [0.0, 1.0]}])
-def test_other_outputs_than_those_of_a_ride_are_refused(car, options, refused) -> None:
+def test_other_outputs_than_those_of_a_ride_are_refused(car, options, refused):
     """Those that are too far apart cannot be weighted."""
     road = bump(0.01, 0.5)
     refused(kintrafo.InputError, lambda: kintrafo.ride.over(car, road, 20.0, **options))
 
 
 @pytest.mark.parametrize("name", ["body", "a/b", ""])
-def test_a_seat_does_not_take_the_name_of_something_else(car, name, refused) -> None:
+def test_a_seat_does_not_take_the_name_of_something_else(car, name, refused):
     data = car.to_dict() | {"seats": {name: {"place_mm": [0.0, 0.0, 500.0]}}}
     refused(kintrafo.InputError, lambda: kintrafo.Car.from_dict(data))
 
 
-def test_upward_is_the_second_derivative_of_the_height() -> None:
+def test_upward_is_the_second_derivative_of_the_height():
     rng = np.random.default_rng(2)
     place = rng.normal(0.0, 1.0, 3)
     terms = rng.normal(0.0, 0.2, (3, 3))
@@ -192,7 +192,7 @@ def test_upward_is_the_second_derivative_of_the_height() -> None:
     assert upward(motion, place)[0] == pytest.approx(difference, abs=1e-5)
 
 
-def test_a_held_body_does_not_ride() -> None:
+def test_a_held_body_does_not_ride():
     with pytest.raises(kintrafo.InputError, match="axle alone is held"):
         kintrafo.ride.modes(kintrafo.load("reference_axle"))
 
@@ -201,7 +201,7 @@ def test_a_held_body_does_not_ride() -> None:
 
 
 @pytest.fixture(scope="module")
-def whole() -> kintrafo.CarModel:
+def whole():
     """Return a car on four trailing arms, derived once for this and for tests of its equations."""
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr(
@@ -210,7 +210,7 @@ def whole() -> kintrafo.CarModel:
         return kintrafo.CarModel(car_on_arms())
 
 
-def test_corner_weights_carry_the_car(whole: kintrafo.CarModel) -> None:
+def test_corner_weights_carry_the_car(whole):
     found = kintrafo.ride.at_rest(whole)
     loads = found["load"].values
     weight = 9.81 * (1200.0 + 4 * 38.0)
@@ -224,7 +224,7 @@ def test_corner_weights_carry_the_car(whole: kintrafo.CarModel) -> None:
     assert float(found["roll"]) < 0.0 < float(found["pitch"])  # left side down, nose down
 
 
-def test_a_slow_road_lifts_pitches_and_rolls_the_car(whole: kintrafo.CarModel) -> None:
+def test_a_slow_road_lifts_pitches_and_rolls_the_car(whole):
     """At 0.01 Hz the body follows the plane of the road, whose twist the springs share."""
     linear = linear_at_rest(assembly_of(whole))
     frequency = np.array([0.01])
@@ -234,7 +234,7 @@ def test_a_slow_road_lifts_pitches_and_rolls_the_car(whole: kintrafo.CarModel) -
         for found in [linear.state_response(frequency, f"{wheel}_road_height")]
     }
 
-    def motion(coordinate: str, **heights: float) -> float:
+    def motion(coordinate, **heights):
         return sum(h * by_wheel[wheel][coordinate] for wheel, h in heights.items())
 
     wheels = whole.car.wheels
@@ -249,7 +249,7 @@ def test_a_slow_road_lifts_pitches_and_rolls_the_car(whole: kintrafo.CarModel) -
     assert motion("roll", **left) == pytest.approx(1.0, abs=2e-2)
 
 
-def test_modes_have_names(whole: kintrafo.CarModel) -> None:
+def test_modes_have_names(whole):
     found = kintrafo.ride.modes(whole)
     names = ["heave", "pitch", "roll", "front_hop", "front_tramp", "rear_hop", "rear_tramp"]
     assert found["mode"].values.tolist() == names
@@ -259,7 +259,7 @@ def test_modes_have_names(whole: kintrafo.CarModel) -> None:
     assert frequencies[3:].min() > 8.0
 
 
-def test_equal_axles_have_as_many_modes_as_names(whole: kintrafo.CarModel) -> None:
+def test_equal_axles_have_as_many_modes_as_names(whole):
     """Wheels of both take part alike in modes of two axles together, and against each other."""
     car = whole.car.with_changes({"body.com_mm": [-1300.0, 0.0, 600.0]})
     found = np.sort(kintrafo.ride.modes(car)["frequency"].values)
@@ -268,7 +268,7 @@ def test_equal_axles_have_as_many_modes_as_names(whole: kintrafo.CarModel) -> No
     np.testing.assert_allclose(found, wanted, rtol=1e-9)
 
 
-def test_numbers_over_speed_are_those_of_the_spectra(whole: kintrafo.CarModel) -> None:
+def test_numbers_over_speed_are_those_of_the_spectra(whole):
     numbers = kintrafo.ride.by_speed(whole, [15.0, 30.0], "C", seat="driver")
     spectra = kintrafo.ride.response(whole, 30.0, "C")
     driver = spectra["driver_acceleration_psd"].attrs
@@ -287,7 +287,7 @@ def test_numbers_over_speed_are_those_of_the_spectra(whole: kintrafo.CarModel) -
         kintrafo.ride.by_speed(whole, [10.0], seat="drivr")
 
 
-def test_four_wheels_ride_by_the_linear_equations(whole: kintrafo.CarModel) -> None:
+def test_four_wheels_ride_by_the_linear_equations(whole):
     speed = 20.0
     road = iso8608("A", length=1200.0, seed=4, track=assembly_of(whole).track)
     motion = kintrafo.ride.over(whole, road, speed, settle=4.0)
@@ -303,7 +303,7 @@ def test_four_wheels_ride_by_the_linear_equations(whole: kintrafo.CarModel) -> N
     )
 
 
-def test_a_seat_moves_as_the_leaning_body_moves_it(whole: kintrafo.CarModel) -> None:
+def test_a_seat_moves_as_the_leaning_body_moves_it(whole):
     """The height of a seat is differentiated at rest, where the body is pitched and rolled."""
     frequency, road = np.array([1.0, 3.0]), "front_left_road_height"
     found = kintrafo.ride.response(whole, 20.0, frequency=frequency)["driver_acceleration_by_road"]

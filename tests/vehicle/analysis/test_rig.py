@@ -1,8 +1,5 @@
 """Measured curves: read as they were written, and characteristics at the same positions."""
 
-from pathlib import Path
-from typing import Any
-
 import numpy as np
 import pytest
 import xarray as xr
@@ -32,13 +29,13 @@ wheel_travel [mm];toe [deg];camber (rad);motion_ratio;wheel_rate [N/mm];remark [
 
 
 @pytest.fixture
-def loop(tmp_path: Path) -> Path:
+def loop(tmp_path):
     path = tmp_path / "rig.csv"
     path.write_text(LOOP, encoding="utf-8")
     return path
 
 
-def test_units_and_order_are_those_of_the_file(loop: Path) -> None:
+def test_units_and_order_are_those_of_the_file(loop):
     found = rig.measured_curves(loop)
     np.testing.assert_allclose(found["wheel_travel"], [-0.04, 0.0, 0.04, 0.0], rtol=1e-15)
     np.testing.assert_allclose(found["toe"], np.deg2rad([0.1, 0.0, -0.1, 0.02]), rtol=1e-15)
@@ -65,7 +62,7 @@ OF_ALL = {
         *(("rigid axle", over) for over in ("bump", "roll")),
     ],
 )
-def test_what_is_exported_is_read_back(tmp_path: Path, name: str, over: str) -> None:
+def test_what_is_exported_is_read_back(tmp_path, name, over):
     """Our own curves as CSV, in display units, are those of the file to the digits written."""
     subject, positions = SUBJECTS[name], [-0.03, 0.01, 0.03]
     written = characteristics.over(subject, over, positions)
@@ -88,7 +85,7 @@ def test_what_is_exported_is_read_back(tmp_path: Path, name: str, over: str) -> 
     np.testing.assert_allclose(both[toe][0], both[toe][1], rtol=1e-7)
 
 
-def test_characteristics_are_those_at_the_positions(loop: Path) -> None:
+def test_characteristics_are_those_at_the_positions(loop):
     both = rig.beside(rig.measured_curves(loop), {"car": MODEL}, "rig")
     expected = characteristics.over(MODEL, "travel", [-0.04, 0.0, 0.04, 0.0])
     for name in ("toe", "camber", "wheel_rate"):
@@ -120,13 +117,13 @@ WRONG = [
 
 
 @pytest.mark.parametrize("text", WRONG)
-def test_what_cannot_be_used(tmp_path: Path, text: str, refused: Any) -> None:
+def test_what_cannot_be_used(tmp_path, text, refused):
     path = tmp_path / "a.csv"
     path.write_text(text, encoding="utf-8")
     refused(InputError, lambda: rig.measured_curves(path))
 
 
-def test_cells_of_spreadsheets(tmp_path: Path) -> None:
+def test_cells_of_spreadsheets(tmp_path):
     """Quoted cells, a held position that trembles, and what is infinite."""
     path = tmp_path / "a.csv"
     text = 'rack_position [mm],wheel_travel [mm],"toe [deg]","a; remark",turning_circle [m]\n'
@@ -138,7 +135,7 @@ def test_cells_of_spreadsheets(tmp_path: Path) -> None:
     assert float(found["wheel_travel"]) == pytest.approx(0.005, abs=1e-6)
 
 
-def test_differences_are_where_both_are_known(tmp_path: Path) -> None:
+def test_differences_are_where_both_are_known(tmp_path):
     path = tmp_path / "a.csv"
     path.write_text("wheel_travel [mm],toe [deg],camber [deg]\n40,,1\n0,,\n0,2,\n", "utf-8")
     both = rig.beside(rig.measured_curves(path), {"car": MODEL})
@@ -150,7 +147,7 @@ def test_differences_are_where_both_are_known(tmp_path: Path) -> None:
         rig.beside(rig.measured_curves(path), {"measured": MODEL})
 
 
-def test_curves_of_another_assembly(tmp_path: Path) -> None:
+def test_curves_of_another_assembly(tmp_path):
     """A curve that is not computed keeps its values; without any other one, it is refused."""
     path = tmp_path / "rig.csv"
     text = "wheel_travel [mm],toe [deg],toe_left [deg]\n-40,0.1,0.3\n0,0,0.2\n40,-0.1,0.1\n"
@@ -163,19 +160,19 @@ def test_curves_of_another_assembly(tmp_path: Path) -> None:
         rig.beside(rig.measured_curves(path)[["toe"]], {"axle": AXLE})
 
 
-def test_points_with_gaps_are_drawn() -> None:
+def test_points_with_gaps_are_drawn():
     values = np.array([1.0, np.nan, 2.0, 3.0, np.nan, 4.0])
     assert _alone(values).tolist() == [True, False, False, False, False, True]
 
 
-def test_positions_out_of_reach(tmp_path: Path) -> None:
+def test_positions_out_of_reach(tmp_path):
     path = tmp_path / "a.csv"
     path.write_text("wheel_travel [mm],toe [deg]\n0,0\n2000,1\n", encoding="utf-8")
     with pytest.raises(PositionError, match="out of reach"):
         rig.beside(rig.measured_curves(path), {"car": MODEL})
 
 
-def test_the_command(kintrafo: Any, loop: Path, tmp_path: Path) -> None:
+def test_the_command(kintrafo, loop, tmp_path):
     code, out, err = kintrafo(
         "compare", "reference_car", loop.name, "--plot", "a.png", "-o", "a.csv"
     )
@@ -214,7 +211,7 @@ def test_units_may_have_brackets_of_their_own(tmp_path):
         "# lengths in mm\nwheel travel,toe [deg],x\n{0}",
     ],
 )
-def test_names_and_units_of_rigs(tmp_path: Path, text: str) -> None:
+def test_names_and_units_of_rigs(tmp_path, text):
     path = tmp_path / "rig.csv"
     path.write_text(text.format("-20,0.5,1\n20,-0.5,2\n"), encoding="utf-8")
     found = rig.measured_curves(path)
@@ -234,7 +231,7 @@ def test_names_and_units_of_rigs(tmp_path: Path, text: str) -> None:
         "wheel travel,toe\nmm,deg\nmm,deg\n1,2\n2,3\n",
     ],
 )
-def test_units_that_contradict_each_other(tmp_path: Path, text: str, refused: Any) -> None:
+def test_units_that_contradict_each_other(tmp_path, text, refused):
     path = tmp_path / "rig.csv"
     path.write_text(text, encoding="utf-8")
     refused(InputError, lambda: rig.measured_curves(path))
@@ -257,7 +254,7 @@ SOFT_ONES = {
 
 
 @pytest.mark.parametrize("name", SOFT_ONES)
-def test_compliance_of_several_is_compared(name: str) -> None:
+def test_compliance_of_several_is_compared(name):
     """That of each is what `compliance.linear` gives; what holds the wheels matters."""
     subjects = dict(zip("ab", SOFT_ONES[name], strict=True))
     travels = np.array([-0.02, 0.0, 0.02])
@@ -275,7 +272,7 @@ def test_compliance_of_several_is_compared(name: str) -> None:
             np.testing.assert_array_equal(found["toe"].sel(data_set=label), kinematic["toe"])
 
 
-def test_a_single_bush_deflects_by_its_softness() -> None:
+def test_a_single_bush_deflects_by_its_softness():
     models = dict(zip("ab", SOFT_ONES["car"], strict=True))
     travels = np.array([-0.02, 0.0, 0.02])
     locked = compare.differences(compare.compare(models, travels, held="locked"))
@@ -293,11 +290,11 @@ def test_a_single_bush_deflects_by_its_softness() -> None:
         ({"a": Model(SOFT), "b": Model(SOFT)}, {"held": "height", "over": "rack"}),
     ],
 )
-def test_compliance_that_there_is_not(models: Any, changes: Any, refused: Any) -> None:
+def test_compliance_that_there_is_not(models, changes, refused):
     refused(InputError, lambda: compare.compare(models, **changes))
 
 
-def test_an_axle_of_two_corners_is_compared_with_a_rigid_one() -> None:
+def test_an_axle_of_two_corners_is_compared_with_a_rigid_one():
     """Common characteristics are compared; a suspension has no motion in common with them."""
     found = compare.compare({"two corners": AXLE, "rigid": RIGID_AXLE}, over="roll")
     assert {"camber", "roll_stiffness", "roll_center_height"} <= {*found}
@@ -310,7 +307,7 @@ def test_an_axle_of_two_corners_is_compared_with_a_rigid_one() -> None:
         compare.compare({"a": MODEL, "b": AXLE})
 
 
-def test_curves_over_what_nothing_has_are_refused(tmp_path: Path) -> None:
+def test_curves_over_what_nothing_has_are_refused(tmp_path):
     path = tmp_path / "rig.csv"
     path.write_text("roll_angle [deg],toe_left [deg]\n-1,0.1\n1,0.2\n", encoding="utf-8")
     with pytest.raises(InputError, match="over roll_angle, which a does not have; there is wheel"):
@@ -326,7 +323,7 @@ def test_curves_over_what_nothing_has_are_refused(tmp_path: Path) -> None:
         lambda names: rig.beside(xr.Dataset(), dict.fromkeys(names, MODEL)),
     ],
 )
-def test_names_of_data_sets_differ_as_texts(door: Any) -> None:
+def test_names_of_data_sets_differ_as_texts(door):
     for names, words in (
         (("1", 1), "has the labels '1' and 1"),
         (("a", "a\0"), r"has the labels 'a' and 'a\\x00'"),
@@ -336,7 +333,7 @@ def test_names_of_data_sets_differ_as_texts(door: Any) -> None:
             door(names)
 
 
-def test_compliance_by_the_command(kintrafo: Any, tmp_path: Path) -> None:
+def test_compliance_by_the_command(kintrafo, tmp_path):
     SOFT.save(tmp_path / "a.toml")
     SOFTER.save(tmp_path / "b.toml")
     (tmp_path / "rig.csv").write_text(

@@ -9,7 +9,6 @@ import math
 import re
 import tomllib
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -191,9 +190,7 @@ OF["five"] = OF["Panhard rod"] | {"right_upper_link_axle": {"axial_N_per_mm": 70
     ],
     ids=["three links", "triangulated", "lopsided", "five rods"],
 )
-def test_the_axle_deflects_as_on_springs(
-    axle: RigidAxle, rods: str, held: Any, travel: float
-) -> None:
+def test_the_axle_deflects_as_on_springs(axle, rods, held, travel):
     """Forces by statics and least energy against stiffnesses and constraints, two theories."""
     axle = axle.with_changes(FREE)
     found = flat(compliance.linear(axle, OF[rods], [travel], held=held))
@@ -368,9 +365,7 @@ FIVE_STOPPED = FIVE.with_changes(
 @pytest.mark.parametrize("hardpoints", ["loaded", "relaxed"])
 @pytest.mark.parametrize(("motion", "along"), [("bump", 0.04), ("roll", 0.05), ("left", -0.05)])
 @pytest.mark.parametrize("axle", [STOPPED, FIVE_STOPPED], ids=["four rods", "five rods"])
-def test_motions_on_bushes_are_those_of_a_beam_on_springs(
-    axle: RigidAxle, motion: str, along: float, hardpoints: Any
-) -> None:
+def test_motions_on_bushes_are_those_of_a_beam_on_springs(axle, motion, along, hardpoints):
     bushes = None if axle is FIVE_STOPPED else EVERY_WAY
     found = flat(compliance.elastokinematics(axle, bushes, motion, [along], hardpoints=hardpoints))
     heave, roll = along, 0.0
@@ -409,9 +404,7 @@ def test_motions_on_bushes_are_those_of_a_beam_on_springs(
         (FIVE_STOPPED, "braking", "left", "spring", [[-1, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0]]),
     ],
 )
-def test_large_loads_move_it_as_a_beam_on_springs(
-    kind: RigidAxle, under: Any, wheels: str, held: Any, load: list[list[float]]
-) -> None:
+def test_large_loads_move_it_as_a_beam_on_springs(kind, under, wheels, held, load):
     axle = kind.with_changes({"anti_roll_bar": {"rate_Nm_per_deg": 90.0}})
     bushes = None if kind is FIVE_STOPPED else EVERY_WAY
     most = 6000.0 * (0.1 if under == "aligning" else 1.0)
@@ -437,7 +430,7 @@ def test_large_loads_move_it_as_a_beam_on_springs(
 # -- files, commands and errors -------------------------------------------------------------------
 
 
-def test_five_rods_move_only_as_their_bushes_give_way() -> None:
+def test_five_rods_move_only_as_their_bushes_give_way():
     """Softer in heave with softer bushes; all else than bushes is refused by name."""
     rates = []
     for times in (1.0, 10.0):
@@ -474,11 +467,11 @@ WRONG: list[tuple[dict[str, Any], str]] = [
 
 
 @pytest.mark.parametrize("bushes", WRONG)
-def test_bushes_that_cannot_be_are_refused_by_name(bushes: dict[str, Any], refused: Any) -> None:
+def test_bushes_that_cannot_be_are_refused_by_name(bushes, refused):
     refused(InputError, lambda: compliance.linear(AXLE, bushes, [0.0]))
 
 
-def test_what_else_cannot_be() -> None:
+def test_what_else_cannot_be():
     soft = {"panhard_rod_axle": {"axial_N_per_mm": 900.0}}
     with pytest.raises(InputError, match="none are given, and the hardpoint file has none"):
         compliance.linear(AXLE)
@@ -496,7 +489,7 @@ def test_what_else_cannot_be() -> None:
         AXLE.with_changes({"bushings": {"panhard_rod": {"axial_N_per_mm": 900.0}}})
 
 
-def test_the_page_has_what_the_command_prints() -> None:
+def test_the_page_has_what_the_command_prints():
     page = (ROOT / "docs/suspension/compliance.md").read_text(encoding="utf-8")
     (text,) = re.findall(r"```toml\n# axle_bushes\.toml\n(.*?)```", page, flags=re.DOTALL)
     found = flat(compliance.linear(AXLE, tomllib.loads(text)["bushings"], [0.0]))
@@ -507,7 +500,7 @@ def test_the_page_has_what_the_command_prints() -> None:
     assert set(printed) <= rows
 
 
-def test_a_file_has_its_bushes(kintrafo: Any, tmp_path: Path) -> None:
+def test_a_file_has_its_bushes(kintrafo, tmp_path):
     """In the tables, the sheet and the report, as those that are given in their place."""
     soft = {"panhard_rod_axle": {"radial_N_per_mm": 900.0, "axis": [1.0, 0.0, 0.0]}}
     own = AXLE.with_changes({"bushings": soft})

@@ -4,7 +4,6 @@ The root finder of `test_rigid_axle` shares nothing with the equations or the ba
 """
 
 import math
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -94,7 +93,7 @@ def work_of(axle: RigidAxle, here: xr.Dataset, at: tuple[float, float]) -> Any:
 
 @each_axle
 @each_case
-def test_loads_do_as_much_work_as_springs_weight_and_bar(axle: RigidAxle, case: str) -> None:
+def test_loads_do_as_much_work_as_springs_weight_and_bar(axle, case):
     """In heave and roll, of the road, held wheels and all."""
     here = loads.static(axle, {case: PUSHED[case]}).sel(case=case)
     at = where(axle, here)
@@ -106,7 +105,7 @@ def test_loads_do_as_much_work_as_springs_weight_and_bar(axle: RigidAxle, case: 
 
 
 @each_axle
-def test_a_rod_does_the_work_of_all_that_it_holds(axle: RigidAxle) -> None:
+def test_a_rod_does_the_work_of_all_that_it_holds(axle):
     """Each rod cut in turn: its force over its growth, heave and roll held."""
     here = loads.static(axle, {"pushed": PUSHED["pushed"]}).sel(case="pushed")
     at = where(axle, here)
@@ -124,7 +123,7 @@ def test_a_rod_does_the_work_of_all_that_it_holds(axle: RigidAxle) -> None:
 # -- balances -------------------------------------------------------------------------------------
 
 
-def test_a_rod_carries_a_force_along_it_and_no_moment() -> None:
+def test_a_rod_carries_a_force_along_it_and_no_moment():
     found = loads.static(LOPSIDED, PUSHED)
     for rod in LOPSIDED.rods:
         names = [
@@ -138,7 +137,7 @@ def test_a_rod_carries_a_force_along_it_and_no_moment() -> None:
         np.testing.assert_allclose(found["force"].sel(load=names[1]), pull, rtol=1e-12, atol=1e-9)
 
 
-def test_components_in_the_axes_of_a_part_are_turned() -> None:
+def test_components_in_the_axes_of_a_part_are_turned():
     found = loads.static(LOPSIDED, PUSHED).sel(case="pushed")
     turn = Found(LOPSIDED).pose(*where(LOPSIDED, found))[1]
     beam = on(found, "beam")
@@ -162,7 +161,7 @@ LEVEL = AXLE.with_changes(
 )
 
 
-def test_a_stop_carries_what_the_spring_does_not() -> None:
+def test_a_stop_carries_what_the_spring_does_not():
     """Upright dampers that end under the wheels: the rest of the load over the spring's."""
     axle = LEVEL.with_changes(
         {
@@ -183,7 +182,7 @@ def test_a_stop_carries_what_the_spring_does_not() -> None:
 
 @pytest.mark.parametrize("pressed", [-1e-7, 0.0, 1e-8, 1e-6, 1e-3])
 @pytest.mark.parametrize("rate", [1e5, 1e8])
-def test_a_stop_that_is_hardly_touched_is_found(pressed: float, rate: float) -> None:
+def test_a_stop_that_is_hardly_touched_is_found(pressed, rate):
     """The forces of a held road, given as a load case, lead to the same position."""
     travel = 0.05
     model = RigidAxleModel(LEVEL)
@@ -202,7 +201,7 @@ def test_a_stop_that_is_hardly_touched_is_found(pressed: float, rate: float) -> 
         assert float(free["travel"].sel(wheel=side)) == pytest.approx(travel, abs=1e-10)
 
 
-def test_rest_on_the_road_is_the_static_load() -> None:
+def test_rest_on_the_road_is_the_static_load():
     found = loads.static(AXLE).sel(case="static")
     rest = equilibrium(MODEL)
     for side in SIDES:
@@ -216,7 +215,7 @@ def test_rest_on_the_road_is_the_static_load() -> None:
     assert float(given["wheel_load"].sel(wheel="left")) == pytest.approx(6000.0, rel=1e-12)
 
 
-def test_usual_cases_are_all_carried_between_stops() -> None:
+def test_usual_cases_are_all_carried_between_stops():
     found = loads.static(STOPPED)
     assert [*found["case"].values] == [*loads.standard_cases(AXLE)]
     assert not any(found["reason"].values)
@@ -229,7 +228,7 @@ APART = 2e-4
 
 
 @pytest.fixture(scope="module")
-def motion() -> tuple[RigidAxleModel, Any, xr.Dataset]:
+def motion():
     """A lopsided axle with spinning wheels, one of which meets a step."""
     axle = LOPSIDED.with_changes({"damper.friction_N": 60.0})
     model = RigidAxleModel(axle)
@@ -240,7 +239,7 @@ def motion() -> tuple[RigidAxleModel, Any, xr.Dataset]:
     return model, moving, loads.along(model, moving)
 
 
-def test_a_motion_needs_nothing_else(motion: Any) -> None:
+def test_a_motion_needs_nothing_else(motion):
     """The equations of motion and the balance of the parts agree; wheels spin freely."""
     model, moving, found = motion
     largest = float(abs(found["force"]).max())
@@ -266,7 +265,7 @@ def test_a_motion_needs_nothing_else(motion: Any) -> None:
 # -- unsupported loads, and errors ----------------------------------------------------------------
 
 
-def test_no_spring_is_turned_upside_down() -> None:
+def test_no_spring_is_turned_upside_down():
     """Without stops a great load leads over a spring that lies across, which would carry it."""
     found = loads.static(AXLE, static_load=6350.0)
     for case in ("bump", "pothole"):
@@ -275,15 +274,13 @@ def test_no_spring_is_turned_upside_down() -> None:
     assert (loads.static(STOPPED, static_load=6350.0)["reason"] == "").all()
 
 
-def test_a_motion_through_a_dead_point_is_refused(
-    monkeypatch: pytest.MonkeyPatch, motion: Any
-) -> None:
+def test_a_motion_through_a_dead_point_is_refused(monkeypatch, motion):
     monkeypatch.setattr("kintrafo.vehicle.analysis.loads.balance._WORST_CONDITION", 1.0)
     with pytest.raises(PositionError, match=r"at a wheel height of .* mm and .* mm: the linkage"):
         loads.along(*motion[:2])
 
 
-def test_what_the_wheels_need_is_named() -> None:
+def test_what_the_wheels_need_is_named():
     low = {"hardpoints.wheel_center.z": 50.0, "tyre.free_height_mm": 77.6}
     with pytest.raises(InputError, match=r"\[tyre\] radius_mm is needed"):
         loads.static(AXLE.with_changes(low))
@@ -295,7 +292,7 @@ def test_what_the_wheels_need_is_named() -> None:
 @pytest.mark.parametrize(
     "name", ["chassis", "beam", "wheel_left", "spring", "damper_right", "bar", "gravity", "road"]
 )
-def test_a_rod_is_not_called_like_another_part(name: str) -> None:
+def test_a_rod_is_not_called_like_another_part(name):
     data = AXLE.to_dict()
     data["rods"][name] = data["rods"].pop("upper_link")
     with pytest.raises(InputError, match=rf"\[rods\] '{name}' is the name of another part"):
@@ -305,7 +302,7 @@ def test_a_rod_is_not_called_like_another_part(name: str) -> None:
 # -- tables, pictures and commands ----------------------------------------------------------------
 
 
-def test_each_rod_has_a_row_with_its_sign() -> None:
+def test_each_rod_has_a_row_with_its_sign():
     found = loads.static(STOPPED)
     rows = {row[0]: row[1:] for row in overview(found, "").rows}
     column = [*found["case"].values].index("brake")
@@ -324,7 +321,7 @@ def test_each_rod_has_a_row_with_its_sign() -> None:
 
 
 @pytest.mark.usefixtures("first_page_of_curves", "one_picture")
-def test_the_report_has_the_load_cases(kintrafo: Any, tmp_path: Path) -> None:
+def test_the_report_has_the_load_cases(kintrafo, tmp_path):
     text = "[cases.stop]\ncontact_g = [-1.0, 0.0, 1.2]\n"
     (tmp_path / "cases.toml").write_text(text, encoding="utf-8")
     soft = "[bushings.panhard_rod_chassis]\naxial_N_per_mm = 5000.0\n"
@@ -340,7 +337,7 @@ def test_the_report_has_the_load_cases(kintrafo: Any, tmp_path: Path) -> None:
     assert ">Elastokinematics<" in page
 
 
-def test_a_ride_has_its_loads() -> None:
+def test_a_ride_has_its_loads():
     moving, _ = run(MODEL, Scenario(duration=0.02))
     found = loads.along(MODEL, moving)
     heave, roll = moving.y[0, -1], moving.y[1, -1]

@@ -28,7 +28,7 @@ def model():
     return CarModel(light_car())
 
 
-def test_heights_by_distance_are_those_over_time_at_constant_speed(model) -> None:
+def test_heights_by_distance_are_those_over_time_at_constant_speed(model):
     """`kintrafo.simulate` has the heights as splines of time, and its own steps."""
     road = road_profiles.bump(0.03, 1.0, at=2.0, end=40.0, sides="left")
     car = driving_car("test", model)
@@ -56,7 +56,7 @@ def test_heights_by_distance_are_those_over_time_at_constant_speed(model) -> Non
     assert np.ptp(other.signals["rear_left_fz"]) > 2000.0
 
 
-def test_the_wheels_of_a_car_that_drives_have_the_radius_of_its_tyres() -> None:
+def test_the_wheels_of_a_car_that_drives_have_the_radius_of_its_tyres():
     """For the cams of a tyre on a kerb; the files of the axles have another radius."""
     car = light_car()
     assert list(assembly_of(car).tyre_radii) == [car.tyre(one).radius for one in car.wheels]
@@ -64,7 +64,7 @@ def test_the_wheels_of_a_car_that_drives_have_the_radius_of_its_tyres() -> None:
     assert riding.tyre_radii != assembly_of(car).tyre_radii
 
 
-def test_a_wheel_is_on_the_road_at_its_own_distance(model) -> None:
+def test_a_wheel_is_on_the_road_at_its_own_distance(model):
     """In braking: the distance is the integral of the speed, and rear wheels are behind."""
     road = road_profiles.Road(0.5, 0.02 * np.sin(np.arange(80.0)), 0.01 * np.cos(np.arange(80.0)))
     changes = {
@@ -85,7 +85,7 @@ def test_a_wheel_is_on_the_road_at_its_own_distance(model) -> None:
 
 
 @pytest.mark.parametrize("spacing", [0.3, 8.0])
-def test_a_car_begins_on_the_level_at_any_altitude(spacing) -> None:
+def test_a_car_begins_on_the_level_at_any_altitude(spacing):
     left, right = 0.01 * np.cos(np.arange(6.0)), np.full(6, -0.01)
     tracks = [road_profiles.Road(spacing, left + height, right + height) for height in (0.0, 812.5)]
     for side, first in (("left", 0.01), ("right", -0.01)):
@@ -98,7 +98,7 @@ def test_a_car_begins_on_the_level_at_any_altitude(spacing) -> None:
     assert level.lead == 0.0
 
 
-def test_a_car_that_rolls_back_returns_over_its_road() -> None:
+def test_a_car_that_rolls_back_returns_over_its_road():
     """Uphill without a drive, and a spin, in which the car goes on backward."""
     names = [f"front_{side}_road_{kind}" for side in SIDES for kind in ("height", "velocity")]
     road = road_profiles.sine(0.02, 8.0, end=60.0)
@@ -119,7 +119,7 @@ def test_a_car_that_rolls_back_returns_over_its_road() -> None:
         assert np.abs(heights - track(places)).max() < 1e-4
 
 
-def test_a_road_is_refused_where_nothing_is_simulated(model) -> None:
+def test_a_road_is_refused_where_nothing_is_simulated(model):
     road = road_profiles.bump(0.03, 1.0)
     with pytest.raises(InputError, match="road: steady-state circle is not simulated"):
         drive(model, "circle", road=road)
@@ -128,7 +128,7 @@ def test_a_road_is_refused_where_nothing_is_simulated(model) -> None:
 
 
 @pytest.mark.parametrize(("grade", "crossfall"), [(0.08, 0.0), (-0.03, 0.05)])
-def test_tyres_carry_the_weight_on_a_slope(model, grade, crossfall) -> None:
+def test_tyres_carry_the_weight_on_a_slope(model, grade, crossfall):
     changes = {"speed_km_per_h": 60.0, "duration_s": 0.5}
     found = drive(model, "straight", changes, grade=grade, crossfall=crossfall)
     ((run,), motion) = found.runs, found.curves[""]
@@ -152,7 +152,7 @@ def test_tyres_carry_the_weight_on_a_slope(model, grade, crossfall) -> None:
     assert np.ptp(motion["yaw_angle"].values) < 1e-6
 
 
-def test_a_car_climbs_until_its_driven_wheels_slide(model) -> None:
+def test_a_car_climbs_until_its_driven_wheels_slide(model):
     """The steepest grade has the friction of the front wheels, by their load as a rigid car.
 
     Their load is (cos b - sin h) / L of the weight W, and they carry W sin; the drag is 0.2 % of W.
@@ -175,7 +175,7 @@ def test_a_car_climbs_until_its_driven_wheels_slide(model) -> None:
     assert float(named) == pytest.approx(100.0 * steepest, rel=0.03)
 
 
-def test_a_slope_that_is_level_in_words_is_not_named(model, monkeypatch) -> None:
+def test_a_slope_that_is_level_in_words_is_not_named(model, monkeypatch):
     def begin(turns, _acceleration):
         turns.slope = Slope(0.0004)
         raise NoSteadyMotionError("")
@@ -185,7 +185,7 @@ def test_a_slope_that_is_level_in_words_is_not_named(model, monkeypatch) -> None
         drive(model, "straight", grade=0.03)
 
 
-def test_a_deceleration_is_that_of_brakes_and_grade(model) -> None:
+def test_a_deceleration_is_that_of_brakes_and_grade(model):
     """The weight along the grade has 1 m/s^2 of 6: without it the difference would be 2 m/s^2."""
     changes = {"speed_km_per_h": 40.0, "deceleration_m_per_s2": 6.0}
     up, down = (
@@ -204,14 +204,12 @@ def test_a_deceleration_is_that_of_brakes_and_grade(model) -> None:
         (-0.1, {"duration_s": 0.5}, "downhill"),
     ],
 )
-def test_a_coast_down_without_a_result_is_refused(model, grade, changes, words) -> None:
+def test_a_coast_down_without_a_result_is_refused(model, grade, changes, words):
     with pytest.raises(InputError, match=words):
         drive(model, "coast_down", changes, grade=grade)
 
 
-def test_advice_about_a_simulation_names_no_argument_that_a_manoeuvre_lacks(
-    model, monkeypatch
-) -> None:
+def test_advice_about_a_simulation_names_no_argument_that_a_manoeuvre_lacks(model, monkeypatch):
     """A stepper with fewer steps than it needs has the error of a motion that is too fast."""
     monkeypatch.setattr(stepper, "_MOST_STEPS", 1)
     with pytest.raises(SimulationError, match="more than 1 steps") as caught:
@@ -222,14 +220,14 @@ def test_advice_about_a_simulation_names_no_argument_that_a_manoeuvre_lacks(
         stepper.Stepper(model, 0.1, method="DormandPrince").step()  # falls from design
 
 
-def test_a_model_on_a_slope_is_refused_where_a_car_rests() -> None:
+def test_a_model_on_a_slope_is_refused_where_a_car_rests():
     with pytest.raises(InputError, match="a car does not rest on a slope"):
         drive(CarModel(light_car(), slope=Slope(0.05)), "straight")
     with pytest.raises(InputError, match="grade = nan"):
         CarModel(light_car(), slope=Slope(np.nan))
 
 
-def test_a_slope_is_refused_where_turns_are_steady(model) -> None:
+def test_a_slope_is_refused_where_turns_are_steady(model):
     with pytest.raises(InputError, match=r"step steer is for a level road.*straight"):
         drive(model, "step_steer", grade=0.05)
     with pytest.raises(InputError, match="grade = 8"):

@@ -57,7 +57,7 @@ def in_the_air(car):
 
 
 @pytest.mark.parametrize("speed", [10.0, 40.0])
-def test_gradients_are_those_of_a_bicycle_with_steering_compliance(railed, speed) -> None:
+def test_gradients_are_those_of_a_bicycle_with_steering_compliance(railed, speed):
     """The column softens the front tyres: their slip angle is F/C, and F trail/k is added."""
     metrics = circle(railed, speed=speed, lateral_acceleration=[1e-4]).metrics
     base, mass = railed.wheelbase, railed.mass
@@ -72,7 +72,7 @@ def test_gradients_are_those_of_a_bicycle_with_steering_compliance(railed, speed
     assert float(metrics["understeer_gradient_of_wheels"]) == pytest.approx(of_wheels, rel=1e-6)
 
 
-def test_slow_harmonic_steering_is_a_steady_turn(railed) -> None:
+def test_slow_harmonic_steering_is_a_steady_turn(railed):
     straight = Turns(railed, SteadyCondition("speed", 20.0), 1).begin(0.0)
     found = steering_response(railed, straight, np.array([1e-4]))
     slope = straight.slopes["yaw_rate"] / straight.slopes["steering_wheel"]
@@ -80,7 +80,7 @@ def test_slow_harmonic_steering_is_a_steady_turn(railed) -> None:
     assert found["yaw_rate"][0].real == pytest.approx(slope, rel=1e-4)
 
 
-def test_the_frequency_of_the_free_rack_is_that_of_one_mass(railed) -> None:
+def test_the_frequency_of_the_free_rack_is_that_of_one_mass(railed):
     """In the air; the yaw of the body takes a part of the moment of momentum."""
     model, state = railed.model, in_the_air(railed)
     centers = [[x, y] for x in (rail_car.FRONT, rail_car.REAR) for y in (0.75, -0.75)]
@@ -95,7 +95,7 @@ def test_the_frequency_of_the_free_rack_is_that_of_one_mass(railed) -> None:
     assert np.abs(found - expected).min() == pytest.approx(0.0, abs=1e-6 * expected)
 
 
-def test_slow_steering_loses_what_friction_takes(railed) -> None:
+def test_slow_steering_loses_what_friction_takes(railed):
     """Friction times the travel of the rack, which rests while the twist of the column reverses."""
     friction, amplitude, period = 200.0, 0.02, 4.0
     changes = {"rack_friction": friction, "rack_friction_speed": 1e-4, "gravity": 0.0}
@@ -123,7 +123,7 @@ def column():
     return with_column()
 
 
-def test_a_steady_turn_twists_the_column_by_its_torque(column) -> None:
+def test_a_steady_turn_twists_the_column_by_its_torque(column):
     """By the balance of all parts; the angle of the steering wheel is that of a rigid column."""
     accelerations = [1.0, 4.0]
     soft, rigid = (
@@ -144,7 +144,7 @@ def test_a_steady_turn_twists_the_column_by_its_torque(column) -> None:
     assert more == pytest.approx(gradient / rate / ratio, rel=1e-5)
 
 
-def test_studies_vary_the_stiffness(column) -> None:
+def test_studies_vary_the_stiffness(column):
     """The twist is torque by stiffness, at a torque that does not depend on it."""
     key, names = "steering_column.stiffness_Nm_per_deg", ["column_twist", "steering_torque"]
     over = {"over": "lateral_acceleration", "positions": [3.0]}
@@ -158,7 +158,7 @@ def test_studies_vary_the_stiffness(column) -> None:
     assert float(slope["steering_torque"]) == pytest.approx(0.0, abs=1e-9)
 
 
-def test_a_stiff_column_is_a_rigid_one() -> None:
+def test_a_stiff_column_is_a_rigid_one():
     """Accelerations in a step steer differ in inverse proportion to the stiffness."""
     changes = {"duration_s": 1.5, "step_ms": 2.0, "output_step_ms": 4.0}
     light = {"friction_Nm": 0.0, "rack_friction_N": 0.0, "pinion_inertia_kg_m2": 0.0}
@@ -176,7 +176,7 @@ def test_a_stiff_column_is_a_rigid_one() -> None:
     assert abs(errors[1]) < 1e-3 * float(rigid["yaw_rate_gain"])
 
 
-def test_forces_on_the_rack_are_those_of_the_loads(column) -> None:
+def test_forces_on_the_rack_are_those_of_the_loads(column):
     """In a step steer; the balance of all parts has the rack without its drive."""
     result = drive(column, "step_steer", {"duration_s": 1.5})
     run = result.runs[-1]
@@ -197,7 +197,7 @@ def test_forces_on_the_rack_are_those_of_the_loads(column) -> None:
     np.testing.assert_allclose(torque, -(moment + 0.5 * smoothed), atol=1e-12)
 
 
-def test_a_rack_of_either_sense_is_the_same_steering(column) -> None:
+def test_a_rack_of_either_sense_is_the_same_steering(column):
     """But for the inertia of the pinion, which turns about one axis in the sense of the rack."""
     rack = column.axles["front"].right.rack.axis
     other = column.with_changes({"front.side.rack.axis": [-each for each in rack]})
@@ -223,7 +223,7 @@ def test_a_rack_of_either_sense_is_the_same_steering(column) -> None:
         assert np.abs(there[name] - here[name]).max() < 1.5 * most
 
 
-def test_a_parked_rack_rests_where_the_steering_turns_back(column) -> None:
+def test_a_parked_rack_rests_where_the_steering_turns_back(column):
     changes = {"largest_deg": 180.0, "step_deg": 30.0}
     found = drive(column, "parking", changes).curves[""]
     rigid = drive(light_car(), "parking", changes).curves[""]
@@ -245,7 +245,7 @@ def test_a_parked_rack_rests_where_the_steering_turns_back(column) -> None:
     assert found["lifting_torque"].values[:7] == pytest.approx(held, abs=0.02)
 
 
-def test_a_car_at_rest_has_its_rack_in_the_middle(column) -> None:
+def test_a_car_at_rest_has_its_rack_in_the_middle(column):
     model = kintrafo.CarModel(column)
     rest = kintrafo.equilibrium(model)
     assembly = assembly_of(model)
@@ -279,7 +279,7 @@ def test_a_car_at_rest_has_its_rack_in_the_middle(column) -> None:
         ({"colour": "black"}, "colour"),
     ],
 )
-def test_values_of_a_column_are_checked(changes, words) -> None:
+def test_values_of_a_column_are_checked(changes, words):
     own = {name: value for name, value in (COLUMN | changes).items() if value is not None}
     with pytest.raises(kintrafo.InputError) as error:
         Car.from_dict(FILE | {"steering_column": own})
@@ -306,13 +306,13 @@ def without_ratio():
         (FILE["front"] | {"side": without_ratio()}, "travel_per_turn_mm is missing"),
     ],
 )
-def test_a_column_needs_a_rack_and_its_ratio(front, words) -> None:
+def test_a_column_needs_a_rack_and_its_ratio(front, words):
     with pytest.raises(kintrafo.InputError, match=r"\[steering_column\]") as error:
         Car.from_dict(FILE | {"front": front, "steering_column": COLUMN})
     assert words in str(error.value)
 
 
-def test_other_cars_have_no_column() -> None:
+def test_other_cars_have_no_column():
     """A car that does not travel holds its rack; without the section equations are as before."""
     assert [name_of(car).count("column") for car in (light_car(), with_column())] == [0, 1]
     assert "[steering_column]" in with_column().with_changes({"car": "roll"}).unused
@@ -334,7 +334,7 @@ def on_a_beam():
     return Car.from_dict(FILE | axles | {"brakes": brakes, "steering_column": COLUMN})
 
 
-def test_a_drag_link_has_a_column() -> None:
+def test_a_drag_link_has_a_column():
     car = on_a_beam()
     found, state = declared(car), assembly_of(car).rack_state
     assert "front_rack_guide" in {joint.name for joint in found.independent}
@@ -342,7 +342,7 @@ def test_a_drag_link_has_a_column() -> None:
     assert state in {coordinate.name for coordinate in found.mechanism.coordinates}
 
 
-def test_a_car_on_a_steered_beam_rests_runs_straight_and_turns_by_its_column() -> None:
+def test_a_car_on_a_steered_beam_rests_runs_straight_and_turns_by_its_column():
     """Loads carry the weight; the balance of all parts has the torque of the twisted column."""
     assembly = assembly_of(kintrafo.CarModel(on_a_beam()))
     model, car = assembly.model, assembly.car
@@ -371,7 +371,7 @@ def test_a_car_on_a_steered_beam_rests_runs_straight_and_turns_by_its_column() -
     assert across == pytest.approx(3.0 * weight / 9.81, rel=5e-3)
 
 
-def test_a_missing_ratio_is_one_of_the_file_that_lacks_it() -> None:
+def test_a_missing_ratio_is_one_of_the_file_that_lacks_it():
     """An axle without sides has one file, and no curve of its steering."""
     beam = on_a_beam().with_changes({"steering_column": None, "front.pitman_arm.gear_ratio": None})
     sided = light_car(**{"front.side.rack.travel_per_turn_mm": None})
@@ -383,7 +383,7 @@ def test_a_missing_ratio_is_one_of_the_file_that_lacks_it() -> None:
             Controls(car).rack(0.1)
 
 
-def test_a_pitman_arm_has_a_column() -> None:
+def test_a_pitman_arm_has_a_column():
     car = kintrafo.load("fed_alpha").with_changes({"car": "full", "steering_column": COLUMN})
     found = declared(car)
     assert "front_rack_guide" in {joint.name for joint in found.independent}

@@ -3,7 +3,6 @@
 import pickle
 from dataclasses import replace
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -38,7 +37,7 @@ BRAKED = "time_s,contact_force_x_N,hub_torque_Nm\n0,0,0\n0.1,0,0\n0.2,-2000,-600
 
 
 @pytest.mark.parametrize("car", CARS, ids=lambda car: car.TITLE)
-def test_rest_is_that_of_a_load_case(car: Suspension) -> None:
+def test_rest_is_that_of_a_load_case(car):
     """A wheel without a tyre, braked and in a corner: equations of motion against statics."""
     contact = np.array([-1900.0, 1100.0, 3900.0])
     case = {"contact_N": contact.tolist(), "contact_Nm": [0.0, 0.0, 60.0]}
@@ -55,7 +54,7 @@ def test_rest_is_that_of_a_load_case(car: Suspension) -> None:
 
 
 @pytest.mark.parametrize("car", CARS, ids=lambda car: car.TITLE)
-def test_every_part_is_in_balance(car: Suspension) -> None:
+def test_every_part_is_in_balance(car):
     """Residual of the Newton-Euler equations in any motion, and the loads of the bearing."""
     model = Model(car, wheel_loads=True)
     random = np.random.default_rng(1)
@@ -78,7 +77,7 @@ def test_every_part_is_in_balance(car: Suspension) -> None:
 
 
 @pytest.mark.parametrize("name", [name for name in UNITS if name != "hub_torque"])
-def test_what_is_at_rest_stays_there(name: str) -> None:
+def test_what_is_at_rest_stays_there(name):
     """The state carries the brake that holds the wheel, against whatever turns it."""
     model = Model(CARS[0], wheel_loads=True)
     rest = equilibrium(model, inputs={name: 0.25 * LIMITS[UNITS[name]]}, spin_rate=20.0)
@@ -87,7 +86,7 @@ def test_what_is_at_rest_stays_there(name: str) -> None:
     np.testing.assert_allclose(rates, [0.0, 20.0, 0.0, 0.0], atol=1e-9)
 
 
-def test_both_sides_of_an_axle_do_what_one_does() -> None:
+def test_both_sides_of_an_axle_do_what_one_does():
     """Loads alike on both sides, as if one stood alone; on one side, the bar takes a part of it."""
     axle = Axle.load("reference_axle")
     model = AxleModel(axle, wheel_loads=True)
@@ -116,7 +115,7 @@ def test_both_sides_of_an_axle_do_what_one_does() -> None:
 
 
 @pytest.mark.parametrize("of", ["reference_car", "rigid_axle --wheels left"])
-def test_measured_loads_are_driven(kintrafo, tmp_path: Path, of: str) -> None:
+def test_measured_loads_are_driven(kintrafo, tmp_path, of):
     file = tmp_path / "braked.csv"
     file.write_text(BRAKED)
     assert set(measured(file).values) == {"contact_force_x", "hub_torque"}
@@ -134,14 +133,14 @@ CORNERS = [m for m in MODELS if any(body.name == "wheel" for body in m.mechanism
 
 
 @pytest.mark.parametrize("formulation", CORNERS, ids=lambda model: model.name)
-def test_every_kind_can_have_them(formulation) -> None:
+def test_every_kind_can_have_them(formulation):
     loaded = with_wheel_loads(formulation)
     assert set(loaded.inputs) - set(formulation.inputs) == set(UNITS)
     assert {name: loaded.inputs[name].unit for name in UNITS} == UNITS
     assert all(f"`{name}`" in loaded.mechanism.forces[-1].describe().acts for name in UNITS)
 
 
-def test_what_cannot_be_is_refused() -> None:
+def test_what_cannot_be_is_refused():
     car = CARS[0]
     points = car.hardpoints.given()
     lower = {f"hardpoints.{name}.z": getattr(car.hardpoints, name)[2] - 300.0 for name in points}
@@ -153,7 +152,7 @@ def test_what_cannot_be_is_refused() -> None:
         equilibrium(Model(car, wheel_loads=True), inputs={"contact_force_w": 1.0})
 
 
-def test_a_bearing_that_is_not_the_wheels_is_refused(refused: Any) -> None:
+def test_a_bearing_that_is_not_the_wheels_is_refused(refused):
     loaded = with_wheel_loads(MODELS[0])
     force = loaded.mechanism.forces[-1]
     refused(DeclarationError, lambda: replace(force, hub=Input("hub", "N", "torque")))
@@ -163,7 +162,7 @@ def test_a_bearing_that_is_not_the_wheels_is_refused(refused: Any) -> None:
     refused(DeclarationError, lambda: replace(force, wheel=replace(force.wheel, carrier=arm)))
 
 
-def test_a_car_with_friction_and_a_free_rack_is_looked_at() -> None:
+def test_a_car_with_friction_and_a_free_rack_is_looked_at():
     """Its equations without friction are those with a free rack, too."""
     car = Suspension.load("offset_strut_car").with_changes(
         {"bodies.tie_rod.mass_kg": 1.0, "strut.friction_N": 50.0}
@@ -197,7 +196,7 @@ def inputs_of(case: dict[str, Any]) -> dict[str, float]:
     }
 
 
-def test_an_axle_rests_as_in_a_load_case() -> None:
+def test_an_axle_rests_as_in_a_load_case():
     """Wheels without tyres, braked and in a corner: equations of motion against statics."""
     wanted = loads.static(LOPSIDED, {"case": CASE})
     free = LOPSIDED.with_changes({"tyre.rate_N_per_m": 0.0})
@@ -215,7 +214,7 @@ def test_an_axle_rests_as_in_a_load_case() -> None:
     assert brake == pytest.approx(-1900.0 * model.parameters["tyre_radius"], rel=1e-3)
 
 
-def test_power_on_an_axle_is_that_at_the_places_of_the_root_finder() -> None:
+def test_power_on_an_axle_is_that_at_the_places_of_the_root_finder():
     """Generalised forces in heave, roll and spin by differences of where the wheels' points go."""
     model = lopsided()
     random, at, step = np.random.default_rng(2), (0.02, -0.03), 1e-6
@@ -265,7 +264,7 @@ def test_power_on_an_axle_is_that_at_the_places_of_the_root_finder() -> None:
     assert np.abs(wanted).max() > 1e3
 
 
-def test_every_part_of_an_axle_is_in_balance_along_a_motion() -> None:
+def test_every_part_of_an_axle_is_in_balance_along_a_motion():
     """Residual of the Newton-Euler equations, and moments of bearings about their axes."""
     time = [0.0, 0.02, 0.05]
     inputs = {
@@ -290,7 +289,7 @@ def test_every_part_of_an_axle_is_in_balance_along_a_motion() -> None:
         assert carried @ LOPSIDED.wheel.spin_axis(sign) == pytest.approx(hub, abs=1e-6)
 
 
-def test_a_ride_of_an_axle_under_loads_and_what_is_refused() -> None:
+def test_a_ride_of_an_axle_under_loads_and_what_is_refused():
     braked = {"contact_force_x": -1500.0, "hub_torque": -540.0}
     model = RigidAxleModel(AXLE, wheel_loads=True)
     again = pickle.loads(pickle.dumps(model))

@@ -1,7 +1,6 @@
 """Axles: against their own compiled equations, differences, and formulas by hand."""
 
 import re
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -57,14 +56,14 @@ def somewhere(seed: int, count: int = 20, size: float = 0.05) -> tuple[np.ndarra
 
 @settings(max_examples=60)
 @given(st.integers(0, 10**6))
-def test_the_half_of_a_bar_turns_to_where_its_link_fits(seed: int) -> None:
+def test_the_half_of_a_bar_turns_to_where_its_link_fits(seed):
     """The angle against a search for the length of the link, its rate against a difference."""
     random = np.random.default_rng(seed)
     half = BENT.bar.half(mirrored=bool(seed % 2))
     foot = half.foot + random.uniform(-0.03, 0.03, 3)
     length = np.linalg.norm(half.top - half.foot)
 
-    def misfit(turn: float) -> float:
+    def misfit(turn):
         return float(np.linalg.norm(half.top_at(np.array(turn)) - foot) - length)
 
     found = float(half.turn(foot))
@@ -79,7 +78,7 @@ def test_the_half_of_a_bar_turns_to_where_its_link_fits(seed: int) -> None:
     assert rate == pytest.approx(slope, rel=1e-6, abs=1e-8)  # rounding 1e-16 over the step
 
 
-def test_a_bar_by_its_dimensions() -> None:
+def test_a_bar_by_its_dimensions():
     """The twist of a round bar, and the bending of its arms as those of cantilevers."""
     given = BAR | {"rate_Nm_per_deg": None, "diameter_mm": 22.0, "length_mm": 900.0}
     bar = AntiRollBar(**given)
@@ -96,7 +95,7 @@ def test_a_bar_by_its_dimensions() -> None:
 
 
 @pytest.fixture(scope="module", params=["reference", "bent"])
-def compiled(request: pytest.FixtureRequest) -> AxleModel:
+def compiled(request):
     if find_compiler() is None:
         pytest.skip("no C compiler")
     return AxleModel({"reference": AXLE, "bent": BENT}[request.param])
@@ -110,7 +109,7 @@ def without_weight(model: AxleModel) -> AxleModel:
     return other
 
 
-def test_the_bar_and_the_forces_are_those_of_the_whole_axle(compiled: AxleModel) -> None:
+def test_the_bar_and_the_forces_are_those_of_the_whole_axle(compiled):
     """Twist, and the wheels' forces by virtual work, against the emitted equations."""
     left, right, racks = somewhere(1)
     pair = AxleKinematics.at(compiled.axle, left, right, racks)
@@ -130,14 +129,14 @@ def test_the_bar_and_the_forces_are_those_of_the_whole_axle(compiled: AxleModel)
         np.testing.assert_allclose(pair.wheel_force(side), expected, rtol=1e-9)
 
 
-def test_an_axle_rests_where_nothing_pulls(compiled: AxleModel) -> None:
+def test_an_axle_rests_where_nothing_pulls(compiled):
     state = equilibrium(compiled, road_height={"left": 0.02}, rack_position=0.01)
     rates = compiled.evaluate("rhs", state, state.inputs)
     assert np.abs(rates).max() < 1e-8
     assert compiled.eigenvalues(state, state.inputs).real.max() < 1e-8
 
 
-def test_a_road_under_one_wheel_moves_both(compiled: AxleModel) -> None:
+def test_a_road_under_one_wheel_moves_both(compiled):
     road = roads.step(0.02, at=0.05, end=1.5)
     scenario = Scenario(duration=1.5, inputs={"road_height": road})
     result, motion = run(compiled, scenario, wheels="right", rtol=1e-9, atol=1e-11)
@@ -158,7 +157,7 @@ def test_a_road_under_one_wheel_moves_both(compiled: AxleModel) -> None:
 
 
 @pytest.mark.parametrize("axle", [AXLE, BENT], ids=["reference", "bent"])
-def test_stiffness_is_the_derivative_of_the_forces(axle: Axle) -> None:
+def test_stiffness_is_the_derivative_of_the_forces(axle):
     left, right, racks = somewhere(2, size=0.04)
     pair = AxleKinematics.at(axle, left, right, racks)
     whole = pair.springs + pair.bar
@@ -178,7 +177,7 @@ def test_stiffness_is_the_derivative_of_the_forces(axle: Axle) -> None:
 
 
 @pytest.mark.parametrize("axle", [AXLE, BENT], ids=["reference", "bent"])
-def test_the_roll_centre_is_where_the_contacts_do_not_slide(axle: Axle) -> None:
+def test_the_roll_centre_is_where_the_contacts_do_not_slide(axle):
     """At the centre of a small roll of the ground both contacts, on their paths, move along it."""
     left, right, racks = somewhere(3, size=0.03)
     pair = AxleKinematics.at(axle, left, right, racks)
@@ -195,7 +194,7 @@ def test_the_roll_centre_is_where_the_contacts_do_not_slide(axle: Axle) -> None:
         np.testing.assert_allclose(np.einsum("ni,ni->n", velocity, arm), 0.0, atol=1e-9)
 
 
-def test_in_the_middle_the_axle_is_what_its_sides_are() -> None:
+def test_in_the_middle_the_axle_is_what_its_sides_are():
     from kintrafo import characteristics
 
     travels = np.linspace(-0.05, 0.05, 11)
@@ -249,9 +248,7 @@ KINDS = {
 
 
 @pytest.mark.parametrize(("axle", "rack"), KINDS.values(), ids=KINDS)
-def test_roll_is_the_inclination_of_the_line_through_the_wheel_centres(
-    axle: Axle, rack: float
-) -> None:
+def test_roll_is_the_inclination_of_the_line_through_the_wheel_centres(axle, rack):
     angles = np.deg2rad([-4.0, -0.25, 0.0, 1.5, 4.0])
     left, right = motions.opposite(axle, angles, rack)
     np.testing.assert_array_equal(left, -right)
@@ -276,7 +273,7 @@ def test_roll_is_the_inclination_of_the_line_through_the_wheel_centres(
             np.testing.assert_array_equal(also, camber)
 
 
-def test_on_bushes_roll_is_the_same_inclination() -> None:
+def test_on_bushes_roll_is_the_same_inclination():
     angles, bushes = np.deg2rad([-3.0, 2.0]), {"arm_rear": {"axial_N_per_mm": 500.0}}
     found = flat(compliance.elastokinematics(AXLE, bushes, "roll", angles, rack_position=0.01))
     expected = flat(characteristics.over(AXLE, "roll", angles, rack_position=0.01))
@@ -286,7 +283,7 @@ def test_on_bushes_roll_is_the_same_inclination() -> None:
 
 
 @pytest.mark.parametrize("stopped", ["left", "right"])
-def test_stops_are_those_of_the_wheel(stopped: str) -> None:
+def test_stops_are_those_of_the_wheel(stopped):
     """The advice for a case without equilibrium depends on them."""
     stop = {"bump_stop": {"clearance_mm": 40.0, "rate_N_per_m": 1e5}}
     sides = {"right": CAR, "left": CAR.mirrored()}
@@ -297,7 +294,7 @@ def test_stops_are_those_of_the_wheel(stopped: str) -> None:
         assert not axle.has_stop(wheel_name, "rebound_stop")
 
 
-def test_the_usual_roll_ends_where_a_wheel_does() -> None:
+def test_the_usual_roll_ends_where_a_wheel_does():
     """With a strut whose least length leaves the wheels 40 mm of bump or so."""
     length = 1e3 * float(Model(CAR).signal("strut_length", Model(CAR).design_state))
     short = CAR.with_changes({"strut.length_min_mm": length - 40.0})
@@ -316,7 +313,7 @@ def test_the_usual_roll_ends_where_a_wheel_does() -> None:
 @pytest.mark.parametrize(
     "of", [AXLE, BENT, RigidAxle.load("rigid_axle")], ids=["reference", "bent", "rigid"]
 )
-def test_the_roll_moment_gradient_is_the_slope_of_the_roll_moment(of: Any) -> None:
+def test_the_roll_moment_gradient_is_the_slope_of_the_roll_moment(of):
     angles, step = np.deg2rad([-3.0, 0.0, 1.0]), 1e-3
     low, high, lower, higher = (
         characteristics.over(of, "roll", angles + by * step)["roll_moment"].values
@@ -330,7 +327,7 @@ def test_the_roll_moment_gradient_is_the_slope_of_the_roll_moment(of: Any) -> No
     assert "constant levers y of the contacts" in found["roll_stiffness"].attrs["definition"]
 
 
-def test_rates_in_roll_are_derivatives() -> None:
+def test_rates_in_roll_are_derivatives():
     angles = np.deg2rad(np.linspace(-2.0, 2.0, 401))
     curves = flat(characteristics.over(AXLE, "roll", angles))
     for side in ("left", "right"):
@@ -341,7 +338,7 @@ def test_rates_in_roll_are_derivatives() -> None:
 
 @pytest.mark.parametrize("end", ["front", "rear"])
 @pytest.mark.parametrize("torque_on", ["body", "carrier"])
-def test_anti_features_are_the_slopes_of_paths(end: str, torque_on: str) -> None:
+def test_anti_features_are_the_slopes_of_paths(end, torque_on):
     """From where the points are a little higher and a little lower."""
     data = {
         "axle": end,
@@ -373,7 +370,7 @@ def test_anti_features_are_the_slopes_of_paths(end: str, torque_on: str) -> None
 # -- steering -----------------------------------------------------------------------------------
 
 
-def test_a_steering_curve_ends_with_its_points() -> None:
+def test_a_steering_curve_ends_with_its_points():
     curve = SteeringCurve(angle_deg=[-90.0, 0.0, 90.0], rack_mm=[-20.0, 0.0, 21.0])
     assert curve.rack(np.deg2rad([-90.0, 90.0])) == pytest.approx([-0.02, 0.021])
     for function in (curve.rack, curve.travel_per_turn):
@@ -381,7 +378,7 @@ def test_a_steering_curve_ends_with_its_points() -> None:
             function(np.deg2rad([0.0, 91.0]))
 
 
-def test_the_steering_wheel_turns_the_wheels() -> None:
+def test_the_steering_wheel_turns_the_wheels():
     angles = np.deg2rad([-200.0, 0.0, 100.0])
     by_ratio = flat(characteristics.over(AXLE, "steer", angles))
     assert by_ratio["steer_left"].values[2] > 0.0
@@ -409,7 +406,7 @@ def test_the_steering_wheel_turns_the_wheels() -> None:
     assert np.isnan(beyond).tolist() == [False, True]
 
 
-def test_without_a_ratio_the_rack_moves() -> None:
+def test_without_a_ratio_the_rack_moves():
     car = CAR.with_changes({"rack.travel_per_turn_mm": None})
     axle = Axle.from_dict({"axle": "front", "side": car})
     assert flat(characteristics.over(axle, "rack", [0.0, 0.01]))["steer_left"].dims == (
@@ -470,11 +467,11 @@ WRONG = {
 
 
 @pytest.mark.parametrize("data", WRONG.values(), ids=WRONG)
-def test_what_is_wrong_is_named(data: dict[str, Any], refused: Any) -> None:
+def test_what_is_wrong_is_named(data, refused):
     refused(InputError, lambda: Axle.from_dict({"axle": "front", **data}))
 
 
-def test_files_of_the_other_sort_are_reported() -> None:
+def test_files_of_the_other_sort_are_reported():
     for name in ("reference_axle", {"axle": "front", "side": "reference_car"}):
         read = Suspension.load if isinstance(name, str) else Suspension.from_dict
         with pytest.raises(InputError, match="file of an axle"):
@@ -487,7 +484,7 @@ def test_files_of_the_other_sort_are_reported() -> None:
                 sort.load(name)
 
 
-def test_sides_are_found_beside_the_file(tmp_path: Path) -> None:
+def test_sides_are_found_beside_the_file(tmp_path):
     (tmp_path / "sub").mkdir()
     text = 'axle = "rear"\nside = "sub/mine.toml"\n'
     (tmp_path / "axle.toml").write_text(text, encoding="utf-8")
@@ -503,7 +500,7 @@ def test_sides_are_found_beside_the_file(tmp_path: Path) -> None:
     assert "bar_torque" not in flat(characteristics.over(axle, "bump", [0.0]))
 
 
-def test_what_is_out_of_reach_is_refused(refused: Any) -> None:
+def test_what_is_out_of_reach_is_refused(refused):
     refused(PositionError, lambda: characteristics.over(AXLE, "roll", np.deg2rad([0.0, 30.0])))
     short = BAR | {"link_top": [30.0, -580.0, 215.0], "bush": [60.0, -400.0, 215.0]}
     axle = Axle.from_dict({"axle": "front", "side": CAR, "anti_roll_bar": short})
@@ -525,7 +522,7 @@ def test_what_is_out_of_reach_is_refused(refused: Any) -> None:
     refused(InputError, lambda: characteristics.over(axle, "steer", [2.0]))
 
 
-def test_sides_with_different_equations_have_none_together() -> None:
+def test_sides_with_different_equations_have_none_together():
     left = CAR.mirrored().with_changes({"tyre.lifts_off": True})
     axle = Axle.from_dict({"axle": "front", "right": CAR, "left": left})
     assert float(characteristics.over(axle, "bump", [0.0])["track"][0]) == pytest.approx(1.52)
@@ -536,7 +533,7 @@ def test_sides_with_different_equations_have_none_together() -> None:
 # -- several axles, and the commands ------------------------------------------------------------
 
 
-def test_axles_are_compared() -> None:
+def test_axles_are_compared():
     stiff = Axle.from_dict(
         {"axle": "front", "side": CAR, "anti_roll_bar": BAR | {"rate_Nm_per_deg": 35.0}}
     )
@@ -557,7 +554,7 @@ def test_axles_are_compared() -> None:
     }
 
 
-def test_both_wheels_are_drawn_together() -> None:
+def test_both_wheels_are_drawn_together():
     drawn = characteristics.over(AXLE, "roll", np.deg2rad([0.0, 1.0]))
     assert drawn["camber"].dims == ("wheel", "roll_angle")
     assert drawn["camber"].attrs["long_name"] == "camber"
@@ -565,7 +562,7 @@ def test_both_wheels_are_drawn_together() -> None:
     assert not [name for name in drawn if str(name).endswith(("_left", "_right"))]
 
 
-def test_usual_positions_are_within_reach() -> None:
+def test_usual_positions_are_within_reach():
     extent = motions.SweepRange(rebound=0.04, bump=0.03, step=0.01)
     assert motions.travels(AXLE, extent)[[0, -1]].tolist() == [-0.04, 0.03]
     with pytest.raises(InputError, match="roll = -1 rad"):
@@ -579,7 +576,7 @@ def pictured(chapter: Chapter) -> list[str]:
                            for p in chapter.pictures)]  # fmt: skip
 
 
-def test_an_axle_has_a_chapter_in_the_report() -> None:
+def test_an_axle_has_a_chapter_in_the_report():
     chapter = axle_chapter(BENT)
     wheels, whole, _ = chapter.tables
     assert pictured(chapter) == ["roll", "bump", "left", "steer"]
@@ -597,7 +594,7 @@ def test_an_axle_has_a_chapter_in_the_report() -> None:
 
 
 @pytest.mark.parametrize("name", ["rigid_axle", "twist_beam", "steered_rigid_axle"])
-def test_the_chapter_of_an_axle_without_sides_has_all_of_it(name: str) -> None:
+def test_the_chapter_of_an_axle_without_sides_has_all_of_it(name):
     chapter = axle_chapter(load(name))
     look, wheels, *_ = chapter.tables
     rows = dict(look.rows)
@@ -607,7 +604,7 @@ def test_the_chapter_of_an_axle_without_sides_has_all_of_it(name: str) -> None:
 
 
 @pytest.mark.usefixtures("coarse_report", "first_page_of_curves", "one_picture")
-def test_the_page_of_a_rear_axle_has_nothing_of_a_front_one(kintrafo: Any, tmp_path: Path) -> None:
+def test_the_page_of_a_rear_axle_has_nothing_of_a_front_one(kintrafo, tmp_path):
     text = 'axle = "rear"\nside = "reference_car"\n'
     (tmp_path / "rear.toml").write_text(text, encoding="utf-8")
     case = "[cases.static]\ncontact_g = [0, 0, 1]\n"
@@ -621,14 +618,14 @@ def test_the_page_of_a_rear_axle_has_nothing_of_a_front_one(kintrafo: Any, tmp_p
         assert words not in page.partition('id="payload"')[0], words
 
 
-def test_a_chapter_needs_no_steering_ratio() -> None:
+def test_a_chapter_needs_no_steering_ratio():
     """Without one the rig goes over the rack, which then is no curve of its own."""
     car = CAR.with_changes({"rack.travel_per_turn_mm": None})
     page = axle_chapter(Axle.from_dict({"axle": "rear", "side": car}))
     assert pictured(page) == ["roll", "bump", "left", "steer"]
 
 
-def test_commands_refuse_what_only_the_other_sort_has(kintrafo: Any) -> None:
+def test_commands_refuse_what_only_the_other_sort_has(kintrafo):
     for line, word in (
         ("characteristics reference_car --roll 3", "--roll is only for the file of an axle"),
         ("characteristics reference_axle --over bmp", "bump"),
@@ -662,5 +659,5 @@ PLAIN = Axle.from_dict({"axle": "front", "side": CAR})
         {"arm_rear": {"axial_N_per_mm": 1.0, "axis": "up"}},
     ],
 )
-def test_bushes_that_are_none_are_refused(bushes: Any, refused: Any) -> None:
+def test_bushes_that_are_none_are_refused(bushes, refused):
     refused(InputError, lambda: compliance.linear(PLAIN, bushes, [0.0]))

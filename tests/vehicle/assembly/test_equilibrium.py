@@ -40,7 +40,7 @@ def of_wheels(name: str, rest: kintrafo.State) -> tuple[np.ndarray, np.ndarray]:
 
 
 @each
-def test_a_wheel_load_is_the_deflection_of_the_tyre_times_its_rate(name: str) -> None:
+def test_a_wheel_load_is_the_deflection_of_the_tyre_times_its_rate(name):
     rest = equilibrium(model_of(name), wheel_load=3000.0)
     heights, roads = of_wheels(name, rest)
     tyre = model_of(name).parameters
@@ -49,7 +49,7 @@ def test_a_wheel_load_is_the_deflection_of_the_tyre_times_its_rate(name: str) ->
 
 
 @each
-def test_the_road_of_a_loaded_wheel_makes_the_same_rest(name: str) -> None:
+def test_the_road_of_a_loaded_wheel_makes_the_same_rest(name):
     loaded = equilibrium(model_of(name), wheel_load=3000.0)
     _, roads = of_wheels(name, loaded)
     road = dict(zip(CENTERS[name], map(float, roads), strict=True))
@@ -57,14 +57,14 @@ def test_the_road_of_a_loaded_wheel_makes_the_same_rest(name: str) -> None:
 
 
 @each
-def test_a_road_that_is_the_same_under_all_wheels_is_a_number(name: str) -> None:
+def test_a_road_that_is_the_same_under_all_wheels_is_a_number(name):
     by_wheel = dict.fromkeys(CENTERS[name], 0.01)
     found = [equilibrium(model_of(name), road_height=road) for road in (0.01, by_wheel)]
     np.testing.assert_array_equal(*found)
 
 
 @each
-def test_a_run_with_actuators_begins_at_rest(name: str) -> None:
+def test_a_run_with_actuators_begins_at_rest(name):
     model = model_of(name)
     pushing = [name for name in model.input_names if name.endswith(("actuator", "strut_force"))]
     _, motion = run(model, Scenario(duration=0.05, inputs=dict.fromkeys(pushing, 300.0)))
@@ -76,7 +76,7 @@ def test_a_run_with_actuators_begins_at_rest(name: str) -> None:
 
 
 @each
-def test_what_cannot_be_is_refused(name: str, refused: Any) -> None:
+def test_what_cannot_be_is_refused(name, refused):
     model = model_of(name)
     refused(
         InputError,
@@ -91,7 +91,7 @@ def test_what_cannot_be_is_refused(name: str, refused: Any) -> None:
     )
 
 
-def test_a_rack_that_is_not_there_is_refused() -> None:
+def test_a_rack_that_is_not_there_is_refused():
     model = model_of("rigid axle")
     with pytest.raises(InputError, match=r"rack_position = 10 mm: its wheels are not steered"):
         equilibrium(model, rack_position=0.01)
@@ -100,7 +100,7 @@ def test_a_rack_that_is_not_there_is_refused() -> None:
 
 
 @each
-def test_a_motion_names_the_wheel_of_each_signal_in_words(name: str) -> None:
+def test_a_motion_names_the_wheel_of_each_signal_in_words(name):
     _, motion = run(model_of(name), Scenario(duration=0.01))
     for wheel, (prefix, signals) in CENTERS[name].items():
         words = motion[f"{signals}wheel_center_z"].attrs["long_name"]
@@ -110,7 +110,7 @@ def test_a_motion_names_the_wheel_of_each_signal_in_words(name: str) -> None:
 
 
 @each
-def test_motions_start_with_the_wheels_at_given_heights(name: str) -> None:
+def test_motions_start_with_the_wheels_at_given_heights(name):
     model = model_of(name)
     at_rest, _ = of_wheels(name, equilibrium(model))
     both = {wheel: at_rest[i] + (0.01, -0.005)[i] for i, wheel in enumerate(CENTERS[name])}

@@ -9,7 +9,6 @@ import math
 import re
 import shlex
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -51,7 +50,7 @@ def beam_at(axle: RigidAxle, heave: float, roll: float) -> RigidAxleKinematics:
 
 
 @each_axle
-def test_the_axle_is_where_a_root_finder_puts_it(axle: RigidAxle) -> None:
+def test_the_axle_is_where_a_root_finder_puts_it(axle):
     found = Found(axle)
     for heave, roll in PLACES:
         middle, turn = found.pose(heave, roll)
@@ -74,7 +73,7 @@ def test_the_axle_is_where_a_root_finder_puts_it(axle: RigidAxle) -> None:
 
 
 @each_axle
-def test_forces_are_the_slopes_of_the_energy(axle: RigidAxle) -> None:
+def test_forces_are_the_slopes_of_the_energy(axle):
     """And their derivatives are its second ones."""
     found = Found(axle)
     model = RigidAxleModel(axle.with_changes({"tyre.rate_N_per_m": 0.0}))
@@ -96,12 +95,12 @@ def test_forces_are_the_slopes_of_the_energy(axle: RigidAxle) -> None:
         np.testing.assert_allclose(stiffness[0], -second, rtol=0.0, atol=1e-2)
 
 
-def test_rates_at_the_wheels_are_those_of_the_energy() -> None:
+def test_rates_at_the_wheels_are_those_of_the_energy():
     """By the travels of both wheels, in place of heave and roll."""
     weightless = LOPSIDED.with_changes({"gravity.acceleration_m_per_s2": 0.0})
     found, half = Found(weightless), LOPSIDED.half_track
 
-    def energy(left: float, right: float) -> float:
+    def energy(left, right):
         return found.energy(0.5 * (left + right), math.asin(0.5 * (left - right) / half))
 
     at = (0.05, -0.02)
@@ -145,7 +144,7 @@ def planar(slope: float, height: float) -> RigidAxle:
 
 
 @pytest.mark.parametrize("torque_on", ["carrier", "body"])
-def test_anti_squat_is_that_of_the_side_view(torque_on: str) -> None:
+def test_anti_squat_is_that_of_the_side_view(torque_on):
     """The pole of the links in side view, seen from the contact or from the wheel centre."""
     axle = planar(0.04, 400.0).with_changes(
         {"drive.torque_on": torque_on, "brakes.torque_on": torque_on}
@@ -175,7 +174,7 @@ def test_anti_squat_is_that_of_the_side_view(torque_on: str) -> None:
 
 
 @each_axle
-def test_guidance_is_that_of_the_root_finder(axle: RigidAxle) -> None:
+def test_guidance_is_that_of_the_root_finder(axle):
     """Away from design, where no formula by hand holds."""
     found, (heave, roll) = Found(axle), PLACES[2]
     beam = beam_at(axle, heave, roll)
@@ -198,7 +197,7 @@ def test_guidance_is_that_of_the_root_finder(axle: RigidAxle) -> None:
     assert float(beam.path_slope("carrier")[0]) == pytest.approx(by[0, 0] / by[2, 0], abs=1e-9)
 
 
-def test_contacts_are_the_lowest_points_of_the_wheels() -> None:
+def test_contacts_are_the_lowest_points_of_the_wheels():
     beam = beam_at(LOPSIDED, 0.03, 0.05)
     found = Found(LOPSIDED)
     for side, sign in (("left", 1.0), ("right", -1.0)):
@@ -220,7 +219,7 @@ def test_contacts_are_the_lowest_points_of_the_wheels() -> None:
 
 
 @pytest.mark.parametrize("road", [0.0, 0.06])
-def test_it_stands_on_its_wheels(road: float) -> None:
+def test_it_stands_on_its_wheels(road):
     """The tyre forces, in the planes of their wheels, balance springs and weight."""
     rest = equilibrium(MODEL, road_height={"left": road})
     at, found, up = rest[:2], Found(AXLE), np.array([0.0, 0.0, 1.0])
@@ -238,7 +237,7 @@ def test_it_stands_on_its_wheels(road: float) -> None:
     assert road or abs(at[0]) < 1e-6
 
 
-def test_hop_and_tramp_are_those_of_the_book() -> None:
+def test_hop_and_tramp_are_those_of_the_book():
     """Links and Panhard rod level, nothing loaded: the axle heaves, and turns about its rod."""
     plain = planar(0.0, 400.0).with_changes(
         {
@@ -262,7 +261,7 @@ def test_hop_and_tramp_are_those_of_the_book() -> None:
     assert found["roll_frequency"] == pytest.approx(tramp, rel=1e-9)
 
 
-def test_a_step_under_one_wheel_ends_where_it_rests() -> None:
+def test_a_step_under_one_wheel_ends_where_it_rests():
     step = roads.step(0.02, at=0.05, end=1.5)
     scenario = Scenario(duration=1.5, inputs={"road_height": step})
     result, motion = run(MODEL, scenario, wheels="left", rtol=1e-8, atol=1e-10)
@@ -273,7 +272,7 @@ def test_a_step_under_one_wheel_ends_where_it_rests() -> None:
     assert float(motion["roll"][-1]) > 0.005
 
 
-def test_a_wheel_leaves_the_ground_if_it_may() -> None:
+def test_a_wheel_leaves_the_ground_if_it_may():
     free = RigidAxleModel(AXLE.with_changes({"tyre.lifts_off": True}))
     step = roads.step(-0.06, at=0.05, end=0.5)
     result, motion = run(free, Scenario(duration=0.5, inputs={"road_height": step}), wheels="right")
@@ -283,7 +282,7 @@ def test_a_wheel_leaves_the_ground_if_it_may() -> None:
     assert float(motion["right_axle_tyre_force"].min()) >= 0.0
 
 
-def test_stops_and_the_curve_of_the_damper_act_on_both_sides() -> None:
+def test_stops_and_the_curve_of_the_damper_act_on_both_sides():
     axle = AXLE.with_changes(
         {
             "bump_stop": {"clearance_mm": 20.0, "rate_N_per_m": 1e5},
@@ -309,7 +308,7 @@ def test_stops_and_the_curve_of_the_damper_act_on_both_sides() -> None:
     assert rates[1] > rates[0] + 9e4
 
 
-def test_the_damper_ends_the_travel() -> None:
+def test_the_damper_ends_the_travel():
     short = AXLE.with_changes({"damper.length_min_mm": 450.0, "damper.length_max_mm": 540.0})
     curves = characteristics.over(short, "bump")
     model = RigidAxleModel(short)
@@ -327,7 +326,7 @@ def test_the_damper_ends_the_travel() -> None:
         model.states_at(0.3, 0.3)
 
 
-def test_no_position_is_beyond_a_gap() -> None:
+def test_no_position_is_beyond_a_gap():
     """A damper that is shorter than it may be for a part of the way is upside down behind it."""
     low = AXLE.with_changes(
         {"hardpoints.damper_top": [-90.0, -560.0, 420.0], "damper.length_min_mm": 60.0}
@@ -342,7 +341,7 @@ def test_no_position_is_beyond_a_gap() -> None:
             model.states_at([0.0, travel, -0.01], [0.0, travel, 0.01])
 
 
-def test_no_gap_is_too_narrow() -> None:
+def test_no_gap_is_too_narrow():
     """The shortest that the damper gets on its way, and a micrometre more."""
     low = AXLE.with_changes({"hardpoints.damper_top": [-90.0, -540.0, 420.0]})
     travels = np.linspace(0.11, 0.13, 2001)
@@ -356,7 +355,7 @@ def test_no_gap_is_too_narrow() -> None:
 # -- errors ---------------------------------------------------------------------------------------
 
 
-def test_four_links_and_a_panhard_rod_are_one_too_many() -> None:
+def test_four_links_and_a_panhard_rod_are_one_too_many():
     """Five rods take five freedoms: what is left is neither heave nor roll alone."""
     right = {"chassis": [500.0, -400.0, 480.0], "axle": [-20.0, -400.0, 525.0]}
     with pytest.raises(InputError) as error:
@@ -378,7 +377,7 @@ def test_four_links_and_a_panhard_rod_are_one_too_many() -> None:
     assert problem in " ".join(PAGE.read_text(encoding="utf-8").split())
 
 
-def test_a_rod_that_repeats_another_is_one_too_many() -> None:
+def test_a_rod_that_repeats_another_is_one_too_many():
     """Five rods along x in one pattern take four freedoms: one of them is not needed."""
     with pytest.raises(InputError, match="2 remain: the rods are redundant"):
         planar(0.0, 400.0).with_changes(
@@ -414,11 +413,11 @@ def test_a_rod_that_repeats_another_is_one_too_many() -> None:
         {"rods.left_link.chassis": [1.0, 2.0]},
     ],
 )
-def test_what_cannot_be_is_refused(changes: dict[str, Any], refused: Any) -> None:
+def test_what_cannot_be_is_refused(changes, refused):
     refused(InputError, lambda: AXLE.with_changes(changes))
 
 
-def test_other_doors_refuse_it_by_name() -> None:
+def test_other_doors_refuse_it_by_name():
     data = AXLE.to_dict()
     for refusing in (Suspension, Axle):
         for given in (lambda kind: kind.load("rigid_axle"), lambda kind: kind.from_dict(data)):
@@ -445,7 +444,7 @@ def test_other_doors_refuse_it_by_name() -> None:
         "new a.toml --rigid-axle --template reference_car",
     ],
 )
-def test_commands_that_have_nothing_for_it_say_so(kintrafo: Any, line: str) -> None:
+def test_commands_that_have_nothing_for_it_say_so(kintrafo, line):
     code, out, err = kintrafo(*shlex.split(line))
     assert code != 0, out
     assert out == ""
@@ -479,27 +478,27 @@ def test_commands_that_have_nothing_for_it_say_so(kintrafo: Any, line: str) -> N
         {"bodies.wheel.inertia_spin_kg_m2": 2e6, "bodies.wheel.inertia_diametral_kg_m2": 1e6},
     ],
 )
-def test_mistakes_that_can_move_are_reported(changes: dict[str, Any], as_stored: Any) -> None:
+def test_mistakes_that_can_move_are_reported(changes, as_stored):
     assert checkup(AXLE).problems == ()
     problems = checkup(AXLE.with_changes(changes)).problems
     assert problems
     as_stored(*problems)
 
 
-def test_an_unusual_camber_is_noted() -> None:
+def test_an_unusual_camber_is_noted():
     notes = checkup(AXLE.with_changes({"wheel.camber_deg": 40.0})).notes
     assert any("camber_deg = 40 deg" in note for note in notes), notes
 
 
 @pytest.mark.parametrize("name", ["", "a.b", "upper link", "1st"])
-def test_rods_have_names_that_files_and_tables_can_hold(name: str) -> None:
+def test_rods_have_names_that_files_and_tables_can_hold(name):
     data = AXLE.to_dict()
     data["rods"][name] = data["rods"].pop("upper_link")
     with pytest.raises(InputError, match=rf"\[rods\] '{re.escape(name)}' is not a name"):
         RigidAxle.from_dict(data)
 
 
-def test_positions_beyond_reach_are_refused() -> None:
+def test_positions_beyond_reach_are_refused():
     with pytest.raises(PositionError, match=r"left wheel at \+900 mm"):
         characteristics.over(AXLE, "bump", [0.0, 0.9])
     with pytest.raises(PositionError, match="less than 45 deg"):
@@ -514,11 +513,11 @@ def test_positions_beyond_reach_are_refused() -> None:
         )
 
 
-def test_what_is_given_comes_back() -> None:
+def test_what_is_given_comes_back():
     assert RigidAxle.from_dict(LOPSIDED.to_dict()) == LOPSIDED
 
 
-def test_two_axles_are_compared_over_the_same_positions() -> None:
+def test_two_axles_are_compared_over_the_same_positions():
     found = compare.compare({"a": AXLE, "b": TRIANGULATED}, over="roll")
     assert found.sizes == {"data_set": 2, "wheel": 2, "roll_angle": 33}
     alone = characteristics.over(TRIANGULATED, "roll")
@@ -528,7 +527,7 @@ def test_two_axles_are_compared_over_the_same_positions() -> None:
 # -- the page -------------------------------------------------------------------------------------
 
 
-def test_every_characteristic_is_on_the_page() -> None:
+def test_every_characteristic_is_on_the_page():
     text = (ROOT / "docs/suspension/characteristics.md").read_text(encoding="utf-8")
     for measure in MEASURES:
         stem = measure.quantity.name.removesuffix("_left").removesuffix("_right")

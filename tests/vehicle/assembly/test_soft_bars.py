@@ -23,7 +23,7 @@ SOFT = {"bush_radial_N_per_mm": 900.0, "link_axial_N_per_mm": 2500.0}
 RIGID = 1e14
 
 
-def test_springs_in_series() -> None:
+def test_springs_in_series():
     """A link that stands at right angles to its lever of 210 mm, 580 mm from the middle."""
     bar = 17.5 / np.deg2rad(1.0)
     links = 2.0 / (2.5e6 * 0.21**2)
@@ -71,7 +71,7 @@ def statics(bar: AntiRollBar, up: float, *, rigid: bool) -> tuple[float, float]:
 
 
 @pytest.mark.parametrize("points", [STRAIGHT, INCLINED], ids=["straight", "inclined"])
-def test_a_bar_as_a_body_on_springs(points: dict[str, Any]) -> None:
+def test_a_bar_as_a_body_on_springs(points):
     """Torque of the soft bar by the twist that a rigid one has where its links move alike."""
     bar = AntiRollBar(**points | SOFT)
     # rigid springs are 1e-8 of others; away from design its levers are not those of design
@@ -96,7 +96,7 @@ def axle_with(**keys: Any) -> Axle:
 STIFF, YIELDING = axle_with(), axle_with(**SOFT)
 
 
-def test_an_axle_rolls_as_much_more() -> None:
+def test_an_axle_rolls_as_much_more():
     """Roll stiffness, the torque of the bar, and the loads on its links and bearings."""
     assert YIELDING.bar is not None
     share = YIELDING.bar.rate() / YIELDING.bar.rate_of_bar()
@@ -114,13 +114,13 @@ def test_an_axle_rolls_as_much_more() -> None:
         assert one == pytest.approx(share * other, rel=1e-9)
 
 
-def test_the_matrix_of_both_contacts_has_the_bar() -> None:
+def test_the_matrix_of_both_contacts_has_the_bar():
     """Stiffness of both wheels under vertical forces: with the bar, its rate times slopes."""
     assert YIELDING.bar is not None
     bushes, vertical = {"rack": {"axial_N_per_mm": 5000.0}}, [2, 8]
     without = Axle.from_dict({"axle": "front", "side": STIFF.right})
 
-    def stiffness(axle: Axle) -> np.ndarray:
+    def stiffness(axle):
         found = compliance.linear(axle, bushes, [0.0], held="spring")["flexibility"].values[0]
         return np.linalg.inv(found[np.ix_(vertical, vertical)])
 
@@ -133,7 +133,7 @@ def test_the_matrix_of_both_contacts_has_the_bar() -> None:
     assert added == pytest.approx(YIELDING.bar.rate() * np.outer(slopes, slopes), rel=0.01)
 
 
-def test_what_is_no_bush() -> None:
+def test_what_is_no_bush():
     for keys, words in (
         ({"bush_radial_N_per_mm": 0.0}, "bush_radial_N_per_mm = 0.0 N/mm"),
         ({"link_axial_N_per_mm": -3.0}, "link_axial_N_per_mm = -3.0 N/mm"),

@@ -119,7 +119,7 @@ class Poses:
     ("left", "right", "rack"),
     [(0.0, 0.0, 0.05), (0.07, 0.06, 0.0), (0.06, -0.05, -0.07), (-0.08, 0.04, 0.09)],
 )
-def test_poses_are_the_root_of_all_distances(left: float, right: float, rack: float) -> None:
+def test_poses_are_the_root_of_all_distances(left, right, rack):
     states, inputs = MODEL.states_at(left, right, rack), MODEL.inputs_at(rack)
     parts = assembly_of(TURNED).PARTS.of(kintrafo.model_of(TURNED), states[None], inputs[None])
     oracle = Poses(AXLE)
@@ -137,7 +137,7 @@ def test_poses_are_the_root_of_all_distances(left: float, right: float, rack: fl
 
 
 @pytest.mark.parametrize("axis", [(0.0, 0.0, 1.0), (0.0, 0.0, -1.0), (0.4, 0.2, 0.5)])
-def test_the_axis_of_the_arm_has_any_direction(axis: tuple[float, ...]) -> None:
+def test_the_axis_of_the_arm_has_any_direction(axis):
     """An upright one, too: the ball moves on a level circle."""
     pivot = [-730.0, 600.0, 445.0]
     axle = AXLE.with_changes({"pitman_arm.axis": [*axis], "pitman_arm.pivot_mm": pivot})
@@ -153,7 +153,7 @@ def test_the_axis_of_the_arm_has_any_direction(axis: tuple[float, ...]) -> None:
         np.testing.assert_allclose(parts.points[f"track_rod_{side}"][0], place, atol=1e-12)
 
 
-def test_both_knuckles_are_turned_in_closed_form() -> None:
+def test_both_knuckles_are_turned_in_closed_form():
     """The drag link turns the one, then the track rod the other one, for either side."""
     for name in ("steered_rigid_axle", "steered_rigid_axle_right"):
         plan = CataloguePlan.of(model_named(name))
@@ -200,14 +200,14 @@ def work(axle: Any, case: Any, poses: tuple[Array, Array], oracle: Poses) -> flo
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_forces_of_the_steering_do_the_work_of_the_wheels(case: str) -> None:
+def test_forces_of_the_steering_do_the_work_of_the_wheels(case):
     """With the beam at rest, a motion of the steering or an elongation of a link does none."""
     found = loads.static(AXLE, {case: CASES[case]}).isel(case=0)
     travels = tuple(found["travel"].values.tolist())
     beam = Poses(AXLE).found(0.0, travels)[:6]
     h = 2e-5
 
-    def slope(one: tuple[float, Poses], other: tuple[float, Poses]) -> float:
+    def slope(one, other):
         poses = tuple(oracle.found(rack, beam=beam) for rack, oracle in (one, other))
         return work(AXLE, CASES[case], poses, one[1]) / (2.0 * h)
 
@@ -241,7 +241,7 @@ PLANE = AXLE.with_changes(
 """With upright kingpins and a level Panhard rod, so that the steering is one in a plane."""
 
 
-def test_a_soft_track_rod_lets_the_far_knuckle_turn() -> None:
+def test_a_soft_track_rod_lets_the_far_knuckle_turn():
     soft = 2e4
     found = compliance.linear(PLANE, {"track_rod": {"axial_N_per_mm": soft}}, [0.0])
     flexibility = found["flexibility"].isel(wheel_travel=0)
@@ -255,7 +255,7 @@ def test_a_soft_track_rod_lets_the_far_knuckle_turn() -> None:
     assert not [name for name in map(str, found) if name.startswith("axle_steer")]
 
 
-def test_kingpins_are_lines_of_the_file() -> None:
+def test_kingpins_are_lines_of_the_file():
     found = characteristics.over(AXLE, "bump", [0.0])
     for name, aside in (("caster", 16.0), ("kingpin_inclination", 20.0)):
         angle = math.atan2(aside, 220.0)
@@ -266,7 +266,7 @@ def test_kingpins_are_lines_of_the_file() -> None:
     np.testing.assert_allclose(1e3 * found["steering_axis_offset"].values, offset, rtol=1e-12)
 
 
-def test_gradients_are_slopes_of_curves() -> None:
+def test_gradients_are_slopes_of_curves():
     h = 1e-4
     for motion, name, of, along in (
         ("bump", "bump_steer", "toe", 0.03), ("roll", "roll_steer", "steer", 0.02),
@@ -279,7 +279,7 @@ def test_gradients_are_slopes_of_curves() -> None:
         np.testing.assert_allclose(found[name].values[:, 2], slope, rtol=1e-8, atol=1e-10)
 
 
-def test_a_turn_of_the_steering_wheel_to_the_left_steers_to_the_left() -> None:
+def test_a_turn_of_the_steering_wheel_to_the_left_steers_to_the_left():
     for axis in (1.0, -1.0):
         axle = AXLE.with_changes({"pitman_arm.axis": [0.0, axis, 0.0]})
         found = characteristics.over(axle, "steer", [0.5])
@@ -288,7 +288,7 @@ def test_a_turn_of_the_steering_wheel_to_the_left_steers_to_the_left() -> None:
         assert 0.5 / found["steer"].values.mean() == pytest.approx(ratio, rel=0.05)
 
 
-def test_it_rests_at_its_design() -> None:
+def test_it_rests_at_its_design():
     state = equilibrium(MODEL)
     assert np.abs(np.asarray(state)[:2]).max() < 1e-6
 
@@ -317,13 +317,13 @@ def test_it_rests_at_its_design() -> None:
         ({"steered_rigid_axle": "rear"}, "front"),
     ],
 )
-def test_what_cannot_steer_is_refused(changes: dict[str, Any], words: str) -> None:
+def test_what_cannot_steer_is_refused(changes, words):
     with pytest.raises(InputError, match=words):
         AXLE.with_changes(changes)
 
 
 @pytest.mark.parametrize("place", ["hardpoints.track_rod", "drag_link", "pitman_arm.ball_mm"])
-def test_what_is_missing_is_named(place: str) -> None:
+def test_what_is_missing_is_named(place):
     data = AXLE.to_dict()
     *sections, key = place.split(".")
     del (data[sections[0]] if sections else data)[key]
@@ -331,7 +331,7 @@ def test_what_is_missing_is_named(place: str) -> None:
         type(AXLE).from_dict(data)
 
 
-def test_positions_out_of_reach_are_refused() -> None:
+def test_positions_out_of_reach_are_refused():
     with pytest.raises(PositionError, match="the drag link or the track rod reaches no farther"):
         characteristics.over(AXLE, "rack", [-0.3])
     with pytest.raises(PositionError, match="its steering at -300 mm"):
@@ -353,7 +353,7 @@ CAR = {"front": "steered_rigid_axle", "rear": "rigid_axle", "wheelbase_mm": 3000
        "rear_origin_mm": -3000.0, "body": BODY}  # fmt: skip
 
 
-def test_equations_of_a_car_have_every_number_of_its_file() -> None:
+def test_equations_of_a_car_have_every_number_of_its_file():
     car = Car.from_dict(CAR | {"car": "roll"})
     formulation = declared(car)
     needed = {p.name: {"unit": p.unit} for p in formulation.mechanism.parameters}
@@ -367,14 +367,14 @@ def test_equations_of_a_car_have_every_number_of_its_file() -> None:
     assert motion.inputs[0].name == "rack_position"
 
 
-def test_points_of_the_steering_are_design_variables() -> None:
+def test_points_of_the_steering_are_design_variables():
     places = places_of(AXLE)
     for name, value in (("drag_link.knuckle.z", 445.0), ("pitman_arm.ball_mm.x", -730.0)):
         assert (places[name].unit, places[name].value) == ("mm", value)
         assert places[name].moved(1e-3) == {name: value + 1.0}
 
 
-def test_where_it_is_can_only_be_the_front() -> None:
+def test_where_it_is_can_only_be_the_front():
     data = kintrafo.load("steered_rigid_axle").to_dict()
     cls = type(kintrafo.load("steered_rigid_axle"))
     with pytest.raises(InputError, match=r"'rear' must be 'front'\. Enter it"):

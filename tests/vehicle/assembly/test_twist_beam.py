@@ -87,7 +87,7 @@ def followed(left: float, right: float) -> dict[str, Array]:
 @pytest.mark.parametrize(
     ("left", "right"), [(0.06, 0.06), (0.07, -0.05), (0.0, 0.08), (-0.1, 0.03)]
 )
-def test_positions_are_those_that_the_halves_are_led_to(left: float, right: float) -> None:
+def test_positions_are_those_that_the_halves_are_led_to(left, right):
     poses = TwistBeamParts.of(MODEL, MODEL.states_at(np.array([left]), np.array([right])))
     for side, turned in followed(left, right).items():
         # a hundred steps with a tolerance of 1e-12
@@ -98,7 +98,7 @@ def test_positions_are_those_that_the_halves_are_led_to(left: float, right: floa
     np.testing.assert_allclose(z, [left, right], rtol=0.0, atol=1e-14)
 
 
-def test_roll_is_the_angle_of_the_line_through_the_wheels() -> None:
+def test_roll_is_the_angle_of_the_line_through_the_wheels():
     angles = np.radians([-4.0, 1.0, 3.0])
     states = MODEL.states_at(
         *(assembly_of(AXLE).position("roll", angles).travels[s] for s in SIDES)
@@ -109,7 +109,7 @@ def test_roll_is_the_angle_of_the_line_through_the_wheels() -> None:
     np.testing.assert_allclose(found, angles, rtol=0.0, atol=1e-14)
 
 
-def test_positions_out_of_reach_are_refused() -> None:
+def test_positions_out_of_reach_are_refused():
     with pytest.raises(PositionError, match="45 deg"):
         MODEL.states_at(0.5, -0.5)
 
@@ -138,7 +138,7 @@ def drawn(side: str = "left") -> dict[str, float]:
     }
 
 
-def test_first_order_in_roll_is_that_of_the_drawing() -> None:
+def test_first_order_in_roll_is_that_of_the_drawing():
     found = characteristics.over(UPRIGHT, "roll", np.array([0.0])).sel(wheel="left")
     for name, value in drawn().items():
         # the equations of a tree at design: rounding
@@ -174,12 +174,12 @@ def twist(left: float, right: float) -> float:
     return float(solve_ivp(rates, (0.0, 1.0), start, "DOP853", rtol=1e-12, atol=1e-13).y[-1, -1])
 
 
-def test_forces_and_rates_are_slopes_of_the_energy() -> None:
+def test_forces_and_rates_are_slopes_of_the_energy():
     """By differences of fourth order: an error of h^4, and of the tolerance over h or h^2."""
     at, step = np.array([0.03, -0.02]), 4e-3
     weights = {-2: 1 / 12, -1: -8 / 12, 1: 8 / 12, 2: -1 / 12}
 
-    def whole(place: Array) -> float:
+    def whole(place):
         return energy(*place) + 0.5 * RATE * twist(*place) ** 2
 
     kinematics = _at(at)
@@ -208,7 +208,7 @@ def _force(heights: Array, side: str) -> float:
     return float(_at(heights).wheel_force(side)[0])
 
 
-def test_the_beam_resists_a_difference_of_the_wheel_loads() -> None:
+def test_the_beam_resists_a_difference_of_the_wheel_loads():
     """Twist by travel: twice the half distance of pivots over the rise of a wheel by its arm."""
     rise = (skew(SHEAR - PIVOT) @ (WHEEL - PIVOT))[2]
     by_travel = 2.0 * PIVOT[1] / rise  # up on the left and down on the right
@@ -223,7 +223,7 @@ def test_the_beam_resists_a_difference_of_the_wheel_loads() -> None:
     assert rates[1] - rates[0] == pytest.approx(0.5 * RATE * by_travel**2, rel=1e-6)
 
 
-def test_it_rests_at_design() -> None:
+def test_it_rests_at_design():
     assert abs(equilibrium(MODEL)[0]) < 5e-3
 
 
@@ -284,7 +284,7 @@ class Frame:
 
 
 @pytest.mark.parametrize("how", ["parallel", "opposed"])
-def test_compliance_is_that_of_a_frame(how: str) -> None:
+def test_compliance_is_that_of_a_frame(how):
     light = UPRIGHT.with_changes(
         {"gravity.acceleration_m_per_s2": 0.0, "spring.force_at_design_N": 1e-6}
     )
@@ -313,11 +313,11 @@ def test_compliance_is_that_of_a_frame(how: str) -> None:
         {"beam.colour": 1.0},
     ],
 )
-def test_axles_that_cannot_be_are_refused(changes: dict[str, Any], refused: Any) -> None:
+def test_axles_that_cannot_be_are_refused(changes, refused):
     refused(InputError, lambda: AXLE.with_changes(changes))
 
 
-def test_without_a_rate_nothing_couples_the_wheels() -> None:
+def test_without_a_rate_nothing_couples_the_wheels():
     free = AXLE.with_changes({"beam.rate_Nm_per_deg": 0.0})
     found = characteristics.over(free, "roll", np.radians([-2.0, 2.0]))
     assert np.abs(found["bar_torque"].values).max() == 0.0

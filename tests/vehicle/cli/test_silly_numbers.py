@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import pytest
 from kintrafo import InputError
@@ -44,8 +44,8 @@ KEYS = [
 
 
 @pytest.fixture(autouse=True)
-def nothing_is_derived(monkeypatch: pytest.MonkeyPatch) -> None:
-    def derived(assembly: Any) -> Any:
+def nothing_is_derived(monkeypatch):
+    def derived(assembly):
         raise AssertionError(f"derives {assembly}")
 
     for command in (ride, drive):
@@ -53,7 +53,7 @@ def nothing_is_derived(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.parametrize(("option", "beside"), OPTIONS)
-def test_of_a_ride(kintrafo: Run, option: str, beside: tuple[str, ...]) -> None:
+def test_of_a_ride(kintrafo, option, beside):
     for value in sorted({*SILLY} - {*OPTIONS[option, beside]}):
         words = ["ride", "reference_vehicle", f"{option}={value}", *beside]
         code, out, err = kintrafo(*words)
@@ -62,7 +62,7 @@ def test_of_a_ride(kintrafo: Run, option: str, beside: tuple[str, ...]) -> None:
 
 
 @pytest.mark.parametrize("manoeuvre", manoeuvres())
-def test_of_the_speed_of_a_manoeuvre(kintrafo: Run, manoeuvre: str) -> None:
+def test_of_the_speed_of_a_manoeuvre(kintrafo, manoeuvre):
     for value in SILLY:
         words = ["drive", "driving_car", "--manoeuvre", manoeuvre, f"--speed={value}"]
         code, out, err = kintrafo(*words)
@@ -71,7 +71,7 @@ def test_of_the_speed_of_a_manoeuvre(kintrafo: Run, manoeuvre: str) -> None:
 
 
 @pytest.mark.parametrize(("manoeuvre", "key"), KEYS)
-def test_of_the_keys_of_a_manoeuvre(manoeuvre: str, key: str) -> None:
+def test_of_the_keys_of_a_manoeuvre(manoeuvre, key):
     several = isinstance(getattr(load_manoeuvre(manoeuvre), key), tuple)
     silly = {"-1", "nan", "inf", "1e9", "1e300"} | ({"0", "1e-9"} if key not in SMALL else set())
     for value in map(float, silly - ({"0", "1e-9", "-1"} if several else set())):
@@ -79,6 +79,6 @@ def test_of_the_keys_of_a_manoeuvre(manoeuvre: str, key: str) -> None:
             load_manoeuvre(manoeuvre, {key: (value, value) if several else value})
 
 
-def test_the_step_of_a_range_of_speeds_may_be_small() -> None:
+def test_the_step_of_a_range_of_speeds_may_be_small():
     made = load_manoeuvre("speed_range", {"step_km_per_h": 0.5, "to_km_per_h": 100.0})
     assert made.model_dump()["step_km_per_h"] == 0.5

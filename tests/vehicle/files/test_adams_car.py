@@ -46,7 +46,7 @@ def loaded(found: ImportedSubsystem, folder: Path) -> Suspension:
 @pytest.mark.parametrize("unit", ["mm", "meter", "inch", "cm"])
 @pytest.mark.parametrize("side", ["left", "right"])
 @pytest.mark.parametrize("name", [*KINDS, "offset strut", "with angles"])
-def test_hardpoints_come_back(name: str, side: str, unit: str, tmp_path: Path) -> None:
+def test_hardpoints_come_back(name, side, unit, tmp_path):
     car = {**CARS, "offset strut": OFFSET, "with angles": WISHBONES}[name]
     kind = kind_of(car)
     text = subsystem(car, unit=unit)
@@ -64,7 +64,7 @@ def test_hardpoints_come_back(name: str, side: str, unit: str, tmp_path: Path) -
 
 
 @pytest.mark.parametrize("name", ["double_wishbone", "with angles", "push_rod", "macpherson"])
-def test_it_moves_as_the_car_that_was_written(name: str, tmp_path: Path) -> None:
+def test_it_moves_as_the_car_that_was_written(name, tmp_path):
     car = WISHBONES if name == "with angles" else CARS[name]
     found = taken(tmp_path, subsystem(car), side="right", kind=kind_of(car))
     new = loaded(found, tmp_path)
@@ -76,7 +76,7 @@ def test_it_moves_as_the_car_that_was_written(name: str, tmp_path: Path) -> None
             np.testing.assert_allclose(curves[1][key], curves[0][key], rtol=1e-9, atol=1e-12)
 
 
-def test_what_lies_elsewhere_is_brought_along(tmp_path: Path) -> None:
+def test_what_lies_elsewhere_is_brought_along(tmp_path):
     """A packaged file is of another car: bodies, tyre and strut follow to where the wheel is."""
     for car in (CARS["double_wishbone"], CARS["macpherson"], OFFSET):
         raised = [(n, s, x + 2500.0, y - 40.0, z + 25.0) for n, s, x, y, z in rows_of(car)]
@@ -103,7 +103,7 @@ def force_at_design(car: Any) -> float:
     return float(car.strut.spring_rate_N_per_m * (car.strut.free_length(seats) - seats))
 
 
-def test_a_file_of_the_user_gives_the_rest(tmp_path: Path) -> None:
+def test_a_file_of_the_user_gives_the_rest(tmp_path):
     mine = tmp_path / "mine.toml"
     text = (DATA / "double_wishbone_car.toml").read_text(encoding="utf-8")
     mine.write_text(
@@ -129,7 +129,7 @@ def test_a_file_of_the_user_gives_the_rest(tmp_path: Path) -> None:
         taken(tmp_path, subsystem(WISHBONES), base=mine, kind="push_rod")
 
 
-def test_a_file_of_another_kind_is_refused(tmp_path: Path) -> None:
+def test_a_file_of_another_kind_is_refused(tmp_path):
     """Half of one suspension and half of another would be a car that there is not."""
     strut = subsystem(CARS["macpherson"])
     with pytest.raises(InputError, match="those of a macpherson, and the file double_wishbone_car"):
@@ -139,7 +139,7 @@ def test_a_file_of_another_kind_is_refused(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_comments_say_nothing_of_the_packaged_car(kind: str, tmp_path: Path) -> None:
+def test_comments_say_nothing_of_the_packaged_car(kind, tmp_path):
     """Beside a value stands what its key means, whatever the value."""
     packaged = (DATA / f"{KINDS[kind].STARTER}.toml").read_text(encoding="utf-8")
     asked = kind if kind in ("push_rod", "pull_rod") else None
@@ -154,7 +154,7 @@ def test_comments_say_nothing_of_the_packaged_car(kind: str, tmp_path: Path) -> 
             assert re.search(rf"(?m)^{name} .*# {re.escape(field.description or '')}$", text)
 
 
-def test_comments_beside_changed_values_of_a_user_are_fresh(tmp_path: Path) -> None:
+def test_comments_beside_changed_values_of_a_user_are_fresh(tmp_path):
     mine = tmp_path / "mine.toml"
     old = (DATA / "double_wishbone_car.toml").read_text(encoding="utf-8")
     old = old.replace("camber_deg = 0.0  ", "camber_deg = 0.0  # none, as measured\n  # in 2019")
@@ -166,7 +166,7 @@ def test_comments_beside_changed_values_of_a_user_are_fresh(tmp_path: Path) -> N
     assert "\ntoe_deg = 0.15                           # toe at design, positive toe-in\n" in text
 
 
-def test_names_of_the_companys_own(tmp_path: Path) -> None:
+def test_names_of_the_companys_own(tmp_path):
     text = subsystem(WISHBONES).replace("lca_outer ", "Kugel_1   ")
     with pytest.raises(InputError, match=r"--kind double_wishbone --name lower_ball_joint=NAME"):
         taken(tmp_path, text)
@@ -175,7 +175,7 @@ def test_names_of_the_companys_own(tmp_path: Path) -> None:
     assert found.read["lower_ball_joint"] == "kugel_1"
 
 
-def test_one_point_may_be_two_of_ours(tmp_path: Path) -> None:
+def test_one_point_may_be_two_of_ours(tmp_path):
     """Two links that meet in one ball joint are an arm."""
     car = CARS["multi_link"]
     rows = [row for row in rows_of(car) if row[0] != "rear_upper_link_outer"]
@@ -188,7 +188,7 @@ def test_one_point_may_be_two_of_ours(tmp_path: Path) -> None:
     assert points.rear_upper_link_outer == points.front_upper_link_outer
 
 
-def test_each_side_may_have_its_own_row(tmp_path: Path) -> None:
+def test_each_side_may_have_its_own_row(tmp_path):
     left = WISHBONES.mirrored().with_changes({"hardpoints.tie_rod_inner.z": 262.0})
     sides = [*rows_of(left, symmetry=lambda _: "left"),
              *rows_of(WISHBONES, symmetry=lambda _: "right")]  # fmt: skip
@@ -226,19 +226,19 @@ TOLERATED = {
 
 
 @pytest.mark.parametrize("name", TOLERATED)
-def test_what_is_written_otherwise_is_the_same(name: str, tmp_path: Path) -> None:
+def test_what_is_written_otherwise_is_the_same(name, tmp_path):
     car = CARS["double_wishbone"]
     found = taken(tmp_path, TOLERATED[name](subsystem(car)), side="right")
     assert loaded(found, tmp_path) == car
 
 
-def test_latin_1(tmp_path: Path) -> None:
+def test_latin_1(tmp_path):
     text = subsystem(WISHBONES).replace("of nobody", "für Zürich, 20 µm")
     path = written(tmp_path, text, "latin-1")
     assert imported(read(path)).kind == "double_wishbone"
 
 
-def test_angles_in_radians(tmp_path: Path) -> None:
+def test_angles_in_radians(tmp_path):
     text = subsystem(WISHBONES).replace("'degrees'", "'radians'")
     text = text.replace(" -1.2\n", f" {np.radians(-1.2)!r}\n").replace("np.float64", "")
     text = text.replace("(-0.02", "-0.02").replace(")\n", "\n")
@@ -249,7 +249,7 @@ def test_angles_in_radians(tmp_path: Path) -> None:
     }
 
 
-def test_what_is_not_read_is_reported(tmp_path: Path) -> None:
+def test_what_is_not_read_is_reported(tmp_path):
     rows = [*rows_of(WISHBONES), ("drive_shaft_inr", "left/right", 0.0, -200.0, 225.0)]
     found = taken(tmp_path, subsystem(WISHBONES, rows=rows, more=MORE))
     beside = "its file 'own.spr' is not beside the subsystem."
@@ -264,7 +264,7 @@ def test_what_is_not_read_is_reported(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("block", ["HARDPOINT", "PARAMETER", "UNITS", "OTHER"])
-def test_comments_are_neither_rows_nor_columns(block: str, tmp_path: Path) -> None:
+def test_comments_are_neither_rows_nor_columns(block, tmp_path):
     comment = "(COMMENTS)\n{comment_string}\n'camber_angle of nobody'\n'a = b'\n"
     text = subsystem(WISHBONES, more="[OTHER]\n").replace(f"[{block}]\n", f"[{block}]\n{comment}")
     found = taken(tmp_path, text, side="right")
@@ -272,7 +272,7 @@ def test_comments_are_neither_rows_nor_columns(block: str, tmp_path: Path) -> No
     assert found.left_out == ("parameter kinematic_flag single integer 0", "[OTHER]")
 
 
-def test_a_ground_that_is_elsewhere_is_reported(tmp_path: Path) -> None:
+def test_a_ground_that_is_elsewhere_is_reported(tmp_path):
     low = [(n, s, x, y, z - 300.0) for n, s, x, y, z in rows_of(WISHBONES)]
     found = taken(tmp_path, subsystem(WISHBONES, rows=low))
     assert any(
@@ -297,7 +297,7 @@ PRELOAD = " VALUE_TYPE  =  'preload'\n USER_VALUE  =  5100.0\n"
 
 @pytest.mark.parametrize("folder", [".", "springs.tbl", "../springs.tbl"])
 @pytest.mark.parametrize("kind", ["double_wishbone", "macpherson", "multi_link"])
-def test_a_straight_spring_is_read(kind: str, folder: str, tmp_path: Path) -> None:
+def test_a_straight_spring_is_read(kind, folder, tmp_path):
     (tmp_path / folder).mkdir(exist_ok=True)
     (tmp_path / folder / "own.spr").write_text(SPRING, encoding="utf-8")
     found = taken(tmp_path, subsystem(CARS[kind], more=MORE + PRELOAD))
@@ -310,7 +310,7 @@ def test_a_straight_spring_is_read(kind: str, folder: str, tmp_path: Path) -> No
         assert (car.spring.rate_N_per_m, car.spring.force_at_design_N) == (45000.0, 5100.0)
 
 
-def test_units_of_a_spring(tmp_path: Path) -> None:
+def test_units_of_a_spring(tmp_path):
     """100 lbf/in are 17.5 N/mm, by the definitions of inch, pound and standard gravity."""
     text = SPRING.replace("'mm'", "'inch'").replace("'newton'", "'pound_force'")
     text = text.replace("-50.0  -2250.0", "-1.0 -100.0").replace("100.0  4500.0", "2.0 200.0")
@@ -323,7 +323,7 @@ def test_units_of_a_spring(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("kind", ["double_wishbone", "macpherson", "push_rod"])
 @pytest.mark.parametrize("preload", [None, 1500.0])
-def test_a_spring_by_a_curve_is_read(kind: str, preload: float | None, tmp_path: Path) -> None:
+def test_a_spring_by_a_curve_is_read(kind, preload, tmp_path):
     """Its force at design is the preload, and from there it is that of the curve."""
     curve = {-100.0: -6000.0, 0.0: 0.0, 50.0: 2000.0, 200.0: 14000.0}
     rows = "".join(f"{x} {force}\n" for x, force in curve.items())
@@ -359,14 +359,14 @@ LEFT_OUT = {
 
 
 @pytest.mark.parametrize(("text", "message"), LEFT_OUT.values(), ids=LEFT_OUT)
-def test_a_spring_that_is_left_out(text: str, message: str, tmp_path: Path) -> None:
+def test_a_spring_that_is_left_out(text, message, tmp_path):
     (tmp_path / "own.spr").write_text(text, encoding="utf-8")
     found = taken(tmp_path, subsystem(WISHBONES, more=MORE))
     assert [line for line in found.left_out if message in line]
     assert found.spring is None
 
 
-def test_springs_that_are_not_taken(tmp_path: Path) -> None:
+def test_springs_that_are_not_taken(tmp_path):
     (tmp_path / "own.spr").write_text(SPRING, encoding="utf-8")
     second = MORE + "[NSPRING_ASSEMBLY]\n USAGE = 'helper'\n SYMMETRY = 'left/right'\n"
     more = taken(tmp_path, subsystem(WISHBONES, more=second))
@@ -431,11 +431,11 @@ REFUSED = {
 
 
 @pytest.mark.parametrize("text", REFUSED.values(), ids=REFUSED)
-def test_what_would_make_a_wrong_car_is_refused(text: str, refused: Any, tmp_path: Path) -> None:
+def test_what_would_make_a_wrong_car_is_refused(text, refused, tmp_path):
     refused(InputError, lambda: taken(tmp_path, text))
 
 
-def test_push_or_pull_is_asked(tmp_path: Path, refused: Any) -> None:
+def test_push_or_pull_is_asked(tmp_path, refused):
     refused(InputError, lambda: taken(tmp_path, subsystem(CARS["push_rod"])))
 
 
@@ -448,7 +448,7 @@ SAID = {
 
 
 @pytest.mark.parametrize("entries", SAID.values(), ids=SAID)
-def test_names_that_are_none(entries: list[str], refused: Any, tmp_path: Path) -> None:
+def test_names_that_are_none(entries, refused, tmp_path):
     refused(
         InputError,
         lambda: taken(
@@ -457,7 +457,7 @@ def test_names_that_are_none(entries: list[str], refused: Any, tmp_path: Path) -
     )
 
 
-def test_two_that_may_be_one(tmp_path: Path) -> None:
+def test_two_that_may_be_one(tmp_path):
     rows = [*rows_of(CARS["push_rod"]), ("prod_outer", "left/right", 0.0, -600.0, 200.0)]
     text = subsystem(CARS["push_rod"], rows=rows)
     with pytest.raises(InputError, match="prod_outboard and prod_outer may both be push_rod_outer"):
@@ -465,7 +465,7 @@ def test_two_that_may_be_one(tmp_path: Path) -> None:
     assert taken(tmp_path, text, kind="push_rod", names={"push_rod_outer": "prod_outboard"})
 
 
-def test_the_command(kintrafo: Any, tmp_path: Path) -> None:
+def test_the_command(kintrafo, tmp_path):
     written(tmp_path, subsystem(WISHBONES, more=MORE))
     code, out, _ = kintrafo("import", "front.sub", "car.toml", "--side", "right")
     assert code == 0

@@ -59,7 +59,7 @@ def read(tmp_path: Path, changes: dict[tuple[Any, ...], Any] | None = None) -> A
 
 
 @pytest.fixture
-def found(tmp_path: Path) -> Any:
+def found(tmp_path):
     return read(tmp_path)
 
 
@@ -78,7 +78,7 @@ def origin(found: Any) -> np.ndarray:
     return centers()["front"] - found.car.wheel_centers["front_left"]
 
 
-def test_its_points_are_where_chrono_has_them(found: Any) -> None:
+def test_its_points_are_where_chrono_has_them(found):
     at = origin(found)
     assert at[:2] == pytest.approx([centers()["front"][0], 0.0], abs=1e-9)
     for end, file, axle in zip(
@@ -96,8 +96,8 @@ def test_its_points_are_where_chrono_has_them(found: Any) -> None:
             np.testing.assert_allclose(points.metres(name), np.add(place, shift), atol=1e-9)
 
 
-def test_its_masses_are_those_that_chrono_has_but_for_what_is_listed(found: Any) -> None:
-    def own(name: str) -> float:
+def test_its_masses_are_those_that_chrono_has_but_for_what_is_listed(found):
+    def own(name):
         return sum(
             part["Mass"]
             for part in FILES[name].values()
@@ -114,7 +114,7 @@ def test_its_masses_are_those_that_chrono_has_but_for_what_is_listed(found: Any)
         assert any(line.startswith(left) for line in found.left_out)
 
 
-def test_the_chassis_is_the_sum_of_its_components(tmp_path: Path) -> None:
+def test_the_chassis_is_the_sum_of_its_components(tmp_path):
     chassis = "generic/chassis/Chassis.json"
     one = FILES[chassis]["Components"][0]
     turn = Rotation.from_euler("xyz", [10.0, -20.0, 30.0], degrees=True)
@@ -145,7 +145,7 @@ def test_the_chassis_is_the_sum_of_its_components(tmp_path: Path) -> None:
     )
 
 
-def test_the_road_carries_the_front_wheels_in_the_design_position(found: Any) -> None:
+def test_the_road_carries_the_front_wheels_in_the_design_position(found):
     """By the balance of moments about the rear wheel centres, with all masses where they are."""
     car = found.car
     tyre = car.axles["front"].left.tyre
@@ -158,7 +158,7 @@ def test_the_road_carries_the_front_wheels_in_the_design_position(found: Any) ->
     assert tyre.lifts_off
 
 
-def test_its_bar_is_that_of_chrono(found: Any) -> None:
+def test_its_bar_is_that_of_chrono(found):
     bar = found.car.axles["front"].bar
     theirs = FILES["generic/antirollbar/AntirollBarRSD.json"]
     at = np.array(FILES[VEHICLE]["Axles"][0]["Antirollbar Location"]) - origin(found)
@@ -171,7 +171,7 @@ def test_its_bar_is_that_of_chrono(found: Any) -> None:
     assert found.car.axles["rear"].bar is None
 
 
-def test_a_pitman_arm_keeps_its_points_and_axes(found: Any) -> None:
+def test_a_pitman_arm_keeps_its_points_and_axes(found):
     theirs, place = FILES[PITMAN], FILES[VEHICLE]["Steering Subsystems"][0]
     w, x, y, z = place["Orientation"]
     turned = Rotation.from_quat([x, y, z, w])
@@ -199,7 +199,7 @@ def lower_ball_of_chrono() -> np.ndarray:
     return np.add(FILES[FRONT]["Lower Control Arm"]["Location Upright"], place)
 
 
-def test_a_rack_goes_as_far_as_its_pinion(tmp_path: Path) -> None:
+def test_a_rack_goes_as_far_as_its_pinion(tmp_path):
     places = [{"Input File": RACK, "Location": [1, 0, 0], "Orientation": [1, 0, 0, 0]}]
     found = read(tmp_path, {(VEHICLE, "Steering Subsystems"): places})
     rack = found.car.axles["front"].left.rack
@@ -208,7 +208,7 @@ def test_a_rack_goes_as_far_as_its_pinion(tmp_path: Path) -> None:
     assert rack.axis == (0.0, 1.0, 0.0)
 
 
-def test_brakes_and_driveline_give_shares(tmp_path: Path) -> None:
+def test_brakes_and_driveline_give_shares(tmp_path):
     rear = "generic/brake/Rear.json"
     brake = FILES["generic/brake/BrakeSimple.json"]
     changes: dict[tuple[Any, ...], Any] = {(rear,): brake | {"Maximum Torque": 1000.0}}
@@ -223,7 +223,7 @@ def test_brakes_and_driveline_give_shares(tmp_path: Path) -> None:
     assert [a.drive.share for a in axles.values()] == pytest.approx([0.3, 0.7])
 
 
-def test_an_inertia_that_no_body_has_is_raised_and_listed(found: Any) -> None:
+def test_an_inertia_that_no_body_has_is_raised_and_listed(found):
     """The lower arm has 0.4, 0.4, 0.8938 kg m^2: 0.4469 is half the largest."""
     arm = found.car.axles["rear"].left.bodies.lower_arm.elements()
     tensor = [[arm["xx"], arm["xy"], arm["xz"]], [arm["xy"], arm["yy"], arm["yz"]],
@@ -232,7 +232,7 @@ def test_an_inertia_that_no_body_has_is_raised_and_listed(found: Any) -> None:
     assert any("read as [0.4469, 0.4469, 0.8938]" in line for line in found.assumptions)
 
 
-def test_a_semi_trailing_arm_swings_about_its_bearings(tmp_path: Path) -> None:
+def test_a_semi_trailing_arm_swings_about_its_bearings(tmp_path):
     suspension = chrono.read(folder(tmp_path) / ARM, tire=tmp_path / "data" / TIRE).suspension
     arm = FILES[ARM]["Trailing Arm"]
     inner, outer = (np.array(arm[f"Location Chassis {x}"]) for x in ("Inner", "Outer"))
@@ -248,12 +248,12 @@ def test_a_semi_trailing_arm_swings_about_its_bearings(tmp_path: Path) -> None:
         np.testing.assert_allclose(got, own, atol=1e-9)
 
 
-def test_a_car_with_a_semi_trailing_arm_is_read(tmp_path: Path) -> None:
+def test_a_car_with_a_semi_trailing_arm_is_read(tmp_path):
     found = read(tmp_path, {(VEHICLE, "Axles", 1, "Suspension Input File"): ARM})
     assert found.car.axles["rear"].right.suspension == "trailing_arm"
 
 
-def test_a_file_that_names_vehicle_and_tire_is_read(tmp_path: Path, found: Any) -> None:
+def test_a_file_that_names_vehicle_and_tire_is_read(tmp_path, found):
     outer = {"Name": "x", "Type": "Vehicle", "Template": "WheeledVehicle", "Zombie": 1,
              "Vehicle": {"Input File": VEHICLE}, "Tire": {"Input File": TIRE}}  # fmt: skip
     root = folder(tmp_path, {("generic/Whole.json",): outer})
@@ -262,7 +262,7 @@ def test_a_file_that_names_vehicle_and_tire_is_read(tmp_path: Path, found: Any) 
     assert "Whole.json > Zombie = 1" in whole.left_out
 
 
-def test_a_tyre_that_rolls_is_that_of_a_car_that_drives(tmp_path: Path) -> None:
+def test_a_tyre_that_rolls_is_that_of_a_car_that_drives(tmp_path):
     root = folder(tmp_path)
     tire = shutil.copy(DATA / "chrono/TMeasyTire.json", root / "generic/tire/TMeasyTire.json")
     found = chrono.read_vehicle(root / VEHICLE, tire=tire)
@@ -302,14 +302,12 @@ MISTAKES: dict[str, dict[tuple[Any, ...], Any]] = {
 
 
 @pytest.mark.parametrize("name", MISTAKES)
-def test_mistakes_are_named(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, refused: Any
-) -> None:
+def test_mistakes_are_named(tmp_path, monkeypatch, name, refused):
     monkeypatch.chdir(folder(tmp_path, MISTAKES[name]))
     refused(InputError, lambda: chrono.read_vehicle(VEHICLE, tire=TIRE))
 
 
-def test_a_tire_is_asked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, refused: Any) -> None:
+def test_a_tire_is_asked_for(tmp_path, monkeypatch, refused):
     monkeypatch.chdir(folder(tmp_path))
     refused(InputError, lambda: chrono.read_vehicle(VEHICLE))
 
@@ -318,9 +316,7 @@ class TestCommand:
     def run(self, *given: str) -> Any:
         return CliRunner().invoke(app, ["import", *given])
 
-    def test_writes_five_files_that_are_the_car(
-        self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-    ) -> None:
+    def test_writes_five_files_that_are_the_car(self, tmp_path, monkeypatch):
         root = folder(tmp_path)
         monkeypatch.chdir(tmp_path)
         result = self.run(str(root / VEHICLE), "car.toml", "--tire", str(root / TIRE))
@@ -332,9 +328,7 @@ class TestCommand:
         for line in (*expected.assumptions, *expected.left_out):
             assert line.split()[0] in result.output
 
-    def test_writes_nothing_where_one_file_is_in_the_way(
-        self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-    ) -> None:
+    def test_writes_nothing_where_one_file_is_in_the_way(self, tmp_path, monkeypatch):
         root = folder(tmp_path)
         monkeypatch.chdir(tmp_path)
         (tmp_path / "car_rear.toml").write_text("mine", encoding="utf-8")
@@ -344,7 +338,7 @@ class TestCommand:
         assert (tmp_path / "car_rear.toml").read_text(encoding="utf-8") == "mine"
 
     @pytest.mark.parametrize("option", [["--side", "right"], ["--points-only"]])
-    def test_options_of_a_suspension_are_refused(self, tmp_path: Path, option: list[str]) -> None:
+    def test_options_of_a_suspension_are_refused(self, tmp_path, option):
         root = folder(tmp_path)
         result = self.run(str(root / VEHICLE), str(tmp_path / "car.toml"), *option)
         assert result.exit_code == 2

@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 import shutil
-from typing import TYPE_CHECKING, Any
 
 import pytest
 from kintrafo import InputError, Suspension
 from kintrafo.vehicle.files.formats import NAMES, format_of
 from support.folders import DATA
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 CHRONO = (DATA / "chrono/MacPhersonStrut.json").read_text(encoding="utf-8")
 ADAMS = (DATA / "adams/front_suspension.sub").read_text(encoding="utf-8")
@@ -37,14 +33,14 @@ TABLE = "point,x [mm],y [mm],z [mm]\nball_joint,5.0,-745.0,180.0\n"
         ("a.xls", "", "table"),
     ],
 )
-def test_the_format_of_a_file(name: str, text: str, found: str, tmp_path: Path) -> None:
+def test_the_format_of_a_file(name, text, found, tmp_path):
     path = tmp_path / name
     path.write_text(text, encoding="utf-8")
     assert format_of(path) == found
 
 
 @pytest.mark.parametrize("name", ["a.toml", "a.bin", "a"])
-def test_other_files(name: str, refused: Any, tmp_path: Path) -> None:
+def test_other_files(name, refused, tmp_path):
     (tmp_path / name).write_text("x = 1\n", encoding="utf-8")
     refused(InputError, lambda: format_of(tmp_path / name))
 
@@ -69,9 +65,7 @@ OTHERS = [
 
 
 @pytest.mark.parametrize(("source", "option", "found"), OTHERS)
-def test_options_of_another_format(
-    kintrafo: Any, tmp_path: Path, source: str, option: str, found: Any
-) -> None:
+def test_options_of_another_format(kintrafo, tmp_path, source, option, found):
     for name, text in {"a.csv": TABLE, "a.sub": ADAMS, "b.json": CHRONO}.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
     code, out, err = kintrafo("import", source, "new.toml", *option.split())
@@ -90,22 +84,20 @@ def test_options_of_another_format(
         ("a.txt", "[UNITS]\n", "", "adams"),
     ],
 )
-def test_a_refusal_says_what_a_file_is_read_as(
-    kintrafo: Any, tmp_path: Path, name: str, text: str, more: str, found: Any
-) -> None:
+def test_a_refusal_says_what_a_file_is_read_as(kintrafo, tmp_path, name, text, more, found):
     (tmp_path / name).write_text(text, encoding="utf-8")
     code, out, err = kintrafo("import", name, "new.toml", *more.split())
     assert (code, out) == (2, "")
     assert f"{name} is read as {NAMES[found]}." in " ".join(err.split())
 
 
-def test_a_table_needs_the_rest(kintrafo: Any, tmp_path: Path) -> None:
+def test_a_table_needs_the_rest(kintrafo, tmp_path):
     (tmp_path / "a.csv").write_text(TABLE, encoding="utf-8")
     code, _, err = kintrafo("import", "a.csv", "new.toml")
     assert (code, "--from FILE" in " ".join(err.split())) == (2, True)
 
 
-def test_a_subsystem_as_a_text_file(kintrafo: Any, tmp_path: Path) -> None:
+def test_a_subsystem_as_a_text_file(kintrafo, tmp_path):
     shutil.copy(DATA / "adams/front_suspension.sub", tmp_path / "front.txt")
     shutil.copy(DATA / "adams/front_suspension.sub", tmp_path / "front.sub")
     for name in ("front.txt", "front.sub"):

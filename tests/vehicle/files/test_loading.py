@@ -1,8 +1,5 @@
 """`kintrafo.load` returns what a file describes; anything else is refused as a suspension is."""
 
-from pathlib import Path
-from typing import Any
-
 import kintrafo
 import pytest
 from kintrafo.vehicle.data.starter import packaged, packaged_axles
@@ -19,7 +16,7 @@ DATA = ROOT / "vehicle/data"
         (("rigid_axle",), kintrafo.RigidAxle),
     ],
 )
-def test_a_name_and_its_file_are_the_same(names: tuple[str, ...], kind: type) -> None:
+def test_a_name_and_its_file_are_the_same(names, kind):
     for name in names:
         found = kintrafo.load(name)
         assert isinstance(found, kind)
@@ -27,7 +24,7 @@ def test_a_name_and_its_file_are_the_same(names: tuple[str, ...], kind: type) ->
         assert kintrafo.load(file) == found == kintrafo.load(str(file))
 
 
-def test_what_describes_nothing_is_refused(tmp_path: Path, refused: Any) -> None:
+def test_what_describes_nothing_is_refused(tmp_path, refused):
     refused(kintrafo.InputError, lambda: kintrafo.load(3), lambda: kintrafo.load("no_such_car"))
     file = tmp_path / "empty.toml"
     file.write_text("", encoding="utf-8")
@@ -35,7 +32,7 @@ def test_what_describes_nothing_is_refused(tmp_path: Path, refused: Any) -> None
 
 
 @pytest.mark.parametrize("name", ["double_wishbone_car", "rear_axle", "rigid_axle", "quarter_car"])
-def test_what_is_saved_is_loaded_again(tmp_path: Path, name: str) -> None:
+def test_what_is_saved_is_loaded_again(tmp_path, name):
     """An axle and a car have in their own file what is in those that they name."""
     subject = kintrafo.load(name)
     file = subject.save(tmp_path / "saved.toml")

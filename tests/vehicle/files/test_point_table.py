@@ -27,7 +27,7 @@ def table(tmp_path: Path, text: str, name: str = "points.csv") -> Path:
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_what_is_written_is_read_again(kind: str, tmp_path: Path) -> None:
+def test_what_is_written_is_read_again(kind, tmp_path):
     name = KINDS[kind].STARTER
     car = Suspension.load(name)
     path = write_points(car, tmp_path / "points.csv")
@@ -38,7 +38,7 @@ def test_what_is_written_is_read_again(kind: str, tmp_path: Path) -> None:
     assert again == car
 
 
-def test_points_of_a_table_replace_those_of_the_file(tmp_path: Path) -> None:
+def test_points_of_a_table_replace_those_of_the_file(tmp_path):
     text = "Name;x [m];y [m];z [m];remark\nBall joint;0,005;-0,7115;0,18;moved\nwatts link;1;2;3;\n"
     found = merged(read_points(table(tmp_path, text)), "reference_car")
     assert found.read == {"ball_joint": "Ball joint"}
@@ -51,7 +51,7 @@ def test_points_of_a_table_replace_those_of_the_file(tmp_path: Path) -> None:
     assert "# control arm to knuckle" in path.read_text(encoding="utf-8")
 
 
-def test_the_other_side_is_mirrored(tmp_path: Path) -> None:
+def test_the_other_side_is_mirrored(tmp_path):
     path = write_points(CAR.mirrored(), tmp_path / "left.csv")
     found = merged(read_points(path), "reference_car", mirrored=True)
     assert Suspension.load(write_merged(found, tmp_path / "right.toml")) == CAR
@@ -59,7 +59,7 @@ def test_the_other_side_is_mirrored(tmp_path: Path) -> None:
         merged(read_points(path), "reference_car")
 
 
-def test_excel_is_read(tmp_path: Path) -> None:
+def test_excel_is_read(tmp_path):
     openpyxl = pytest.importorskip("openpyxl")
     book = openpyxl.Workbook()
     book.active.append(["hardpoint", "x (mm)", "y (mm)", "z (mm)"])
@@ -108,7 +108,7 @@ WRONG = {
 
 
 @pytest.mark.parametrize("text", WRONG.values(), ids=WRONG)
-def test_what_is_wrong_is_named(text: str, refused: Any, tmp_path: Path) -> None:
+def test_what_is_wrong_is_named(text, refused, tmp_path):
     refused(InputError, lambda: merged(read_points(table(tmp_path, text)), "reference_car"))
 
 
@@ -134,7 +134,7 @@ FORMS = {
 
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize("unit", METRES)
-def test_a_unit_is_one_in_every_form(form: str, unit: str, tmp_path: Path) -> None:
+def test_a_unit_is_one_in_every_form(form, unit, tmp_path):
     text = FORMS[form].replace("z, {0}", '"z, {0}"')
     for spelling in (unit, SPELT[unit]):
         path = table(tmp_path, text.format(spelling, "ball_joint,1.5,-2.25,3\n"))
@@ -143,7 +143,7 @@ def test_a_unit_is_one_in_every_form(form: str, unit: str, tmp_path: Path) -> No
 
 
 @pytest.mark.parametrize("unit", METRES)
-def test_lengths_are_those_of_the_file(unit: str, tmp_path: Path) -> None:
+def test_lengths_are_those_of_the_file(unit, tmp_path):
     there = {"arm_front": (160.0, -360.0, 195.0), "arm_rear": (-200.0, -360.0, 200.0)}
     rows = "".join(
         f"{name},{','.join(repr(1e-3 * value / METRES[unit]) for value in place)}\n"
@@ -157,20 +157,20 @@ def test_lengths_are_those_of_the_file(unit: str, tmp_path: Path) -> None:
         np.testing.assert_allclose(getattr(car.hardpoints, name), place, rtol=1e-15, atol=0.0)
 
 
-def test_lengths_have_the_digits_of_the_table(tmp_path: Path) -> None:
+def test_lengths_have_the_digits_of_the_table(tmp_path):
     path = table(tmp_path, "point,x [in],y [in],z [in]\narm_front,4.078,-9.492422,10.26018\n")
     new = tomllib.loads(merged(read_points(path), "reference_car").text)
     # exact: 25.4 times these decimals
     assert new["hardpoints"]["arm_front"] == [103.5812, -241.1075188, 260.608572]
 
 
-def test_a_refusal_says_how_the_table_was_read(tmp_path: Path, refused: Any) -> None:
+def test_a_refusal_says_how_the_table_was_read(tmp_path, refused):
     rows = "arm_front,-160,-360,195\narm_rear,200,-360,200\n"
     path = table(tmp_path, "point,x [mm],y [mm],z [mm]\n" + rows)
     refused(InputError, lambda: merged(read_points(path), "reference_car"))
 
 
-def test_a_unit_that_is_given_must_not_contradict(tmp_path: Path) -> None:
+def test_a_unit_that_is_given_must_not_contradict(tmp_path):
     path = table(tmp_path, HEAD + "ball_joint,1,2,3\n")
     assert read_points(path, unit="millimetre").unit == "mm"
     with pytest.raises(InputError, match="unit of the table is mm, and not in"):
@@ -186,7 +186,7 @@ POINTING = {
 
 
 @pytest.mark.parametrize("words", [*product(POINTING, repeat=3)], ids=" ".join)
-def test_axes_of_other_programs(words: tuple[str, ...], tmp_path: Path) -> None:
+def test_axes_of_other_programs(words, tmp_path):
     path = table(tmp_path, HEAD + "a,1,2,3\n")
     x, y, z = (np.array(POINTING[word]) for word in words)
     hand = int(np.cross(x, y) @ z)
@@ -200,14 +200,14 @@ def test_axes_of_other_programs(words: tuple[str, ...], tmp_path: Path) -> None:
                 read_points(path, axes=" ".join(words), left_handed=told)
 
 
-def test_axes_that_are_none(tmp_path: Path) -> None:
+def test_axes_that_are_none(tmp_path):
     path = table(tmp_path, HEAD + "a,1,2,3\n")
     for words in ("", "forward left", "forward left sky", "forward left up down"):
         with pytest.raises(InputError, match="where x, y and z of the table point"):
             read_points(path, axes=words)
 
 
-def test_names_of_the_user(tmp_path: Path) -> None:
+def test_names_of_the_user(tmp_path):
     path = table(tmp_path, HEAD + "FLCA outboard,5,-711.5,180\nother,1,2,3\n")
     points = read_points(path)
     found = merged(points, "reference_car", names={"ball_joint": "flca_Outboard"})
@@ -221,7 +221,7 @@ def test_names_of_the_user(tmp_path: Path) -> None:
             merged(points, "reference_car", names=names)
 
 
-def test_every_column_is_read_or_listed(tmp_path: Path) -> None:
+def test_every_column_is_read_or_listed(tmp_path):
     text = "point,x [mm],y [mm],z [mm],remark,radius [mm]\nball_joint,5,-711.5,180,a,3\n"
     points = read_points(table(tmp_path, text))
     assert points.left_out == ("column remark", "column radius [mm]")
@@ -240,7 +240,7 @@ CAMBER ANGLE (deg): 0.00
 """
 
 
-def test_a_text_of_lotus_suspension_analysis(tmp_path: Path) -> None:
+def test_a_text_of_lotus_suspension_analysis(tmp_path):
     """There x points rearward and y to the right."""
     points = read_points(table(tmp_path, LOTUS, "front.txt"))
     found = merged(points, "double_wishbone_car")
@@ -285,7 +285,7 @@ def workbook(tmp_path: Path, sheets: dict[str, Any], hidden: str = "") -> Path:
     return tmp_path / "points.xlsx"
 
 
-def test_a_workbook_of_optimumk(tmp_path: Path) -> None:
+def test_a_workbook_of_optimumk(tmp_path):
     """Each car gets the points of its own side."""
     points = read_points(workbook(tmp_path, {"Front": SIDES}))
     right = Suspension.load("double_wishbone_car")
@@ -305,7 +305,7 @@ def test_a_workbook_of_optimumk(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("side", ["Left", "Right"])
-def test_a_table_of_one_side(side: str, tmp_path: Path) -> None:
+def test_a_table_of_one_side(side, tmp_path):
     """It is that of a suspension of this side, and mirrored that of the other."""
     y = {"Left": 711.5, "Right": -711.5}[side]
     text = f",{side}\n{HEAD}ball_joint,5,{y},180\n"
@@ -318,7 +318,7 @@ def test_a_table_of_one_side(side: str, tmp_path: Path) -> None:
     assert new.hardpoints.ball_joint == (5.0, -711.5, 180.0)
 
 
-def test_sheets_of_a_workbook(tmp_path: Path) -> None:
+def test_sheets_of_a_workbook(tmp_path):
     rows = (("point", "x [mm]", "y [mm]", "z [mm]"), ("ball_joint", 5, -711.5, 180.0))
     both = {"notes": [("nothing",)], "front": rows, "rear": rows}
     with pytest.raises(InputError, match="on the sheets 'front' and 'rear'"):
@@ -336,7 +336,7 @@ CELLS = [True, "two", "#DIV/0!", "1,5", None, "=1+1", float("inf"), "1_0"]
 
 
 @pytest.mark.parametrize("cell", CELLS, ids=str)
-def test_cells_that_are_no_numbers(cell: Any, tmp_path: Path) -> None:
+def test_cells_that_are_no_numbers(cell, tmp_path):
     rows = (("point", "x [mm]", "y [mm]", "z [mm]"), ("ball_joint", 5, cell, 180.0))
     with pytest.raises(
         InputError, match=r"row 2, ball_joint: three numbers|not a readable Excel workbook"
@@ -344,7 +344,7 @@ def test_cells_that_are_no_numbers(cell: Any, tmp_path: Path) -> None:
         read_points(workbook(tmp_path, {"a": rows}))
 
 
-def test_the_commands(kintrafo: Any, tmp_path: Path) -> None:
+def test_the_commands(kintrafo, tmp_path):
     assert kintrafo("export", "reference_car", "--to", "points", "-o", "points.csv")[0] == 0
     code, out, _ = kintrafo("import", "points.csv", "new.toml", "--from", "reference_car")
     assert (code, "read: arm_front" in out) == (0, True)
@@ -357,7 +357,7 @@ def test_the_commands(kintrafo: Any, tmp_path: Path) -> None:
     assert kintrafo("import", "points.txt", "x.toml", "--from", "new.toml")[0] == 2
 
 
-def test_a_table_of_another_car_is_doubted(kintrafo: Any, tmp_path: Path) -> None:
+def test_a_table_of_another_car_is_doubted(kintrafo, tmp_path):
     """Rows that are no hardpoints are named on stderr, where hardpoints are missing."""
     other = HEAD + "wheel_center,5,-750,310\nlower_arm_front,1,2,3\nlower_arm_rear,1,2,4\n"
     table(tmp_path, other, "other.csv")

@@ -1,7 +1,6 @@
 """Axles with other values: their sections, changes of one side or both, files that they write."""
 
 import tomllib
-from typing import Any
 
 import pytest
 from kintrafo import Axle, InputError, Suspension
@@ -28,14 +27,14 @@ CENTER = "hardpoints.wheel_center"
 
 
 @pytest.mark.parametrize("name", AXLES)
-def test_sections_and_file_give_the_same_axle(name: str) -> None:
+def test_sections_and_file_give_the_same_axle(name):
     axle = AXLES[name]
     assert Axle.from_dict(axle.to_dict()) == axle
     assert Axle.from_dict(tomllib.loads(toml_text(axle))) == axle
 
 
 @pytest.mark.parametrize("name", AXLES)
-def test_sides_move_together_or_apart(name: str) -> None:
+def test_sides_move_together_or_apart(name):
     axle = AXLES[name]
     x = axle.right.hardpoints.wheel_center[0] + 3.0
     both = axle.with_changes({f"side.{CENTER}.x": x})
@@ -57,7 +56,7 @@ def test_sides_move_together_or_apart(name: str) -> None:
         apart.with_changes({f"side.{CENTER}.x": x})
 
 
-def test_a_bar_has_values_of_its_own() -> None:
+def test_a_bar_has_values_of_its_own():
     axle = AXLES["symmetric"]
     stiff = axle.with_changes({"anti_roll_bar.rate_Nm_per_deg": 55.0, "anti_roll_bar.bush.x": 90.0})
     assert stiff.bar is not None
@@ -76,5 +75,5 @@ def test_a_bar_has_values_of_its_own() -> None:
         {3: 1.0},
     ],
 )
-def test_what_cannot_be_is_refused(changes: Any, refused: Any) -> None:
+def test_what_cannot_be_is_refused(changes, refused):
     refused(InputError, lambda: AXLES["symmetric"].with_changes(changes))

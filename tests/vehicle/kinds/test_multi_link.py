@@ -3,8 +3,6 @@
 `test_mechanisms` compares its equations with maximal coordinates, like those of every model.
 """
 
-from typing import Any
-
 import numpy as np
 import pytest
 from kintrafo import InputError, Model, PositionError, Suspension, characteristics, state_at_height
@@ -31,7 +29,7 @@ def points_at(model: Model, travels: np.ndarray, rack: float = 0.0) -> dict[str,
 
 
 @pytest.mark.parametrize("rack", [0.0, 0.015])
-def test_the_knuckle_is_where_a_root_finder_puts_it(rack: float) -> None:
+def test_the_knuckle_is_where_a_root_finder_puts_it(rack):
     """Lengths of five links and a height, in the shift and the turn of the knuckle."""
     design, found = CAR.hardpoints.at_design(), points_at(MODEL, TRAVELS, rack)
     center, ends = design["wheel_center"], np.array([design[f"{name}_outer"] for name in LINKS])
@@ -40,11 +38,11 @@ def test_the_knuckle_is_where_a_root_finder_puts_it(rack: float) -> None:
     inner[-1, 1] += rack
     for i, travel in enumerate(TRAVELS):
 
-        def moved(pose: np.ndarray, places: np.ndarray) -> np.ndarray:
+        def moved(pose, places):
             turned = Rotation.from_rotvec(pose[3:]).apply(places - center)
             return center + pose[:3] + turned
 
-        def misfit(pose: np.ndarray, travel: float = travel) -> np.ndarray:
+        def misfit(pose, travel=travel):
             off = np.linalg.norm(moved(pose, ends) - inner, axis=1) - lengths
             return np.append(off, pose[2] - travel)
 
@@ -58,7 +56,7 @@ def test_the_knuckle_is_where_a_root_finder_puts_it(rack: float) -> None:
 # -- what it is as a suspension -----------------------------------------------------------------
 
 
-def test_the_knuckle_turns_about_the_axis_that_is_reported() -> None:
+def test_the_knuckle_turns_about_the_axis_that_is_reported():
     """When the rack moves and the spring keeps its length, no point moves along the axis alone."""
     travel, by = 0.04, 1e-4
     here = characteristics.over(MODEL, "travel", [travel])
@@ -67,8 +65,8 @@ def test_the_knuckle_turns_about_the_axis_that_is_reported() -> None:
     state = state_at_height(MODEL, design_height(MODEL) + travel)
     length = MODEL.signal("spring_length", state)
 
-    def locked(rack: float) -> dict[str, np.ndarray]:
-        def stretched(angle: float) -> float:
+    def locked(rack):
+        def stretched(angle):
             return float(MODEL.signal("spring_length", *at_rest(MODEL, angle, rack)) - length)
 
         angle = brentq(stretched, state[0] - 0.1, state[0] + 0.1, xtol=1e-15)
@@ -99,18 +97,18 @@ def test_the_knuckle_turns_about_the_axis_that_is_reported() -> None:
         {"damper.length_min_mm": 600.0},
     ],
 )
-def test_what_cannot_be_is_refused(changes: dict[str, Any], refused: Any) -> None:
+def test_what_cannot_be_is_refused(changes, refused):
     refused(InputError, lambda: CAR.with_changes(changes))
 
 
-def test_words_are_those_of_the_kind() -> None:
+def test_words_are_those_of_the_kind():
     found = positions(MODEL, [0.0], [0.0])
     assert "height sensor" in found["arm_angle"].attrs["long_name"]
     with pytest.raises(PositionError, match="with the suspension in its design position"):
         arm_angles(MODEL, design_height(MODEL), 0.15)
 
 
-def test_a_spring_that_does_not_move_locks_nothing() -> None:
+def test_a_spring_that_does_not_move_locks_nothing():
     """Then the motion of steering is not defined, and neither is its axis."""
     flat = CAR.with_changes({"hardpoints.spring_top": [-85.0, -800.0, 200.0]})
     found = characteristics.over(Model(flat), "travel", [0.0, 0.06])

@@ -52,12 +52,12 @@ POSE, SLOPE = 1e-13, 1e-9
 
 
 @pytest.fixture(scope="module", params=("left", "right"))
-def bench(request: pytest.FixtureRequest) -> Wishbones:
+def bench(request):
     return Wishbones(AXLE.sides[request.param])
 
 
 @pytest.mark.parametrize("place", PLACES, ids=str)
-def test_both_sides_are_where_their_rods_put_them(bench: Any, place: tuple[float, float]) -> None:
+def test_both_sides_are_where_their_rods_put_them(bench, place):
     model, (travel, rack) = AXLE.models[bench.suspension.vehicle.side], place
     height = bench.points["wheel_center"][2] + travel
     state = kintrafo.state_at_height(model, height, rack_position=rack)
@@ -73,7 +73,7 @@ def test_both_sides_are_where_their_rods_put_them(bench: Any, place: tuple[float
     assert np.array_equal(at["idler_pivot"], linkage.points["idler_pivot"])
 
 
-def test_characteristics_over_the_arm_are_those_of_the_rods(bench: Any) -> None:
+def test_characteristics_over_the_arm_are_those_of_the_rods(bench):
     place = (0.02, -0.04)
     model = AXLE.models[bench.suspension.vehicle.side]
     at = characteristics.over(model, "rack", [place[1]], travel=place[0])
@@ -85,7 +85,7 @@ def test_characteristics_over_the_arm_are_those_of_the_rods(bench: Any) -> None:
     assert model.suspension.steering_gear.travel_per_turn() == pytest.approx(per_turn, rel=1e-14)
 
 
-def test_its_position_is_called_the_displacement_of_its_ball() -> None:
+def test_its_position_is_called_the_displacement_of_its_ball():
     over = characteristics.over(AXLE, "rack", [0.0])
     held = characteristics.over(RIGHT, "travel", [0.0])
     for found in (over, held):
@@ -93,7 +93,7 @@ def test_its_position_is_called_the_displacement_of_its_ball() -> None:
     assert over.attrs["title"] == "characteristics over the Pitman arm"
 
 
-def test_a_parallelogram_moves_its_rod_along_a_circle() -> None:
+def test_a_parallelogram_moves_its_rod_along_a_circle():
     """Omitted values of the idler arm are mirrored ones: both tie rods move alike."""
     alike = {"pivot_mm": [-390.0, 300.0, 265.0], "axis": [0.0, 0.0, 2.0]}
     car = RIGHT.with_changes({"pitman_arm": alike | {"ball_mm": [-140.0, 300.0, 265.0]}})
@@ -110,7 +110,7 @@ def test_a_parallelogram_moves_its_rod_along_a_circle() -> None:
 # -- loads ----------------------------------------------------------------------------------------
 
 
-def test_the_moment_of_the_arm_does_the_work_of_both_tie_rods() -> None:
+def test_the_moment_of_the_arm_does_the_work_of_both_tie_rods():
     """With directions of the tie rods' ends by differences of the oracle."""
     push = {"contact_N": [-800.0, 3000.0, 6000.0]}
     cases = {"turn": {"left": push, "right": {"contact_N": [0.0, 2500.0, 3000.0]}, "rack_mm": 50.0}}
@@ -133,7 +133,7 @@ def test_the_moment_of_the_arm_does_the_work_of_both_tie_rods() -> None:
 
 
 @pytest.mark.parametrize("whole", [False, True], ids=["corner", "axle"])
-def test_in_the_middle_it_holds_tie_rods_on_bushes_as_a_rack_does(whole: bool) -> None:
+def test_in_the_middle_it_holds_tie_rods_on_bushes_as_a_rack_does(whole):
     """The ends of the tie rods are the same, and rest: so are all deflections."""
     soft = {
         "lower_arm_front": {"radial_N_per_mm": 5000.0, "axial_N_per_mm": 2000.0},
@@ -155,11 +155,11 @@ def test_in_the_middle_it_holds_tie_rods_on_bushes_as_a_rack_does(whole: bool) -
             np.testing.assert_allclose(found[name], expected[name], rtol=1e-9, atol=1e-11)
 
 
-def test_its_points_vary_in_studies() -> None:
+def test_its_points_vary_in_studies():
     """Against differences of characteristics over cars whose file has other values."""
     place, step = "pitman_arm.idler_pivot_mm.y", 0.01
 
-    def steer(change: float) -> float:
+    def steer(change):
         moved = RIGHT.with_changes({place: ARM["idler_pivot_mm"][1] + change})
         return float(characteristics.over(Model(moved), "rack", [0.04])["steer"][0])
 
@@ -177,7 +177,7 @@ def test_its_points_vary_in_studies() -> None:
         ("pitman_arm.idler_pivot_mm.x", [-375.0, -143.5, -380.0]),
     ],
 )
-def test_what_a_file_may_not_have_is_taken_out_of_a_batch(place: str, values: list[float]) -> None:
+def test_what_a_file_may_not_have_is_taken_out_of_a_batch(place, values):
     """As one by one: optional keys have ranges, and both arms need a lever."""
     batch = ModelBatch(RIGHT, {place: np.array(values)}, free_rack=False)
     assert batch.valid.tolist() == [True, False, True]
@@ -189,7 +189,7 @@ def test_what_a_file_may_not_have_is_taken_out_of_a_batch(place: str, values: li
 
 
 @needs_gcc
-def test_the_sides_of_an_axle_share_the_linkage() -> None:
+def test_the_sides_of_an_axle_share_the_linkage():
     """Without a bar and with a prescribed arm, each side moves as it does by itself."""
     equations = own(declared(AXLE), derivatives=False)
     assert [name for name in equations.BODIES if "relay" in name] == ["relay_rod"]
@@ -217,7 +217,7 @@ def test_the_sides_of_an_axle_share_the_linkage() -> None:
         assert [found[name] for name in names] == pytest.approx(expected, rel=1e-11)
 
 
-def test_margins_of_a_strut_behind_it_are_those_at_its_state() -> None:
+def test_margins_of_a_strut_behind_it_are_those_at_its_state():
     """The residuals close the linkage again, at given coordinates; nothing else has these."""
     functions = generate(model_named("macpherson_pitman_arm")).functions
     margins = functions["margins"]
@@ -229,7 +229,7 @@ def test_margins_of_a_strut_behind_it_are_those_at_its_state() -> None:
     assert reading == ["residuals"]
 
 
-def test_at_the_rear_of_a_car_it_is_a_part_of_the_body() -> None:
+def test_at_the_rear_of_a_car_it_is_a_part_of_the_body():
     rear = Axle.from_dict({"axle": "rear", "side": RIGHT.with_changes({"vehicle.end": "rear"})})
     car = Car.from_dict({**FILE, "car": "roll", "tyres": None, "rear": rear.to_dict()})
     assert "rear axle: [pitman_arm] (a part of the body" in "; ".join(car.unused)
@@ -238,7 +238,7 @@ def test_at_the_rear_of_a_car_it_is_a_part_of_the_body() -> None:
     assert not any("relay_rod" in name for name in names)
 
 
-def test_its_report_has_the_linkage_in_place_of_a_rack() -> None:
+def test_its_report_has_the_linkage_in_place_of_a_rack():
     text = render(Model(RIGHT))
     found = re.search(r'id="payload">(.*?)</script>', text, re.DOTALL)
     assert found is not None
@@ -251,7 +251,7 @@ def test_its_report_has_the_linkage_in_place_of_a_rack() -> None:
 # -- files ----------------------------------------------------------------------------------------
 
 
-def test_a_file_keeps_it_and_both_sides_have_one_linkage(tmp_path: Any) -> None:
+def test_a_file_keeps_it_and_both_sides_have_one_linkage(tmp_path):
     again = Axle.load(AXLE.save(tmp_path / "axle.toml"))
     assert again.to_dict() == AXLE.to_dict()
     assert again.left.pitman_arm == again.right.pitman_arm
@@ -274,11 +274,11 @@ def test_a_file_keeps_it_and_both_sides_have_one_linkage(tmp_path: Any) -> None:
     ],
     ids=["no axis", "no arm", "no rod", "upright", "dead centre", "no ratio", "unknown key"],
 )
-def test_a_linkage_that_cannot_move_is_refused(arm: dict[str, Any], refused: Any) -> None:
+def test_a_linkage_that_cannot_move_is_refused(arm, refused):
     refused(InputError, lambda: RIGHT.with_changes({"pitman_arm": arm}))
 
 
-def test_a_point_in_metres_is_noticed() -> None:
+def test_a_point_in_metres_is_noticed():
     assert not plausibility(RIGHT).problems
     moved = RIGHT.with_changes({"pitman_arm": ARM | {"ball_mm": [-0.14, 0.31, 0.27]}})
     (problem,) = plausibility(moved).problems
@@ -294,11 +294,11 @@ def test_a_point_in_metres_is_noticed() -> None:
     ],
     ids=["both", "neither", "bush of a rack"],
 )
-def test_what_steers_is_one_thing(changes: dict[str, Any], refused: Any) -> None:
+def test_what_steers_is_one_thing(changes, refused):
     refused(InputError, lambda: RIGHT.with_changes(changes))
 
 
-def test_sides_that_differ_and_a_free_arm_are_refused(refused: Any) -> None:
+def test_sides_that_differ_and_a_free_arm_are_refused(refused):
     refused(InputError, lambda: AXLE.with_changes({"left.pitman_arm.ball_mm.x": -150.0}))
     refused(
         InputError,

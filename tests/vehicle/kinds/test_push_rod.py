@@ -41,7 +41,7 @@ def turned(place: np.ndarray, turn: float, car: Suspension = CAR) -> np.ndarray:
 
 
 @ROCKERS
-def test_the_rocker_is_where_the_rod_holds_it(car: Suspension) -> None:
+def test_the_rocker_is_where_the_rod_holds_it(car):
     """Against a search for the angle at which the rod has its length."""
     design, found = car.hardpoints.at_design(), points_at(TRAVELS, car)
     outer, inner = car.hardpoints.ROD
@@ -49,7 +49,7 @@ def test_the_rocker_is_where_the_rod_holds_it(car: Suspension) -> None:
     for i in range(TRAVELS.size):
         foot = found[outer][i]
 
-        def misfit(turn: float, foot: np.ndarray = foot) -> float:
+        def misfit(turn, foot=foot):
             return float(np.linalg.norm(turned(design[inner], turn, car) - foot) - length)
 
         turn = brentq(misfit, -0.9, 0.9, xtol=1e-14)
@@ -60,7 +60,7 @@ def test_the_rocker_is_where_the_rod_holds_it(car: Suspension) -> None:
 
 
 @ROCKERS
-def test_the_wheel_is_guided_as_by_the_double_wishbone(car: Suspension) -> None:
+def test_the_wheel_is_guided_as_by_the_double_wishbone(car):
     one = characteristics.over(Model(car), "travel", TRAVELS)
     two = characteristics.over(Model(WISHBONES), "travel", TRAVELS)
     for name in ("camber", "toe", "caster", "roll_center_height_kinematic", "anti_dive", "trail"):
@@ -69,7 +69,7 @@ def test_the_wheel_is_guided_as_by_the_double_wishbone(car: Suspension) -> None:
 
 
 @ROCKERS
-def test_motion_ratio_and_wheel_rate_are_derivatives(car: Suspension) -> None:
+def test_motion_ratio_and_wheel_rate_are_derivatives(car):
     fine = np.linspace(-0.07, 0.07, 1401)  # differences of second order over 0.2 mm
     curves = characteristics.over(Model(car), "travel", fine)
     found = points_at(fine, car)
@@ -84,7 +84,7 @@ def test_motion_ratio_and_wheel_rate_are_derivatives(car: Suspension) -> None:
     np.testing.assert_allclose(curves["wheel_rate"][inner], rate[inner], rtol=1e-4)
 
 
-def test_what_the_equations_have_is_read_from_the_file() -> None:
+def test_what_the_equations_have_is_read_from_the_file():
     """Stops, curve, friction and lift-off come without other equations."""
     stopped = CAR.with_changes(
         {
@@ -110,7 +110,7 @@ def test_what_the_equations_have_is_read_from_the_file() -> None:
         ("bodies.push_rod.mass_kg", 1.0, "without mass"),
     ],
 )
-def test_what_cannot_be_is_refused(place: str, value: object, message: str) -> None:
+def test_what_cannot_be_is_refused(place, value, message):
     with pytest.raises(InputError, match=message):
         CAR.with_changes({place: value})
     if "rocker_rear" not in place:  # the other one has its bearings elsewhere
@@ -127,7 +127,7 @@ def test_what_cannot_be_is_refused(place: str, value: object, message: str) -> N
         Model(CAR, free_rack=True)
 
 
-def test_an_axle_of_push_rods() -> None:
+def test_an_axle_of_push_rods():
     bar = {
         "unit": "mm",
         "bush": [-250.0, -380.0, 260.0],

@@ -4,8 +4,6 @@
 `test_compliance` and `test_deflection` its bushes.
 """
 
-from typing import Any
-
 import numpy as np
 import pytest
 from kintrafo import (
@@ -85,7 +83,7 @@ def wheel_at(car: Suspension, travel: float) -> tuple[np.ndarray, np.ndarray, np
 
 
 @pytest.mark.parametrize("name", CARS)
-def test_wheel_swings_about_the_hinge(name: str) -> None:
+def test_wheel_swings_about_the_hinge(name):
     car = CARS[name]
     side, model = car.vehicle.sign, Model(car)
     found, path = characteristics.over(model, "travel", TRAVELS), positions(model, TRAVELS)
@@ -106,7 +104,7 @@ def test_wheel_swings_about_the_hinge(name: str) -> None:
             np.testing.assert_allclose(found[quantity].values[i], expected, **near)
 
 
-def test_reach_ends_where_the_wheel_turns_back() -> None:
+def test_reach_ends_where_the_wheel_turns_back():
     """The highest wheel centre: amplitude of a + b cos + c sin."""
     start, axis = hinge(CAR)
     arm = CAR.hardpoints.metres("wheel_center") - start
@@ -122,7 +120,7 @@ def test_reach_ends_where_the_wheel_turns_back() -> None:
 # -- not steered --------------------------------------------------------------------------------
 
 
-def test_what_belongs_to_steering_is_not_there() -> None:
+def test_what_belongs_to_steering_is_not_there():
     model = Model(CAR)
     found = characteristics.over(model, "travel", TRAVELS)
     assert not OF_STEERING & set(found)
@@ -149,18 +147,18 @@ def test_what_belongs_to_steering_is_not_there() -> None:
         lambda model: loads.static(model, {"a": {"contact_N": [0, 0, 3e3], "rack_mm": 5.0}}),
     ],
 )
-def test_what_moves_a_rack_is_refused(ask: Any) -> None:
+def test_what_moves_a_rack_is_refused(ask):
     with pytest.raises(InputError, match="not steered"):
         ask(Model(CAR))
 
 
 @pytest.mark.parametrize("name", sorted(OF_STEERING & {"caster", "scrub_radius", "steering_ratio"}))
-def test_characteristics_of_steering_are_refused_by_name(name: str) -> None:
+def test_characteristics_of_steering_are_refused_by_name(name):
     with pytest.raises(InputError, match=f"{name}: this suspension is not steered"):
         sensitivity(CAR, ["hardpoints.arm_inner.z"], names=[name])
 
 
-def test_free_rack_a_section_and_a_bush_of_it_are_refused() -> None:
+def test_free_rack_a_section_and_a_bush_of_it_are_refused():
     with pytest.raises(InputError, match="is not steered"):
         Model(CAR, free_rack=True)
     with pytest.raises(InputError, match="rack"):
@@ -169,7 +167,7 @@ def test_free_rack_a_section_and_a_bush_of_it_are_refused() -> None:
         CAR.with_changes({"bushings": {"rack": {"axial_N_per_mm": 1e4}}})
 
 
-def test_comparison_shows_what_both_have() -> None:
+def test_comparison_shows_what_both_have():
     found = compare({"arm": Model(CAR), "links": Model("multi_link_car")}, TRAVELS)
     assert not OF_STEERING & set(found)
     assert np.isfinite(found["camber"].values).all()
@@ -188,7 +186,7 @@ def test_comparison_shows_what_both_have() -> None:
         {"spring_top": [110.0, -505.0, 235.0]},
     ],
 )
-def test_arms_that_cannot_move_are_refused(changes: dict[str, Any], refused: Any) -> None:
+def test_arms_that_cannot_move_are_refused(changes, refused):
     refused(
         InputError,
         lambda: CAR.with_changes({f"hardpoints.{name}": place for name, place in changes.items()}),
@@ -204,7 +202,7 @@ BAR = {
 REAR = {"axle": "rear", "side": CAR}
 
 
-def test_axle_has_no_rack_between_its_sides() -> None:
+def test_axle_has_no_rack_between_its_sides():
     axle = Axle.from_dict(REAR | {"anti_roll_bar": BAR})
     found = flat(characteristics.over(axle, "bump", TRAVELS))
     one = characteristics.over(Model(CAR), "travel", TRAVELS)
@@ -222,7 +220,7 @@ def test_axle_has_no_rack_between_its_sides() -> None:
 # -- its page -----------------------------------------------------------------------------------
 
 
-def test_commands_that_steer_refuse_it(kintrafo: Any) -> None:
+def test_commands_that_steer_refuse_it(kintrafo):
     for asked in (["characteristics", "--of", "caster"], ["simulate", "--rack-sine", "3"]):
         command, *options = asked
         code, out, err = kintrafo(command, "trailing_arm_car", *options)

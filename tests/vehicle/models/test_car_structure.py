@@ -27,9 +27,7 @@ CHANGES: list[tuple[dict[str, Any], bool]] = [
 
 
 @pytest.mark.parametrize(("changes", "same"), CHANGES, ids=lambda value: str(value)[:40])
-def test_structures_are_the_same_where_declarations_are(
-    changes: dict[str, Any], same: bool
-) -> None:
+def test_structures_are_the_same_where_declarations_are(changes, same):
     """The oracle is the hash of the whole declaration."""
     known, car = Car.from_dict(FILE), Car.from_dict(FILE).with_changes(changes)
     first, second = CarStructure.of(known), CarStructure.of(car)
@@ -37,7 +35,7 @@ def test_structures_are_the_same_where_declarations_are(
     assert (identity(first.declared()) == identity(second.declared())) is same
 
 
-def test_terms_of_the_magic_formula_count() -> None:
+def test_terms_of_the_magic_formula_count():
     """Coefficients that vanish leave terms out of the equations."""
     texts = set()
     for tyre in ("passenger_205_55", "bmw_e90_front"):

@@ -1,7 +1,5 @@
 """Characteristics of many cars at once, against each car by itself."""
 
-from typing import Any
-
 import numpy as np
 import pytest
 import xarray as xr
@@ -68,7 +66,7 @@ EXTRAS = {
 
 
 @pytest.mark.parametrize("name", [*ALL, *(f"{name}, with extras" for name in EXTRAS)])
-def test_each_car_has_the_curves_that_it_has_alone(name: str) -> None:
+def test_each_car_has_the_curves_that_it_has_alone(name):
     packaged, _, extras = name.partition(",")
     car, count = Suspension.load(packaged), 12
     car = car.with_changes(EXTRAS[packaged]) if extras else car
@@ -121,7 +119,7 @@ def held_against_each(
     return [bool(reason) for reason in found["reason"].values]
 
 
-def test_cars_that_cannot_be_say_why_and_the_others_go_on() -> None:
+def test_cars_that_cannot_be_say_why_and_the_others_go_on():
     values = {
         "hardpoints.tie_rod_inner.z": np.array([280.0, 281.0, 1e9, 279.0, 280.0]),
         "strut.spring_rate_N_per_m": np.array([25e3, 24e3, 25e3, -1.0, 25e3]),
@@ -131,7 +129,7 @@ def test_cars_that_cannot_be_say_why_and_the_others_go_on() -> None:
     assert gone == [False, False, True, True, False]
 
 
-def test_a_position_beyond_the_reach_of_some_is_theirs_alone() -> None:
+def test_a_position_beyond_the_reach_of_some_is_theirs_alone():
     car = Suspension.load("reference_car")
     values = {"hardpoints.strut_top.z": 820.0 + np.array([0.0, -4.0, 4.0, 1.0, -0.2, 0.2])}
     model = Model(car)
@@ -149,9 +147,7 @@ LENGTHS = {
 
 
 @pytest.mark.parametrize("name", LENGTHS)
-def test_cars_go_together_up_to_the_ends_of_their_dampers(
-    name: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_cars_go_together_up_to_the_ends_of_their_dampers(name, monkeypatch):
     """Within the last step of the arm, too, where only who does not get there goes by himself."""
     car = Suspension.load(name).with_changes(LENGTHS[name])
     model, off = Model(car), np.array([0.0, 0.3, -0.3, 0.1, -0.1, 0.05])
@@ -165,7 +161,7 @@ def test_cars_go_together_up_to_the_ends_of_their_dampers(
     at = [float(ends[0]) + 1e-3, 0.0, float(ends[1]) - 1e-4]
     by_themselves: list[object] = []
 
-    def counted(*given: object, **options: object) -> object:
+    def counted(*given, **options):
         by_themselves.append(given)
         return assembly_of(*given, **options)
 
@@ -176,7 +172,7 @@ def test_cars_go_together_up_to_the_ends_of_their_dampers(
     assert len(by_themselves) == sum(gone)
 
 
-def test_another_branch_is_not_taken_for_somebody() -> None:
+def test_another_branch_is_not_taken_for_somebody():
     """With friction the equations are others: such cars go by themselves."""
     car = Suspension.load("reference_car")
     found = variation.cars(
@@ -186,7 +182,7 @@ def test_another_branch_is_not_taken_for_somebody() -> None:
     assert not found["reason"].values.any()
 
 
-def test_grids_reductions_and_threads() -> None:
+def test_grids_reductions_and_threads():
     car = Suspension.load("reference_car")
     grid = xr.Dataset(
         coords={
@@ -217,7 +213,7 @@ def test_grids_reductions_and_threads() -> None:
         3.0,
     ],
 )
-def test_what_cannot_be_used_is_refused_by_name(values: object, refused: Any) -> None:
+def test_what_cannot_be_used_is_refused_by_name(values, refused):
     refused(
         InputError, lambda: variation.cars(Suspension.load("reference_car"), values, names=["toe"])
     )  # type: ignore[arg-type]

@@ -422,7 +422,7 @@ def test_two_positions_of_rest_within_a_step_are_seen(gap):
     assert root == pytest.approx(middle, abs=1e-12)
 
 
-def test_a_table_that_is_remembered_is_nobodys_to_change() -> None:
+def test_a_table_that_is_remembered_is_nobodys_to_change():
     first = branch(MODEL, [0.01])
     expected = first.angle.copy(), first.height.copy()
     first.angle[:], first.height[:] = 0.0, 0.0
@@ -430,7 +430,7 @@ def test_a_table_that_is_remembered_is_nobodys_to_change() -> None:
     np.testing.assert_array_equal((again.angle, again.height), expected)
 
 
-def test_the_mirror_image_is_made_once() -> None:
+def test_the_mirror_image_is_made_once():
     image = MODEL.mirror_image
     assert image is MODEL.mirror_image
     assert image.suspension == MODEL.suspension.mirrored()
@@ -438,7 +438,7 @@ def test_the_mirror_image_is_made_once() -> None:
     assert free.free_rack
 
 
-def test_positions_of_an_axle_are_those_of_its_sides() -> None:
+def test_positions_of_an_axle_are_those_of_its_sides():
     axle = Axle.load("reference_axle")
     found = sweep.positions(axle, [-0.03, 0.0, 0.02], [-0.01, 0.01])
     assert found["camber"].dims == ("wheel", "wheel_travel", "rack_position")
@@ -449,7 +449,7 @@ def test_positions_of_an_axle_are_those_of_its_sides() -> None:
             np.testing.assert_array_equal(found[name].sel(wheel=side), alone[name])
 
 
-def test_positions_of_a_rigid_axle_keep_its_rods_lengths() -> None:
+def test_positions_of_a_rigid_axle_keep_its_rods_lengths():
     axle, travels = RigidAxle.load("rigid_axle"), np.array([-0.03, 0.0, 0.05])
     found = sweep.positions(axle, travels)
     for name, (chassis, beam) in axle.ends().items():

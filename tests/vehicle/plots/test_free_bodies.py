@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from itertools import combinations
-from typing import Any
 
 import numpy as np
 import pytest
@@ -24,7 +23,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
     ],
     ids=["strut", "push rod", "stopped brake", "stopped corner", "lopsided trail brake"],
 )
-def test_labels_do_not_overlap(of: Any, case: str) -> None:
+def test_labels_do_not_overlap(of, case):
     usual = {case: loads.standard_cases(of)[case]}
     figure = free_bodies(loads.static(of, usual), case)
     canvas = FigureCanvasAgg(figure)
@@ -43,7 +42,7 @@ def test_labels_do_not_overlap(of: Any, case: str) -> None:
     assert count > 20
 
 
-def test_every_force_is_drawn_and_the_part_connects_its_points() -> None:
+def test_every_force_is_drawn_and_the_part_connects_its_points():
     """An arrow, or a symbol where it is across the drawing; the right link has 4 N of 12,000."""
     found = loads.static(STOPPED, {"corner": loads.standard_cases(STOPPED)["corner"]})
     of_beam = found.sel(case="corner").isel(load=(found["part"] == "beam").values)

@@ -2,7 +2,6 @@
 
 import json
 from base64 import b64decode
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -46,13 +45,13 @@ def called(*words: str) -> Any:
 
 
 @pytest.fixture
-def goals(tmp_path: Path) -> Path:
+def goals(tmp_path):
     path = tmp_path / "goals.toml"
     path.write_text(GOALS, encoding="utf-8")
     return path
 
 
-def test_verdicts_are_those_of_the_curves(goals: Path) -> None:
+def test_verdicts_are_those_of_the_curves(goals):
     car = Suspension.load("reference_car")
     target, limit = variation.judge(car, variation.goals(variation.read(goals)))
     toe = np.rad2deg(characteristics.over(Model(car), "travel", [-0.04, 0.0, 0.04])["toe"].values)
@@ -65,7 +64,7 @@ def test_verdicts_are_those_of_the_curves(goals: Path) -> None:
     assert limit.beyond == pytest.approx(scrub.max() - 0.025)
 
 
-def test_characteristics_and_compare_report_and_draw(goals: Path, tmp_path: Path) -> None:
+def test_characteristics_and_compare_report_and_draw(goals, tmp_path):
     page = tmp_path / "page.png"
     asked = ["characteristics", "reference_car", "--goals", str(goals), "--step", "20"]
     shown = called(*asked, "--of", "toe", "--plot", str(page))
@@ -84,7 +83,7 @@ def test_characteristics_and_compare_report_and_draw(goals: Path, tmp_path: Path
     ]
 
 
-def test_a_chapter_of_the_report_has_them(goals: Path) -> None:
+def test_a_chapter_of_the_report_has_them(goals):
     wanted = variation.goals(variation.read(goals))
     chapter = goals_chapter(Model("reference_car"), wanted)
     assert [row[:2] for row in chapter.tables[0].rows] == [
@@ -103,7 +102,7 @@ def test_a_chapter_of_the_report_has_them(goals: Path) -> None:
 
 
 @pytest.mark.parametrize("file", ["reference_axle", "rigid_axle"])
-def test_a_chapter_of_an_axle_has_the_curves_of_each_motion(file: str) -> None:
+def test_a_chapter_of_an_axle_has_the_curves_of_each_motion(file):
     axle: Any = (Axle if file == "reference_axle" else RigidAxle).load(file)
     over_roll = characteristics.over(axle, "roll", np.deg2rad([-2.0, 2.0]))
     height = over_roll["roll_center_height"].values * 1e3
@@ -135,9 +134,7 @@ def test_a_chapter_of_an_axle_has_the_curves_of_each_motion(file: str) -> None:
 
 @pytest.mark.usefixtures("one_picture")
 @pytest.mark.parametrize("file", ["reference_axle", "rigid_axle"])
-def test_reports_of_axles_show_how_many_goals_are_missed(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, file: str
-) -> None:
+def test_reports_of_axles_show_how_many_goals_are_missed(monkeypatch, tmp_path, file):
     (tmp_path / "goals.toml").write_text(
         "[limits.camber_left]\nat_mm = [0, 40]\nmost = 9\n"
         "[limits.camber_right]\nat_mm = [0, 40]\nleast = 9\n"
@@ -145,7 +142,7 @@ def test_reports_of_axles_show_how_many_goals_are_missed(
         encoding="utf-8",
     )
 
-    def titles(*_: Any, chapters: Any, goals: Any = None, **__: Any) -> Path:
+    def titles(*_, chapters, goals=None, **__):
         (chapter,) = (one for one in chapters if one.title == "Targets and limits")
         assert chapter.words[0] == "2 of 3 are met, 1 missed."
         # the page of the axle shows its right side, of whose toe nothing else is wanted
@@ -160,7 +157,7 @@ def test_reports_of_axles_show_how_many_goals_are_missed(
     assert shown.exit_code == 0, shown.exception
 
 
-def test_marks_are_at_their_values(goals: Path) -> None:
+def test_marks_are_at_their_values(goals):
     car = Model("reference_car")
     dataset = characteristics.over(car, "travel", np.linspace(-0.05, 0.05, 11))
     wanted = variation.goals(variation.read(goals))
@@ -174,7 +171,7 @@ def test_marks_are_at_their_values(goals: Path) -> None:
     assert not without.containers
 
 
-def test_what_is_marked_is_in_sight_however_far_from_the_curve(goals: Path) -> None:
+def test_what_is_marked_is_in_sight_however_far_from_the_curve(goals):
     dataset = characteristics.over(Model("reference_car"), "travel", np.linspace(-0.05, 0.05, 201))
     flat = dataset["toe"].copy(data=np.deg2rad(5.0) + 0.01 * dataset["toe"].values)
     wanted = variation.goals(variation.read(goals))
@@ -184,7 +181,7 @@ def test_what_is_marked_is_in_sight_however_far_from_the_curve(goals: Path) -> N
     assert low < -0.2 < 5.0 < high
 
 
-def test_arrows_at_the_end_of_an_axis_are_in_sight() -> None:
+def test_arrows_at_the_end_of_an_axis_are_in_sight():
     """The axis of a constant curve ends a tenth of a unit beside it, at these limits."""
     dataset = characteristics.over(Model("reference_car"), "travel", np.linspace(-0.05, 0.05, 11))
     flat = dataset.assign(toe=dataset["toe"].copy(data=np.zeros(11)))
@@ -196,7 +193,7 @@ def test_arrows_at_the_end_of_an_axis_are_in_sight() -> None:
     assert high > 0.1 + 0.04 * (high - low)
 
 
-def test_what_does_not_vary_has_its_place_where_there_are_goals(goals: Path) -> None:
+def test_what_does_not_vary_has_its_place_where_there_are_goals(goals):
     dataset = characteristics.over(Model("reference_car"), "travel", np.linspace(-0.05, 0.05, 11))
     dataset = dataset.assign(toe=dataset["toe"].copy(data=np.full(11, 0.01)))
     wanted = variation.goals(variation.read(goals))
@@ -213,7 +210,7 @@ def drawn(axes: Any, label: str, *, level: bool = False) -> list[list[list[float
     return [one.get_xydata()[:, ::order].tolist() for one in (*bars, *lines)]
 
 
-def test_goals_of_an_axle_are_those_of_its_sides() -> None:
+def test_goals_of_an_axle_are_those_of_its_sides():
     at = [-40.0, 40.0]
     same = {"at_mm": at, "value": [0.5, -0.5], "within": 0.1}
     described = {
@@ -253,12 +250,12 @@ def test_goals_of_an_axle_are_those_of_its_sides() -> None:
 
 
 @pytest.fixture
-def figures(monkeypatch: pytest.MonkeyPatch) -> Any:
+def figures(monkeypatch):
     """Return the panels that chapters draw, by what is above each picture and the curve's name."""
     found: dict[tuple[str, str], Any] = {}
     draw = curves.figure
 
-    def noted(dataset: Any, names: Any, *, title: str, **words: Any) -> Any:
+    def noted(dataset, names, *, title, **words):
         made = draw(dataset, names, title=title, **words)
         found.update(
             {(title, name): axes for name, axes in zip(names, made.get_axes(), strict=True)}
@@ -274,7 +271,7 @@ OF_AXLES = ("bump", "roll", "left", "right")
 
 @pytest.mark.usefixtures("one_picture")
 @pytest.mark.parametrize("file", ["reference_axle", "rigid_axle"])
-def test_chapters_of_axles_have_what_is_wanted(file: str, figures: Any) -> None:
+def test_chapters_of_axles_have_what_is_wanted(file, figures):
     """Curves that they have not else are added, and positions beyond the usual ones."""
     at = {"at_mm": [-85.0, 40.0]}
     described = {
@@ -318,7 +315,7 @@ def test_chapters_of_axles_have_what_is_wanted(file: str, figures: Any) -> None:
     assert not any(title.startswith("The right wheel moves") for title, _ in figures)
 
 
-def test_goals_over_one_axis_are_not_mixed_up() -> None:
+def test_goals_over_one_axis_are_not_mixed_up():
     limit = {"camber_left": [{"most": 1.0}, {"most": 2.0, "over": "left"}]}
     wanted = variation.goals({"limits": limit}, ["bump", "left"])
     dataset = characteristics.over(Axle.load("reference_axle"), "bump", [-0.01, 0.01])
@@ -338,13 +335,11 @@ def test_goals_over_one_axis_are_not_mixed_up() -> None:
         ),
     ],
 )
-def test_goals_of_axles_are_drawn_over_their_motion_alone(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, file: str, goal: str, words: str
-) -> None:
+def test_goals_of_axles_are_drawn_over_their_motion_alone(tmp_path, monkeypatch, file, goal, words):
     (tmp_path / "goals.toml").write_text(goal, encoding="utf-8")
     given: dict[str, int] = {}
 
-    def note(_: Any, path: Path, *__: Any, goals: Any, **___: Any) -> Path:
+    def note(_, path, *__, goals, **___):
         given[path.name] = len(goals)
         return path
 
@@ -357,7 +352,7 @@ def test_goals_of_axles_are_drawn_over_their_motion_alone(
     assert given == {"a_bump.png": not over_roll, "a_roll.png": over_roll}
 
 
-def test_axles_are_compared_with_goals(tmp_path: Path) -> None:
+def test_axles_are_compared_with_goals(tmp_path):
     (tmp_path / "goals.toml").write_text(
         '[limits.roll_stiffness]\nover = "roll"\nat_deg = [-2, 2]\nmost = 600', encoding="utf-8"
     )
@@ -376,7 +371,7 @@ def test_axles_are_compared_with_goals(tmp_path: Path) -> None:
             assert goal["met"] == (beyond <= 0.0)
 
 
-def test_cars_beside_a_measurement_are_judged(goals: Path, tmp_path: Path) -> None:
+def test_cars_beside_a_measurement_are_judged(goals, tmp_path):
     rig = tmp_path / "rig.csv"
     rig.write_text("wheel_travel [mm],toe [deg]\n-40,-0.1\n0,0\n40,0.1\n", encoding="utf-8")
     asked = ["compare", str(rig), "reference_car", "--goals", str(goals)]
@@ -389,9 +384,7 @@ def test_cars_beside_a_measurement_are_judged(goals: Path, tmp_path: Path) -> No
     assert "the rack in its middle" in " ".join(shown.output.replace("│", " ").split())
 
 
-def test_goals_beyond_the_curves_are_refused_where_they_are_drawn(
-    goals: Path, tmp_path: Path
-) -> None:
+def test_goals_beyond_the_curves_are_refused_where_they_are_drawn(goals, tmp_path):
     asked = ["characteristics", "reference_car", "--goals", str(goals), "--bump", "30"]
     page = tmp_path / "page.png"
     shown = called(*asked, "--plot", str(page))
@@ -402,7 +395,7 @@ def test_goals_beyond_the_curves_are_refused_where_they_are_drawn(
     assert called(*asked).exit_code == 0
 
 
-def test_goals_that_are_not_looked_at_are_named(goals: Path) -> None:
+def test_goals_that_are_not_looked_at_are_named(goals):
     shown = called("compare", "reference_car", "offset_strut_car", "--goals", str(goals))
     assert "not about these curves: scrub_radius over rack" in " ".join(shown.stderr.split())
 
@@ -418,9 +411,7 @@ def test_goals_that_are_not_looked_at_are_named(goals: Path) -> None:
         (["trailing_arm_car"], "Known are: travel"),
     ],
 )
-def test_where_goals_mean_nothing_they_are_refused(
-    goals: Path, words: list[str], text: str
-) -> None:
+def test_where_goals_mean_nothing_they_are_refused(goals, words, text):
     # what has no rack has no goal over it
     goals.write_text("[[limits" + GOALS.partition("[[limits")[2], encoding="utf-8")
     shown = called("characteristics", *words, "--goals", str(goals))
@@ -429,7 +420,7 @@ def test_where_goals_mean_nothing_they_are_refused(
     assert text in " ".join(told.replace("│", " ").split())
 
 
-def test_goals_have_a_door() -> None:
+def test_goals_have_a_door():
     car = Suspension.load("reference_car")
     makers: list[Any] = [
         lambda wrong: axle_chapter(Axle.load("reference_axle"), wrong),

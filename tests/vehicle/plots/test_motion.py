@@ -31,7 +31,7 @@ def scene(result):
     return scene_of(result.runs[-1], np.arange(len(result.runs[-1].states)))
 
 
-def test_wheels_are_where_they_roll(scene) -> None:
+def test_wheels_are_where_they_roll(scene):
     # a disc of the rest's height touches the road, but for what loads and leaning change
     assert np.abs(scene.contacts[..., 2]).max() < 0.02
     np.testing.assert_allclose(np.linalg.norm(scene.axes, axis=-1), 1.0, atol=1e-12)
@@ -39,7 +39,7 @@ def test_wheels_are_where_they_roll(scene) -> None:
     assert scene.axes[..., 1].min() > 0.5
 
 
-def test_spokes_turn_as_far_as_the_wheels_roll(scene) -> None:
+def test_spokes_turn_as_far_as_the_wheels_roll(scene):
     # before the car steers: way by rolling radius, modulo whole turns, forward about the axis
     before = scene.times < 0.2
     way = scene.centers[before, :, 0] - scene.centers[0, :, 0]
@@ -49,7 +49,7 @@ def test_spokes_turn_as_far_as_the_wheels_roll(scene) -> None:
     np.testing.assert_allclose(way[-1] / rolled, rail_car.RADIUS, rtol=0.05)
 
 
-def test_arrows_are_the_forces_of_the_road(scene, result) -> None:
+def test_arrows_are_the_forces_of_the_road(scene, result):
     motion, total = result.runs[-1].motion, scene.forces.sum(axis=1)
     np.testing.assert_allclose(total[:, 2], motion["fz"].sum("wheel"), rtol=1e-12)
     # turning to the left, mass times lateral acceleration, which other axes share little of
@@ -60,7 +60,7 @@ def test_arrows_are_the_forces_of_the_road(scene, result) -> None:
     assert across > 0.0
 
 
-def test_a_car_is_seen_in_real_time(result, tmp_path) -> None:
+def test_a_car_is_seen_in_real_time(result, tmp_path):
     few = result.runs[-1]
     short = few._replace(motion=few.motion.isel(time=slice(0, 25)), states=few.states[:25],
                          inputs=few.inputs[:25])  # fmt: skip
@@ -76,7 +76,7 @@ def test_a_car_is_seen_in_real_time(result, tmp_path) -> None:
         assert picture.info["duration"] == 40
 
 
-def test_a_long_motion_has_fewer_frames_per_second(result, tmp_path, monkeypatch) -> None:
+def test_a_long_motion_has_fewer_frames_per_second(result, tmp_path, monkeypatch):
     monkeypatch.setitem(animate.__globals__, "MOST_FRAMES", 12)
     path = animate(result, tmp_path / "long.gif")
     seconds = float(np.ptp(result.runs[-1].motion["time"].values))
@@ -86,7 +86,7 @@ def test_a_long_motion_has_fewer_frames_per_second(result, tmp_path, monkeypatch
         assert shown == pytest.approx(seconds, abs=2.0 * picture.info["duration"] / 1e3)
 
 
-def test_a_page_has_the_places_of_the_scene(result, scene, tmp_path) -> None:
+def test_a_page_has_the_places_of_the_scene(result, scene, tmp_path):
     text = animate(result, tmp_path / "a.html", title="a </script> car").read_text(encoding="utf-8")
     assert "a </script> car" not in text
     data = json.loads(re.search(r'type="application/json">(.*?)</script>', text).group(1))
@@ -113,7 +113,7 @@ def ridden():
     return kintrafo.ride.run(kintrafo.load("quarter_car"), bump, 10.0, duration=0.5)
 
 
-def test_a_car_that_rides_is_carried_along_its_road(ridden) -> None:
+def test_a_car_that_rides_is_carried_along_its_road(ridden):
     scene = scene_of(ridden, np.arange(len(ridden.states)))
     np.testing.assert_allclose(np.diff(scene.centers[:, 0, 0]), 10.0 * 0.005, atol=1e-3)
     (track,) = scene.tracks
@@ -124,7 +124,7 @@ def test_a_car_that_rides_is_carried_along_its_road(ridden) -> None:
     assert not scene.turns
 
 
-def test_a_wheel_that_rides_rolls_and_carries_the_load(ridden) -> None:
+def test_a_wheel_that_rides_rolls_and_carries_the_load(ridden):
     scene = scene_of(ridden, np.arange(len(ridden.states)))
     np.testing.assert_allclose(scene.forces[:, 0, 2], ridden.motion["load"], rtol=2e-3)
     assert scene.forces[0, 0, 2] > 0.0
@@ -132,7 +132,7 @@ def test_a_wheel_that_rides_rolls_and_carries_the_load(ridden) -> None:
     assert turned[-1] - turned[0] == pytest.approx(5.0 / scene.radii[0], rel=0.01)
 
 
-def test_a_ride_is_written_in_both_ways(ridden, tmp_path) -> None:
+def test_a_ride_is_written_in_both_ways(ridden, tmp_path):
     page = animate(ridden, tmp_path / "a.html", title="a quarter car")
     data = json.loads(re.search(r'json">(.*?)</script>', page.read_text(encoding="utf-8")).group(1))
     assert max(data["tracks"][0]["z"]) == 30
@@ -140,14 +140,14 @@ def test_a_ride_is_written_in_both_ways(ridden, tmp_path) -> None:
         assert picture.n_frames == 13
 
 
-def test_what_does_not_move_is_not_shown(tmp_path) -> None:
+def test_what_does_not_move_is_not_shown(tmp_path):
     with pytest.raises(InputError, match="steady turns and parking have no simulation"):
         animate(HandlingResult(Dataset(), {}), tmp_path / "a.gif")
     with pytest.raises(InputError, match="gif"):
         animate(HandlingResult(Dataset(), {}), tmp_path / "a.mp4")
 
 
-def test_curves_are_in_the_order_in_which_they_are_looked_at() -> None:
+def test_curves_are_in_the_order_in_which_they_are_looked_at():
     """Accelerations come before the pitch, and a curve of rounding alone is not drawn."""
     time = np.linspace(0.0, 1.0, 9)
     names = ("pitch", "driver_acceleration", "body_acceleration")

@@ -10,7 +10,7 @@ from kintrafo.vehicle.report import axle_chapter
 
 
 @pytest.mark.parametrize("name", ["rigid_axle", "twist_beam", "steered_rigid_axle"])
-def test_wheels_move_as_on_a_rig(name) -> None:
+def test_wheels_move_as_on_a_rig(name):
     """Wheels rise equally in bump and oppositely in roll; in steering they turn."""
     (player,) = axle_chapter(kintrafo.load(name)).players
     (text,) = re.findall(r'<script type="application/json">(.*?)</script>', str(player), re.DOTALL)
@@ -29,6 +29,6 @@ def test_wheels_move_as_on_a_rig(name) -> None:
     assert not np.any(data["forces"])
 
 
-def test_an_axle_of_two_suspensions_has_no_player() -> None:
+def test_an_axle_of_two_suspensions_has_no_player():
     """The interactive view of its page shows one side."""
     assert axle_chapter(kintrafo.load("reference_axle")).players == ()

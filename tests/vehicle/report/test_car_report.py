@@ -43,7 +43,7 @@ def report(tmp_path_factory):
     return path
 
 
-def test_a_quarter_car_has_the_chapters_that_apply_to_it(report) -> None:
+def test_a_quarter_car_has_the_chapters_that_apply_to_it(report):
     text = report.read_text(encoding="utf-8")
     titles = re.findall(r"<h2>(.*?)</h2>", text)
     assert titles == [
@@ -55,7 +55,7 @@ def test_a_quarter_car_has_the_chapters_that_apply_to_it(report) -> None:
     assert "<code>[corner tyre]</code>" in text
 
 
-def test_the_car_at_rest_is_drawn_where_it_rests(report) -> None:
+def test_the_car_at_rest_is_drawn_where_it_rests(report):
     text = report.read_text(encoding="utf-8")
     still, moving = (
         json.loads(data) for data in re.findall(r'application/json">(.*?)</script>', text)
@@ -66,7 +66,7 @@ def test_the_car_at_rest_is_drawn_where_it_rests(report) -> None:
     assert len(moving["times"]) == 76
 
 
-def test_curves_of_wheels_are_those_of_each_axle() -> None:
+def test_curves_of_wheels_are_those_of_each_axle():
     motion = Dataset(
         {"fz": (("wheel", "time"), np.ones((4, 2))), "speed": ("time", [1.0, 2.0])},
         {"wheel": WHEELS, "time": [0.0, 1.0]},
@@ -76,14 +76,14 @@ def test_curves_of_wheels_are_those_of_each_axle() -> None:
     assert set(names) <= set(by_axle(motion))
 
 
-def test_chapters_of_a_car_that_does_not_drive_have_the_reason() -> None:
+def test_chapters_of_a_car_that_does_not_drive_have_the_reason():
     car = kintrafo.load("reference_vehicle")
     for chapter in (handling.steady_turns_chapter(car), handling.step_steer_chapter(car)):
         assert "does not travel" in chapter.words[0]
         assert not chapter.players
 
 
-def test_goals_of_wheels_are_in_the_curves_of_their_axles() -> None:
+def test_goals_of_wheels_are_in_the_curves_of_their_axles():
     limits = {"camber_rear_left": {"at_mm": [-10.0, 10.0], "least": -3.0, "most": 3.0}}
     wanted = kintrafo.variation.goals({"limits": limits}, ["heave", "pitch", "roll"])
     chapter = goals_chapter(kintrafo.load("reference_vehicle"), wanted)
@@ -99,12 +99,12 @@ def test_goals_of_wheels_are_in_the_curves_of_their_axles() -> None:
     assert [*map(len, rear.values())] == [0, 1, 0]
 
 
-def test_one_wheel_has_no_motions_of_a_rig() -> None:
+def test_one_wheel_has_no_motions_of_a_rig():
     with pytest.raises(kintrafo.InputError, match="one wheel has no such chapter"):
         axle.axle_chapter(kintrafo.load("quarter_car"))
 
 
-def test_curves_of_a_car_are_small_pictures(monkeypatch) -> None:
+def test_curves_of_a_car_are_small_pictures(monkeypatch):
     monkeypatch.setattr(axle, "_DRAWN", {"heave": ("camber",)})
     chapter = axle.axle_chapter(kintrafo.load("formula_student_car"))
     assert chapter.pictures == ()
@@ -113,14 +113,14 @@ def test_curves_of_a_car_are_small_pictures(monkeypatch) -> None:
 
 
 @pytest.mark.parametrize("option", ["--cases", "--bushes"])
-def test_options_of_axles_need_the_file_of_one(kintrafo, option) -> None:
+def test_options_of_axles_need_the_file_of_one(kintrafo, option):
     code, _, message = kintrafo("report", "quarter_car", option, "some.toml")
     assert code == 2
     assert "an axle or a suspension" in message
 
 
 @pytest.mark.parametrize("command", ["loads", "compliance"])
-def test_commands_name_the_files_of_a_cars_axles(kintrafo, command) -> None:
+def test_commands_name_the_files_of_a_cars_axles(kintrafo, command):
     code, _, message = kintrafo(command, "driving_car")
     assert code == 2
     words = " ".join(message.split())
@@ -130,7 +130,7 @@ def test_commands_name_the_files_of_a_cars_axles(kintrafo, command) -> None:
 @pytest.mark.browser
 @pytest.mark.skipif(CHROMIUM is None, reason="Chromium is not installed (apt-get install chromium)")
 @pytest.mark.parametrize("width", [390, 1440])
-def test_the_car_is_played_on_every_width(report, width) -> None:
+def test_the_car_is_played_on_every_width(report, width):
     playwright = pytest.importorskip("playwright.sync_api")
     with playwright.sync_playwright() as driver, running(driver.chromium) as browser:
         page = browser.new_page(viewport={"width": width, "height": 900})

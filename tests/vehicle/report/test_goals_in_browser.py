@@ -41,7 +41,7 @@ WITHOUT_WIDTH = """e => {
 
 
 @pytest.fixture(scope="module")
-def report(tmp_path_factory: pytest.TempPathFactory) -> Any:
+def report(tmp_path_factory):
     bushes = {"arm_rear": {"radial_N_per_mm": 900.0}}
     car = Model(CAR.suspension.with_changes({"bushings": bushes}))
     path = tmp_path_factory.mktemp("goals") / "report.html"
@@ -50,7 +50,7 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Any:
 
 
 @pytest.fixture(scope="module")
-def watched(browser: Any, report: Any) -> Any:
+def watched(browser, report):
     watched = pages.Watched(browser, report, color_scheme="light")
     yield watched
     assert watched.complaints == []
@@ -108,7 +108,7 @@ def boxes(marks: Any) -> list[dict[str, float]]:
 
 
 @pytest.mark.parametrize("width", [1440, 390])
-def test_marks_are_where_their_numbers_say(watched: Any, width: int) -> None:
+def test_marks_are_where_their_numbers_say(watched, width):
     watched.start_again()
     watched.page.set_viewport_size({"width": width, "height": 900})
     figure, place = scale_of(watched, "camber", "travel")
@@ -135,7 +135,7 @@ def test_marks_are_where_their_numbers_say(watched: Any, width: int) -> None:
     assert legend.is_visible()
 
 
-def test_marks_stay_with_their_values_while_the_curve_moves(watched: Any) -> None:
+def test_marks_stay_with_their_values_while_the_curve_moves(watched):
     watched.start_again()
     figure, place = scale_of(watched, "scrub_radius", "rack")
     line = figure.locator(".plot path.limit")
@@ -151,7 +151,7 @@ def test_marks_stay_with_their_values_while_the_curve_moves(watched: Any) -> Non
     assert plot["y"] < box["y"] < plot["y"] + plot["height"]
 
 
-def test_marks_are_printed(watched: Any) -> None:
+def test_marks_are_printed(watched):
     """On paper a chart is a drawing of lines: its curve defines its scale."""
     watched.start_again()
     watched.page.pdf()
@@ -162,7 +162,7 @@ def test_marks_are_printed(watched: Any) -> None:
     values = [value_at("camber", "travel", at) for at in (-100.0, 100.0)]
     slope = (line[-1] - line[0]) / np.array([values[1] - values[0], 200.0])
 
-    def place(millimetres: float, value: float) -> Any:
+    def place(millimetres, value):
         return line[0] + slope * [value - values[0], millimetres + 100.0]
 
     centre = "c => [Number(c.getAttribute('cx')), Number(c.getAttribute('cy'))]"
@@ -175,7 +175,7 @@ def test_marks_are_printed(watched: Any) -> None:
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_marks_can_be_seen_in_both_schemes(watched: Any, scheme: str) -> None:
+def test_marks_can_be_seen_in_both_schemes(watched, scheme):
     page = watched.page
     page.emulate_media(color_scheme=scheme)
     background = pages.luminance(page.evaluate("getComputedStyle(document.body).backgroundColor"))
@@ -187,7 +187,7 @@ def test_marks_can_be_seen_in_both_schemes(watched: Any, scheme: str) -> None:
 
 
 @pytest.mark.parametrize("width", [390, 360])
-def test_the_table_of_goals_needs_no_scrolling(watched: Any, width: int) -> None:
+def test_the_table_of_goals_needs_no_scrolling(watched, width):
     page = watched.page
     page.set_viewport_size({"width": width, "height": 900})
     table = page.locator("h3:has-text('Which are met') + .wide")

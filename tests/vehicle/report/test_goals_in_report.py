@@ -33,7 +33,7 @@ DESCRIBED = {
 
 
 @pytest.fixture
-def coarse(monkeypatch: pytest.MonkeyPatch) -> None:
+def coarse(monkeypatch):
     """Sample at few positions, to either side 100 mm of travel and 60 mm of rack."""
     grid = Grid(GridAxis(-0.1, 0.05, 5), GridAxis(-0.06, 0.03, 5))
     monkeypatch.setattr("kintrafo.vehicle.report.page.reachable_grid", lambda _: grid)
@@ -53,7 +53,7 @@ def figure_of(page: str, key: str) -> str:
 
 
 @pytest.mark.usefixtures("coarse")
-def test_the_page_is_handed_the_numbers_of_the_file() -> None:
+def test_the_page_is_handed_the_numbers_of_the_file():
     goals = variation.goals(DESCRIBED)
     page = render(CAR, goals=goals)
     assert page == render(CAR, goals=goals)
@@ -79,7 +79,7 @@ def test_the_page_is_handed_the_numbers_of_the_file() -> None:
 
 
 @pytest.mark.usefixtures("coarse")
-def test_nothing_is_left_out_in_silence() -> None:
+def test_nothing_is_left_out_in_silence():
     page = render(CAR, goals=variation.goals(DESCRIBED))
     assert "Beyond this chart: limit at 120 mm." in figure_of(page, "camber")
     assert "Beyond this chart: limit at 95 mm." in figure_of(page, "scrub_radius_over_rack")
@@ -98,7 +98,7 @@ def test_nothing_is_left_out_in_silence() -> None:
 
 
 @pytest.mark.usefixtures("coarse")
-def test_one_side_of_an_axle_has_what_is_wanted_of_its_wheel() -> None:
+def test_one_side_of_an_axle_has_what_is_wanted_of_its_wheel():
     axle = Axle.load("reference_axle")
     described = {
         "targets": {"camber_left": BESIDE, "camber_right": {**BESIDE, "within": 0.4}},
@@ -123,7 +123,7 @@ def test_one_side_of_an_axle_has_what_is_wanted_of_its_wheel() -> None:
             assert words in page
 
 
-def test_what_is_not_steered_has_no_words_of_a_rack() -> None:
+def test_what_is_not_steered_has_no_words_of_a_rack():
     wanted = variation.goals({"targets": {"camber": {"value": 0.0, "within": 1.0}}}, ("travel",))
     page = render(Model("trailing_arm_car"), goals=wanted)
     assert "</svg> target</span>" in figure_of(page, "camber")
@@ -146,7 +146,7 @@ OTHER = {"value": 0.5, "within": 0.2}
         ({"roll_camber": WITHIN}, {}, {"roll_camber_left": 0.1}),
     ],
 )
-def test_wheels_with_one_curve_have_one_page(left: Any, right: Any, shown: Any) -> None:
+def test_wheels_with_one_curve_have_one_page(left, right, shown):
     targets = {f"{name}_{side}": table for side, of in (("left", left), ("right", right))
                for name, table in of.items()}  # fmt: skip
     goals = variation.goals({"targets": targets}, OF_AXLES)
@@ -161,7 +161,7 @@ def test_wheels_with_one_curve_have_one_page(left: Any, right: Any, shown: Any) 
     assert of_shown_side(unlike, goals, "right") == goals
 
 
-def test_a_wheel_of_an_axle_moves_as_by_itself() -> None:
+def test_a_wheel_of_an_axle_moves_as_by_itself():
     """Goals of a wheel in parallel travel are those of the curve on its page."""
     axle = Axle.load("reference_axle")
     travels = np.linspace(-0.06, 0.06, 5)
@@ -176,7 +176,7 @@ def test_a_wheel_of_an_axle_moves_as_by_itself() -> None:
             )
 
 
-def test_goals_that_nothing_reaches_are_refused_in_words() -> None:
+def test_goals_that_nothing_reaches_are_refused_in_words():
     """And at once: curves go on as far as goals, in steps of some millimetres."""
     axle = Axle.load("reference_axle")
     far = {"camber_left": {"at_mm": [0, 1e15], "value": 0.0, "within": 0.3}}
@@ -184,7 +184,7 @@ def test_goals_that_nothing_reaches_are_refused_in_words() -> None:
         kintrafo.report.axle_chapter(axle, variation.goals({"targets": far}, OF_AXLES))
 
 
-def test_goals_of_a_report_have_a_door(tmp_path: Any) -> None:
+def test_goals_of_a_report_have_a_door(tmp_path):
     path = tmp_path / "a.html"
     for wrong in (None, 3, [3], "toe", {"toe": 1}):
         with pytest.raises(InputError, match="goals: a list of targets and limits"):

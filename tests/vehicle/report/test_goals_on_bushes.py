@@ -51,7 +51,7 @@ FOUND = {
 
 
 @pytest.mark.parametrize("name", [name for name in FOUND if name != "an axle in bump"])
-def test_goals_are_drawn_where_the_curves_go(name: str) -> None:
+def test_goals_are_drawn_where_the_curves_go(name):
     """Those over something else that has the same axis are not."""
     make, over, _ = FOUND[name]
     dataset = make()
@@ -69,7 +69,7 @@ def test_goals_are_drawn_where_the_curves_go(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["a corner", "an axle in bump"])
-def test_what_can_be_wanted_of_curves_is_what_they_are(name: str) -> None:
+def test_what_can_be_wanted_of_curves_is_what_they_are(name):
     """The curves with rigid joints are those that goals are judged by, where words are the same."""
     make, over, subject = FOUND[name]
     found = flat(make()).sel(data_set="kinematic")
@@ -88,13 +88,13 @@ def words(data: xr.DataArray) -> str:
     return str(data.attrs["long_name"])
 
 
-def test_a_wheel_rate_at_the_contact_is_another() -> None:
+def test_a_wheel_rate_at_the_contact_is_another():
     dataset = FOUND["a corner"][0]()
     rate = variation.goals({"limits": {"wheel_rate": {"at_mm": 0.0, "least": 20.0}}})
     assert elastokinematics_chapter(dataset, goals=rate) == elastokinematics_chapter(dataset)
 
 
-def test_goals_about_a_turned_rack_are_refused() -> None:
+def test_goals_about_a_turned_rack_are_refused():
     turned = compliance.elastokinematics(CAR, BUSHES, along=AT, rack_position=0.01)
     toe = wanted(("travel",), toe=TOE)
     with pytest.raises(InputError, match="rack in its middle, and here it is at 10 mm"):
@@ -111,11 +111,11 @@ def test_goals_about_a_turned_rack_are_refused() -> None:
 
 
 @pytest.mark.usefixtures("coarse_report", "one_picture")
-def test_a_report_has_them(kintrafo: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_report_has_them(kintrafo, monkeypatch):
     seen = []
     whole = elastokinematics_chapter
 
-    def watched(*found: xr.Dataset, goals: Any) -> Any:
+    def watched(*found, goals):
         seen.append((found, goals))
         return whole(*found, goals=goals)
 

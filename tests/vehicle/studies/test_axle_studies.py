@@ -25,7 +25,7 @@ RATE = "anti_roll_bar.rate_Nm_per_deg"
 CLOSE = 1e-7
 
 
-def test_both_sides_move_as_one_of_them_does() -> None:
+def test_both_sides_move_as_one_of_them_does():
     names = ["bump_steer", "camber"]
     wanted = variation.sensitivity(CAR, [ROD], names=names, positions=AT)
     columns = [f"{name}_{side}" for name in names for side in ("left", "right")]
@@ -37,7 +37,7 @@ def test_both_sides_move_as_one_of_them_does() -> None:
             np.testing.assert_allclose(found[f"{name}_{side}"], wanted[name], rtol=0.0, atol=scale)
 
 
-def test_a_side_alone_moves_its_own_wheel() -> None:
+def test_a_side_alone_moves_its_own_wheel():
     columns = ["toe_left", "toe_right"]
     both = variation.sensitivity(AXLE, [f"side.{ROD}"], names=columns, positions=AT)
     found = variation.sensitivity(AXLE, [f"left.{ROD}"], names=columns, positions=AT)
@@ -45,7 +45,7 @@ def test_a_side_alone_moves_its_own_wheel() -> None:
     assert not found["toe_right"].any()
 
 
-def test_a_bar_has_a_share_of_the_roll_stiffness() -> None:
+def test_a_bar_has_a_share_of_the_roll_stiffness():
     """It is in proportion to its rate, so that the derivative is the share over the rate."""
     found = variation.sensitivity(
         AXLE, [RATE], over="roll", names=["roll_stiffness", "camber_left"], positions=[0.0]
@@ -56,7 +56,7 @@ def test_a_bar_has_a_share_of_the_roll_stiffness() -> None:
     assert found["camber_left"].item() == 0.0
 
 
-def test_sections_stand_for_one_side_and_its_image() -> None:
+def test_sections_stand_for_one_side_and_its_image():
     """Each side apart is asked for by its name."""
     found = variation.sensitivity(AXLE, ["*.wheel_center"], names=["camber_left"], positions=[0.0])
     places = found["place"].values.tolist()
@@ -70,7 +70,7 @@ def test_sections_stand_for_one_side_and_its_image() -> None:
     ]
 
 
-def test_many_axles_are_those_of_one_by_one() -> None:
+def test_many_axles_are_those_of_one_by_one():
     rates = [30.0, 45.0]
     found = variation.cars(
         AXLE, {f"right.{ROD}": [238.0, 243.0], RATE: rates}, over="roll", positions=[0.0, 0.02]
@@ -82,7 +82,7 @@ def test_many_axles_are_those_of_one_by_one() -> None:
             np.testing.assert_allclose(found[name][i], expected[name], rtol=1e-12, atol=1e-15)
 
 
-def test_tolerances_of_both_sides_are_independent() -> None:
+def test_tolerances_of_both_sides_are_independent():
     """So the toe of both wheels varies alike, and with no common part."""
     found = variation.tolerance(
         AXLE, {f"left.{ROD}": 1.0, f"right.{ROD}": 1.0}, count=60, positions=[0.0],
@@ -93,7 +93,7 @@ def test_tolerances_of_both_sides_are_independent() -> None:
     assert spans[0] == pytest.approx(spans[1], rel=0.5)
 
 
-def test_a_bar_is_found_that_has_a_roll_stiffness() -> None:
+def test_a_bar_is_found_that_has_a_roll_stiffness():
     stiffness = characteristics.over(AXLE.with_changes({RATE: 25.0}), "roll", [0.0])
     wanted = stiffness["roll_stiffness"].item() * np.pi / 180.0
     target = {"over": "roll", "at_deg": 0.0, "value": wanted, "within": 1e-4 * wanted}
@@ -111,7 +111,7 @@ STEERED = {
 
 @pytest.mark.parametrize("name", STEERED)
 @pytest.mark.parametrize(("over", "end"), [("steer", 1.5), ("rack", 0.02)])
-def test_a_steered_axle_is_studied_over_its_steering(name: str, over: str, end: float) -> None:
+def test_a_steered_axle_is_studied_over_its_steering(name, over, end):
     axle, place, along = load(name), STEERED[name], np.array([-end, 0.5 * end, end])
     how = {"names": ["ackermann_error"], "over": over, "positions": along}
     found = variation.sensitivity(axle, [place], **how)
@@ -128,7 +128,7 @@ def test_a_steered_axle_is_studied_over_its_steering(name: str, over: str, end: 
     np.testing.assert_allclose(found["ackermann_error"].values[0], by_differences, rtol=1e-4)
 
 
-def test_an_axle_without_the_ratio_of_its_steering_is_studied_over_the_rack() -> None:
+def test_an_axle_without_the_ratio_of_its_steering_is_studied_over_the_rack():
     axle = load("bmw_e90_rear_axle")
     place = "side.hardpoints.wheel_center.z"
     how = {"names": ["camber_left"], "positions": [0.0]}
@@ -137,7 +137,7 @@ def test_an_axle_without_the_ratio_of_its_steering_is_studied_over_the_rack() ->
         variation.sensitivity(axle, [place], over="steer", **how)
 
 
-def test_a_grid_of_axles_goes_over_a_road() -> None:
+def test_a_grid_of_axles_goes_over_a_road():
     from kintrafo import roads
 
     road = roads.step(0.01, at=0.02, end=0.1)
@@ -157,10 +157,10 @@ WRONG: list[tuple[dict[str, Any], str]] = [
 
 
 @pytest.mark.parametrize("given", WRONG)
-def test_what_an_axle_does_not_have_is_refused(given: Any, refused: Any) -> None:
+def test_what_an_axle_does_not_have_is_refused(given, refused):
     refused(InputError, lambda: variation.sensitivity(AXLE, **({"positions": [0.0]} | given)))
 
 
-def test_the_file_of_a_rigid_axle_has_no_sides() -> None:
+def test_the_file_of_a_rigid_axle_has_no_sides():
     with pytest.raises(InputError, match=r"side\.hardpoints is neither a number"):
         variation.sensitivity(RigidAxle.load("rigid_axle"), ["side.hardpoints"])

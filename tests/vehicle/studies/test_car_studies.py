@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import kintrafo
 import numpy as np
@@ -16,9 +16,6 @@ from kintrafo.vehicle.models.car import equations
 from kintrafo.vehicle.models.car.equations import CarModel
 from kintrafo.vehicle.studies.design_variables import places_of
 from kintrafo.vehicle.studies.sweep_axes import TURNS
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 TURNING_SPEED = 100.0 / 3.6
 RIDES = kintrafo.load("reference_vehicle")
@@ -46,7 +43,7 @@ def understeer(car: Any, acceleration: float) -> float:
     return float(angle["steering_wheel_angle"] / ratio - wheelbase * angle["curvature"])
 
 
-def test_values_are_those_of_its_own_file_and_of_its_axles() -> None:
+def test_values_are_those_of_its_own_file_and_of_its_axles():
     known = places_of(DRIVES)
     assert {ROD, RATE, MASS, "body.com_mm.z", "tyres.front.friction"} <= {*known}
     assert known[ROD].words == "front tie rod inner z"
@@ -61,14 +58,14 @@ def test_values_are_those_of_its_own_file_and_of_its_axles() -> None:
 
 
 @pytest.mark.parametrize("motion", ["heave", "pitch", "roll"])
-def test_derivatives_over_motions_of_the_body(motion: str) -> None:
+def test_derivatives_over_motions_of_the_body(motion):
     at, step = np.array([0.01]), 0.5
     found = variation.sensitivity(
         RIDES, [ROD], over=motion, names=["toe_front_left", "camber_rear_left"], positions=at
     )
     height = places_of(RIDES)[ROD].value
 
-    def toe(by: float) -> float:
+    def toe(by):
         moved = RIDES.with_changes({ROD: height + by})
         return float(characteristics.over(moved, motion, at)["toe"].sel(wheel="front_left")[0])
 
@@ -77,7 +74,7 @@ def test_derivatives_over_motions_of_the_body(motion: str) -> None:
     assert found["camber_rear_left"].item() == 0.0
 
 
-def test_derivatives_of_steady_turns() -> None:
+def test_derivatives_of_steady_turns():
     at = np.array([-3.0, 0.0, 3.0])
     found = variation.sensitivity(
         DRIVES, [ROD, MASS], over=TURNS, positions=at,
@@ -105,9 +102,7 @@ def test_derivatives_of_steady_turns() -> None:
         ("steering_wheel_deg=30", "steering_wheel_angle", np.deg2rad(30.0)),
     ],
 )
-def test_the_chosen_quantity_is_constant_in_steady_turns(
-    option: str, constant: str, value: float
-) -> None:
+def test_the_chosen_quantity_is_constant_in_steady_turns(option, constant, value):
     over, at = f"{TURNS}:{option}", [1.0, 3.0]
     names = ["travel_speed", "curvature", "steering_wheel_angle", "roll_angle"]
     own = variation.cars(DRIVES, {MASS: [1300.0]}, over=over, positions=[-3.0, *at], names=names)
@@ -129,7 +124,7 @@ def test_the_chosen_quantity_is_constant_in_steady_turns(
     assert slope["roll_angle"].item() == pytest.approx(wanted, rel=SECOND_ORDER)
 
 
-def test_an_error_is_found_by_measured_turns(tmp_path: Path) -> None:
+def test_an_error_is_found_by_measured_turns(tmp_path):
     """The car has another tie rod and a softer rear spring: steering and roll on a radius."""
     height, rate = (places_of(DRIVES)[place].value for place in (ROD, RATE))
     built = DRIVES.with_changes({ROD: height + 2.0, RATE: 0.95 * rate})
@@ -156,7 +151,7 @@ QUARTER = kintrafo.load("quarter_car")
 SPRING, DAMPER = "corner.strut.spring_rate_N_per_m", "corner.strut.damper_rate_N_s_per_m"
 
 
-def test_derivatives_of_a_ride() -> None:
+def test_derivatives_of_a_ride():
     over, names = "speed:road=C", ["weighted_rms", "load_variation", "travel_rms", "hop_frequency"]
     found = variation.sensitivity(
         QUARTER, [SPRING, DAMPER], over=over, positions=[20.0], names=names
@@ -172,7 +167,7 @@ def test_derivatives_of_a_ride() -> None:
             assert found[name][row, 0].item() == pytest.approx(wanted, rel=SECOND_ORDER)
 
 
-def test_a_ride_comes_to_its_targets() -> None:
+def test_a_ride_comes_to_its_targets():
     """Two rates, for a frequency and a damping ratio; comfort is a limit."""
     targets = {
         "heave_frequency": {"over": "speed", "value": 1.1, "within": 1e-3},
@@ -205,17 +200,17 @@ def test_a_ride_comes_to_its_targets() -> None:
         (QUARTER, TURNS, "speed"),
     ],
 )
-def test_options_of_axes_that_cannot_be_are_refused(car: Any, over: str, words: str) -> None:
+def test_options_of_axes_that_cannot_be_are_refused(car, over, words):
     with pytest.raises(InputError, match=words):
         variation.sensitivity(car, ["body.mass_kg"], over=over)
 
 
-def test_a_car_that_does_not_move_is_on_no_radius() -> None:
+def test_a_car_that_does_not_move_is_on_no_radius():
     found = variation.cars(DRIVES, {MASS: [1300.0]}, over=f"{TURNS}:radius_m=60", positions=[0.0])
     assert "does not move" in str(found["reason"].item())
 
 
-def test_an_understeer_gradient_comes_to_its_target() -> None:
+def test_an_understeer_gradient_comes_to_its_target():
     wanted = 0.3  # deg/g
     found = variation.optimise(
         DRIVES,
@@ -234,7 +229,7 @@ def test_an_understeer_gradient_comes_to_its_target() -> None:
     assert "all deviations are at most 1 %" in found.message
 
 
-def test_targets_that_are_met_need_no_search() -> None:
+def test_targets_that_are_met_need_no_search():
     """The car is evaluated, and two beside it, to see whether the value moves the target."""
     frequency = float(kintrafo.ride.modes(QUARTER).sel(mode="heave")["frequency"])
     target = {"over": "speed", "value": frequency, "within": 1e-3}
@@ -242,10 +237,10 @@ def test_targets_that_are_met_need_no_search() -> None:
     assert (found.evaluations, found.moved[SPRING]) == (3, 0.0)
 
 
-def test_a_car_that_varies_is_derived_and_compiled_once(monkeypatch: Any) -> None:
+def test_a_car_that_varies_is_derived_and_compiled_once(monkeypatch):
     CarModel(DRIVES)
 
-    def compiled(*_: Any, **__: Any) -> Any:
+    def compiled(*_, **__):
         raise AssertionError("other values need no other equations")
 
     monkeypatch.setattr(equations, "compile_mechanism", compiled)
@@ -260,7 +255,7 @@ def test_a_car_that_varies_is_derived_and_compiled_once(monkeypatch: Any) -> Non
     assert low < float(found["understeer_gradient_nominal"][0]) < high
 
 
-def test_the_steering_ratio_is_that_straight_ahead() -> None:
+def test_the_steering_ratio_is_that_straight_ahead():
     ratios = [
         float(circle(DRIVES, speed=TURNING_SPEED, lateral_acceleration=at).metrics[
             "steering_ratio"
@@ -270,7 +265,7 @@ def test_the_steering_ratio_is_that_straight_ahead() -> None:
     assert ratios[0] == ratios[1]
 
 
-def test_cars_are_compared() -> None:
+def test_cars_are_compared():
     other = RIDES.with_changes({ROD: places_of(RIDES)[ROD].value + 2.0})
     found = compare({"one": RIDES, "other": other}, [0.0])
     assert found["toe"].dims == ("data_set", "wheel", "body_heave")
@@ -289,6 +284,6 @@ def test_cars_are_compared() -> None:
          InputError, "toe_front_left"),
     ],
 )  # fmt: skip
-def test_what_a_car_has_not_is_refused(study: Any, error: Any, words: str) -> None:
+def test_what_a_car_has_not_is_refused(study, error, words):
     with pytest.raises(error, match=words):
         study()

@@ -33,7 +33,7 @@ def rig(car: Suspension, at: Any = TRAVEL, names: list[str] = CURVES) -> xr.Data
 AS_BUILT = built(1.5, -1.0)
 
 
-def test_known_errors_are_found() -> None:
+def test_known_errors_are_found():
     """Accurate to a thousandth of a degree, curves outweigh tolerances by 1e5 to 1."""
     fine = dict.fromkeys(CURVES, 1e-4)
     found = variation.fit(CAR, rig(AS_BUILT), {ROD: 3.0, BALL: 3.0}, accuracy=fine)
@@ -44,7 +44,7 @@ def test_known_errors_are_found() -> None:
     assert all(curve.after < 0.02 * curve.before for curve in found.curves)
 
 
-def test_small_errors_are_those_of_linear_regression() -> None:
+def test_small_errors_are_those_of_linear_regression():
     """Mean and covariance of a normal prior and normal errors, from derivatives by themselves."""
     tolerances = {ROD: 0.3, BALL: 0.6, "hardpoints.arm_rear.z": 0.9}
     measured = rig(built(0.1, 0.05))
@@ -67,7 +67,7 @@ def test_small_errors_are_those_of_linear_regression() -> None:
     np.testing.assert_allclose([found.determined[p] for p in order], told, atol=5e-3)
 
 
-def test_noise_leaves_what_is_reported() -> None:
+def test_noise_leaves_what_is_reported():
     """Errors, in parts of the deviation that is told, are normal: the mean of 16 squares near 1."""
     random, squares = np.random.default_rng(3), []
     for _ in range(8):
@@ -83,7 +83,7 @@ def test_noise_leaves_what_is_reported() -> None:
     assert 3.9 < sum(squares) < 39.0
 
 
-def test_what_curves_do_not_determine_stays() -> None:
+def test_what_curves_do_not_determine_stays():
     mass = "bodies.wheel.mass_kg"
     found = variation.fit(CAR, rig(AS_BUILT), {ROD: 3.0, BALL: 3.0, mass: 1.0}, accuracy=ACCURACY)
     assert found.moved[mass] == 0.0
@@ -92,14 +92,14 @@ def test_what_curves_do_not_determine_stays() -> None:
     assert found.message == f"the curves do not determine: {mass}"
 
 
-def test_what_is_beyond_tolerances_is_not_explained() -> None:
+def test_what_is_beyond_tolerances_is_not_explained():
     found = variation.fit(CAR, rig(AS_BUILT), {ROD: 0.2, BALL: 0.2}, accuracy=ACCURACY)
     assert not found.success
     assert "not explained: toe" in found.message
     assert "at the end of its tolerance" in found.message
 
 
-def test_many_points_count_as_ten() -> None:
+def test_many_points_count_as_ten():
     """The same points again and again, as a loop of a rig has them, tell nothing more."""
     often = np.tile(np.linspace(-0.05, 0.05, 10), 4)
     few, many = (
@@ -113,7 +113,7 @@ def test_many_points_count_as_ten() -> None:
     )
 
 
-def test_empty_cells_count_nothing() -> None:
+def test_empty_cells_count_nothing():
     measured = rig(AS_BUILT)
     measured["caster"][:] = np.nan
     measured["toe"][3] = np.nan
@@ -124,7 +124,7 @@ def test_empty_cells_count_nothing() -> None:
     assert found.moved[ROD] == pytest.approx(1.5, abs=0.1)
 
 
-def test_curves_of_an_axle_are_named_beside_a_suspension() -> None:
+def test_curves_of_an_axle_are_named_beside_a_suspension():
     """A file has no characteristics of another assembly: none is left out without a word."""
     measured = rig(AS_BUILT, names=["toe"])
     measured["camber_left"] = measured["toe"]
@@ -143,9 +143,7 @@ def test_curves_of_an_axle_are_named_beside_a_suspension() -> None:
         ("reference_axle", "roll", 0.03, "toe_left", "roll_center_height_front"),
     ],
 )
-def test_curves_of_another_subject_are_named_over_every_axis(
-    name: str, over: str, end: float, own: str, other: str
-) -> None:
+def test_curves_of_another_subject_are_named_over_every_axis(name, over, end, own, other):
     """Axes of one name have other curves for other subjects."""
     subject, at = load(name), np.linspace(-end, end, 5)
     measured = flat(characteristics.over(subject, over, at))[[own]]
@@ -156,7 +154,7 @@ def test_curves_of_another_subject_are_named_over_every_axis(
     assert [curve.name for curve in found.curves] == [own]
 
 
-def test_what_cannot_be_is_refused() -> None:
+def test_what_cannot_be_is_refused():
     measured = rig(AS_BUILT)
     for arguments, words in (
         ({"tolerances": {}}, "one or more are needed"),
@@ -180,7 +178,7 @@ def test_what_cannot_be_is_refused() -> None:
             variation.fit(**{"suspension": CAR, "measured": measured, **arguments})  # type: ignore[arg-type]
 
 
-def test_the_command_reports_it(kintrafo: Any, tmp_path: Any) -> None:
+def test_the_command_reports_it(kintrafo, tmp_path):
     from kintrafo import export
 
     export.write(rig(AS_BUILT, names=["toe", "camber"]), tmp_path / "rig.csv")
@@ -222,7 +220,7 @@ def soft_rig(car: Suspension, held: Any = "height") -> xr.Dataset:
 
 
 @pytest.mark.parametrize("held", ["height", "spring"])
-def test_known_rates_of_bushes_are_found(held: Any) -> None:
+def test_known_rates_of_bushes_are_found(held):
     """A third softer, a fifth stiffer, and the tie rod too high, which toe over travel tells."""
     changes = {REAR: 270.0, TOP: 850.0} | places_of(SOFT)[ROD].moved(1.5e-3)
     measured = soft_rig(SOFT.with_changes(changes), held)
@@ -241,7 +239,7 @@ def test_known_rates_of_bushes_are_found(held: Any) -> None:
         assert other.moved != found.moved
 
 
-def test_small_errors_of_bushes_are_those_of_linear_regression() -> None:
+def test_small_errors_of_bushes_are_those_of_linear_regression():
     """Normal prior and normal errors by formula, slopes by differences of compliances."""
     measured = soft_rig(SOFT.with_changes({REAR: 402.0, TOP: 699.0}))[BY_LOAD]
     tolerances, within = {REAR: 9.0, TOP: 6.0}, 1e-4
@@ -268,7 +266,7 @@ def test_small_errors_of_bushes_are_those_of_linear_regression() -> None:
     np.testing.assert_allclose([*found.uncertainty.values()], deviations, rtol=0.02)
 
 
-def test_parts_that_are_none_are_refused() -> None:
+def test_parts_that_are_none_are_refused():
     measured = soft_rig(SOFT)
     for tolerances, words in (
         ({REAR: "some"}, 'a number is needed, or a text such as "20 %"'),
@@ -284,7 +282,7 @@ def test_parts_that_are_none_are_refused() -> None:
         variation.fit(SOFT, measured, {REAR: "30 %"}, held="nothing")  # type: ignore[arg-type]
 
 
-def test_the_command_fits_bushes(kintrafo: Any, tmp_path: Any) -> None:
+def test_the_command_fits_bushes(kintrafo, tmp_path):
     from kintrafo import export
     from kintrafo.vehicle.input.toml_writer import write_toml
 

@@ -1,7 +1,6 @@
 """Targets and limits of compliance: what studies make of them, where they are printed and drawn."""
 
 import json
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -48,19 +47,19 @@ def under(car: Suspension, name: str, at: Any, held: Any = "height") -> Any:
 
 
 @pytest.fixture
-def goals(tmp_path: Path) -> Path:
+def goals(tmp_path):
     path = tmp_path / "goals.toml"
     path.write_text(GOALS, encoding="utf-8")
     return path
 
 
 @pytest.fixture
-def soft_car(tmp_path: Path) -> str:
+def soft_car(tmp_path):
     write_toml(CAR, tmp_path / "soft_car.toml")
     return str(tmp_path / "soft_car.toml")
 
 
-def test_verdicts_are_those_of_the_compliance(goals: Path) -> None:
+def test_verdicts_are_those_of_the_compliance(goals):
     target, limit = variation.judge(CAR, variation.goals(variation.read(goals)))
     toe = under(CAR, "toe_by_lateral", [-0.02, 0.02])
     camber = under(CAR, "camber_by_braking", [0.0], "spring")
@@ -70,12 +69,12 @@ def test_verdicts_are_those_of_the_compliance(goals: Path) -> None:
     assert np.rad2deg(target.beyond) * 1e3 == pytest.approx(abs(camber[0]) - 0.01)
 
 
-def test_a_stiffness_is_found_for_a_compliance() -> None:
+def test_a_stiffness_is_found_for_a_compliance():
     wanted = 0.11
     target = {"toe_by_lateral": {"value": wanted, "within": 1e-3}}
     found = variation.optimise(CAR, {REAR: 500.0}, target)
 
-    def missed(rate: float) -> float:
+    def missed(rate):
         toe: float = under(CAR.with_changes({REAR: rate}), "toe_by_lateral", [0.0])[0]
         return toe - wanted
 
@@ -84,7 +83,7 @@ def test_a_stiffness_is_found_for_a_compliance() -> None:
     assert 900.0 + found.moved[REAR] == pytest.approx(brentq(missed, 400.0, 1400.0), rel=1e-5)
 
 
-def test_cars_of_a_tolerance_are_within_limits_of_compliance() -> None:
+def test_cars_of_a_tolerance_are_within_limits_of_compliance():
     place, most = "hardpoints.tie_rod_outer.x", float(under(CAR, "toe_by_lateral", [0.0])[0])
     found = variation.tolerance(
         CAR, {place: 5.0}, limits={"toe_by_lateral": {"most": most}}, count=6, names=["toe"],
@@ -97,7 +96,7 @@ def test_cars_of_a_tolerance_are_within_limits_of_compliance() -> None:
     assert 0 < sum(expected) < len(expected)
 
 
-def test_stiffnesses_have_tolerances() -> None:
+def test_stiffnesses_have_tolerances():
     """Beside a limit of compliance, or where compliance is what is looked at."""
     bounds = {"toe_by_lateral": {"at_mm": [0.0], "most": 0.13}}
     found = variation.tolerance(
@@ -119,7 +118,7 @@ def test_stiffnesses_have_tolerances() -> None:
     assert float(held["toe_by_lateral_share"][0, 0]) == pytest.approx(1.0)
 
 
-def test_sensitivities_by_stiffnesses_are_slopes_of_the_compliance() -> None:
+def test_sensitivities_by_stiffnesses_are_slopes_of_the_compliance():
     found = variation.sensitivity(
         CAR, ["bushings"], held="tyre", names=["toe_by_lateral", "camber_by_braking"],
         positions=[0.0, 0.01],
@@ -137,7 +136,7 @@ def test_sensitivities_by_stiffnesses_are_slopes_of_the_compliance() -> None:
 
 
 @pytest.mark.parametrize("subject", ["car", "rigid axle"])
-def test_many_cars_have_curves_of_compliance(subject: str) -> None:
+def test_many_cars_have_curves_of_compliance(subject):
     if subject == "car":
         of, place, name = CAR, REAR, "toe_by_lateral"
     else:
@@ -163,11 +162,11 @@ def test_many_cars_have_curves_of_compliance(subject: str) -> None:
         lambda: variation.sensitivity(Suspension.load("reference_car"), held="tyre"),
     ],
 )
-def test_stiffnesses_of_what_is_rigid_are_refused(call: Any, refused: Any) -> None:
+def test_stiffnesses_of_what_is_rigid_are_refused(call, refused):
     refused(InputError, call)
 
 
-def test_commands_vary_stiffnesses(soft_car: str, tmp_path: Path) -> None:
+def test_commands_vary_stiffnesses(soft_car, tmp_path):
     values = tmp_path / "t.toml"
     values.write_text('[tolerances]\n"bushings" = "30 %"\n[limits.toe_by_lateral]\nmost = 0.13\n')
     done = called("tolerance", soft_car, str(values), "--cars", "6", "--of", "toe")
@@ -181,7 +180,7 @@ def test_commands_vary_stiffnesses(soft_car: str, tmp_path: Path) -> None:
     assert "--over beside --held" in str(done.exception)
 
 
-def test_a_front_of_stiffnesses() -> None:
+def test_a_front_of_stiffnesses():
     pytest.importorskip("pymoo")
     asked: dict[str, Any] = {"population": 4, "generations": 2}
     softest = {"toe_by_recession": {"at_mm": 0.0}}
@@ -203,11 +202,11 @@ WRONG: list[tuple[dict[str, Any], str]] = [
 
 
 @pytest.mark.parametrize("limits", WRONG)
-def test_what_has_no_meaning_is_refused(limits: Any, refused: Any) -> None:
+def test_what_has_no_meaning_is_refused(limits, refused):
     refused(InputError, lambda: variation.goals({"limits": limits}))
 
 
-def test_without_bushes_nothing_is_judged(goals: Path) -> None:
+def test_without_bushes_nothing_is_judged(goals):
     wanted = variation.goals(variation.read(goals))
     with pytest.raises(
         InputError, match=r"lacks data for this characteristic\. .* or \[bushings\]"
@@ -224,7 +223,7 @@ def test_without_bushes_nothing_is_judged(goals: Path) -> None:
     ],
     ids=["independent", "rigid", "five rods"],
 )
-def test_goals_of_both_wheels(axle: Any, bushes: dict[str, Any]) -> None:
+def test_goals_of_both_wheels(axle, bushes):
     name = "toe_by_lateral_opposed_left"
     found = compliance.linear(axle, bushes, [0.0, 0.02])
     toe = np.rad2deg(flat(found)[name].values) * 1e3
@@ -256,14 +255,12 @@ def test_goals_of_both_wheels(axle: Any, bushes: dict[str, Any]) -> None:
     ],
     ids=["suspension", "axle", "rigid axle"],
 )  # fmt: skip
-def test_the_chapter_of_compliance_draws_those_of_its_wheels(
-    of: Any, name: str, label: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_chapter_of_compliance_draws_those_of_its_wheels(of, name, label, monkeypatch):
     """Those with wheels that are held otherwise are in the chapter of goals alone."""
     panels: dict[str, Any] = {}
     draw = curves.figure
 
-    def noted(dataset: Any, names: Any, **words: Any) -> Any:
+    def noted(dataset, names, **words):
         made = draw(dataset, names, **words)
         panels.update(zip(names, made.get_axes(), strict=True))
         return made
@@ -289,9 +286,7 @@ def test_the_chapter_of_compliance_draws_those_of_its_wheels(
         )
 
 
-def test_compliance_prints_and_draws_them(
-    goals: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_compliance_prints_and_draws_them(goals, tmp_path, monkeypatch):
     """Bushes of a file of their own count, as they do in its curves."""
     text = "\n".join(
         f"[bushings.{point}]\n" + "\n".join(f"{key} = {value}" for key, value in table.items())
@@ -300,7 +295,7 @@ def test_compliance_prints_and_draws_them(
     (tmp_path / "bushes.toml").write_text(text, encoding="utf-8")
     given: list[str] = []
 
-    def note(_: Any, path: Path, *__: Any, goals: Any, **___: Any) -> Path:
+    def note(_, path, *__, goals, **___):
         given.extend(goal.name for goal in goals)
         return path
 
@@ -332,14 +327,12 @@ def test_compliance_prints_and_draws_them(
         ),
     ],
 )
-def test_compliance_draws_what_is_named(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, file: str, asked: list[str], found: Any
-) -> None:
+def test_compliance_draws_what_is_named(tmp_path, monkeypatch, file, asked, found):
     bushes = tmp_path / "bushes.toml"
     bushes.write_text("[bushings.arm_rear]\nradial_N_per_mm = 900\n", encoding="utf-8")
     given: list[str] = []
 
-    def note(_: Any, path: Path, names: Any, *__: Any, **___: Any) -> Path:
+    def note(_, path, names, *__, **___):
         given.extend(names)
         return path
 
@@ -353,9 +346,7 @@ def test_compliance_draws_what_is_named(
     assert not list(tmp_path.glob("*.png"))
 
 
-def test_comparisons_and_reports_have_them(
-    goals: Path, soft_car: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_comparisons_and_reports_have_them(goals, soft_car, tmp_path, monkeypatch):
     asked = ["--held", "spring", "--goals", str(goals), "--json"]
     shown = called("compare", soft_car, soft_car, *asked)
     assert shown.exit_code == 0, shown.exception
@@ -363,7 +354,7 @@ def test_comparisons_and_reports_have_them(
     shown = called("characteristics", soft_car, "--goals", str(goals))
     assert "no [limits.NAME] over travel or over rack" in str(shown.exception)
 
-    def written(*_: Any, chapters: Any, **__: Any) -> Path:
+    def written(*_, chapters, **__):
         (chapter,) = (one for one in chapters if one.title == "Targets and limits")
         met = (under(CAR, "toe_by_lateral", [-0.02, 0.02]) <= 0.1).all()
         assert chapter.words[0] == f"{int(met)} of 2 are met, {2 - int(met)} missed."
@@ -377,7 +368,7 @@ def test_comparisons_and_reports_have_them(
 
 
 @pytest.mark.parametrize("kind", [Suspension, RigidAxle])
-def test_bushes_of_a_file_without_any_are_asked_for(kind: Any) -> None:
+def test_bushes_of_a_file_without_any_are_asked_for(kind):
     of = kind.load("reference_car" if kind is Suspension else "rigid_axle")
     for name in ("bushings", "bushings.arm_rear.axial_N_per_mm"):
         with pytest.raises(InputError, match=r"The file has no \[bushings\]. Add them."):

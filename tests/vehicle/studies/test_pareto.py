@@ -5,7 +5,6 @@ import itertools
 import json
 import signal
 import sys
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -48,14 +47,14 @@ def numbers_of(suspension: Suspension) -> tuple[float, float, float]:
 
 
 @pytest.fixture(scope="module")
-def front() -> variation.Front:
+def front():
     return variation.pareto(
         CAR, FREE, TOE, maximise=HEIGHT, limits=SCRUB, population=20, generations=16
     )
 
 
 @pytest.fixture(scope="module")
-def costs(front: variation.Front) -> np.ndarray:
+def costs(front):
     """Return what is to be small of each member, in parts of its range over the front."""
     toe, height = (front.dataset[o.name].values for o in front.objectives)
     return in_parts(front, toe, height)
@@ -77,7 +76,7 @@ def beats(one: np.ndarray, other: np.ndarray, by: float = 0.0) -> bool:
 # -- what is on a front ---------------------------------------------------------------------------
 
 
-def test_members_are_what_the_curves_say_and_keep_the_limits(front: variation.Front) -> None:
+def test_members_are_what_the_curves_say_and_keep_the_limits(front):
     toe, height = (front.dataset[o.name].values for o in front.objectives)
     for member in range(1, len(front.moved) + 1):
         car = front.suspension(member)
@@ -98,13 +97,13 @@ def test_members_are_what_the_curves_say_and_keep_the_limits(front: variation.Fr
     )
 
 
-def test_no_member_beats_another(costs: np.ndarray) -> None:
+def test_no_member_beats_another(costs):
     assert len(costs) == 20
     assert not any(beats(a, b) for a, b in itertools.permutations(costs, 2))
     assert (np.diff(costs[:, 0]) > 0.0).all()
 
 
-def test_a_grid_of_all_values_has_nothing_better(front: variation.Front, costs: np.ndarray) -> None:
+def test_a_grid_of_all_values_has_nothing_better(front, costs):
     """Nor is a part of the front missing: each car of the grid has a member that is as good."""
     steps = np.linspace(-1.0, 1.0, 13)
     cars = [
@@ -121,9 +120,7 @@ def test_a_grid_of_all_values_has_nothing_better(front: variation.Front, costs: 
 
 
 @pytest.mark.parametrize("within", [0.3, 5.0])
-def test_what_weights_find_lies_at_the_front(
-    front: variation.Front, costs: np.ndarray, within: float
-) -> None:
+def test_what_weights_find_lies_at_the_front(front, costs, within):
     """The optimum of a sum is of the true front: near to a member, and hardly better than any."""
     height = {"roll_center_height_kinematic": {"at_mm": 0.0, "value": 130.0, "within": within}}
     aims = {"toe": TOE["toe"] | {"within": 0.1}} | height
@@ -135,7 +132,7 @@ def test_what_weights_find_lies_at_the_front(
     assert np.abs(costs - best).max(axis=1).min() < 0.1
 
 
-def test_what_matters_may_be_left_out_and_plays_no_part() -> None:
+def test_what_matters_may_be_left_out_and_plays_no_part():
     found = [
         variation.pareto(
             CAR,
@@ -152,14 +149,12 @@ def test_what_matters_may_be_left_out_and_plays_no_part() -> None:
         variation.goals({"targets": {"toe": {"value": 0.0}}})
 
 
-def test_the_compromise_is_nearest_to_the_best_of_both(
-    front: variation.Front, costs: np.ndarray
-) -> None:
+def test_the_compromise_is_nearest_to_the_best_of_both(front, costs):
     distances = [float(np.hypot(*member)) for member in costs]
     assert front.compromise == 1 + distances.index(min(distances))
 
 
-def test_fronts_of_random_numbers() -> None:
+def test_fronts_of_random_numbers():
     random = np.random.default_rng(7)
     for size, objectives in ((1, 2), (60, 2), (80, 3)):
         rows = random.integers(0, 9, (size, objectives)).astype(float)
@@ -177,7 +172,7 @@ def test_fronts_of_random_numbers() -> None:
 # -- searches --------------------------------------------------------------------------------------
 
 
-def test_the_seed_decides(kintrafo: Any, tmp_path: Path) -> None:
+def test_the_seed_decides(kintrafo, tmp_path):
     (tmp_path / "s.toml").write_text(STUDY, encoding="utf-8")
     before = np.random.get_state()[1].tolist()  # noqa: NPY002 (the state of everybody)
     for name, seed in (("a.csv", 5), ("b.csv", 5), ("c.csv", 6)):
@@ -190,7 +185,7 @@ def test_the_seed_decides(kintrafo: Any, tmp_path: Path) -> None:
     assert texts[0].startswith(heading)
 
 
-def test_what_cannot_be_built_is_beyond_all_limits() -> None:
+def test_what_cannot_be_built_is_beyond_all_limits():
     """With half a metre to either side no arm reaches most bearings."""
     parts: list[float] = []
     found = variation.pareto(
@@ -206,7 +201,7 @@ def test_what_cannot_be_built_is_beyond_all_limits() -> None:
     assert parts[-1] == pytest.approx(1.0)
 
 
-def test_limits_that_cannot_be_kept() -> None:
+def test_limits_that_cannot_be_kept():
     far = SCRUB | {"bump_steer": {"most": -1.0}}
     found = variation.pareto(CAR, FREE, TOE, maximise=HEIGHT, limits=far, **SHORT)
     assert not found.success
@@ -217,7 +212,7 @@ def test_limits_that_cannot_be_kept() -> None:
         found.suspension(1)
 
 
-def test_values_that_move_nothing_are_named() -> None:
+def test_values_that_move_nothing_are_named():
     idle = "bodies.wheel.mass_kg"
     found = variation.pareto(CAR, {ROD: 5.0, idle: 1.0}, TOE, maximise=HEIGHT, **SHORT)
     assert f"without effect on an objective: {idle}" in found.message
@@ -225,7 +220,7 @@ def test_values_that_move_nothing_are_named() -> None:
         variation.pareto(CAR, {idle: 1.0}, TOE, maximise=HEIGHT, **SHORT)
 
 
-def test_objectives_that_agree_have_one_best_car() -> None:
+def test_objectives_that_agree_have_one_best_car():
     """Both want the camber of the file at the end of its range."""
     camber = {"camber": [{"at_mm": [-30.0, 30.0]}, {"over": "rack", "at_mm": 20.0}]}
     found = variation.pareto(CAR, {"wheel.camber_deg": 1.0}, minimise=camber, **SHORT)
@@ -238,7 +233,7 @@ def test_objectives_that_agree_have_one_best_car() -> None:
         found.suspension(2)
 
 
-def test_several_objectives_of_one_kind_are_distinguished_and_drawn(tmp_path: Path) -> None:
+def test_several_objectives_of_one_kind_are_distinguished_and_drawn(tmp_path):
     aims = {"toe": [TOE["toe"], TOE["toe"] | {"at_mm": 20.0}]}
     found = variation.pareto(CAR, FREE, aims, maximise=HEIGHT, limits=SCRUB, **SHORT)
     assert [o.name for o in found.objectives][:2] == ["toe_deviation", "toe_deviation (2)"]
@@ -251,7 +246,7 @@ def test_several_objectives_of_one_kind_are_distinguished_and_drawn(tmp_path: Pa
 # -- commands -------------------------------------------------------------------------------------
 
 
-def test_the_chosen_member_is_written(kintrafo: Any, tmp_path: Path) -> None:
+def test_the_chosen_member_is_written(kintrafo, tmp_path):
     (tmp_path / "s.toml").write_text(STUDY, encoding="utf-8")
     code, out, err = kintrafo(
         "pareto", "reference_car", "s.toml", *QUICK, "--member", 2, "--member-file", "car.toml"
@@ -268,7 +263,7 @@ def test_the_chosen_member_is_written(kintrafo: Any, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("member", [0, 5, 4])
-def test_a_member_that_is_not_there(kintrafo: Any, tmp_path: Path, member: int) -> None:
+def test_a_member_that_is_not_there(kintrafo, tmp_path, member):
     """Four cars of a generation have no fifth member, and need not have a fourth."""
     study = STUDY.replace("[limits.scrub_radius]\nmost = 21.0", "[limits.toe]\nmost = 0.001")
     (tmp_path / "s.toml").write_text(study, encoding="utf-8")
@@ -281,7 +276,7 @@ def test_a_member_that_is_not_there(kintrafo: Any, tmp_path: Path, member: int) 
     assert [path.name for path in tmp_path.iterdir()] == ["s.toml"]
 
 
-def test_nothing_is_written_where_no_car_keeps_the_limits(kintrafo: Any, tmp_path: Path) -> None:
+def test_nothing_is_written_where_no_car_keeps_the_limits(kintrafo, tmp_path):
     (tmp_path / "s.toml").write_text(STUDY.replace("21.0", "-90.0"), encoding="utf-8")
     code, out, _ = kintrafo("pareto", "reference_car", "s.toml", *QUICK, "-o", "a.csv")
     assert code == 1
@@ -290,14 +285,12 @@ def test_nothing_is_written_where_no_car_keeps_the_limits(kintrafo: Any, tmp_pat
 
 
 @pytest.mark.usefixtures("interruptible")
-def test_an_interruption_ends_it_at_once(
-    kintrafo: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_interruption_ends_it_at_once(kintrafo, tmp_path, monkeypatch):
     (tmp_path / "s.toml").write_text(STUDY, encoding="utf-8")
     looked_at = []
     values = Candidates.values
 
-    def interrupted(self: Candidates, x: np.ndarray) -> Any:
+    def interrupted(self, x):
         looked_at.append(x)
         if len(looked_at) == 30:
             signal.raise_signal(signal.SIGINT)
@@ -319,9 +312,7 @@ def test_an_interruption_ends_it_at_once(
     assert [path.name for path in tmp_path.iterdir()] == ["s.toml"]
 
 
-def test_without_pymoo_it_is_said_how_to_install_it(
-    kintrafo: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_without_pymoo_it_is_said_how_to_install_it(kintrafo, tmp_path, monkeypatch):
     (tmp_path / "s.toml").write_text(STUDY, encoding="utf-8")
     monkeypatch.setitem(sys.modules, "pymoo.algorithms.moo.nsga2", None)
     monkeypatch.setattr(Candidates, "values", None)  # before anything is computed
@@ -370,20 +361,20 @@ WRONG = [
 
 
 @pytest.mark.parametrize("given", WRONG)
-def test_what_cannot_be_used(given: dict[str, Any], refused: Any) -> None:
+def test_what_cannot_be_used(given, refused):
     if "bushings" in str(given):
         bushes = {"bushings": {"arm_rear": {"axial_N_per_mm": 400.0}}}
         given = given | {"suspension": CAR.with_changes(bushes)}
     refused(InputError, lambda: call(**given))
 
 
-def test_a_position_out_of_reach_is_no_study() -> None:
+def test_a_position_out_of_reach_is_no_study():
     module = importlib.import_module("kintrafo.vehicle.models.positions")
     with pytest.raises(module.PositionError):
         call(targets={"toe": TOE["toe"] | {"at_mm": [900.0]}})
 
 
-def test_a_file_with_something_else(kintrafo: Any, tmp_path: Path) -> None:
+def test_a_file_with_something_else(kintrafo, tmp_path):
     (tmp_path / "s.toml").write_text(STUDY.replace("maximise", "maximize"), encoding="utf-8")
     code, out, err = kintrafo("pareto", "reference_car", "s.toml")
     assert (code, out) == (2, "")

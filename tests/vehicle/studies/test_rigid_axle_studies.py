@@ -3,7 +3,6 @@
 The root finder of `test_rigid_axle` shares nothing with the equations.
 """
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -40,7 +39,7 @@ def steer(axle: RigidAxle) -> Array:
     return np.array([turn.as_euler("ZXY")[0] for turn in turns])
 
 
-def test_sensitivities_are_differences_of_what_the_root_finder_finds() -> None:
+def test_sensitivities_are_differences_of_what_the_root_finder_finds():
     """Of ends of rods, and of a damper's place that does not count."""
     places = ["rods.panhard_rod.axle.z", "rods.left_link.chassis.z", "hardpoints.damper_top.z"]
     ours = variation.sensitivity(AXLE, places, over="roll", positions=ROLLS, names=["axle_steer"])
@@ -54,7 +53,7 @@ def test_sensitivities_are_differences_of_what_the_root_finder_finds() -> None:
     assert (ours["axle_steer"].sel(place=places[2]) == 0.0).all()
 
 
-def test_all_points_of_a_linkage_vary_by_default() -> None:
+def test_all_points_of_a_linkage_vary_by_default():
     """Those of rods and of the steering, too, which are no hardpoints of their file."""
     steered = load("steered_rigid_axle").to_dict()
     points = {f"hardpoints.{name}" for name in steered["hardpoints"] if name != "unit"}
@@ -70,7 +69,7 @@ def test_all_points_of_a_linkage_vary_by_default() -> None:
         assert {name.rpartition(".")[0] for name in found} == wanted
 
 
-def test_what_a_rig_measured_is_explained(kintrafo: Any, tmp_path: Path) -> None:
+def test_what_a_rig_measured_is_explained(kintrafo, tmp_path):
     """Curves over roll in deg, of the root finder."""
     meant = AXLE.with_changes({"rods.left_link.chassis.z": 298.0})
     rolls = np.linspace(-3.0, 3.0, 5)
@@ -95,7 +94,7 @@ def test_what_a_rig_measured_is_explained(kintrafo: Any, tmp_path: Path) -> None
         rig.beside(rig.measured_curves("rig.csv"), {"car": Model("reference_car")})
 
 
-def test_motions_over_a_road_are_those_of_one_after_the_other() -> None:
+def test_motions_over_a_road_are_those_of_one_after_the_other():
     bump = Scenario(inputs={"road_height": roads.step(0.02, at=0.1, end=0.4)}, duration=0.4)
     place, signal, rates = "damper.rate_N_s_per_m", "left_axle_wheel_acceleration", [2e3, 4e3]
     found = variation.sweep(AXLE, {place: rates}, bump, reductions={signal: "max"})
@@ -108,7 +107,7 @@ def test_motions_over_a_road_are_those_of_one_after_the_other() -> None:
         assert ours == pytest.approx(float(alone[signal].max()), rel=1e-4)
 
 
-def test_goals_are_judged_of_axles_too() -> None:
+def test_goals_are_judged_of_axles_too():
     wanted = variation.goals(GOALS, ["bump", "roll"])
     of_steer, of_height = variation.judge(AXLE, wanted)
     steered = np.rad2deg(steer(AXLE))
@@ -135,11 +134,11 @@ WRONG: list[tuple[Any, str]] = [
 
 
 @pytest.mark.parametrize("study", WRONG)
-def test_what_cannot_be_studied_is_refused_by_name(study: Any, refused: Any) -> None:
+def test_what_cannot_be_studied_is_refused_by_name(study, refused):
     refused(InputError, study)
 
 
-def test_what_no_rods_allow_has_no_neighbour() -> None:
+def test_what_no_rods_allow_has_no_neighbour():
     with pytest.raises(InputError, match=r"no neighbour .*less than 45 deg"):
         variation.sensitivity(AXLE, over="roll", positions=[0.9])
     found = variation.cars(AXLE, {"rods.panhard_rod.axle.y": [-459.9999, 460.0]}, positions=[0.0])
@@ -147,7 +146,7 @@ def test_what_no_rods_allow_has_no_neighbour() -> None:
     assert str(found["reason"].values[1]) == ""
 
 
-def test_the_commands_take_it(kintrafo: Any, tmp_path: Path) -> None:
+def test_the_commands_take_it(kintrafo, tmp_path):
     goals = """
 [free]
 "rods.panhard_rod.axle.z" = 20.0

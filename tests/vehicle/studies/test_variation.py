@@ -2,7 +2,6 @@
 
 import importlib
 import math
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -38,7 +37,7 @@ def curve(suspension: Suspension, name: str, at: Any) -> np.ndarray:
 # -- sensitivity --------------------------------------------------------------------------------
 
 
-def test_the_steering_axis_turns_as_its_two_points_say() -> None:
+def test_the_steering_axis_turns_as_its_two_points_say():
     """Caster is atan2(-k_x, k_z) of the line through two points that move with the file."""
     points = CAR.hardpoints
     along = points.metres("strut_top") - points.metres("ball_joint")
@@ -65,9 +64,7 @@ def test_the_steering_axis_turns_as_its_two_points_say() -> None:
     ],
 )
 @pytest.mark.parametrize("name", ["bump_steer", "camber", "roll_center_height_kinematic"])
-def test_derivatives_are_those_of_a_polynomial_through_many_neighbours(
-    car: Suspension, place: str, name: str
-) -> None:
+def test_derivatives_are_those_of_a_polynomial_through_many_neighbours(car, place, name):
     at = np.array([-0.05, 0.0, 0.04])
     where = places_of(car)[place]
     reach = 4.0 * where.to_si  # 4 mm or degrees to either side
@@ -82,7 +79,7 @@ def test_derivatives_are_those_of_a_polynomial_through_many_neighbours(
     np.testing.assert_allclose(found, expected, rtol=1e-7, atol=1e-8 * size)
 
 
-def test_there_is_no_derivative_where_a_stop_begins_to_act() -> None:
+def test_there_is_no_derivative_where_a_stop_begins_to_act():
     stopped = CAR.with_changes({"bump_stop": {"clearance_mm": 30.0, "rate_N_per_m": 3e4}})
     touches = start_of_the_stop(stopped)
     at = [touches - 1e-3, touches, touches + 1e-3]
@@ -101,7 +98,7 @@ def start_of_the_stop(suspension: Suspension) -> float:
     return float(brentq(gap, 0.02, 0.05, xtol=1e-9))
 
 
-def test_the_unit_of_the_file_does_not_matter() -> None:
+def test_the_unit_of_the_file_does_not_matter():
     data = CAR.to_dict()
     points = data["hardpoints"]
     assert points.pop("unit") == "mm"
@@ -115,7 +112,7 @@ def test_the_unit_of_the_file_does_not_matter() -> None:
     np.testing.assert_allclose(one, other, rtol=1e-9)
 
 
-def test_units_of_values_are_reported() -> None:
+def test_units_of_values_are_reported():
     found = variation.sensitivity(CAR, [ROD, "wheel.toe_deg"], positions=[0.0], names=["toe"])
     assert found["place_unit"].values.tolist() == ["m", "rad"]
     # the toe of the file is that of the car
@@ -136,7 +133,7 @@ def test_units_of_values_are_reported() -> None:
     assert shown == pytest.approx(neighbours[1] - neighbours[0], rel=1e-4)
 
 
-def test_values_at_the_end_of_their_range_have_neighbours_on_one_side() -> None:
+def test_values_at_the_end_of_their_range_have_neighbours_on_one_side():
     """A clearance of zero, of a stop that acts anyway: the force is the area under its curve."""
     stop = {"clearance_mm": 0.0, "rate_N_per_m": 3e4, "progression_N_per_mm3": 0.0}
     car = CAR.with_changes({"bump_stop": stop})
@@ -156,7 +153,7 @@ def stop_of(car: Suspension, place: str) -> float:
     return places_of(car)[place].value
 
 
-def test_masses_move_no_curve() -> None:
+def test_masses_move_no_curve():
     found = variation.sensitivity(
         CAR, ["bodies.wheel"], positions=[-0.03, 0.03], names=["toe", "camber"]
     )
@@ -167,7 +164,7 @@ def test_masses_move_no_curve() -> None:
 # -- tolerance ----------------------------------------------------------------------------------
 
 
-def test_what_varies_little_varies_as_derivatives_say() -> None:
+def test_what_varies_little_varies_as_derivatives_say():
     at = np.array([-0.05, 0.05])
     tolerances = {"hardpoints": 0.3, ROD: 0.6}
     names = ["toe"]
@@ -187,14 +184,14 @@ def test_what_varies_little_varies_as_derivatives_say() -> None:
     np.testing.assert_allclose(found["toe_nominal"], curve(CAR, "toe", at), rtol=1e-14)
 
 
-def test_what_does_not_vary_is_caused_by_nothing() -> None:
+def test_what_does_not_vary_is_caused_by_nothing():
     found = variation.tolerance(
         CAR, {"bodies.wheel.mass_kg": 1.0}, count=3, positions=[0.0, 0.02], names=["toe"]
     )
     assert np.isnan(found["toe_share"].values).all()
 
 
-def test_shares_where_a_stop_begins_to_act_are_not_told() -> None:
+def test_shares_where_a_stop_begins_to_act_are_not_told():
     """Without a derivative a value is no value that moves nothing."""
     stopped = CAR.with_changes({"bump_stop": {"clearance_mm": 30.0, "rate_N_per_m": 3e4}})
     touches = start_of_the_stop(stopped)
@@ -216,7 +213,7 @@ def test_shares_where_a_stop_begins_to_act_are_not_told() -> None:
     assert float(near["wheel_rate_first_order"][0]) < 0.2
 
 
-def test_points_that_are_off_together_turn_no_axis() -> None:
+def test_points_that_are_off_together_turn_no_axis():
     both = {"hardpoints.strut_top.x": 1.0, "hardpoints.ball_joint.x": 1.0}
     options: dict[str, Any] = {"count": 20, "positions": [0.0], "names": ["caster"]}
     apart = variation.tolerance(CAR, both, **options)
@@ -226,7 +223,7 @@ def test_points_that_are_off_together_turn_no_axis() -> None:
     assert spread[1] < 1e-12  # of an angle of 0.05 rad
 
 
-def test_correlation_is_in_the_order_of_the_file() -> None:
+def test_correlation_is_in_the_order_of_the_file():
     tied = np.array([[1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
     places = [ROD, "hardpoints.ball_joint.z", "hardpoints.arm_front.z"]
     found = variation.tolerance(
@@ -238,7 +235,7 @@ def test_correlation_is_in_the_order_of_the_file() -> None:
     assert abs(off[:, 2] - off[:, 1]).max() > 1e-5
 
 
-def test_the_same_seed_makes_the_same_cars() -> None:
+def test_the_same_seed_makes_the_same_cars():
     options: dict[str, Any] = {"count": 5, "positions": [0.03], "names": ["toe"]}
     one, same, other = (
         variation.tolerance(CAR, {ROD: 1.0}, seed=seed, **options) for seed in (1, 1, 2)
@@ -247,7 +244,7 @@ def test_the_same_seed_makes_the_same_cars() -> None:
     assert not (one["toe"] == other["toe"]).any()
 
 
-def test_uniform_values_keep_their_tolerance_and_limits_are_counted() -> None:
+def test_uniform_values_keep_their_tolerance_and_limits_are_counted():
     limit = {"bump_steer": {"least": 0.0061662}}  # that of the car itself
     found = variation.tolerance(
         CAR,
@@ -266,7 +263,7 @@ def test_uniform_values_keep_their_tolerance_and_limits_are_counted() -> None:
     assert found.attrs["yield"] == found["within_limits"].values.mean()
 
 
-def test_cars_that_cannot_be_say_why_and_are_within_no_limit() -> None:
+def test_cars_that_cannot_be_say_why_and_are_within_no_limit():
     wild = {"hardpoints.tie_rod_outer": 400.0}
     found = variation.tolerance(CAR, wild, count=40, positions=[-0.05, 0.05], names=["toe"])
     failed = found["reason"].values != ""
@@ -279,7 +276,7 @@ def test_cars_that_cannot_be_say_why_and_are_within_no_limit() -> None:
 # -- optimise -----------------------------------------------------------------------------------
 
 
-def test_a_car_finds_back_to_its_curves() -> None:
+def test_a_car_finds_back_to_its_curves():
     off = CAR.with_changes({ROD: 286.0, "hardpoints.tie_rod_outer.z": 255.0})
     at = np.linspace(-60.0, 60.0, 7)
     wanted = np.rad2deg(curve(CAR, "toe", at / 1e3))
@@ -298,14 +295,14 @@ def test_a_car_finds_back_to_its_curves() -> None:
     )
 
 
-def test_a_limit_in_the_way_is_where_it_ends() -> None:
+def test_a_limit_in_the_way_is_where_it_ends():
     """Toe wants the rod low, bump steer may fall to a half of what it is."""
     aims = {"toe": {"at_mm": [-50.0, 50.0], "value": 0.0, "within": 0.01}}
     least = 0.003
     found = variation.optimise(CAR, {ROD: 20.0}, aims, {"bump_steer": {"least": least}})
     assert found.success, found.message
 
-    def above(height: float) -> float:
+    def above(height):
         slope = curve(CAR.with_changes({ROD: height}), "bump_steer", 0.0)[0]
         return math.degrees(slope) * 1e-3 - least
 
@@ -315,7 +312,7 @@ def test_a_limit_in_the_way_is_where_it_ends() -> None:
     assert free.moved[ROD] < found.moved[ROD] - 1.0
 
 
-def test_what_cannot_be_kept_is_no_success() -> None:
+def test_what_cannot_be_kept_is_no_success():
     found = variation.optimise(
         CAR,
         {ROD: 1.0},
@@ -326,7 +323,7 @@ def test_what_cannot_be_kept_is_no_success() -> None:
     assert "not within its limits: bump_steer" in found.message
 
 
-def test_what_was_not_reached_is_reported() -> None:
+def test_what_was_not_reached_is_reported():
     """A millimetre cannot bring toe to half a degree."""
     far = {"toe": {"at_mm": 50.0, "value": 0.5, "within": 0.01}}
     found = variation.optimise(CAR, {ROD: 1.0, "hardpoints.strut_top.x": 1.0, "wheel": 0.1}, far)
@@ -340,7 +337,7 @@ def test_what_was_not_reached_is_reported() -> None:
 
 
 @pytest.mark.parametrize("least", [0.0005, 0.002, 0.004, 0.0055])
-def test_limits_anywhere_are_kept_and_found(least: float) -> None:
+def test_limits_anywhere_are_kept_and_found(least):
     """Wherever the limit is, what cannot be better says success."""
     aims = {"toe": {"at_mm": [-60.0, -30.0, 30.0, 60.0], "value": 0.0, "within": 0.01}}
     free = {"hardpoints.tie_rod_inner": 20.0, "hardpoints.tie_rod_outer.z": 20.0}
@@ -351,7 +348,7 @@ def test_limits_anywhere_are_kept_and_found(least: float) -> None:
     assert least <= math.degrees(slopes.min()) * 1e-3 < least + 1e-4
 
 
-def test_a_characteristic_may_have_several_targets() -> None:
+def test_a_characteristic_may_have_several_targets():
     aims: dict[str, Any] = {
         "camber": [
             {"at_mm": [-40.0, 40.0], "value": -0.5, "within": 0.1},
@@ -365,7 +362,7 @@ def test_a_characteristic_may_have_several_targets() -> None:
     assert abs(np.concatenate(missed).mean()) < math.radians(0.01)
 
 
-def test_of_equal_ways_the_shortest_is_taken() -> None:
+def test_of_equal_ways_the_shortest_is_taken():
     """Two heights do the same to bump steer, nearly: neither runs to the end of its range."""
     heights = {ROD: 50.0, "hardpoints.tie_rod_outer.z": 50.0}
     found = variation.optimise(CAR, heights, {"bump_steer": {"value": 0.0, "within": 1e-3}})
@@ -381,7 +378,7 @@ BUMP = scenario.Scenario(
 )
 
 
-def test_each_of_a_grid_moves_as_it_does_alone() -> None:
+def test_each_of_a_grid_moves_as_it_does_alone():
     rates = {"strut.damper_rate_N_s_per_m": [800.0, 2000.0], "hardpoints.ball_joint.z": [170, 190]}
     found = variation.sweep(CAR, rates, BUMP, signals=["camber"], reductions={"tyre_force": "min"})
     assert found["camber"].dims == (*rates, "time")
@@ -398,7 +395,7 @@ def test_each_of_a_grid_moves_as_it_does_alone() -> None:
             assert float(found["tyre_force_min"][i, j]) == pytest.approx(least, rel=1e-4)
 
 
-def test_what_cannot_be_is_beside_what_can() -> None:
+def test_what_cannot_be_is_beside_what_can():
     rates = [25e3, -1.0, 30e3]
     found = variation.sweep(
         CAR, {"strut.spring_rate_N_per_m": rates}, BUMP, reductions={"camber": "max"}
@@ -411,7 +408,7 @@ def test_what_cannot_be_is_beside_what_can() -> None:
         variation.sweep(CAR, {"strut.spring_rate_N_per_m": [-1.0]}, BUMP)
 
 
-def test_five_links_go_together() -> None:
+def test_five_links_go_together():
     """They iterate, in lanes as one by one."""
     car, rates = Suspension.load("multi_link_car"), [1e3, 2e3]
     found = variation.sweep(car, {"damper.rate_N_s_per_m": rates}, BUMP, signals=["camber"])
@@ -476,11 +473,11 @@ WRONG = [
 
 
 @pytest.mark.parametrize("call", WRONG)
-def test_what_cannot_be_used(call: Any, refused: Any) -> None:
+def test_what_cannot_be_used(call, refused):
     refused(InputError, call)
 
 
-def test_a_neighbour_that_cannot_be_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_neighbour_that_cannot_be_is_named(monkeypatch):
     """With steps of half a metre no bearing is where an arm can reach it."""
     module = importlib.import_module("kintrafo.vehicle.studies.sensitivity")
     monkeypatch.setattr(module, "_STEPS", {"m": 0.5})
@@ -491,7 +488,7 @@ def test_a_neighbour_that_cannot_be_is_named(monkeypatch: pytest.MonkeyPatch) ->
 # -- commands -----------------------------------------------------------------------------------
 
 
-def test_commands_refuse_and_end_as_others_do(kintrafo: Any, tmp_path: Path) -> None:
+def test_commands_refuse_and_end_as_others_do(kintrafo, tmp_path):
     (tmp_path / "a.toml").write_text("[limit.toe]\nleast = 0.0\n", encoding="utf-8")
     code, _, err = kintrafo("tolerance", "reference_car", "a.toml")
     assert code == 2
@@ -530,7 +527,7 @@ def test_commands_refuse_and_end_as_others_do(kintrafo: Any, tmp_path: Path) -> 
 
 @pytest.mark.parametrize("name", [*packaged(), "rigid_axle"])
 @pytest.mark.filterwarnings("ignore:damper.force_N, damper.velocity_m_per_s:RuntimeWarning")
-def test_every_value_of_a_starter_file_may_be_meant(name: str) -> None:
+def test_every_value_of_a_starter_file_may_be_meant(name):
     """Values that cannot change, or have no effect, do not stop the study of all others."""
     of = RigidAxle.load(name) if name == "rigid_axle" else Suspension.load(name)
     if "arm_rear" in of.to_dict()["hardpoints"]:
@@ -546,7 +543,7 @@ def test_every_value_of_a_starter_file_may_be_meant(name: str) -> None:
     assert found.to_array().notnull().all()
 
 
-def test_values_that_cannot_move_are_reported() -> None:
+def test_values_that_cannot_move_are_reported():
     inertia = "bodies.tie_rod.inertia_xx_kg_m2"
     with pytest.raises(InputError, match="a body without mass has no inertia"):
         variation.sensitivity(CAR, [inertia, "wheel"], positions=[0.0])
@@ -561,7 +558,7 @@ def test_values_that_cannot_move_are_reported() -> None:
     np.testing.assert_array_equal(found["toe"][:1], alone["toe"])
 
 
-def test_bushes_are_refused_where_joints_are_rigid() -> None:
+def test_bushes_are_refused_where_joints_are_rigid():
     soft = CAR.with_changes({"bushings": {"arm_rear": {"axial_N_per_mm": 400.0}}})
     name = "bushings.arm_rear.axial_N_per_mm"
     for call in (
