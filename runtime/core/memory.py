@@ -12,6 +12,9 @@ from .validator import Validator
 
 _EACH = 4096
 """Memory of all curves of a position, rounded up: there are 800 to 5500 curves [bytes]."""
+_LITTLE = 2.0**20
+"""Memory for which the system is not asked: it reports in files, which take longer to read than a
+short simulation [bytes]."""
 _UNITS = (("TB", 1e12), ("GB", 1e9), ("MB", 1e6))
 
 
@@ -20,6 +23,8 @@ def refuse_beyond(given: Validator, needed: float, what: str, instead: str) -> b
 
     `needed` is in bytes; `what` names the data, with sizes, in the plural; `instead` is advice.
     """
+    if needed <= _LITTLE:
+        return False
     there = free()
     if needed > there:
         given.fail(f"{what} need {_size(needed)}, and {_size(there)} are free. {instead}")

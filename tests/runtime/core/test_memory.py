@@ -137,6 +137,7 @@ def test_curves_of_too_many_positions_are_refused_at_once(what):
 def test_loads_along_a_long_motion_are_refused(monkeypatch):
     motion = simulate(CAR, (0.0, 0.1), START, t_eval=np.linspace(0.0, 0.1, 11))
     monkeypatch.setattr(memory, "free", lambda: 1e3)
+    monkeypatch.setattr(memory, "_LITTLE", 1e3)
     with pytest.raises(InputError, match=r"loads of 11 outputs need .* fewer outputs, by t_eval"):
         loads.along(CAR, motion)
 
@@ -167,6 +168,11 @@ def test_the_estimate_is_what_is_taken(monkeypatch, count, given):
     assert found["success"].all()
     # the free memory is not known better than by such a factor
     assert 0.5 * most < needed[-1] < 2.0 * most
+
+
+def test_the_system_is_not_asked_for_little(monkeypatch):
+    monkeypatch.setattr(memory, "free", None)
+    assert simulate(CAR, (0.0, 0.1), START, t_eval=np.linspace(0.0, 0.1, 100)).success
 
 
 def test_what_is_free_is_what_the_system_reports():
