@@ -3,19 +3,21 @@
 A place is a travel of the wheel and a displacement of the rack [m].
 """
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from kintrafo import Suspension
 
 from oracle.constraints import KNUCKLE
-from oracle.differences import difference
 from oracle.links import Carrier
 from oracle.newton import Mechanism, observe, solve_pose_at_height
 from oracle.relay_rod import OnRelayRod, linkage_of
 
 UP = np.array([0.0, 0.0, 1.0])
 Place = tuple[float, float]
+# Of central differences over nine places.
+WEIGHTS = np.array([3.0, -32.0, 168.0, -672.0, 0.0, 672.0, -168.0, 32.0, -3.0]) / 840.0
 # Wishbones in no special position.
 SKEWED = Suspension.load("double_wishbone_car").with_changes(
     {
@@ -30,6 +32,17 @@ SKEWED = Suspension.load("double_wishbone_car").with_changes(
         "tyre.radius_mm": 310.0,
     }
 )
+
+
+def difference(function: Callable[[float], Any], step: float = 2e-3) -> Any:
+    """Differentiate by travel at zero; the error is of the order of the eighth power of 2 mm."""
+    return sum(w * function(k * step) for k, w in enumerate(WEIGHTS, -4) if w) / step
+
+
+def second_difference(function: Callable[[float], Any], step: float) -> Any:
+    """Differentiate twice, the differences of differences: of 17 places, each used once."""
+    twice = enumerate(np.convolve(WEIGHTS, WEIGHTS), -8)
+    return sum(w * function(k * step) for k, w in twice) / step**2
 
 
 class Bench:

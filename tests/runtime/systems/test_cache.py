@@ -133,11 +133,7 @@ class TestHealing:
 
     @pytest.mark.parametrize(
         "way",
-        [
-            empty_folder,
-            manifest_of_another,
-            manifest_without_sense,
-        ],
+        [empty_folder, manifest_of_another, manifest_without_sense],
         ids=lambda way: way.__name__,
     )
     def test_of_a_folder(self, cache, made, way):

@@ -19,8 +19,7 @@ from kintrafo.vehicle.assembly import wheel
 from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.assembly.corner_kinematics import corner
 from kintrafo.vehicle.assembly.measures import ackermann as axle
-from oracle.corners import SKEWED, UP, Strut, Wishbones
-from oracle.differences import difference, second_difference
+from oracle.corners import SKEWED, UP, Strut, Wishbones, difference, second_difference
 from support.folders import DATA, ROOT
 
 CAR = Suspension.load("reference_car")

@@ -26,8 +26,7 @@ from kintrafo.vehicle.models.points import hardpoints
 from kintrafo.vehicle.models.reach import at_rest
 from kintrafo.vehicle.report.page import render
 from kintrafo.vehicle.studies.sensitivity import sensitivity
-from oracle.corners import Wishbones
-from oracle.differences import difference
+from oracle.corners import Wishbones, difference
 from support.models import needs_gcc, own
 
 # A linkage in which nothing is parallel, upright or equal.

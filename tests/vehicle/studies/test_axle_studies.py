@@ -4,15 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import (
-    Axle,
-    InputError,
-    RigidAxle,
-    Suspension,
-    characteristics,
-    load,
-    variation,
-)
+from kintrafo import Axle, InputError, RigidAxle, Suspension, characteristics, load, variation
 from kintrafo.vehicle.analysis.scenario import Scenario
 from kintrafo.vehicle.assembly.by_wheel import flat
 
