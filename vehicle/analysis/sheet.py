@@ -5,7 +5,8 @@ z up), in which everything is computed, and SAE J670 with z down (x forward, y r
 edition of SAE J670 has only these axes; that of 2008 allows both.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -15,10 +16,10 @@ from ...core.quantities import attributes, displayed, long_name, unit_or_stroke
 from ...core.tabulated import Tabulated, significant
 from ...core.validator import Validator
 from ..assembly.assembly import HeldAssembly
-from ..assembly.by_wheel import flat, without_side
+from ..assembly.by_wheel import WHEEL
 from ..assembly.of import given_assembly
 from ..models.car.file import ENDS
-from ..models.sides import SIDES
+from ..models.sides import LEFT, RIGHT
 from .characteristics.datasets import dataset
 from .compliance.flexibility import HELD, WheelSupport
 from .compliance.linear import linear
@@ -26,7 +27,7 @@ from .compliance.linear import linear
 QUANTITY = "quantity"
 """Dimension of the sheet."""
 
-_SIDES = ("_left", "_right")
+_OF_AXLE = "axle"
 _LEFTWARD, _RIGHTWARD = "to the left", "to the right"
 _STEERED, _COMPLIANCE = "steered", "compliance"
 # Characteristics by the part of the sheet; those that an assembly does not have are left out.
@@ -83,7 +84,8 @@ def sheet(
         Over ``quantity``, the names of the characteristics and compliances, of a wheel or an axle
         with its place at the end, such as ``toe_left``, ``toe_front_left`` and ``track_front``: the
         values with the signs of ``iso_8855`` and of ``sae_j670`` (z down), in the display units of
-        ``unit``; ``part`` of the sheet, ``meaning``, ``definition``, and the meaning of a positive
+        ``unit``; ``part`` of the sheet, ``meaning``, ``definition``, the ``characteristic`` alone
+        (``toe``), its ``place`` (``front left``, ``front axle``), and the meaning of a positive
         value in ``iso_8855_sign`` and ``sae_j670_sign``.
 
     Raises
@@ -113,33 +115,48 @@ def sheet(
                 "bushings: the bushes of a car are [bushings] in the files of its axles. Leave the "
                 "argument out, or give an axle."
             )
-    found = dict(
-        (name, data) if end not in ENDS else _placed(name, data, end)
+    rows = [
+        row
         for end, held_part in assembly.held_parts.items()
-        for name, data in _of_axle(held_part, bushings, held)
-        if end != ENDS[1] or data[0] != _STEERED  # the rack of a rear axle is fixed
-    )
+        for row in _rows_of(held_part, end if end in ENDS else "", bushings, held)
+        if end != ENDS[1] or row.part != _STEERED  # the rack of a rear axle is fixed
+    ]
     sides = _MIRRORED if assembly.symmetric else "different"
-    return _dataset(found, held).assign_attrs(sides=sides)
+    return _dataset(rows, held).assign_attrs(sides=sides)
 
 
-def _of_axle(
-    assembly: HeldAssembly, bushings: Mapping[str, Any] | None, held: WheelSupport
-) -> Iterator[tuple[str, tuple[str, xr.DataArray]]]:
-    """Yield the quantities of a suspension or an axle with the parts of the sheet, by name."""
-    yield from _kinematic(assembly)
+@dataclass(frozen=True)
+class _Row:
+    """A quantity of the sheet, of a wheel or of an axle."""
+
+    part: str  # of the sheet
+    column: str  # its name in a flat table, such as ``toe_front_left``
+    name: str  # that of the characteristic, such as ``toe``
+    place: str  # the wheel or the axle, such as ``front left``; '' for a corner
+    data: xr.DataArray  # its value at design
+
+
+def _rows_of(
+    assembly: HeldAssembly, end: str, bushings: Mapping[str, Any] | None, held: WheelSupport
+) -> Iterator[_Row]:
+    """Yield the rows of a suspension or an axle at an end of a car, in the order of the sheet."""
+    known: dict[str, xr.DataArray] = {}
+    steering = () if assembly.steering_motion is None else (assembly.steering_motion,)
+    for motion in (assembly.usual_motion, *steering):
+        known = {str(n): d for n, d in dataset(assembly, motion, np.zeros(1)).items()} | known
+    parts = {part: [name for name in names if name in known] for part, names in _PARTS.items()}
     if bushings is not None or assembly.has_bushes:
-        soft = flat(linear(assembly, bushings, [0.0], held=held)).drop_dims(["moved", "by"])
-        yield from ((str(name), (_COMPLIANCE, data)) for name, data in soft.items())
-
-
-def _placed(
-    name: str, row: tuple[str, xr.DataArray], end: str
-) -> tuple[str, tuple[str, xr.DataArray]]:
-    """Return the name and the row of a quantity with the end of a car before its side."""
-    side, (part, data) = _place(name), row
-    words = f"{_without_place(long_name(data), side)}, {end}{side.replace('_', ' ')}"
-    return f"{without_side(name)}_{end}{side}", (part, data.assign_attrs(long_name=words))
+        soft = linear(assembly, bushings, [0.0], held=held).drop_dims(["moved", "by"])
+        known |= {str(name): data for name, data in soft.items()}
+        parts[_COMPLIANCE] = [str(name) for name in soft]
+    at_axle = _OF_AXLE if len(assembly.wheels) > 1 else ""
+    for part, names in parts.items():
+        for name in names:
+            for wheel in assembly.wheels if WHEEL in known[name].dims else ("",):
+                data = known[name].sel({WHEEL: wheel}) if wheel else known[name]
+                column = "_".join(filter(None, (name, end, wheel)))
+                place = " ".join(filter(None, (end, wheel or at_axle)))
+                yield _Row(part, column, name, place, data)
 
 
 def tabulated(found: xr.Dataset, title: str) -> list[Tabulated]:
@@ -161,7 +178,8 @@ def tabulated(found: xr.Dataset, title: str) -> list[Tabulated]:
         given.dataset(found, over=QUANTITY)
         given.text("title", title)
     columns = _columns(found)
-    heads = ("", *columns.values(), "unit", "in ISO 8855", "in SAE J670, z down")
+    heads = ("", *(place or "value" for place in columns))
+    heads += ("unit", "in ISO 8855", "in SAE J670, z down")
     words = frozenset({0, *range(len(columns) + 1, len(heads))})
     tables = []
     for part in dict.fromkeys(map(str, found["part"].values)):
@@ -172,24 +190,9 @@ def tabulated(found: xr.Dataset, title: str) -> list[Tabulated]:
     return tables
 
 
-def _columns(found: xr.Dataset) -> dict[str, str]:
-    """Return the headings of the columns of values, by the place at the end of a name."""
-    places = {_place(str(name)) for name in found[QUANTITY].values}
-    of_car = {
-        f"_{end}{side}": f"{end} {side.removeprefix('_') or 'axle'}"
-        for end in ENDS
-        for side in (*_SIDES, "")
-        if f"_{end}{side}" in places
-    }
-    if of_car:
-        return of_car
-    on_axle = not places.isdisjoint(_SIDES)
-    return dict(zip((*_SIDES, ""), (*SIDES, "axle"), strict=True)) if on_axle else {"": "value"}
-
-
-def _place(name: str) -> str:
-    """Return the wheel or axle at the end of a name, such as ``_left``; empty without one."""
-    return name.removeprefix(without_side(name))
+def _columns(found: xr.Dataset) -> tuple[str, ...]:
+    """Return the places that have columns of values; '' for a corner."""
+    return tuple(dict.fromkeys(map(str, found["place"].values)))
 
 
 def one_page(found: xr.Dataset, title: str) -> list[Tabulated]:
@@ -200,7 +203,7 @@ def one_page(found: xr.Dataset, title: str) -> list[Tabulated]:
     The kinematic gradients have a row for each; then the compliances have a row for each load, and
     at most six columns in a table.
     """
-    on_car = any(place.startswith(f"_{ENDS[0]}") for place in _columns(found))
+    on_car = any(place.startswith(ENDS[0]) for place in _columns(found))
     if on_car and found.attrs["sides"] == _MIRRORED:
         found = _of_left_wheels(found)
         title += ", left wheels"
@@ -220,15 +223,13 @@ def _by_load(found: xr.Dataset) -> Iterator[Tabulated]:
     per: dict[str, None] = {}
     for name in map(str, found[QUANTITY].values):
         own = {key: data.item() for key, data in found.sel({QUANTITY: name}).items()}
-        stem = without_side(name)
-        kind, _, load = stem.partition("_by_")
+        kind, _, load = own["characteristic"].partition("_by_")
         unit, _, each = own["unit"].partition("/")
-        side = _place(name)
-        words = _without_place(own["meaning"], side).partition(" by ")[2]
+        words = own["meaning"].partition(" by ")[2]
         _, comma, together = words.partition(", ")
         row = f"{load.partition('_')[0]}, {together}" if comma else words.removeprefix("a ")
         sae = _in_sae(own["iso_8855_sign"], own["sae_j670_sign"])
-        where = side.replace("_", " ").strip()
+        where = own["place"].removesuffix(_OF_AXLE).strip()
         column = "\n".join(filter(None, (_marked(_KINDS[kind], sae), where, f"[{unit}]")))
         cells.setdefault(column, {})[row] = significant(own["iso_8855"], 4)
         per[each] = None
@@ -240,21 +241,11 @@ def _by_load(found: xr.Dataset) -> Iterator[Tabulated]:
         yield Tabulated(f"{title}, {found.attrs['held']}", ("", *columns), body)
 
 
-def _without_place(meaning: str, place: str) -> str:
-    """Return a meaning without the wheel or axle at its end, which a name ends in."""
-    return meaning.removesuffix(f", {place.replace('_', ' ').strip()}")
-
-
 def _of_left_wheels(found: xr.Dataset) -> xr.Dataset:
-    """Return the sheet of a car without right wheels, and left ones named by their axles."""
-    left, right = _SIDES
-    names = [str(name) for name in found[QUANTITY].values]
-    here = found.isel({QUANTITY: [not name.endswith(right) for name in names]})
-    here = here.assign_coords(
-        {QUANTITY: [n.removesuffix(left) for n in names if not n.endswith(right)]}
-    )
-    meanings = [str(m).removesuffix(" left") for m in here["meaning"].values]
-    return here.assign(meaning=(QUANTITY, meanings))
+    """Return the sheet of a car without right wheels, with left ones in the columns of axles."""
+    places = found["place"].str
+    here = found.isel({QUANTITY: ~places.endswith(RIGHT).values})
+    return here.assign(place=here["place"].str.replace(LEFT, _OF_AXLE))
 
 
 def _marked(words: str, sae: str) -> str:
@@ -269,44 +260,28 @@ def _in_sae(iso_sign: str, sae_sign: str) -> str:
 def _rows(here: xr.Dataset, places: Iterable[str]) -> Iterator[tuple[str, ...]]:
     """Yield the rows of a part, each with the values of all places in which it has one sign."""
     found: dict[tuple[str, ...], dict[str, str]] = {}
-    for name in map(str, here[QUANTITY].values):
-        own = here.sel({QUANTITY: name})
-        meaning, unit, iso, sae = (
-            str(own[key].values) for key in ("meaning", "unit", "iso_8855_sign", "sae_j670_sign")
-        )
-        stem, place = without_side(name), _place(name)
-        row = stem, _without_place(meaning, place), unit, iso, _in_sae(iso, sae)
-        cells = found.setdefault(row, dict.fromkeys(places, ""))
-        cells[place] = significant(float(own["iso_8855"]))
+    keys = ("characteristic", "meaning", "unit", "iso_8855_sign", "sae_j670_sign", "place")
+    texts = zip(*(map(str, here[key].values) for key in keys), strict=True)
+    for (*row, iso, sae, place), value in zip(texts, here["iso_8855"].values, strict=True):
+        cells = found.setdefault((*row, iso, _in_sae(iso, sae)), dict.fromkeys(places, ""))
+        cells[place] = significant(float(value))
     for (_, words, *signs), cells in found.items():
         yield (words, *cells.values(), *signs)
 
 
-def _kinematic(assembly: HeldAssembly) -> Iterator[tuple[str, tuple[str, xr.DataArray]]]:
-    """Yield the characteristics at design with the parts of the sheet, by their names."""
-    known: dict[str, xr.DataArray] = {}
-    steering = () if assembly.steering_motion is None else (assembly.steering_motion,)
-    for motion in (assembly.usual_motion, *steering):
-        curves = flat(dataset(assembly, motion, np.zeros(1)))
-        known = {str(name): data for name, data in curves.items()} | known
-    for part, stems in _PARTS.items():
-        for stem in stems:
-            for name in (stem, *(f"{stem}{side}" for side in _SIDES)):
-                if name in known:
-                    yield name, (part, known[name])
-
-
-def _dataset(rows: Mapping[str, tuple[str, xr.DataArray]], held: WheelSupport) -> xr.Dataset:
-    iso = np.array([displayed(data).item() for _, data in rows.values()])
-    signs = [str(data.attrs.get("sign", "")) for _, data in rows.values()]
+def _dataset(rows: Sequence[_Row], held: WheelSupport) -> xr.Dataset:
+    iso = np.array([displayed(row.data).item() for row in rows])
+    signs = [str(row.data.attrs.get("sign", "")) for row in rows]
     flipped = [sign.replace(_LEFTWARD, _RIGHTWARD) for sign in signs]
     # a zero has no sign
     sae = np.where([a != b for a, b in zip(signs, flipped, strict=True)], 0.0 - iso, iso)
     texts = {
-        "part": [part for part, _ in rows.values()],
-        "unit": [unit_or_stroke(data.attrs) for _, data in rows.values()],
-        "meaning": [long_name(data) for _, data in rows.values()],
-        "definition": [str(data.attrs.get("definition", "")) for _, data in rows.values()],
+        "part": [row.part for row in rows],
+        "unit": [unit_or_stroke(row.data.attrs) for row in rows],
+        "meaning": [long_name(row.data) for row in rows],
+        "definition": [str(row.data.attrs.get("definition", "")) for row in rows],
+        "characteristic": [row.name for row in rows],
+        "place": [row.place for row in rows],
         "iso_8855_sign": signs,
         "sae_j670_sign": flipped,
     }
@@ -317,6 +292,5 @@ def _dataset(rows: Mapping[str, tuple[str, xr.DataArray]], held: WheelSupport) -
         "sae_j670": xr.Variable(QUANTITY, sae, attributes(f"{words} SAE J670, z down", "")),
     }
     ordered = {"part": data.pop("part")} | values | data
-    return xr.Dataset(
-        ordered, {QUANTITY: [*rows]}, {"title": "K&C sheet at design", "held": HELD[held]}
-    )
+    attrs = {"title": "K&C sheet at design", "held": HELD[held]}
+    return xr.Dataset(ordered, {QUANTITY: [row.column for row in rows]}, attrs)

@@ -159,7 +159,7 @@ def test_axles_whose_signs_differ_have_rows_of_their_own():
     (page,) = one_page(found, "")
     assert [row[0] for row in page.rows if "jack" in row[0]] == [
         "jacking coefficient",
-        "jacking coefficient *",
+        "jacking coefficient of the axle *",
     ]
 
 
@@ -172,3 +172,14 @@ def test_the_page_of_a_car_has_a_column_for_each_axle_of_mirror_images(kintrafo)
     steer = [sheet(axle).sel(quantity="bump_steer_left") for axle in car.axles.values()]
     cells = [float(cell) for cell in row.split()[2:4]]
     assert cells == pytest.approx([one["iso_8855"].item() for one in steer], rel=1e-4)
+
+
+@pytest.mark.parametrize("rear", ["rigid_axle", "twist_beam"])
+def test_rows_of_a_car_with_different_axles_have_different_names(rear):
+    """Quantities with one name have one row, so that front and rear are side by side."""
+    data = load("reference_vehicle").to_dict()
+    data["rear"] = load(rear).to_dict()
+    del data["rear"]["vehicle"], data["front"]["side"]["vehicle"]["center_of_gravity_height_mm"]
+    for table in tabulated(sheet(Car.from_dict(data)), ""):
+        names = [row[0] for row in table.rows]
+        assert len({*names}) == len(names)

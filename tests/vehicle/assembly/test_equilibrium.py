@@ -8,6 +8,9 @@ import numpy as np
 import pytest
 from kintrafo import Axle, AxleModel, InputError, Model, RigidAxleModel, equilibrium
 from kintrafo.vehicle.analysis.scenario import Scenario, run, started
+from kintrafo.vehicle.assembly.measures.measure import values
+from kintrafo.vehicle.assembly.of import assembly_of
+from kintrafo.vehicle.assembly.rig import RigPosition
 from kintrafo.vehicle.models.positions import PositionError
 
 MODELS = {
@@ -125,3 +128,35 @@ def test_motions_start_with_the_wheels_at_given_heights(name):
         started(model, Scenario(height=9.0))
     with pytest.raises(InputError, match="wheel 'middle' is not known"):
         started(model, Scenario(height={"middle": 0.3}))
+
+
+@pytest.mark.parametrize("name", ["rigid_axle", "steered_rigid_axle", "twist_beam", "lopsided"])
+def test_the_ride_rate_is_the_slope_of_the_tyre_force_over_a_road_that_rises(name: str) -> None:
+    """At rest on a road under both wheels, of an axle without weight."""
+    changes: dict[str, Any] = {"gravity": {"acceleration_m_per_s2": 0.0}}
+    if name == "lopsided":
+        changes["left_hardpoints"] = {"spring_seat": [40.0, 250.0, 430.0]}
+    axle = kintrafo.load("rigid_axle" if name == "lopsided" else name).with_changes(changes)
+    assembly, step = assembly_of(kintrafo.model_of(axle)), 1e-5
+    model, names = assembly.model, [assembly.names_of(side).signals for side in assembly.wheels]
+    below, at, above = (
+        model.signals(equilibrium(model, road_height=road)) for road in (-step, 0.0, step)
+    )
+    forces = [f"{signals}tyre_force" for signals in names]
+    slopes = [float(above[force] - below[force]) / (2.0 * step) for force in forces]
+    travels = {
+        side: np.array([float(at[f"{signals}wheel_center_z"]) - axle.center[2]])
+        for side, signals in zip(assembly.wheels, names, strict=True)
+    }
+    of = assembly.kinematics(RigPosition(travels, np.zeros(1)))
+    rates = [f"ride_rate_{side}" for side in assembly.wheels]
+    found = values(assembly.measures("bump"), of, assembly.wheels, rates)
+    # The tyre acts at the lowest point of a wheel, which rises less in camber.
+    np.testing.assert_allclose([found[rate][0] for rate in rates], slopes, rtol=1e-3)
+    if name == "lopsided":  # where the wheels do not rise together, rates in series differ
+        wheel_rates = values(
+            assembly.measures("bump"), of, assembly.wheels, [f"wheel_{rate[5:]}" for rate in rates]
+        )
+        tyre = axle.tyre.rate_N_per_m
+        series = [rate[0] * tyre / (rate[0] + tyre) for rate in wheel_rates.values()]
+        assert np.all(np.abs(np.array(series) / slopes - 1.0) > 5e-3)

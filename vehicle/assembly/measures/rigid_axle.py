@@ -15,6 +15,7 @@ _IN_AXLE = "contacts with the final drive in the axle, wheel centres with it on 
 
 _JACKING = replace(
     QUANTITIES["jacking"],
+    long_name="jacking coefficient of the axle",
     definition="lift of the body by a lateral force at the contacts, over the force, -v_y / v_z in "
     "heave",
     sign="positive when a force to the left lifts the body",

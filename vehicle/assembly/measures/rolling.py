@@ -1,4 +1,4 @@
-"""Formulas of track, roll moment and roll stiffness of two wheels.
+"""Formulas of track, ride rate, roll moment and roll stiffness of two wheels.
 
 Each takes the kinematics of both wheels and returns an array over its positions, SI units, chassis
 axes. Forces of the road are vertical and act on the wheels; unsprung weights are left out. The
@@ -69,9 +69,23 @@ def has_tyres(of: TwoWheels) -> bool:
 
 def with_tyres(of: TwoWheels) -> Array:
     """Return the roll stiffness in series with the tyres [N m/rad]."""
+    return in_roll(of, _on_tyres(of))
+
+
+def ride_rate(of: TwoWheels, side: str) -> Array:
+    """Return the derivative of a wheel's force with respect to the lift of both contacts [N/m].
+
+    The contacts rise together, and the wheels as far as their tyres let them: where the sides
+    differ, not by the same.
+    """
+    return np.asarray(_on_tyres(of)[..., SIDES.index(side), :].sum(-1))
+
+
+def _on_tyres(of: TwoWheels) -> Array:
+    """Return the stiffness of both wheels in series with their tyres, T (T + K)^-1 K."""
     rates = of.springs + of.bar
     tyres = np.diag([vehicle.tyre_rate or 0.0 for vehicle in of.vehicles])
-    return in_roll(of, np.asarray(tyres @ np.linalg.solve(tyres + rates, rates)))
+    return np.asarray(tyres @ np.linalg.solve(tyres + rates, rates))
 
 
 def in_roll(of: TwoWheels, rates: Array) -> Array:

@@ -67,6 +67,10 @@ SPRINGS = (
         "without tyres",
     ),
     of_wheel("wheel_rate_alone", wheel_rate_alone),
+    of_wheel(
+        "ride_rate", rolling.ride_rate, ("tyre_rate",), rolling.has_tyres,
+        "derivative of the wheel force with respect to the lift of both contacts, on the tyres",
+    ),
     of_axle("roll_moment", rolling.moment, GROUND),
     of_axle("roll_moment_gradient", rolling.moment_gradient, GROUND),
     of_axle("roll_stiffness", rolling.stiffness, GROUND),
