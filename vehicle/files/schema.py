@@ -311,7 +311,7 @@ def _described(
     required = sections[model.__name__].get("required", [])
     for name in names:
         inner = _model_of(model, name)
-        if inner is None:
+        if inner is None or name not in sections[model.__name__]["properties"]:
             continue
         title = f"{prefix}{name}" + (".NAME" if is_named(model, name) else "")
         optional = "" if name in required else " (optional)"

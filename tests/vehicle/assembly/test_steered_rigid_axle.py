@@ -27,6 +27,7 @@ from kintrafo.generator.planning.plan import CataloguePlan
 from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.models.car import Car
 from kintrafo.vehicle.models.car.equations import _parameters, declared
+from kintrafo.vehicle.files.schema import schema
 from kintrafo.vehicle.studies.design_variables import places_of
 from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
@@ -311,7 +312,7 @@ def test_it_rests_at_its_design():
         ({"pitman_arm.ball_mm": [-1e9, 470.0, 445.0]}, r"ball_mm = .* out of range"),
         ({"drag_link.knuckle": [-1e6, 530.0, 445.0]}, "knuckle is farther than 20 m"),
         ({"hardpoints.track_rod": [-170.0, 697.0, 300.0]}, r"\[hardpoints\] track_rod = .* right"),
-        ({"brakes.torque_on": "body"}, "half shafts"),
+        ({"brakes.torque_on": "body"}, "torque_on = 'body' must be 'carrier'"),
         ({"drive": {"share": 1.0}}, "not driven"),
         ({"rods.track_rod": {"chassis": [1, 2, 3], "axle": [4, 5, 6]}}, "name of another part"),
         ({"steered_rigid_axle": "rear"}, "front"),
@@ -320,6 +321,12 @@ def test_it_rests_at_its_design():
 def test_what_cannot_steer_is_refused(changes, words):
     with pytest.raises(InputError, match=words):
         AXLE.with_changes(changes)
+
+
+def test_its_schema_has_no_drive_and_brakes_on_the_knuckles_alone() -> None:
+    sections = schema({})["$defs"]
+    assert "drive" not in sections["SteeredRigidAxle"]["properties"]
+    assert sections["KnuckleBrakes"]["properties"]["torque_on"]["const"] == "carrier"
 
 
 @pytest.mark.parametrize("place", ["hardpoints.track_rod", "drag_link", "pitman_arm.ball_mm"])

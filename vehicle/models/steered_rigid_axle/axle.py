@@ -5,6 +5,7 @@ from typing import ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
+from pydantic.json_schema import SkipJsonSchema
 
 from ....core.named_types import Array
 from ....core.physical import ELEMENTS
@@ -38,10 +39,6 @@ _DRIVEN = (
     "[drive]: a steered axle is not driven here, since the joints in its half shafts would turn "
     "the knuckles. Leave it out."
 )
-_BRAKED = (
-    '[brakes] torque_on = "body": brakes on the chassis need half shafts, whose joints would turn '
-    'the knuckles. Enter "carrier".'
-)
 # Colours of a drawing.
 _KNUCKLES, _DRAG_LINK, _TRACK_ROD = "#4a525a", "#8c564b", "#17becf"
 
@@ -50,6 +47,16 @@ class _Key(WholeAxle):
     """The top-level key of the file; as the last base it has the first field of the axle."""
 
     steered_rigid_axle: Literal["front"] = Field(description='where the axle is: "front"')
+
+
+class KnuckleBrakes(Brakes):
+    """The brakes of the axle."""
+
+    torque_on: Literal["carrier"] = Field(
+        default="carrier",
+        description='"carrier": the knuckles react the torque. Brakes on the chassis need half '
+        "shafts, whose joints would turn the knuckles",
+    )
 
 
 class SteeredRigidAxle(BeamAxle, _Key):
@@ -83,13 +90,9 @@ ends of the drag link, `pitman_ball` and `drag_link_knuckle`.
     hardpoints: SteeredHardpoints = Field(description="the points of the right side")
     pitman_arm: PitmanArmSection = Field(description="the Pitman arm of the steering gear")
     drag_link: DragLinkSection = Field(description="the drag link from Pitman arm to knuckle")
-    brakes: Brakes = Field(
-        default=Brakes(),
-        description="the knuckles react the brake torque; torque_on = 'body' is an error",
-    )
-    drive: AxleDrive | None = Field(
-        default=None, description="not supported: this axle cannot be driven"
-    )
+    brakes: KnuckleBrakes = Field(default=KnuckleBrakes(), description="the brakes of the axle")
+    # not a section of these files: the schema does not have it, and the check refuses it
+    drive: SkipJsonSchema[AxleDrive | None] = Field(default=None, description="the drive")
     bodies: SteeredRigidAxleBodies = Field(description="masses and inertia")
 
     PARTS: ClassVar[tuple[str, ...]] = (
@@ -199,8 +202,6 @@ ends of the drag link, `pitman_ball` and `drag_link_knuckle`.
         """Return problems of drive and brakes, of rods, and of drag link and track rod."""
         if self.drive is not None:
             return [_DRIVEN]
-        if self.brakes.torque_on == "body":
-            return [_BRAKED]
         problems = super()._own_problems()
         if np.abs(self.steering_points()[KNUCKLE_END]).max() > LARGEST_COORDINATE:
             problems.append(
