@@ -216,8 +216,8 @@ def _refuse_unusable(given: Validator, assembly: Assembly, scenario: Scenario) -
     """Add errors for wrong times, and for inputs that the assembly does not have."""
     scenario.checked(given)
     inputs = given.mapping("inputs", scenario.inputs, "input names and their values")
-    if _RACK in inputs and not assembly.steered:
-        given.fail(f"{_RACK}: its wheels are not steered. Leave it out.")
+    if _RACK in inputs:
+        assembly.refuse_unsteered(given, _RACK)
     refuse_missing_loads(given, assembly, inputs)
 
 

@@ -74,10 +74,8 @@ def positions(
             given, "rack", 0.0 if rack is None else rack, "m", dimensions=[0, 1], times=travels.size
         )
     if racks.ndim or np.any(racks):
-        assembly.refuse_motion("rack")
         with Validator("sweep") as given:
-            if not assembly.steered:
-                given.fail("rack: this axle has none. Leave it out.")
+            assembly.refuse_unsteered(given, "rack")
     travels = assembly.usual(assembly.usual_motion) if travel is None else travels
     # travels are rows, racks columns; a single value of either has no dimension
     heights, across = np.broadcast_arrays(

@@ -12,7 +12,7 @@ from ...core.named_types import Array
 from ...core.quantities import variable
 from ...core.validator import Validator
 from ..corner.bushes import Bush
-from ..corner.wheeled import WheeledSection
+from ..corner.wheeled import NOT_STEERED, WheeledSection
 from ..input.vehicle import TyreSection
 from ..models.axle.file import TorqueReaction
 from ..models.model import Model
@@ -24,7 +24,7 @@ from .load import Load, known
 from .measures.measure import Measure, values
 from .part_poses import PartPoses, states_with
 from .quantity import RACK, Quantity, displaced_by
-from .rig import RigMotion, RigPosition, SweepRange, WheelReach
+from .rig import STEERING, RigMotion, RigPosition, SweepRange, WheelReach
 from .soft_lines import SoftLines
 from .wheel_names import WheelNames
 
@@ -188,13 +188,19 @@ class Assembly(ABC):
         """Refuse a constant travel, or a constant rack, that the motion itself moves."""
 
     def refuse_motion(self, motion: str) -> None:
-        """Raise an `InputError` for a motion of the steering if there is no rack."""
-        if motion in ("rack", "steer"):
-            self.refuse_unsteered(f"the motion {motion!r}")
+        """Raise an `InputError` for a motion of the steering if its wheels are not steered."""
+        if motion in STEERING:
+            with Validator(self.heading) as given:
+                self.refuse_unsteered(given, f"the motion {motion!r}")
 
     def refuse_of_steering(self, names: Iterable[str]) -> None:
         """Raise an `InputError` for characteristics that only a steered wheel has."""
         del names
+
+    def refuse_unsteered(self, given: Validator, what: str) -> None:
+        """Refuse an option of the steering if its wheels are not steered."""
+        if not self.steered:
+            given.fail(NOT_STEERED.format(what))
 
     def refuse_positions(self, given: Validator, motion: str, along: Array) -> None:
         """Refuse positions that a motion does not have, for any range of the wheels."""
@@ -271,10 +277,6 @@ class Assembly(ABC):
 
         Raises `PositionError` if there is none.
         """
-
-    def refuse_unsteered(self, what: str) -> None:
-        """Raise an `InputError` for an option that needs a rack if there is none."""
-        del what
 
     # -- bushes -----------------------------------------------------------------------------------
 

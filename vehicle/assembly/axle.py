@@ -125,9 +125,6 @@ class AxleAssembly(SteerableAssembly):
         near = np.concatenate([side.coordinates_at_rest(alone) for side in sides])
         return settled(self, held, near, _NO_REST)
 
-    def refuse_unsteered(self, what: str) -> None:
-        self.axle.right.refuse_without_rack(what)
-
     def coordinates_of(self, suffix: str) -> dict[str, str]:
         return {self.axle.models[suffix.removeprefix("_")].names.arm: "arm_angle"}
 

@@ -60,9 +60,7 @@ class Controls:
                     ("acceleration", acceleration, "rad/s^2"),
                 )
             ]
-        if not self.car.steered():
-            problem = "the front axle is not steered. Leave the angle out."
-            raise InputError([problem], self.car.heading())
+            self._front.refuse_unsteered(given, "angle")
         if not self._steering_wheel.known:
             raise InputError([f"front: {self._front.missing_ratio}"], self.car.heading())
         found = self._steering_wheel.motion(*np.broadcast_arrays(*values))

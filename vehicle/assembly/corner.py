@@ -103,17 +103,15 @@ class CornerAssembly(HeldAssembly):
 
         return np.array([nearest(moment, reach, self.model.design_state[0])])
 
-    def refuse_unsteered(self, what: str) -> None:
-        self.subject.refuse_without_rack(what)
-
     @property
     def steering_motion(self) -> str | None:
         return "rack" if self.steered else None
 
     def refuse_of_steering(self, names: Iterable[str]) -> None:
-        for name in names:
-            if name in OF_STEERING:
-                self.subject.refuse_without_rack(name)
+        with Validator(self.heading) as given:
+            for name in names:
+                if name in OF_STEERING:
+                    self.refuse_unsteered(given, name)
 
     def coordinates_of(self, suffix: str) -> dict[str, str]:
         return {self.model.names.arm: "arm_angle"}

@@ -134,8 +134,8 @@ def state_at_heights(
 
 def _rack(given: Validator, assembly: Assembly | None, position: Any) -> float:
     rack = given.number("rack_position", position, "m")
-    if rack and assembly is not None and not assembly.steered:
-        given.fail(f"rack_position = {1e3 * rack:g} mm: its wheels are not steered. Leave it out.")
+    if rack and assembly is not None:
+        assembly.refuse_unsteered(given, f"rack_position = {1e3 * rack:g} mm")
     return rack
 
 

@@ -6,6 +6,9 @@ from dataclasses import dataclass
 from ...core.named_types import Array
 from .quantity import Quantity
 
+STEERING = ("steer", "rack")
+"""Motions of the steering, with all wheels at one height."""
+
 
 @dataclass(frozen=True)
 class RigMotion:

@@ -13,11 +13,8 @@ from . import motions
 from .assembly import HeldAssembly
 from .measures.measure import Measure
 from .quantity import ROLL, STEERING_WHEEL, TRAVEL, Quantity
-from .rig import RigMotion, RigPosition, SweepRange
+from .rig import STEERING, RigMotion, RigPosition, SweepRange
 from .steering_wheel import SteeringWheel
-
-STEERING = ("steer", "rack")
-"""Motions of the steering, with both wheels at one height."""
 
 
 class SteerableAssembly(HeldAssembly):

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from ...core.named_types import Array
 from ...core.validator import Validator
 from ..corner.bushes import described_bushings
-from ..data.starter import words_of
 from ..models.plausibility import Plausibility
 from ..models.reach import PositionError
 from ..models.sides import SIDES
@@ -123,7 +122,7 @@ class WholeAxleAssembly(SteerableAssembly):
             super().refuse_holding(given, motion, travel, rack)
             return
         if rack:
-            given.fail(f"rack_position: {words_of(self.axle.KEY)} is not steered. Leave it out.")
+            self.refuse_unsteered(given, "rack_position")
         if travel:
             given.fail(f"travel: the motion {motion!r} moves the wheels by along. Leave it out.")
 

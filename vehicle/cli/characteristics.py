@@ -259,7 +259,7 @@ def _motions(assembly: "Assembly", wanted: list[str] | None, *, positions: bool)
     """Return the wanted motions, or the default ones."""
     if positions:
         usual = assembly.usual_motion
-        if not assembly.steered and not {"rack", _BOTH}.isdisjoint(wanted or ()):
+        if not {"rack", _BOTH}.isdisjoint(wanted or ()):
             assembly.refuse_motion("rack")
         steering = ["rack", _BOTH] if assembly.steered else []
         return among(wanted or [usual], [usual, *steering], "--over")
@@ -267,8 +267,7 @@ def _motions(assembly: "Assembly", wanted: list[str] | None, *, positions: bool)
         several = [name for name in _USUAL if name in assembly.motions]
         return [name for name in several if name != "rack" or "steer" not in several]
     for name in wanted:
-        if name not in assembly.motions:
-            assembly.refuse_motion(name)
+        assembly.refuse_motion(name)
     return among(wanted, assembly.motions, "--over")
 
 

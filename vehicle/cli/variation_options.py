@@ -113,12 +113,13 @@ class StudyCurves:
         from ..studies.evaluation import usual_positions
         from ..studies.sweep_axes import UNDER_LOADS, given_axis, sweep_axes_of, sweep_axis
 
-        known = sweep_axes_of(subject)
+        known, assembly = sweep_axes_of(subject), assembly_of(subject)
+        assembly.refuse_motion(asked.over or "")
         if asked.held is not None:
             among([asked.over or known[0]], known[:1], "--over beside --held")
         with Validator("--over") as given:
             over = asked.held or given_axis(given, "--over", asked.over or known[0], known)
-        assembly, axis = assembly_of(subject), sweep_axis(over)
+        axis = sweep_axis(over)
         at = axis.factor * axis.at if asked.at is None else asked.at
         names = _chosen(assembly, asked.of, over)
         positions = with_position(usual_positions(assembly, over), at, over)

@@ -40,7 +40,7 @@ from .facts import Extended, Names
 from .geometry import geometry_problems
 from .strokes import Strokes
 from .structure import Structure
-from .wheeled import WheeledSection
+from .wheeled import NOT_STEERED, WheeledSection
 
 # The top-level key of the kind of suspension in a file.
 KIND = "suspension"
@@ -199,8 +199,7 @@ class Suspension(WheeledSection):
     def refuse_without_rack(self, what: str) -> None:
         """Raise an `InputError` for an option that needs a rack if there is none."""
         if not self.steered():
-            problem = f"{what}: this suspension is not steered. Leave it out."
-            raise InputError([problem], self.TITLE)
+            raise InputError([NOT_STEERED.format(what)], self.TITLE)
 
     @property
     def steered_by(self) -> str:

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from ..input.vehicle import GravitySection, TyreSection, WheelSection
     from .bushes import Bushings
 
+NOT_STEERED = "{}: its wheels are not steered. Leave it out."
+"""The problem of an option of the steering where there is none; with the name of the option."""
 # The least height of a wheel centre above z = 0 if this is the ground [m].
 _SMALLEST_WHEEL_RADIUS = 0.1
 

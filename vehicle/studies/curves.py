@@ -86,7 +86,9 @@ def curves_of(
 
     With a support of the wheels under loads (`held`) these are compliances.
     """
-    ways = sweep_axes_of(suspension)
+    ways, assembly = sweep_axes_of(suspension), assembly_of(suspension)
+    if isinstance(over, str):
+        assembly.refuse_motion(over)
     over = ways[0] if over is None else given_axis(given, "over", over, ways)
     if held is not None:
         over = _held(given, suspension, over, held)
@@ -95,7 +97,6 @@ def curves_of(
         positions = given.array("positions", positions, unit, dimensions=[1])
     if given.failed:
         return Curves("travel", np.zeros(1), ())
-    assembly = assembly_of(suspension)
     if isinstance(names, list | tuple):
         assembly.refuse_of_steering(names)
     if positions is None:

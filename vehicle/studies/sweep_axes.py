@@ -44,8 +44,6 @@ UNDER_LOADS = {
 """Axes of compliance, wheel travel in parallel, by the support of the wheels."""
 
 OF_CORNERS = ("travel", "rack")
-_OF_STEERING = ("rack", "steer")
-_OF_BODIES = ("heave", "pitch")  # axes of cars, which have none of steering even if they steer
 _COMPLIANCES_OVER: dict[str, Mapping[str, Quantity]] = {
     "travel": COMPLIANCES,
     "bump": COMPLIANCES_OF_AXLES,
@@ -97,10 +95,6 @@ def given_axis(
     """
     known = tuple(ways)
     name = name_of_axis(over) if isinstance(over, str) else over
-    if name in _OF_STEERING and not {*_OF_STEERING, *_OF_BODIES} & {*known}:
-        axes = ", ".join(known)
-        given.fail(f"{title} {shown(name)}: the suspension is not steered. Known are: {axes}.")
-        return known[0]
     if given.among(title, name, known) != name:
         return known[0]
     texts = [text for text in over.partition(":")[2].split(",") if text]

@@ -154,7 +154,7 @@ def test_what_moves_a_rack_is_refused(ask):
 
 @pytest.mark.parametrize("name", sorted(OF_STEERING & {"caster", "scrub_radius", "steering_ratio"}))
 def test_characteristics_of_steering_are_refused_by_name(name):
-    with pytest.raises(InputError, match=f"{name}: this suspension is not steered"):
+    with pytest.raises(InputError, match=f"{name}: its wheels are not steered"):
         sensitivity(CAR, ["hardpoints.arm_inner.z"], names=[name])
 
 
@@ -208,7 +208,7 @@ def test_axle_has_no_rack_between_its_sides():
     one = characteristics.over(Model(CAR), "travel", TRAVELS)
     np.testing.assert_allclose(found["camber_left"], one["camber"], rtol=0.0, atol=1e-13)
     assert "rack_position" not in found.coords
-    with pytest.raises(InputError, match="'steer': this suspension is not steered"):
+    with pytest.raises(InputError, match="'steer': its wheels are not steered"):
         characteristics.over(axle, "steer")
     with pytest.raises(InputError, match="not steered"):
         Axle.from_dict(REAR | {"steering": {"angle_deg": [-90.0, 90.0], "rack_mm": [-9.0, 9.0]}})

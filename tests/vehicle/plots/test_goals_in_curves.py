@@ -404,7 +404,7 @@ def test_goals_that_are_not_looked_at_are_named(goals):
     ("words", "text"),
     [
         (["rear_axle", "--over", "rack"], "Did you mean scrub_radius_left?"),
-        (["rigid_axle"], "over 'rack': the suspension is not steered. Known are: bump"),
+        (["rigid_axle"], "over 'rack' is not known. Known are: bump"),
         (["bmw_e90_rear_axle", "--over", "steer"], "left, right or rack, and these are over steer"),
         (["reference_car", "--rack", "10"], "in its middle"),
         (["reference_axle", "--rack", "10"], "in its middle"),

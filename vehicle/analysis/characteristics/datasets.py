@@ -144,7 +144,7 @@ def given_motion(assembly: Assembly, motion: Any, name: str = "motion") -> str:
     """Return a motion of an assembly, by default the usual one, or raise an `InputError`."""
     if motion is None:
         return assembly.usual_motion
-    if isinstance(motion, str) and motion not in assembly.motions:
+    if isinstance(motion, str):
         assembly.refuse_motion(motion)
     with Validator("characteristics") as given:
         given.among(name, motion, assembly.motions)

@@ -142,8 +142,8 @@ def elastokinematics(
         assembly = given_assembly(given, subject)
         if not given.failed:
             name = assembly.usual_motion if motion is None else motion
-            if name in ("steer", "rack") and name not in assembly.motions:
-                assembly.refuse_unsteered(f"the motion {name!r}")
+            if isinstance(name, str):
+                assembly.refuse_motion(name)
             given.among("motion", name, assembly.motions)
         given.among("hardpoints", hardpoints, HARDPOINTS)
         far = (

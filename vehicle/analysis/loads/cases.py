@@ -89,10 +89,10 @@ def cases_of(
     if not described:
         given.fail("cases: one or more are needed.")
     several = len(assembly.wheels) > 1
-    if not assembly.steered and several:
+    if several:
         for name, table in described.items():
             if any(_RACK in one for one in tables_of({name: table})):
-                given.fail(f"[cases.{name}] {_RACK}: its wheels are not steered. Leave it out.")
+                assembly.refuse_unsteered(given, f"[cases.{name}] {_RACK}")
     found = []
     for wheel, static_load in zip(assembly.wheels, static_loads, strict=True):
         own = described
