@@ -25,9 +25,9 @@ from kintrafo import (
 from kintrafo.generator.mechanisms import model_named
 from kintrafo.generator.planning.plan import CataloguePlan
 from kintrafo.vehicle.assembly.of import assembly_of
+from kintrafo.vehicle.files.schema import schema
 from kintrafo.vehicle.models.car import Car
 from kintrafo.vehicle.models.car.equations import _parameters, declared
-from kintrafo.vehicle.files.schema import schema
 from kintrafo.vehicle.studies.design_variables import places_of
 from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
