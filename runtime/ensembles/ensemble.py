@@ -183,7 +183,7 @@ def ensemble(
                 first_step=first_step,
                 max_steps=max_steps,
             )
-            courses = given.mapping("inputs", {} if inputs is None else inputs, "names, courses")
+            profiles = given.mapping("inputs", {} if inputs is None else inputs, "names, profiles")
             cores = usual_threads() if threads is None else threads
             cores = given.whole("threads", cores, most=_MOST_THREADS)
             workers = workers_of(given, cluster, cores, threads=threads)
@@ -194,10 +194,10 @@ def ensemble(
             if stiff is not None:
                 given.among("stiff", stiff, ["BDF"])
     rows = None if len(state) == 1 else len(state)
-    own = variants_of(model, variants, courses, rows, Room(model, asked, cores, width))
-    _check_together(model, y0, courses, own, asked)
+    own = variants_of(model, variants, profiles, rows, Room(model, asked, cores, width))
+    _check_together(model, y0, profiles, own, asked)
     held = inputs_of(y0, model.names_of_states)
-    drives = input_sets_of(model, courses, own, span, held=held, max_step=accuracy.max_step)
+    drives = input_sets_of(model, profiles, own, span, held=held, max_step=accuracy.max_step)
     asked = replace(asked, bounds=tuple(bounds_of(model, own.parameters)))
     systems = _systems(model, own, state, drives)
     stiff_after = _STIFF_AFTER if stiff else 0
@@ -230,11 +230,11 @@ def _start(given: Validator, model: System, y0: Any) -> Array:
 
 
 def _check_together(
-    model: System, y0: Any, courses: Mapping[str, Any], own: Variants, asked: OutputSpec
+    model: System, y0: Any, profiles: Mapping[str, Any], own: Variants, asked: OutputSpec
 ) -> None:
     """Refuse arguments that contradict each other."""
     with Validator("ensemble") as given:
-        _check_rows(given, model, y0, {*courses, *own.inputs, *own.labels})
+        _check_rows(given, model, y0, {*profiles, *own.inputs, *own.labels})
         _check_results(given, asked, own)
 
 

@@ -52,20 +52,20 @@ class Variants:
 
 
 def variants_of(
-    model: System, given: Any, courses: Mapping[str, Any], rows: int | None, room: Room
+    model: System, given: Any, profiles: Mapping[str, Any], rows: int | None, room: Room
 ) -> Variants:
     """Return the values that differ between systems.
 
-    `courses` are inputs over time: one series for all systems, or several by label. `rows` is the
+    `profiles` are inputs over time: one series for all systems, or several by label. `rows` is the
     number of initial states, None if there is one for all; `room` the memory of the results.
     """
-    choices = {name: several for name, several in courses.items() if isinstance(several, Mapping)}
+    choices = {name: several for name, several in profiles.items() if isinstance(several, Mapping)}
     with Validator("ensemble") as arguments:
         for name, several in choices.items():
             arguments.labels(f"inputs {name!r}", several)
         columns = _columns(arguments, model, given, choices)
         if not arguments.failed:
-            _check_names(arguments, model, columns, courses)
+            _check_names(arguments, model, columns, profiles)
             _check_units(arguments, model, columns, choices)
             _check_coordinates(arguments, model, given, columns)
         if not arguments.failed:
@@ -158,7 +158,7 @@ def _row(values: Any, *, exact: bool) -> NDArray[Any] | None:
 
 
 def _check_names(
-    arguments: Validator, model: System, columns: Mapping[str, Any], courses: Mapping[str, Any]
+    arguments: Validator, model: System, columns: Mapping[str, Any], profiles: Mapping[str, Any]
 ) -> None:
     derived = derived_inputs(model.equations.INPUTS)
     known = [name for name in _described(model) if name not in derived]
@@ -172,10 +172,10 @@ def _check_names(
                 f"variants {name!r} has no effect: the {body} has no mass in the equations of "
                 f"{model.equations.NAME}."
             )
-    for name, course in courses.items():
-        if name in columns and not isinstance(course, Mapping):
+    for name, profile in profiles.items():
+        if name in columns and not isinstance(profile, Mapping):
             arguments.fail(f"{name!r} is in both inputs and variants: give one of them.")
-        elif isinstance(course, Mapping) and name not in columns:
+        elif isinstance(profile, Mapping) and name not in columns:
             arguments.fail(
                 f"inputs {name!r} has several time series: variants needs {name!r}, the label of "
                 "one of them for each system."

@@ -19,7 +19,7 @@ from ..systems.derivatives import checked_directions
 from ..systems.state import inputs_of
 from ..systems.system import System
 from .accuracy import Accuracy, accuracy_of, outputs_of, span_of
-from .courses import Signal
+from .input_profiles import Signal
 from .kinks import ended_at_kinks
 from .result import Simulation
 from .retraced import RetracedSteps
@@ -132,13 +132,13 @@ def motion_gradient(
                 first_step=None, max_steps=MOST_STEPS,
             )  # fmt: skip
     held = inputs_of(y0, system.names_of_states)
-    courses = time_inputs(system, inputs, span, held=held, max_step=max_step)
-    motion, steps = followed(system, courses, np.array(y0, dtype=float), accuracy)
+    profiles = time_inputs(system, inputs, span, held=held, max_step=max_step)
+    motion, steps = followed(system, profiles, np.array(y0, dtype=float), accuracy)
     places = steps.places(times)
     point = steps.point(*places)
     value, weights = _judged(system, asked, times, *point)
     swept = Sweep(system, steps).backwards(places, point, weights)
-    return MotionGradient(value, _named(system, directions, courses, *swept), motion)
+    return MotionGradient(value, _named(system, directions, profiles, *swept), motion)
 
 
 def forward_span(given: Validator, t_span: Any) -> tuple[float, float]:
@@ -155,21 +155,21 @@ def output_times_of(given: Validator, t_eval: Any, span: tuple[float, float]) ->
 
 
 def followed(
-    system: System, courses: TimeInputs, state: Array, accuracy: Accuracy
+    system: System, profiles: TimeInputs, state: Array, accuracy: Accuracy
 ) -> tuple[Simulation, RetracedSteps]:
     """Return a motion whose steps are short enough for derivatives, and the steps."""
-    begin = np.array([courses.segments[0].start])
-    longest = min(accuracy.max_step, _longest(system, courses, accuracy.rtol, begin, state[None]))
+    begin = np.array([profiles.segments[0].start])
+    longest = min(accuracy.max_step, _longest(system, profiles, accuracy.rtol, begin, state[None]))
 
     def again(inputs: TimeInputs) -> Simulation:
         shorter = replace(accuracy, max_step=longest)
         return simulate_inputs(system, inputs, state, None, shorter, method="DormandPrince")
 
     while True:
-        motion = again(courses)
-        allowed = _longest(system, courses, accuracy.rtol, *_looked_at(motion))
+        motion = again(profiles)
+        allowed = _longest(system, profiles, accuracy.rtol, *_looked_at(motion))
         if np.diff(motion.t).max() <= _MORE * allowed:
-            return ended_at_kinks(system, motion, courses, again, accuracy.rtol)
+            return ended_at_kinks(system, motion, profiles, again, accuracy.rtol)
         longest = min(longest, allowed)
 
 
@@ -183,7 +183,7 @@ def _looked_at(motion: Simulation) -> tuple[Array, Array]:
 
 
 def _longest(
-    system: System, courses: TimeInputs, rtol: float, times: Array, states: Array
+    system: System, profiles: TimeInputs, rtol: float, times: Array, states: Array
 ) -> float:
     """Return the longest steps with which small disturbances are integrated accurately.
 
@@ -192,9 +192,9 @@ def _longest(
     eigenvalue l of the Jacobian: about (h l)^6 / 3600.
     """
     inputs = np.empty((times.size, len(system.input_names)))
-    for part in courses.segments:
+    for part in profiles.segments:
         rows = (times >= part.start) & (times <= part.end)
-        inputs[rows] = courses.table(times[rows], part)
+        inputs[rows] = profiles.table(times[rows], part)
     jacobians = system.evaluate("rhs_jacobian", states, inputs)
     fastest = float(np.abs(np.linalg.eigvals(jacobians)).max(initial=0.0))
     return (3600.0 * rtol) ** (1.0 / 6.0) / fastest if fastest > 0.0 else np.inf
@@ -248,7 +248,7 @@ def _judged(
 def _named(
     system: System,
     directions: Any,
-    courses: TimeInputs,
+    profiles: TimeInputs,
     constants: Array,
     start: Array,
     held: Array,
@@ -257,7 +257,7 @@ def _named(
     parameters = np.array([*system.parameters.values()])
     by = directions.of_parameters("prepare_adjoint", parameters, constants, parameters.size)
     by[directions.bound(parameters)] = np.nan
-    vary = {target for spline in courses.segments[0].splines for target in spline.targets}
+    vary = {target for spline in profiles.segments[0].splines for target in spline.targets}
     inputs = {
         name: value
         for place, (name, value) in enumerate(zip(system.input_names, held, strict=True))

@@ -20,7 +20,7 @@ from ..systems.state import inputs_of
 from ..systems.system import System
 from .accuracy import accuracy_of
 from .backwards import MOST_STEPS, followed, forward_span, output_times_of
-from .courses import Signal
+from .input_profiles import Signal
 from .lanes.directions import Along
 from .lanes.directions import followed as in_lanes
 from .result import Simulation
@@ -133,10 +133,10 @@ def motion_sensitivity(
             refuse_beyond(given, needed, what, "Ask for fewer outputs, by t_eval, or signals.")
     tangents = _Tangents(system, along)
     held = inputs_of(y0, system.names_of_states)
-    courses = time_inputs(system, inputs, span, held=held, max_step=max_step)
-    vary = {t for part in courses.segments for spline in part.splines for t in spline.targets}
+    profiles = time_inputs(system, inputs, span, held=held, max_step=max_step)
+    vary = {t for part in profiles.segments for spline in part.splines for t in spline.targets}
     _refuse_varying(system, along, {system.input_names[place] for place in vary})
-    motion, steps = followed(system, courses, np.array(y0, dtype=float), accuracy)
+    motion, steps = followed(system, profiles, np.array(y0, dtype=float), accuracy)
     states, at_inputs = steps.point(*steps.places(times))
     values = dict(zip(system.state_names, states.T, strict=True))
     shown = system.signals(states, at_inputs)

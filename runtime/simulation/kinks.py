@@ -39,7 +39,7 @@ _ROUNDS = 12
 def ended_at_kinks(
     system: System,
     motion: Simulation,
-    courses: TimeInputs,
+    profiles: TimeInputs,
     again: Callable[[TimeInputs], Simulation],
     rtol: float,
 ) -> tuple[Simulation, RetracedSteps]:
@@ -49,7 +49,7 @@ def ended_at_kinks(
     `rtol`; `again` returns the motion for inputs with more milestones. Raises `InputError` if the
     rates jump at a kink, or ever more kinks are found.
     """
-    steps = RetracedSteps(system, motion, courses)
+    steps = RetracedSteps(system, motion, profiles)
     if not hasattr(system.equations, _FUNCTION):
         return motion, steps
     shortest = float(np.sqrt(rtol) * steps.length.max())
@@ -57,9 +57,9 @@ def ended_at_kinks(
         times, reach = _found(system, steps, _FEW * shortest)
         if not times.size:
             return motion, steps
-        courses = courses.with_milestones(_towards(times, reach, shortest))
-        motion = again(courses)
-        steps = RetracedSteps(system, motion, courses)
+        profiles = profiles.with_milestones(_towards(times, reach, shortest))
+        motion = again(profiles)
+        steps = RetracedSteps(system, motion, profiles)
     words = (
         f"around t = {times[0]:.6g} s the motion has one kink after the other, such as of a "
         "stop that is only just touched, and its gradient is not known there. End the motion "

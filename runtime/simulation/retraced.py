@@ -41,11 +41,12 @@ class RetracedSteps:
     of the one before.
     """
 
-    def __init__(self, system: System, motion: Simulation, courses: TimeInputs) -> None:
+    def __init__(self, system: System, motion: Simulation, profiles: TimeInputs) -> None:
         self.begin, self.length = motion.t[:-1], np.diff(motion.t)
-        self._courses = courses
+        self._profiles = profiles
         self._of_segment = [
-            slice(*np.searchsorted(self.begin, (part.start, part.end))) for part in courses.segments
+            slice(*np.searchsorted(self.begin, (part.start, part.end)))
+            for part in profiles.segments
         ]
         self.restarts = np.zeros(self.begin.size, dtype=bool)
         self.restarts[[own.start for own in self._of_segment if own.start < own.stop]] = True
@@ -59,10 +60,10 @@ class RetracedSteps:
     def _inputs_at(self, times: Array) -> Array:
         """Return the inputs at times within each step, shape (steps, times, inputs)."""
         rows = [
-            self._courses.table(times[own].ravel(), part)
-            for own, part in zip(self._of_segment, self._courses.segments, strict=True)
+            self._profiles.table(times[own].ravel(), part)
+            for own, part in zip(self._of_segment, self._profiles.segments, strict=True)
         ]
-        return np.concatenate(rows).reshape(*times.shape, self._courses.constant.size)
+        return np.concatenate(rows).reshape(*times.shape, self._profiles.constant.size)
 
     def _compiled(self, system: System) -> bool:
         """Fill states and rates of the stages step by step; return whether that succeeded."""
@@ -98,9 +99,9 @@ class RetracedSteps:
         states = self.states[step, 0] + self.length[step, None] * moved
         times = self.time(step, part)
         inputs = np.empty((times.size, self.inputs.shape[-1]))
-        for own, course in zip(self._of_segment, self._courses.segments, strict=True):
+        for own, profile in zip(self._of_segment, self._profiles.segments, strict=True):
             rows = (step >= own.start) & (step < own.stop)
-            inputs[rows] = self._courses.table(times[rows], course)
+            inputs[rows] = self._profiles.table(times[rows], profile)
         return states, inputs
 
     def within(self, parts: Array) -> tuple[Array, Array]:

@@ -23,7 +23,7 @@ from ..core.suggestions import suggestion
 from ..core.validator import Validator
 from ..systems.inputs import Inputs, derived_inputs, may_jump, rates_of
 from ..systems.system import System
-from .courses import Signal, course
+from .input_profiles import Signal, profile
 from .interpolation import Eased
 from .turning import merged, turning_points
 
@@ -157,16 +157,16 @@ def time_inputs(
     """
     names, inputs = model.input_names, model.equations.INPUTS
     with Validator("inputs") as given:
-        courses = given.mapping(
+        profiles = given.mapping(
             "inputs", {} if signals is None else signals, "input names and their values"
         )
-    derived = derived_inputs(inputs) if courses else {}
+    derived = derived_inputs(inputs) if profiles else {}
     collected = _Collected(np.zeros(len(names)) if held is None else held.copy())
-    for name, signal in courses.items():
+    for name, signal in profiles.items():
         if name not in names or name in derived:
             raise InputError([_refusal(name, names, derived)], "inputs")
         rates = len(rates_of(name, inputs))
-        found = course(name, signal, t_span, max_step=max_step, rates=rates)
+        found = profile(name, signal, t_span, max_step=max_step, rates=rates)
         if isinstance(found, float):
             collected.constant[names.index(name)] = found
         else:

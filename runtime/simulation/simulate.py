@@ -17,9 +17,9 @@ from ..equations.errors import ModelError
 from ..systems.state import inputs_of
 from ..systems.system import System
 from .accuracy import Accuracy, accuracy_of, outputs_of, span_of
-from .courses import Signal
 from .dead_points import refuse
 from .events import Event, Events, events_of
+from .input_profiles import Signal
 from .result import DenseOutput, Signals, Simulation, SimulationError
 from .signals import Segment, TimeInputs, time_inputs
 from .solvers import (

@@ -246,9 +246,9 @@ class Stepper:
         """Raise the error of `simulate` for a step that cannot be taken."""
         span = start, start + self.length
         how = {"step": self.length} if self._method in FIXED_STEP_METHODS else vars(self._accuracy)
-        courses = _courses(self.model, self.inputs, span)
+        profiles = _profiles(self.model, self.inputs, span)
         try:
-            simulate(self.model, span, self.state, inputs=courses, method=self._method, **how)
+            simulate(self.model, span, self.state, inputs=profiles, method=self._method, **how)
         except SimulationError as error:
             if "max_steps" in error.advice:  # not an argument of a stepper
                 raise error.advising("Give a shorter step, or loosen rtol.") from None
@@ -292,14 +292,14 @@ def _moving(model: System) -> list[tuple[int, int, int]]:
     return found
 
 
-def _courses(model: System, inputs: Array, span: tuple[float, float]) -> dict[str, Any]:
+def _profiles(model: System, inputs: Array, span: tuple[float, float]) -> dict[str, Any]:
     """Return the inputs of a step for `simulate`, without rates, which follow from the values."""
-    courses: dict[str, Any] = dict(zip(model.input_names, inputs.tolist(), strict=True))
+    profiles: dict[str, Any] = dict(zip(model.input_names, inputs.tolist(), strict=True))
     for value, rate, second in _moving(model):
         row = [0.5 * inputs[second] if second >= 0 else 0.0, inputs[rate], inputs[value]]
-        courses[model.input_names[value]] = PPoly(np.array(row)[:, None], np.array(span))
+        profiles[model.input_names[value]] = PPoly(np.array(row)[:, None], np.array(span))
     return {
-        name: course
-        for name, course in courses.items()
+        name: profile
+        for name, profile in profiles.items()
         if name not in derived_inputs(model.equations.INPUTS)
     }

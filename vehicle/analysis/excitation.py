@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from ...core.errors import InputError
 from ...core.validator import Validator
-from ...simulation.courses import Signal
+from ...simulation.input_profiles import Signal
 from .measurement import Measurement
 from .roads import sine, step
 
@@ -41,7 +41,7 @@ class TimeProfile:
 
     def signal(self, end: float) -> Signal:
         """Return the input as `kintrafo.simulate` takes it, up to the last time [s]."""
-        with Validator("course") as given:
+        with Validator("profile") as given:
             for name in self.given:
                 given.number(name, getattr(self, name), "m")
         if self.step is not None:
@@ -52,13 +52,13 @@ class TimeProfile:
 
 
 def excitation(
-    courses: Mapping[str, TimeProfile], end: float, measured: Measurement | None = None
+    profiles: Mapping[str, TimeProfile], end: float, measured: Measurement | None = None
 ) -> dict[str, Signal]:
     """Return inputs for `kintrafo.simulate` from time profiles and a measurement.
 
     Parameters
     ----------
-    courses : mapping of str to TimeProfile
+    profiles : mapping of str to TimeProfile
         Time profiles by the name of the input: ``road_height``, ``rack_position``.
     end : float
         Last time of the simulation [s].
@@ -84,18 +84,18 @@ def excitation(
     """
     with Validator("simulation") as given:
         end = given.number("duration", end, "s", above=0.0)
-        for name, course in given.mapping("courses", courses, "input names, courses").items():
-            given.instance(f"course of {name!r}", course, TimeProfile, "a TimeProfile is needed")
+        for name, profile in given.mapping("profiles", profiles, "input names, profiles").items():
+            given.instance(f"profile of {name!r}", profile, TimeProfile, "a TimeProfile is needed")
         if measured is not None:
             given.instance("measured", measured, Measurement, "a Measurement is needed")
     inputs: dict[str, Signal] = {} if measured is None else dict(measured.inputs())
     problems = []
-    for name, course in courses.items():
-        ways = (*course.given, *(("measured",) if name in inputs else ()))
+    for name, profile in profiles.items():
+        ways = (*profile.given, *(("measured",) if name in inputs else ()))
         if len(ways) > 1:
             problems.append(f"{name} is given in {len(ways)} ways: {', '.join(ways)}. Keep one.")
-        elif course.given:
-            inputs[name] = course.signal(end)
+        elif profile.given:
+            inputs[name] = profile.signal(end)
     if problems:
         raise InputError(problems, "simulation")
     return inputs

@@ -10,7 +10,7 @@ from ...core.errors import InputError
 from ...core.named_types import Array
 from ...core.validator import Validator
 from ...datasets.recording import dataset_of
-from ...simulation.courses import Signal
+from ...simulation.input_profiles import Signal
 from ...simulation.result import Simulation
 from ...simulation.signals import time_inputs
 from ...simulation.simulate import simulate
@@ -194,8 +194,8 @@ def started(
             heights = each_wheel(given, assembly, "height", scenario.height, "m")
     chosen = assembly.wheels if wheels == BOTH else (wheels,)
     inputs = _by_wheel(assembly, scenario.inputs, chosen)
-    courses = time_inputs(model, inputs, (0.0, scenario.duration))
-    at_start = map(float, courses.at(0.0, courses.segments[0]))
+    profiles = time_inputs(model, inputs, (0.0, scenario.duration))
+    at_start = map(float, profiles.at(0.0, profiles.segments[0]))
     first = dict(zip(model.input_names, at_start, strict=True))
     rack, spin = first.get(_RACK, 0.0), scenario.spin_rate
     if heights is not None:

@@ -85,10 +85,10 @@ def command(
     )
 
     outputs = output.files(*files, goals)
-    dataset, way, subjects = _compared(files, over, held)
+    dataset, axis, subjects = _compared(files, over, held)
     known = sweep_axes_of(next(iter(subjects.values())))
     table = flat(dataset)
-    looked_at = [way, held or "height"] if {*table} & {*compliances_over(way)} else [way]
+    looked_at = [axis, held or "height"] if {*table} & {*compliances_over(axis)} else [axis]
     aims = wanted.read(goals, looked_at, known)
     if aims:
         wanted.refuse_elsewhere(dataset)
@@ -100,8 +100,8 @@ def command(
         name for name in both if name in table
     ]
     shown = among(of, map(str, table.data_vars)) if of else [str(n) for n in table.data_vars]
-    of_cars = name_of_axis(way) in AXES_OF_CARS
-    every = compare.differences(dataset, sweep_axis(way).at if of_cars else 0.0)
+    of_cars = name_of_axis(axis) in AXES_OF_CARS
+    every = compare.differences(dataset, sweep_axis(axis).at if of_cars else 0.0)
     found = [difference for difference in every if difference.name in shown]
     first, *others = (str(name) for name in dataset["data_set"].values)
     drawn = table.assign_coords(
@@ -148,7 +148,7 @@ class _Compared(NamedTuple):
     """Curves of several data sets."""
 
     dataset: "Dataset"
-    way: str  # axis of the curves, such as `"travel"`
+    axis: str  # axis of the curves, such as `"travel"`
     subjects: "Mapping[str, Subject]"  # by data set, without the measured one
 
 
@@ -161,8 +161,8 @@ def _compared(files: list[str], over: str | None, held: Held | None) -> _Compare
     assemblies = _assemblies([file for file in files if file not in measured])
     subjects = {name: assembly.subject for name, assembly in assemblies.items()}
     if measured:
-        dataset, way = _beside(assemblies, measured, over, held or "height")
-        return _Compared(dataset, way, subjects)
+        dataset, axis = _beside(assemblies, measured, over, held or "height")
+        return _Compared(dataset, axis, subjects)
     if over is not None and len(assemblies) > 1 and name_of_axis(over) in AXES_OF_CARS:
         return _over_axis(assemblies, over)
     for file, assembly in assemblies.items():
@@ -219,12 +219,12 @@ def _beside(
     if not assemblies:
         raise typer.BadParameter("a hardpoint file is needed besides the measured curves")
     first = next(iter(assemblies.values()))
-    way = rig.motion_of(first, curves) or first.usual_motion
+    axis = rig.motion_of(first, curves) or first.usual_motion
     if over is not None and (
         over not in first.motions or first.motions[over].along.name not in curves.dims
     ):
         raise typer.BadParameter(f"--over {over}: the measured curves are not over that")
-    return rig.beside(curves, assemblies, measured[0], held=held), way
+    return rig.beside(curves, assemblies, measured[0], held=held), axis
 
 
 def _titles(files: "Iterable[Any]") -> list[str]:

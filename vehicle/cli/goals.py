@@ -34,11 +34,11 @@ Goals = Annotated[
 
 
 def read(
-    path: Path | None, ways: Sequence[str] | None, known: Sequence[str] = ("travel", "rack")
+    path: Path | None, axes: Sequence[str] | None, known: Sequence[str] = ("travel", "rack")
 ) -> "list[Goal]":
     """Return the goals of a file for the axes of some curves; none without a file.
 
-    `ways` are these axes, or supports of the wheels for compliance, None for all in the file;
+    `axes` are these axes, or supports of the wheels for compliance, None for all in the file;
     `known` those that the file may have, the default first.
     """
     if path is None:
@@ -48,14 +48,14 @@ def read(
     from ..analysis.compliance.flexibility import HELD
     from ..studies.sweep_axes import name_of_axis, sweep_axis
 
-    looked_at = [over for over in ways or known if name_of_axis(over) in known or over in HELD]
+    looked_at = [over for over in axes or known if name_of_axis(over) in known or over in HELD]
     if not looked_at:
-        problem = f"goals are about curves over {_or(known)}, and these are over {_or(ways or ())}."
+        problem = f"goals are about curves over {_or(known)}, and these are over {_or(axes or ())}."
         raise InputError([problem], str(path))
     every = variation.goals(variation.read(path), known)
-    if ways is None:
-        ways = [goal.over for goal in every]
-    found = [goal for goal in every if goal.over in ways]
+    if axes is None:
+        axes = [goal.over for goal in every]
+    found = [goal for goal in every if goal.over in axes]
     if not found:
         kinematic = {"travel": "toe", "heave": "camber_front_left"}.get(known[0], "camber_left")
         soft = "toe_by_lateral" if known[0] == "travel" else "toe_by_lateral_opposed_left"
@@ -66,7 +66,7 @@ def read(
             f"{sweep_axis(looked_at[0]).key}, least and most."
         )
         raise InputError([problem], str(path))
-    others = dict.fromkeys(f"{g.name} {_over(g.over)}" for g in every if g.over not in ways)
+    others = dict.fromkeys(f"{g.name} {_over(g.over)}" for g in every if g.over not in axes)
     if others:
         note(f"{path}: not about these curves: {', '.join(others)}.")
     return found

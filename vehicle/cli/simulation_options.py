@@ -85,7 +85,7 @@ class ScenarioOptions:
         end = self.duration
         if end is None:
             end = 1.0 if recording is None else recording.duration
-        courses: dict[str, Any] = {
+        profiles: dict[str, Any] = {
             "road_height": TimeProfile(
                 step=metres(self.road_step),
                 step_at=_STEP_AT if self.road_step_at is None else self.road_step_at,
@@ -103,7 +103,7 @@ class ScenarioOptions:
             output_step=self.output_step / 1e3,
             height=metres(self.height),
             spin_rate=self.spin * math.tau,
-            inputs=excitation(courses, end, recording),
+            inputs=excitation(profiles, end, recording),
         )
 
     def _refuse_details(self) -> None:

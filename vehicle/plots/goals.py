@@ -38,9 +38,9 @@ def about(goals: Iterable[Goal], data: xr.DataArray, along: str) -> dict[str, li
         found[""] += [goal for goal in both[0] if _has_like(both[1], goal)]
         for side, some, others in zip(SIDES, both, reversed(both), strict=True):
             found[side] = [goal for goal in some if not _has_like(others, goal)]
-    ways = dict.fromkeys(goal.over for some in found.values() for goal in some)
-    if len(ways) > 1:
-        words = " and ".join(ways)
+    over = dict.fromkeys(goal.over for some in found.values() for goal in some)
+    if len(over) > 1:
+        words = " and ".join(over)
         problem = f"goals of {name} over {words} have one axis. Give those of these curves alone."
         raise InputError([problem], "figures")
     return found

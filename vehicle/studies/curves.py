@@ -86,10 +86,10 @@ def curves_of(
 
     With a support of the wheels under loads (`held`) these are compliances.
     """
-    ways, assembly = sweep_axes_of(suspension), assembly_of(suspension)
+    axes, assembly = sweep_axes_of(suspension), assembly_of(suspension)
     if isinstance(over, str):
         assembly.refuse_motion(over)
-    over = ways[0] if over is None else given_axis(given, "over", over, ways)
+    over = axes[0] if over is None else given_axis(given, "over", over, axes)
     if held is not None:
         over = _held(given, suspension, over, held)
     if positions is not None:

@@ -212,19 +212,19 @@ def _targets(
     accuracies, held_by, asked = how
     # parallel travel is the first of the axes over wheel travel
     axes = sweep_axes_of(suspension)
-    ways = {sweep_axis(way).along.name: way for way in reversed(axes)}
-    over = [name for name in ways if name in measured.dims]
+    by_position = {sweep_axis(axis).along.name: axis for axis in reversed(axes)}
+    over = [name for name in by_position if name in measured.dims]
     if len(over) != 1:
         given.fail(
             "measured: a result of kintrafo.rig.measured_curves is needed, over "
-            f"{' or '.join(reversed(ways))}."
+            f"{' or '.join(reversed(by_position))}."
         )
         return [], []
     (along,) = over
-    way = ways[along]
+    axis = by_position[along]
     if asked is not None:
-        way = given_axis(given, "over", asked, [way])
-    for name in (other for other in ways if other != along and other in measured.coords):
+        axis = given_axis(given, "over", asked, [axis])
+    for name in (other for other in by_position if other != along and other in measured.coords):
         held = measured[name].values
         if not (held.size == 1 and abs(float(held.item())) <= _HELD):
             where = f"held at {1e3 * held.item():g} mm" if held.size == 1 else "not held"
@@ -236,20 +236,20 @@ def _targets(
         for name in map(str, measured)
         if measured[name].dims == (along,) and np.issubdtype(measured[name].dtype, np.floating)
     ]
-    under_loads = UNDER_LOADS[held_by].known if way == "travel" else {}
-    computed = {**known_over(way, axes[0]), **under_loads}
+    under_loads = UNDER_LOADS[held_by].known if axis == "travel" else {}
+    computed = {**known_over(axis, axes[0]), **under_loads}
     known = [name for name in there if name in computed]
     foreign = [name for name in there if name not in known] if names is None else []
     chosen = known if names is None else given.names("names", names, known)
     if not chosen and not given.failed:
-        words = f"; not computed over {way}: {', '.join(foreign)}" if foreign else ""
+        words = f"; not computed over {axis}: {', '.join(foreign)}" if foreign else ""
         given.fail(f"measured: one curve or more is needed{words}.")
     for name in accuracies:
         given.among("accuracy of", name, known)
     targets = [
         target
         for name in chosen
-        for over in [held_by if name in under_loads else way]
+        for over in [held_by if name in under_loads else axis]
         if (target := _target(given, measured[name], over, accuracies.get(name))) is not None
     ]
     return targets, foreign

@@ -130,14 +130,14 @@ def read(path: str | Path) -> dict[str, Any]:
     return read_sections(path, _SECTIONS)
 
 
-def limits(described: Mapping[str, Any], ways: Sequence[str] = OF_CORNERS) -> list[Limit]:
+def limits(described: Mapping[str, Any], axes: Sequence[str] = OF_CORNERS) -> list[Limit]:
     """Return limits of characteristics from tables as in `tolerance` and `optimise`.
 
     Parameters
     ----------
     described : mapping
         By characteristic.
-    ways : sequence of str, optional
+    axes : sequence of str, optional
         As in `goals`.
 
     Returns
@@ -146,17 +146,17 @@ def limits(described: Mapping[str, Any], ways: Sequence[str] = OF_CORNERS) -> li
     """
     with Validator("limits") as given:
         tables = given.mapping("limits", described, "names and limits")
-        return limits_of(given, tables, _ways(given, ways))
+        return limits_of(given, tables, _axes(given, axes))
 
 
-def goals(described: Mapping[str, Any], ways: Sequence[str] = OF_CORNERS) -> list[Goal]:
+def goals(described: Mapping[str, Any], axes: Sequence[str] = OF_CORNERS) -> list[Goal]:
     """Return targets and limits of characteristics from the sections of a file.
 
     Parameters
     ----------
     described : mapping
         Result of `read`; other sections are not used.
-    ways : sequence of str, optional
+    axes : sequence of str, optional
         Motions of the goals, the first one by default: ``travel`` and ``rack``, or of an axle, also
         a rigid one, ``bump``, ``roll``, ``left`` and ``right``.
 
@@ -166,18 +166,18 @@ def goals(described: Mapping[str, Any], ways: Sequence[str] = OF_CORNERS) -> lis
     """
     with Validator("goals") as given:
         sections = given.mapping("described", described, "sections and tables")
-        known = _ways(given, ways)
+        known = _axes(given, axes)
         targets, limits = (
             given.mapping(name, sections.get(name, {}), "tables") for name in ("targets", "limits")
         )
         return [*targets_of(given, targets, known), *limits_of(given, limits, known)]
 
 
-def _ways(given: Validator, ways: Any) -> Sequence[str]:
+def _axes(given: Validator, axes: Any) -> Sequence[str]:
     """Return the axes of goals; the usual ones if the argument is not valid."""
-    names = given.names("ways", ways, ALL_AXES)
+    names = given.names("axes", axes, ALL_AXES)
     if not names and not given.failed:
-        given.fail(f"ways is empty: one is needed, of {', '.join(ALL_AXES)}.")
+        given.fail(f"axes is empty: one is needed, of {', '.join(ALL_AXES)}.")
     return names or OF_CORNERS
 
 
@@ -284,11 +284,11 @@ def check_data(given: Validator, suspension: Any, goals: Iterable[Goal]) -> None
     A position out of reach is a `PositionError`.
     """
     assembly = assembly_of(suspension)
-    ways = sweep_axes_of(suspension)
+    axes = sweep_axes_of(suspension)
     for goal in goals:
-        name = f"{goal.name} over {ways[0] if goal.over in HELD else goal.over}"
-        if name_of_axis(goal.over) not in (*ways, *HELD):
-            given.fail(f"{name}: the curves of this subject are over {', '.join(ways)}.")
+        name = f"{goal.name} over {axes[0] if goal.over in HELD else goal.over}"
+        if name_of_axis(goal.over) not in (*axes, *HELD):
+            given.fail(f"{name}: the curves of this subject are over {', '.join(axes)}.")
             continue
         assembly.refuse_of_steering([goal.name])
         if goal.name not in available(assembly, goal.over):
@@ -308,7 +308,7 @@ def check_data(given: Validator, suspension: Any, goals: Iterable[Goal]) -> None
 
 
 def targets_of(
-    given: Validator, described: Mapping[str, Any], ways: Sequence[str], *, weighed: bool = True
+    given: Validator, described: Mapping[str, Any], axes: Sequence[str], *, weighed: bool = True
 ) -> list[TargetValue]:
     """Return targets by the names of characteristics, in millimetres and display units.
 
@@ -316,7 +316,7 @@ def targets_of(
     may be left out if targets are not weighed against each other.
     """
     found = []
-    for name, table in _tables(given, described, ("targets", ways), {"value", "within"}):
+    for name, table in _tables(given, described, ("targets", axes), {"value", "within"}):
         left_out = not weighed and "within" not in table.entries
         within = np.nan if left_out else table.number("within", least=LEAST)
         found.append(TargetValue(name, table.over, table.at, table.numbers("value"), within))
@@ -324,17 +324,17 @@ def targets_of(
 
 
 def extremes_of(
-    given: Validator, described: Mapping[str, Any], section: str, ways: Sequence[str]
+    given: Validator, described: Mapping[str, Any], section: str, axes: Sequence[str]
 ) -> list[Goal]:
     """Return characteristics to minimise or maximise, with their positions, as `targets_of`."""
-    found = _tables(given, described, (section, ways), set())
+    found = _tables(given, described, (section, axes), set())
     return [Goal(name, table.over, table.at) for name, table in found]
 
 
-def limits_of(given: Validator, described: Mapping[str, Any], ways: Sequence[str]) -> list[Limit]:
+def limits_of(given: Validator, described: Mapping[str, Any], axes: Sequence[str]) -> list[Limit]:
     """Return limits by the names of characteristics, as `targets_of`."""
     found = []
-    for name, table in _tables(given, described, ("limits", ways), {"least", "most"}):
+    for name, table in _tables(given, described, ("limits", axes), {"least", "most"}):
         least, most = (
             table.number(key) if key in table.entries else sign * np.inf
             for key, sign in (("least", -1.0), ("most", 1.0))
@@ -388,7 +388,7 @@ class _Table:
 def _tables(
     given: Validator, described: Mapping[str, Any], of: tuple[str, Sequence[str]], keys: set[str]
 ) -> Iterable[tuple[str, _Table]]:
-    section, ways = of
+    section, axes = of
     for name, table in (
         (name, table)
         for name, tables in described.items()
@@ -396,15 +396,15 @@ def _tables(
     ):
         title = f"[{section}.{name}]"
         if not isinstance(table, Mapping):
-            at_key = sweep_axis(ways[0]).key
+            at_key = sweep_axis(axes[0]).key
             given.fail(f"{title} must be a section, with {' and '.join([at_key, *sorted(keys)])}.")
             continue
-        named = table.get("over", ways[0])
+        named = table.get("over", axes[0])
         options = options_of(named) if isinstance(named, str) else ()
         chosen = {key: table[key] for key in options if key in table}
-        over = given_axis(given, f"{title} over", named, ways, chosen)
+        over = given_axis(given, f"{title} over", named, axes, chosen)
         under_loads = compliances_over(over)
-        at_key, known = sweep_axis(over).key, {**known_over(over, ways[0]), **under_loads}
+        at_key, known = sweep_axis(over).key, {**known_over(over, axes[0]), **under_loads}
         known_keys = [at_key, "over", *options, *sorted(keys)]
         if name in under_loads:
             known_keys.append("held")

@@ -58,13 +58,13 @@ def objectives_of(
     targets: Mapping[str, Any],
     minimise: Mapping[str, Any],
     maximise: Mapping[str, Any],
-    ways: Sequence[str],
+    axes: Sequence[str],
 ) -> list[Objective]:
     """Return objectives: deviations from targets, greatest and least values."""
     goals: dict[Kind, Sequence[Goal]] = {
-        "deviation": targets_of(given, targets, ways, weighed=False),
-        "greatest": extremes_of(given, minimise, "minimise", ways),
-        "least": extremes_of(given, maximise, "maximise", ways),
+        "deviation": targets_of(given, targets, axes, weighed=False),
+        "greatest": extremes_of(given, minimise, "minimise", axes),
+        "least": extremes_of(given, maximise, "maximise", axes),
     }
     found = [(kind, goal) for kind, several in goals.items() for goal in several]
     overs = [goal.over_words.replace(" the ", " ").replace(" ", "_") for _, goal in found]

@@ -140,10 +140,10 @@ def optimise(
     with Validator("optimise") as given:
         check_subject(given, suspension)
         given.function("progress", progress)
-        ways = sweep_axes_of(suspension)
-        aims = targets_of(given, given.mapping("targets", targets, "names and targets"), ways)
+        axes = sweep_axes_of(suspension)
+        aims = targets_of(given, given.mapping("targets", targets, "names and targets"), axes)
         described = given.mapping("limits", {} if limits is None else limits, "names and limits")
-        bounds = limits_of(given, described, ways)
+        bounds = limits_of(given, described, axes)
         if not given.failed:
             check_data(given, suspension, [*aims, *bounds])
             by_pattern = given.mapping("free", free, "places and numbers")

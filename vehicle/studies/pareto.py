@@ -194,15 +194,15 @@ def pareto(
         population = given.whole("population", population, least=_LEAST_MEMBERS, most=_MOST_MEMBERS)
         generations = given.whole("generations", generations)
         seed = given.whole("seed", seed, least=0, most=2**32 - 1)
-        ways = sweep_axes_of(suspension)
+        axes = sweep_axes_of(suspension)
         objectives = objectives_of(
             given,
             _described(given, "targets", targets),
             _described(given, "minimise", minimise),
             _described(given, "maximise", maximise),
-            ways,
+            axes,
         )
-        bounds = limits_of(given, _described(given, "limits", limits), ways)
+        bounds = limits_of(given, _described(given, "limits", limits), axes)
         if not given.failed:
             _refuse_counts(given, len(objectives), population, generations)
             goals = [*(o.goal for o in objectives), *bounds]

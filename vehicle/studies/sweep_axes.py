@@ -85,15 +85,15 @@ def given_axis(
     given: Validator,
     title: str,
     over: Any,
-    ways: Iterable[str],
+    axes: Iterable[str],
     options: Mapping[str, Any] | None = None,
 ) -> str:
     """Return the checked name of an axis with its options: ``speed:road=C,seat=driver``.
 
-    Options may be in the name, or further ones such as those of a file; `ways` are the possible
+    Options may be in the name, or further ones such as those of a file; `axes` are the possible
     names.
     """
-    known = tuple(ways)
+    known = tuple(axes)
     name = name_of_axis(over) if isinstance(over, str) else over
     if given.among(title, name, known) != name:
         return known[0]

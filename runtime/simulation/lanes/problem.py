@@ -110,14 +110,14 @@ class Outcome:
 _DOUBLES, _INTS = ctypes.POINTER(ctypes.c_double), ctypes.POINTER(ctypes.c_int)
 
 
-class _Course(ctypes.Structure):
+class _Profile(ctypes.Structure):
     _fields_ = [("pieces", ctypes.c_int), ("breaks", _DOUBLES), ("coefficients", _DOUBLES)]
 
 
 class _Segment(ctypes.Structure):
     _fields_ = [
         ("end", ctypes.c_double),
-        ("courses", ctypes.POINTER(_Course)),
+        ("profiles", ctypes.POINTER(_Profile)),
         ("milestone_count", ctypes.c_long),
         ("milestones", _DOUBLES),
         ("turn_count", ctypes.c_long),
@@ -315,13 +315,13 @@ class Problem:
         }
 
     def _drive(self, drive: TimeInputs) -> _Drive:
-        def course(curve: Any) -> _Course:
-            return _Course(curve.c.shape[1], self._doubles(curve.x), self._doubles(curve.c))
+        def profile(curve: Any) -> _Profile:
+            return _Profile(curve.c.shape[1], self._doubles(curve.x), self._doubles(curve.c))
 
         segments = [
             _Segment(
                 segment.end,
-                self._array(_Course, [course(s.curve) for s in segment.splines]),
+                self._array(_Profile, [profile(s.curve) for s in segment.splines]),
                 milestones.size,
                 self._doubles(milestones),
                 turns.shape[1],

@@ -298,10 +298,10 @@ CALLS = {
     ),
     "goals of a file": (
         variation.goals,
-        {"described": {"limits": {"toe": {"most": 1.0}}}, "ways": ["travel", "rack"]},
+        {"described": {"limits": {"toe": {"most": 1.0}}}, "axes": ["travel", "rack"]},
     ),
     "variation.limits": (
-        variation.limits, {"described": {"toe_left": {"most": 1.0}}, "ways": ["bump", "roll"]}
+        variation.limits, {"described": {"toe_left": {"most": 1.0}}, "axes": ["bump", "roll"]}
     ),
     "SignalEvent": (
         lambda **given: kintrafo.simulate(
@@ -395,7 +395,7 @@ CALLS = {
     "excitation": (
         excitation.excitation,
         {
-            "courses": {"road_height": excitation.TimeProfile(held=0.01)},
+            "profiles": {"road_height": excitation.TimeProfile(held=0.01)},
             "end": 1.0,
             "measured": None,
         },

@@ -1,5 +1,7 @@
 """Measured curves: read as they were written, and characteristics at the same positions."""
 
+import math
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -218,6 +220,18 @@ def test_names_and_units_of_rigs(tmp_path, text):
     np.testing.assert_allclose(found["wheel_travel"], [-0.02, 0.02], rtol=1e-15)
     np.testing.assert_allclose(found["toe"], np.deg2rad([0.5, -0.5]), rtol=1e-15)
     assert found.attrs["left_out"] in ("x", "Mr. X - left")
+
+
+@pytest.mark.parametrize(
+    ("unit", "radians"),
+    [("mrad", 1e-3), ("arcmin", math.pi / 10800.0), ("Minutes of arc", math.pi / 10800.0)],
+)
+def test_units_of_toe_on_alignment_benches(tmp_path, unit, radians):
+    path = tmp_path / "rig.csv"
+    path.write_text(f"wheel travel (mm),toe ({unit}),bump_steer ({unit}/mm)\n-20,4,1\n20,-4,2\n")
+    found = rig.measured_curves(path)
+    np.testing.assert_allclose(found["toe"], [4.0 * radians, -4.0 * radians], rtol=1e-15)
+    np.testing.assert_allclose(found["bump_steer"], [1e3 * radians, 2e3 * radians], rtol=1e-15)
 
 
 @pytest.mark.parametrize(

@@ -171,9 +171,9 @@ def test_not_text(tmp_path, refused):
 
 def test_an_input_is_given_once(tmp_path):
     road = measured(table(tmp_path, "time_s,road_height_mm\n0,0\n1,1\n"))
-    courses = {"road_height": TimeProfile(step=0.01), "rack_position": TimeProfile(held=0.02)}
+    profiles = {"road_height": TimeProfile(step=0.01), "rack_position": TimeProfile(held=0.02)}
     with pytest.raises(InputError, match="2 ways: step, measured"):
-        excitation(courses, 1.0, road)
+        excitation(profiles, 1.0, road)
     assert excitation({"rack_position": TimeProfile(held=0.02)}, 1.0, road)["rack_position"] == 0.02
 
 

@@ -267,8 +267,8 @@ def test_the_chapter_of_compliance_draws_those_of_its_wheels(of, name, label, mo
 
     monkeypatch.setattr("kintrafo.vehicle.report.chapters.curves.figure", noted)
     described = [{"at_mm": [-20, 20], "most": 0.3}, {"held": "locked", "most": 0.4}]
-    ways = ["travel", "rack"] if isinstance(of, Model) else ["bump", "roll"]
-    wanted = variation.goals({"limits": {name: described}}, ways)
+    axes = ["travel", "rack"] if isinstance(of, Model) else ["bump", "roll"]
+    wanted = variation.goals({"limits": {name: described}}, axes)
     compliance_chapter(compliance.linear(of, None, [-0.02, 0.0, 0.02]), wanted)
     marked = {
         curve: {line.get_label(): line.get_xydata().tolist() for line in axes.get_lines()

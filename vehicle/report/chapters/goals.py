@@ -51,8 +51,8 @@ def goals_chapter(subject: Any, goals: Sequence[Goal]) -> Chapter:
     verdicts = judge(assembly, goals)
     missed = sum(not verdict.met for verdict in verdicts)
     words = f"{len(verdicts) - missed} of {len(verdicts)} are met, {missed} missed."
-    ways = list(dict.fromkeys(goal.over for goal in goals))
-    drawn = [picture for over in ways for picture in _drawn(assembly, goals, over)]
+    axes = list(dict.fromkeys(goal.over for goal in goals))
+    drawn = [picture for over in axes for picture in _drawn(assembly, goals, over)]
     table = _table(goals, verdicts)
     return Chapter("Targets and limits", (words, _MEANING), (table,), tuple(drawn))
 

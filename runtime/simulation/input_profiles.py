@@ -17,7 +17,7 @@ Signal = TypeAliasType(
 )
 
 
-def course(
+def profile(
     name: str, signal: Signal, t_span: tuple[float, float], *, max_step: float, rates: int
 ) -> list[PPoly] | float:
     """Return an input as piecewise cubics, or as a number if it does not vary.
