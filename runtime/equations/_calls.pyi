@@ -5,7 +5,7 @@ from numpy.typing import ArrayLike, NDArray
 
 Array: TypeAlias = NDArray[np.float64]
 
-class Function:
+class ModelFunction:
     name: str
     shape: tuple[int, ...]
     labels: tuple[str, ...]

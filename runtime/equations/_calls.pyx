@@ -20,7 +20,7 @@ ctypedef int (*residual_pointer)(
 ctypedef int (*prepare_pointer)(const double *parameters, double *constants) noexcept nogil
 
 
-cdef class Function:
+cdef class ModelFunction:
     """One result of a compiled function of a model: all elements that it computes, or some of them.
 
     Attributes

@@ -16,7 +16,7 @@ from .status import NOT_FINITE, bit_of
 Code = Callable[..., tuple[tuple[Any, ...], dict[int, Any]]]
 
 
-class Function:
+class ModelFunction:
     """A function of a model, with the interface of a compiled one but without an address."""
 
     def __init__(

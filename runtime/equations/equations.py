@@ -206,7 +206,7 @@ class Equations:
             labels = tuple(f"{part} {label}" for part, f in parts for label in labels_of(f))
         shape = tuple(described.get("shape", [len(labels)]))
         operations = stages.get(stage, described)["operations"]
-        return self._calls.Function(
+        return self._calls.ModelFunction(
             WiderArrays(self, behind) if behind else self,
             name,
             self._code[stage],

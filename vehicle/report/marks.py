@@ -82,13 +82,12 @@ def marks(
     found = Marks({}, {}, [])
     keys: dict[tuple[str, str], str] = {(curve.name, curve.over): curve.key for curve in drawn}
     for goal in goals:
-        kind = "target" if isinstance(goal, TargetValue) else "limit"
         place = goal.name, goal.over
         if goal.over == "bump" and goal.name.endswith(f"_{side}"):
             place = goal.name.removesuffix(f"_{side}"), "travel"
         key = keys.get(place)
         if key is None:
-            found.elsewhere.append(words_of(kind, goal.name, goal.over))
+            found.elsewhere.append(words_of(goal.KIND, goal.name, goal.over))
             continue
         axis = grid.rack if goal.over == "rack" else grid.travel
         inside = (goal.at >= axis.first - _ROUNDING) & (goal.at <= axis.last + _ROUNDING)
@@ -96,7 +95,7 @@ def marks(
             found.of.setdefault(key, []).extend(_marks(goal, inside))
         if not inside.all():
             at = ", ".join(f"{sweep_axis(goal.over).factor * at:g}" for at in goal.at[~inside])
-            words = f"{kind} at {at} {sweep_axis(goal.over).unit}".replace("-", "\u2212")
+            words = f"{goal.KIND} at {at} {sweep_axis(goal.over).unit}".replace("-", "\u2212")
             found.beyond.setdefault(key, []).append(words)
     return found
 

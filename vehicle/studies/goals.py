@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,6 +47,12 @@ class Goal:
     over: str
     at: Array  # positions, (n,) [m]; over roll [rad]
 
+    KIND: ClassVar[str]  # 'target' or 'limit'
+
+    def beyond(self, values: Array) -> Array:
+        """Return by how much values at its positions miss the goal; not above zero if it is met."""
+        raise NotImplementedError
+
     @property
     def quantity(self) -> Quantity:
         """The quantity of the characteristic."""
@@ -75,6 +81,11 @@ class TargetValue(Goal):
     value: Array
     within: float
 
+    KIND: ClassVar[str] = "target"
+
+    def beyond(self, values: Array) -> Array:
+        return np.abs(values - self.value) - self.within
+
 
 @dataclass(frozen=True)
 class Limit(Goal):
@@ -90,6 +101,11 @@ class Limit(Goal):
 
     least: float
     most: float
+
+    KIND: ClassVar[str] = "limit"
+
+    def beyond(self, values: Array) -> Array:
+        return np.maximum(self.least - values, values - self.most)
 
     def kept(self, values: Array) -> NDArray[np.bool_]:
         """Return which of some values are within the limit."""
@@ -259,15 +275,10 @@ def judge(suspension: Any, wanted: Sequence[Goal]) -> list[Verdict]:
 
 
 def _verdict(goal: Goal, values: Array) -> Verdict:
-    if isinstance(goal, TargetValue):
-        kind, beyond = "target", np.abs(values - goal.value) - goal.within
-        met = bool((np.abs(values - goal.value) <= goal.within).all())
-    else:
-        assert isinstance(goal, Limit)
-        kind, beyond = "limit", np.maximum(goal.least - values, values - goal.most)
-        met = bool(goal.kept(values).all())
-    worst = int(beyond.argmax())
-    return Verdict(goal.name, goal.over, kind, met, float(beyond[worst]), float(goal.at[worst]))
+    beyond = goal.beyond(values)
+    worst, met = int(beyond.argmax()), bool((beyond <= 0.0).all())
+    found = float(beyond[worst]), float(goal.at[worst])
+    return Verdict(goal.name, goal.over, goal.KIND, met, *found)
 
 
 def check_goals(given: Validator, name: str, wanted: Any) -> None:

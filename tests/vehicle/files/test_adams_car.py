@@ -310,6 +310,24 @@ def test_a_straight_spring_is_read(kind, folder, tmp_path):
         assert (car.spring.rate_N_per_m, car.spring.force_at_design_N) == (45000.0, 5100.0)
 
 
+@pytest.mark.parametrize(("unit", "factor"), [("mm", 1.0), ("inch", 25.4)])
+def test_the_force_at_an_installed_length_is_that_of_the_curve(unit, factor, tmp_path):
+    """A spring of 300 mm and 45 N/mm has 3600 N at 220 mm."""
+    text = subsystem(WISHBONES, more=f"{MORE} VALUE_TYPE = 'installed_length'\n USER_VALUE = 220\n")
+    (tmp_path / "own.spr").write_text(SPRING, encoding="utf-8")
+    assert ("read", "spring 45 N/mm, 3600 N at design (own.spr)") in taken(tmp_path, text).words()
+    own = SPRING.replace("'mm'", f"'{unit}'").replace("300.0", repr(300.0 / factor))
+    own = own.replace("-50.0 ", repr(-50.0 / factor)).replace("100.0 ", repr(100.0 / factor) + " ")
+    (tmp_path / "own.spr").write_text(own, encoding="utf-8")
+    spring = taken(tmp_path, text).spring
+    assert spring is not None
+    assert spring.force == pytest.approx(3600.0)
+    far = taken(tmp_path, text.replace("USER_VALUE = 220", "USER_VALUE = 100"))
+    assert far.spring is not None
+    assert far.spring.force is None  # beyond the curve
+    assert any("USER_VALUE = 100" in line for line in far.left_out)
+
+
 def test_units_of_a_spring(tmp_path):
     """100 lbf/in are 17.5 N/mm, by the definitions of inch, pound and standard gravity."""
     text = SPRING.replace("'mm'", "'inch'").replace("'newton'", "'pound_force'")
@@ -374,9 +392,10 @@ def test_springs_that_are_not_taken(tmp_path):
     scaled = taken(tmp_path, subsystem(WISHBONES, more=MORE + " FORCE_SCALE = 1.1\n"))
     (shown,) = (line for line in scaled.left_out if "FORCE_SCALE is not 1. " in line)
     assert shown.endswith("FORCE_SCALE = 1.1")
-    unused = " VALUE_TYPE = 'installed_length'\n USER_VALUE = 250.0\n"
+    # compressed beyond the curve
+    unused = " VALUE_TYPE = 'installed_length'\n USER_VALUE = 100.0\n"
     length = taken(tmp_path, subsystem(WISHBONES, more=MORE + unused))
-    assert "spring ride_spring: VALUE_TYPE = installed_length, USER_VALUE = 250.0" in (
+    assert "spring ride_spring: VALUE_TYPE = installed_length, USER_VALUE = 100.0" in (
         length.left_out
     )
     assert "force of the spring: as in the packaged double_wishbone_car" in length.assumed

@@ -464,5 +464,5 @@ def test_positions_of_a_rigid_axle_keep_its_rods_lengths():
     np.testing.assert_allclose(rise, np.stack([travels, travels]), atol=1e-13)
     camber = characteristics.over(axle, "bump", travels)["camber"]
     np.testing.assert_array_equal(found["camber"], camber)
-    with pytest.raises(InputError, match="rack: this axle has none"):
+    with pytest.raises(InputError, match="rack: its wheels are not steered"):
         sweep.positions(axle, travels, 0.01)

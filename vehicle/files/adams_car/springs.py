@@ -12,6 +12,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
 import tomlkit
 
 from ....core.errors import InputError
@@ -89,7 +90,12 @@ def _spring(values: Mapping[str, str], subsystem: Subsystem) -> AdamsSpring:
     scaled = [key for key, text in values.items() if "scal" in key and number(text) != 1.0]
     if scaled:
         raise InputError([f"{shown(scaled[0].upper())} is not 1."])
-    return _law(file)._replace(force=_force(values, subsystem), file=shown(name))
+    kind, given = values.get("value_type", "").lower(), number(values.get("user_value", ""))
+    law = _law(file, subsystem.length_unit * given if kind == "installed_length" else math.nan)
+    if kind == "preload":
+        law = law._replace(force=NEWTONS.get(subsystem.force_unit.lower(), math.nan) * given)
+    known = law.force is not None and 0.0 < law.force < math.inf
+    return law._replace(force=law.force if known else None, file=shown(name))
 
 
 def force_at_design(document: Any) -> float:
@@ -124,8 +130,12 @@ def _beside(folder: Path, name: str) -> Path | None:
     return next((p / name for p in places if name and os.path.isfile(p / name)), None)  # noqa: PTH113
 
 
-def _law(file: Path) -> AdamsSpring:
-    """Return the rate of a spring whose curve is straight, or its curve."""
+def _law(file: Path, installed: float) -> AdamsSpring:
+    """Return the rate of a spring whose curve is straight, or its curve.
+
+    The force at design is that at a length [mm], NaN without one: its deflection is the free length
+    less this one.
+    """
     blocks = read_blocks(file)
     values = Values(blocks, str(file))
     length = unit_of(values, "length", "mm", MILLIMETRES)
@@ -135,16 +145,19 @@ def _law(file: Path) -> AdamsSpring:
         raise InputError(["it has no curve of deflection and force."])
     (x0, f0), (x1, f1) = points[0], points[-1]
     slope = (f1 - f0) / (x1 - x0)
+    deflection = number(values.one("spring_data", "free_length")) - installed / length
+    places, forces = np.array(points).T
+    at = force * float(np.interp(deflection, places, forces, left=math.nan, right=math.nan))
     off = max(abs(f - f0 - slope * (x - x0)) for x, f in points)
     if not (slope > 0.0 and all(b[1] >= a[1] for a, b in pairwise(points))):
         raise InputError(["its curve falls."])
     if off <= _STRAIGHT * max(abs(f) for _, f in points):
-        return AdamsSpring(_rounded(1e3 * slope * force / length), None, "")
+        return AdamsSpring(_rounded(1e3 * slope * force / length), at, "")
     curve = [(_rounded(length * x), _rounded(force * f)) for x, f in points]
     kept = fewer(curve)
     if len(kept) > SEGMENTS + 1:
         raise InputError([f"its curve has {len(points)} points; {SEGMENTS + 1} are the most."])
-    return AdamsSpring(None, None, "", kept, tuple(curve[: -len(kept)]))
+    return AdamsSpring(None, at, "", kept, tuple(curve[: -len(kept)]))
 
 
 def _rounded(value: float) -> float:
@@ -159,12 +172,3 @@ def _points(blocks: list[FileBlock]) -> list[tuple[float, float]]:
     if any(len(point) != 2 or not all(map(math.isfinite, point)) for point in points):
         raise InputError(["its curve has a row that is not two numbers."])
     return [(point[0], point[1]) for point in points]
-
-
-def _force(values: Mapping[str, str], subsystem: Subsystem) -> float | None:
-    """Return the force at design [N], if the subsystem has a preload."""
-    given = number(values.get("user_value", ""))
-    scale = NEWTONS.get(subsystem.force_unit.lower())
-    if values.get("value_type", "").lower() != "preload" or scale is None or not given > 0.0:
-        return None
-    return scale * given if math.isfinite(given) else None

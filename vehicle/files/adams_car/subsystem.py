@@ -51,6 +51,8 @@ class Subsystem:
         camber_angle and toe_angle [deg], by name and side, if the file has them.
     springs : tuple of dict
         The keys of its springs, in lower case, and their values.
+    length_unit : float
+        Unit of length of the file [mm].
     force_unit : str
         Unit of force of the file, such as ``"newton"``.
     others : tuple of str
@@ -62,6 +64,7 @@ class Subsystem:
     points: dict[str, dict[str, Point]]
     angles: dict[str, dict[str, float]]
     springs: tuple[dict[str, str], ...]
+    length_unit: float
     force_unit: str
     others: tuple[str, ...]
 
@@ -143,7 +146,7 @@ def read(path: str | Path) -> Subsystem:
     springs = tuple(dict(block.values()) for block in blocks if block.name in _SPRINGS)
     force_unit = values.one("units", "force")
     others = (*_other_parameters(blocks), *_others(blocks))
-    return Subsystem(source, template, points, angles, springs, force_unit, others)
+    return Subsystem(source, template, points, angles, springs, scale, force_unit, others)
 
 
 def _refuse_others(values: Values) -> None:
