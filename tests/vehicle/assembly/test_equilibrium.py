@@ -131,9 +131,9 @@ def test_motions_start_with_the_wheels_at_given_heights(name):
 
 
 @pytest.mark.parametrize("name", ["rigid_axle", "steered_rigid_axle", "twist_beam", "lopsided"])
-def test_the_ride_rate_is_the_slope_of_the_tyre_force_over_a_road_that_rises(name: str) -> None:
+def test_the_ride_rate_is_the_slope_of_the_tyre_force_over_a_road_that_rises(name):
     """At rest on a road under both wheels, of an axle without weight."""
-    changes: dict[str, Any] = {"gravity": {"acceleration_m_per_s2": 0.0}}
+    changes = {"gravity": {"acceleration_m_per_s2": 0.0}}
     if name == "lopsided":
         changes["left_hardpoints"] = {"spring_seat": [40.0, 250.0, 430.0]}
     axle = kintrafo.load("rigid_axle" if name == "lopsided" else name).with_changes(changes)

@@ -323,7 +323,7 @@ def test_what_cannot_steer_is_refused(changes, words):
         AXLE.with_changes(changes)
 
 
-def test_its_schema_has_no_drive_and_brakes_on_the_knuckles_alone() -> None:
+def test_its_schema_has_no_drive_and_brakes_on_the_knuckles_alone():
     sections = schema({})["$defs"]
     assert "drive" not in sections["SteeredRigidAxle"]["properties"]
     assert sections["KnuckleBrakes"]["properties"]["torque_on"]["const"] == "carrier"
