@@ -115,7 +115,7 @@ def _range(model: Model, rack_position: float) -> AngleRange:
     """Return the range, cached: a request for one position at rest is followed by others."""
     racks = np.array([rack_position])
     _refuse_racks(model, racks)
-    (low, low_limits), (high, high_limits) = _ends(model, racks.tobytes())
+    (low, low_limits), (high, high_limits) = _ends(model, racks)
     heights, _ = height_and_slope(model, np.append(low, high), rack_position)
     return AngleRange(
         (float(low[0]), float(high[0])),
@@ -125,10 +125,25 @@ def _range(model: Model, rack_position: float) -> AngleRange:
     )
 
 
+def _ends(model: Model, racks: Array) -> tuple[Ends, Ends]:
+    """Return the lower and the upper ends of the range, cached for each displacement of the rack.
+
+    Those of many displacements take hardly longer than those of one.
+    """
+    known = _known_ends(model)
+    new = [rack for rack in dict.fromkeys(racks.tolist()) if rack not in known]
+    if new:
+        (low, low_limits), (high, high_limits) = ends_of(model, np.array(new))
+        known.update(zip(new, zip(low, low_limits, high, high_limits, strict=True), strict=True))
+    of_racks = [known[rack] for rack in racks.tolist()]
+    low, low_limits, high, high_limits = map(np.array, zip(*of_racks, strict=True))
+    return (low, low_limits), (high, high_limits)
+
+
 @lru_cache(maxsize=_KEPT)
-def _ends(model: Model, racks: bytes) -> tuple[Ends, Ends]:
-    """Return the lower and the upper ends of the range, cached: tables and ranges share them."""
-    return ends_of(model, np.frombuffer(racks))
+def _known_ends(_model: Model) -> dict[float, tuple[float, int, float, int]]:
+    """Return where the ends of a model are kept."""
+    return {}
 
 
 class Branch(NamedTuple):
@@ -191,7 +206,7 @@ def _tabulated(model: Model, racks: bytes, steps: tuple[int, int], *, to_the_end
     """Return a table, cached: a report requests the same racks at a hundred heights."""
     own = np.frombuffer(racks)
     _refuse_racks(model, own)
-    return tabulated(model, own, steps, _ends(model, racks) if to_the_end else None)
+    return tabulated(model, own, steps, _ends(model, own) if to_the_end else None)
 
 
 def tabulated(
