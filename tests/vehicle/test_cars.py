@@ -130,7 +130,7 @@ def test_characteristics_have_the_data_of_the_car():
     without = Car.from_dict(
         given.to_dict() | lacking | {"brakes": {"front_share": 0.7, "torque_Nm": 9e3}}
     )
-    assert "[brakes] torque_Nm" in without.unused
+    assert "[brakes], except front_share" in without.unused
     found, expected = (datasets.over(car, "heave", [0.0]) for car in (without, given))
     height = float(center_of_gravity(given)[2])
     assert abs(height - 0.55) > 1e-4
@@ -138,6 +138,20 @@ def test_characteristics_have_the_data_of_the_car():
         # rounding of some ten operations
         np.testing.assert_allclose(found[name], 0.55 / height * expected[name], rtol=1e-14)
     assert without.to_dict()["front"] == lacking["front"]
+    # data of the car do not become data of its axles, which would then contradict another car
+    assert without.axles["front"].vehicle.center_of_gravity_height_mm is None
+    frictionless = CarAssembly(without).without_friction().subject
+    assert frictionless.axles["front"].vehicle.center_of_gravity_height_mm is None
+
+
+def test_a_center_of_gravity_below_the_ground_is_not_given_to_axles() -> None:
+    given = Car.load("reference_vehicle")
+    lacking = {"front": _of_any_car("reference_axle"), "rear": _of_any_car("rear_axle")}
+    low = Car.from_dict(given.to_dict() | lacking).with_changes(
+        {"body.com_mm": [-1300.0, 0.0, -300.0]}
+    )
+    assert center_of_gravity(low)[2] < 0.0
+    assert "anti_dive" not in datasets.over(low, "heave", [0.0])
 
 
 @pytest.mark.parametrize("end", ["front", "rear"])

@@ -33,7 +33,7 @@ def test_a_packaged_car_drives():
     assert car.tyre("front_right") == car.tyre("front_left").mirrored()
     assert Car.from_dict(car.to_dict()).to_dict() == car.to_dict()
     unused = car.with_changes({"car": "roll"}).unused
-    assert unused[:3] == ("[tyres]", "[brakes] torque_Nm", "[air]")
+    assert unused[:3] == ("[tyres]", "[brakes], except front_share", "[air]")
 
 
 def test_tyres_are_files_beside_the_car_or_tables(tmp_path):

@@ -61,7 +61,7 @@ class CarAssembly(Assembly):
         self._model = model
         self.wheels, self.axles = car.wheels, tuple(car.axles)
         self.body_moves, self.drives = True, car.drives
-        parts: Mapping[str, Any] = car.axles or {"": car.corner}
+        parts: Mapping[str, Any] = _in_vehicle(car) or {"": car.corner}
         self.held = {end: _held(part) for end, part in parts.items()}
         self.wheeled = [file for part in self.held.values() for file in part.wheeled]
         self.symmetric = all(part.symmetric for part in self.held.values())
@@ -137,7 +137,7 @@ class CarAssembly(Assembly):
 
     def without_friction(self) -> "CarAssembly":
         parts = {
-            end or "corner": part.without_friction().subject for end, part in self.held.items()
+            name: _held(part).without_friction().subject for name, part in self.car.parts.items()
         }
         data = {k: v for k, v in self.car.to_dict().items() if k not in parts}
         if self.car.column is not None:
@@ -546,6 +546,20 @@ class _HeldWheel:
             in_car: float(jacobian[model.state_names.index(name)])
             for name, in_car in self.names.items()
         }
+
+
+def _in_vehicle(car: Car) -> dict[str, AnyAxle]:
+    """Return the axles with the data of the car that their characteristics need, by end.
+
+    These are the data that ``[vehicle]`` in the file of an axle lacks.
+    """
+    height = float(1e3 * center_of_gravity(car)[2])
+    known = {
+        "wheelbase_mm": car.described.wheelbase_mm,
+        "center_of_gravity_height_mm": height if height > 0.0 else None,  # as in a file
+        "front_brake_share": car.front_brake_share,
+    }
+    return {end: axle.in_vehicle(known) for end, axle in car.axles.items()}
 
 
 def _held(part: Suspension | AnyAxle) -> HeldAssembly:

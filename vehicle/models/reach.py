@@ -131,6 +131,8 @@ def _ends(model: Model, racks: Array) -> tuple[Ends, Ends]:
     Those of many displacements take hardly longer than those of one.
     """
     known = _known_ends(model)
+    if len(known) > _KEPT * _CHUNK:
+        known.clear()
     new = [rack for rack in dict.fromkeys(racks.tolist()) if rack not in known]
     if new:
         (low, low_limits), (high, high_limits) = ends_of(model, np.array(new))

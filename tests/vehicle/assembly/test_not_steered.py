@@ -37,7 +37,7 @@ def test_every_analysis_refuses_steering_by_one_message(name, analysis):
     assert len(error.value.problems) == 1
 
 
-@pytest.mark.parametrize("axle", ["rear_axle", "rigid_axle"])
+@pytest.mark.parametrize("axle", ["rear_axle", "steered_rigid_axle"])
 def test_steered_axles_are_not_refused(axle):
-    subject = kintrafo.load("steered_rigid_axle" if axle == "rigid_axle" else axle)
+    subject = kintrafo.load(axle)
     assert characteristics.over(subject, "rack", [0.0])["toe"].notnull().all()

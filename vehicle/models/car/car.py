@@ -171,16 +171,10 @@ class Car(DescribedParts):
     def axles(self) -> dict[str, AnyAxle]:
         """The front and the rear axle, by end; empty for a quarter car.
 
-        Their ``[vehicle]`` has the data of the car, where their files lack them. Those of a car
-        that drives are on its tyres: their ``[tyre]`` is the tyre of ``[tyres]`` under the static
-        load, see `under_load`.
+        Those of a car that drives are on its tyres: their ``[tyre]`` is the tyre of ``[tyres]``
+        under the static load, see `under_load`.
         """
-        known = {
-            "wheelbase_mm": self.described.wheelbase_mm,
-            "center_of_gravity_height_mm": float(1e3 * center_of_gravity(self)[2]),
-            "front_brake_share": self.front_brake_share,
-        }
-        axles = {end: axle.in_vehicle(known) for end, axle in self.described_axles.items()}
+        axles = self.described_axles
         if not self.drives:
             return axles
         return {
@@ -322,8 +316,9 @@ class Car(DescribedParts):
         """Return the unused keys of driving; of a driving car those that its tyres replace."""
         if not self.drives:
             given = [key for key in OF_DRIVING if getattr(self.described, key) is not None]
-            # the share of the brakes is one of the data of the vehicle
-            return ["[brakes] torque_Nm" if key == "brakes" else f"[{key}]" for key in given]
+            # characteristics need the share of the brakes
+            brakes = "[brakes], except front_share"
+            return [brakes if key == "brakes" else f"[{key}]" for key in given]
         words = [f"{end} axle: [tyre] (a car that drives takes [tyres])" for end in ENDS]
         return words + [
             f"[tyres] {end}: {', '.join(tyre.left_out)}"
