@@ -477,7 +477,7 @@ def test_what_else_cannot_be():
         compliance.linear(AXLE)
     with pytest.raises(PositionError):
         compliance.linear(AXLE, soft, [0.9])
-    with pytest.raises(InputError, match="motion 'steer' is not known"):
+    with pytest.raises(InputError, match="the motion 'steer': its wheels are not steered"):
         compliance.elastokinematics(AXLE, soft, "steer")
     with pytest.raises(InputError, match="under 'cornering' is not known"):
         compliance.nonlinear(AXLE, soft, "cornering", [1e3])
