@@ -40,18 +40,27 @@ GREATEST, LEAST = 1e9, 1e-9
 
 @dataclass(frozen=True)
 class Goal:
-    """A characteristic at some positions, with a target or a limit."""
+    """A characteristic at some positions: to make least or greatest, or with a target or a limit.
+
+    Attributes
+    ----------
+    KIND : str
+        'extreme', 'target' or 'limit'.
+    """
 
     name: str
     # one of `sweep_axes.ALL_AXES`, with its options; or the support of the wheel under loads
     over: str
     at: Array  # positions, (n,) [m]; over roll [rad]
 
-    KIND: ClassVar[str]  # 'target' or 'limit'
+    KIND: ClassVar[str] = "extreme"
 
     def beyond(self, values: Array) -> Array:
-        """Return by how much values at its positions miss the goal; not above zero if it is met."""
-        raise NotImplementedError
+        """Return by how much values at its positions miss the goal; not above zero if it is met.
+
+        No value misses an extreme.
+        """
+        return np.full(np.shape(values), -np.inf)
 
     @property
     def quantity(self) -> Quantity:
