@@ -1,13 +1,9 @@
 """The oracles: what they agree on with each other, and what they refuse."""
 
-from collections.abc import Callable
-
 import numpy as np
-import numpy.typing as npt
 import pytest
 
 from oracle import laws
-from oracle.constraints import Array, Pose
 from oracle.multipliers import reduced_equations, solve_twist
 from oracle.newton import AssemblyError, Mechanism, observe, residual_norm, solve_pose
 from oracle.reference import (
@@ -44,7 +40,7 @@ def other_car(request):
     return Mechanism(make(np.random.default_rng(seed)))
 
 
-def central_difference(function: Callable[[float], Array], step: float) -> Array:
+def central_difference(function, step):
     """Differentiate at zero with an error of the order of step**6."""
     total = np.zeros_like(function(0.0))
     for factor, weight in ((1, 45.0), (2, -9.0), (3, 1.0)):
@@ -52,13 +48,11 @@ def central_difference(function: Callable[[float], Array], step: float) -> Array
     return total / (60.0 * step)
 
 
-def partial_derivatives(
-    function: Callable[[Array], Array], size: int, step: npt.ArrayLike
-) -> Array:
+def partial_derivatives(function, size, step):
     """Differentiate at zero with respect to each of `size` arguments, along the first axis."""
     directions = np.broadcast_to(step, (size,))[:, None] * np.eye(size)
 
-    def along(direction: Array) -> Array:
+    def along(direction):
         length = float(np.linalg.norm(direction))
         return central_difference(lambda h: function(h / length * direction), length)
 
@@ -72,11 +66,11 @@ class Path:
     rate = np.array([2.3, 60.0, 0.4])
     acceleration = np.array([-310.0, 45.0, 7.0])
 
-    def __init__(self, mechanism: Mechanism) -> None:
+    def __init__(self, mechanism):
         self._mechanism = mechanism
         self.start = self.pose(0.0)
 
-    def pose(self, t: float) -> Pose:
+    def pose(self, t):
         beta1, spin, rack = self.value + t * self.rate + 0.5 * t**2 * self.acceleration
         start = getattr(self, "start", None)
         return solve_pose(self._mechanism, self._mechanism.beta1_design + beta1, rack, spin, start)

@@ -1,7 +1,5 @@
 """The stored messages are those of tests that there are."""
 
-from __future__ import annotations
-
 import pytest
 from support import messages
 

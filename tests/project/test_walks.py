@@ -5,8 +5,6 @@ What is added is a file that exists, under other names, and the file it is from 
 both would do the same.
 """
 
-from __future__ import annotations
-
 import re
 import subprocess
 import sys
@@ -18,7 +16,7 @@ from support.folders import ROOT
 TEXT = (ROOT / "docs/contributing.md").read_text(encoding="utf-8")
 
 
-def source(path: str, *changes: tuple[str, str]) -> str:
+def source(path, *changes):
     """Return the text of a source with some words replaced, each of which it has."""
     text = (ROOT / path).read_text(encoding="utf-8")
     for old, new in changes:
@@ -27,7 +25,7 @@ def source(path: str, *changes: tuple[str, str]) -> str:
     return text
 
 
-WALKS: dict[str, dict[str, str | None]] = {
+WALKS = {
     "A kind of suspension": {
         "vehicle/kinds/hanging_rod.py": source(
             "vehicle/kinds/pull_rod.py",
@@ -210,7 +208,7 @@ cli.run()
 """
 
 
-def link(place: Path, target: Path) -> None:
+def link(place, target):
     place.symlink_to(target, target_is_directory=target.is_dir())
 
 
@@ -232,7 +230,7 @@ def copy(tmp_path):
     return tmp_path
 
 
-def own_folder(package: Path, parts: tuple[str, ...]) -> Path:
+def own_folder(package, parts):
     """Return a folder of the copy, with links to what is in it in place of one to itself."""
     here, there = package, ROOT
     for part in parts:
@@ -263,7 +261,7 @@ def test_the_walks_are_done_on_a_copy(copy):
     assert "kintrafo describe" in done.stdout
 
 
-def section(name: str) -> str:
+def section(name):
     (text,) = re.findall(rf"^### {re.escape(name)}\n(.*?)(?=^##)", TEXT, re.MULTILINE | re.DOTALL)
     return text
 

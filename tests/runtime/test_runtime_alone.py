@@ -10,8 +10,6 @@ import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 from support.folders import ROOT
@@ -95,7 +93,7 @@ ALLOWED = {
 }
 
 
-def names_of(path: Path) -> Iterator[str]:
+def names_of(path):
     """Yield what a module calls its things."""
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.FunctionDef | ast.ClassDef | ast.AsyncFunctionDef):
@@ -108,7 +106,7 @@ def names_of(path: Path) -> Iterator[str]:
             yield node.attr
 
 
-def words_of(name: str) -> set[str]:
+def words_of(name):
     """Return the words of a name: `WheelLoads` and `wheel_loads` have the same."""
     return {word.lower() for word in re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])", name)}
 

@@ -1,9 +1,5 @@
 """Cars: their files, their equations against independent ones, their rest and characteristics."""
 
-from __future__ import annotations
-
-from typing import Any
-
 import kintrafo
 import numpy as np
 import pytest
@@ -88,7 +84,7 @@ def test_the_gravity_centre_is_that_of_all_masses():
     assert 1e3 * center_of_gravity(car)[2] == pytest.approx(moments / (1382.4 + 167.0), abs=1e-9)
 
 
-def _of_any_car(name: str) -> dict[str, Any]:
+def _of_any_car(name):
     """Return the data of an axle without those of the whole vehicle."""
     data = kintrafo.load(name).to_dict()
     for part in (data, data.get("side", {})):
@@ -144,7 +140,7 @@ def test_characteristics_have_the_data_of_the_car():
     assert frictionless.axles["front"].vehicle.center_of_gravity_height_mm is None
 
 
-def test_a_center_of_gravity_below_the_ground_is_not_given_to_axles() -> None:
+def test_a_center_of_gravity_below_the_ground_is_not_given_to_axles():
     given = Car.load("reference_vehicle")
     lacking = {"front": _of_any_car("reference_axle"), "rear": _of_any_car("rear_axle")}
     low = Car.from_dict(given.to_dict() | lacking).with_changes(

@@ -1,9 +1,5 @@
 """Cars that drive: their files, rest, running straight, brakes and steering against formulas."""
 
-from __future__ import annotations
-
-from typing import Any
-
 import kintrafo
 import numpy as np
 import pytest
@@ -83,7 +79,7 @@ def test_a_missing_moment_of_inertia_is_named(key):
         Car.from_dict(FILE | {"body": body})
 
 
-def on_a_rigid_axle() -> dict[str, Any]:
+def on_a_rigid_axle():
     """Return the file of one whose rear axle has no sides."""
     rear = kintrafo.load("rigid_axle").to_dict()
     rear = {name: section for name, section in rear.items() if name not in ("drive", "vehicle")}
@@ -201,7 +197,7 @@ def test_its_axles_are_on_its_tyres(assembly):
         assert load == pytest.approx(signals["fz"], rel=1e-5)
 
 
-def _numbers(car: Car) -> dict[str, Any]:
+def _numbers(car):
     """Return characteristics, loads and the parameters of the car that rides."""
     assembly = CarAssembly(car)
     curves = kintrafo.characteristics.over(assembly, "roll", [0.01])

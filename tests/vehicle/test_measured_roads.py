@@ -1,9 +1,5 @@
 """Measured roads, and what a tyre makes of edges: cams against bisection of their contact."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
-
 import numpy as np
 import pytest
 from kintrafo import InputError, road_profiles
@@ -11,9 +7,6 @@ from kintrafo.vehicle.cli import app
 from kintrafo.vehicle.plots.by_axle import by_axle
 from kintrafo.vehicle.roads.enveloping import HEIGHT, LENGTH, ORDER, SHIFT
 from typer.testing import CliRunner
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 RADIUS, CONTACT = 0.31, 0.12
 CRG = """$CT
@@ -35,7 +28,7 @@ $$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$$
 """
 
 
-def written(folder: Path, name: str, text: str) -> Path:
+def written(folder, name, text):
     path = folder / name
     path.write_text(text, encoding="utf-8")
     return path
@@ -70,7 +63,7 @@ class TestTables:
 
 
 class TestOpenCrg:
-    def file(self, folder: Path, heights: np.ndarray) -> Path:
+    def file(self, folder, heights):
         rows = "".join(
             "".join("****nan***" if np.isnan(h) else f"{h:10.6f}" for h in row) + "\n"
             for row in heights
@@ -103,7 +96,7 @@ class TestOpenCrg:
 
 
 class TestEnveloping:
-    def lifted(self, x: np.ndarray, heights: np.ndarray, at: float) -> float:
+    def lifted(self, x, heights, at):
         """Return how high a cam is on a road of straight lines, by bisection of its contact."""
         local = np.linspace(-LENGTH * RADIUS, LENGTH * RADIUS, 20001)
         road = np.interp(at + local, x, heights)
@@ -166,7 +159,7 @@ class TestEnveloping:
 
 
 class TestCommand:
-    def run(self, *given: str) -> Any:
+    def run(self, *given):
         return CliRunner().invoke(app, ["ride", "quarter_car", *given])
 
     def test_a_measured_road_is_driven_to_its_end(self, tmp_path):

@@ -3,10 +3,6 @@
 No equations of a whole car are derived here: each corner is held, with its part of the weight.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import kintrafo
 import numpy as np
 import pytest
@@ -18,9 +14,6 @@ from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.data.starter import packaged_cars
 from kintrafo.vehicle.models.car.car import center_of_gravity, masses, suspension_masses
 
-if TYPE_CHECKING:
-    from kintrafo.vehicle.models.car import Car
-
 CARS = [name for name in packaged_cars() if kintrafo.load(name).axles]
 # How far from design a wheel rests on a body that is held [m]: the springs of FED-Alpha are those
 # of its source, and others are said to carry their car; the tyres of the driving car are 5 mm lower
@@ -28,7 +21,7 @@ CARS = [name for name in packaged_cars() if kintrafo.load(name).axles]
 FAR = {"fed_alpha": 0.01, "driving_car": 0.006}
 
 
-def loads(car: Car) -> dict[str, float]:
+def loads(car):
     """Return the load of a wheel of each axle, by the balance of moments at design [N]."""
     weight = 9.81 * sum(mass for mass, _ in masses(car))
     x = {end: float(car.wheel_centers[f"{end}_left"][0]) for end in car.axles}

@@ -1,11 +1,8 @@
 """Subsystems of Adams/Car: typing errors, unknown keys, corrupt bytes, other units."""
 
-from __future__ import annotations
-
 import re
 import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from cars.adams_files import MILLIMETRES, rows_of, subsystem
@@ -17,9 +14,6 @@ from kintrafo.vehicle.kinds import KINDS
 
 from .. import keys, mutations
 from ..attempts import RawError, WrongError
-
-if TYPE_CHECKING:
-    from numpy.random import Generator
 
 SHORT = 100
 CARS = {kind: Suspension.load(KINDS[kind].STARTER) for kind in KINDS}
@@ -58,7 +52,7 @@ COMMENTS = "(COMMENTS)\n{comment_string}\n'zeta_8 of nobody'\n"
 NAMES = (None, None, None, {"wheel_center": "lca_outer"}, {"x": "y"}, {"spring_top": "x"})
 
 
-def attempt(random: Generator) -> None:
+def attempt(random):
     """Import a subsystem that was changed, or one with a line more, or misspelt."""
     if random.random() < 0.4:
         _attempt_keys(random)
@@ -66,7 +60,7 @@ def attempt(random: Generator) -> None:
         _attempt_values(random)
 
 
-def _attempt_keys(random: Generator) -> None:
+def _attempt_keys(random):
     """Add a line, or spell a name otherwise: it is used, listed with its value, or refused."""
     kind = str(random.choice(list(CARS)))
     wheel = {"wheel.camber_deg": -1.25, "wheel.toe_deg": 0.75}
@@ -98,7 +92,7 @@ def _attempt_keys(random: Generator) -> None:
         raise WrongError(f"{lost} of {words} are lost: {left_out}")
 
 
-def _does_more(bare: str, after: Any, kind: str, *, spring: bool) -> bool:
+def _does_more(bare, after, kind, *, spring):
     """Return whether without a line something else came of a file, or nothing."""
     try:
         return bool(_result(bare, kind, spring=spring)[0] != after)
@@ -106,7 +100,7 @@ def _does_more(bare: str, after: Any, kind: str, *, spring: bool) -> bool:
         return True
 
 
-def _with_line(text: str, block: str, line: str) -> str:
+def _with_line(text, block, line):
     """Return a file with a line more at the end of a block; at its own end without one."""
     if not block:
         return f"{text}{line}\n"
@@ -117,7 +111,7 @@ def _with_line(text: str, block: str, line: str) -> str:
     return f"{text[:end]}\n{line}{text[end:]}"
 
 
-def _result(text: str, kind: str, *, spring: bool) -> tuple[Any, str]:
+def _result(text, kind, *, spring):
     """Return what an import gives, and what it lists as left out."""
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "front.sub").write_text(text, encoding="utf-8")
@@ -128,7 +122,7 @@ def _result(text: str, kind: str, *, spring: bool) -> tuple[Any, str]:
     return new.to_dict(), "\n".join(found.left_out)
 
 
-def _attempt_values(random: Generator) -> None:
+def _attempt_values(random):
     """Import a subsystem that was changed, and look at what came of each of its hardpoints."""
     kind = str(random.choice(list(CARS)))
     car = CARS[kind] if random.random() < 0.5 else CARS[kind].mirrored()
@@ -140,7 +134,7 @@ def _attempt_values(random: Generator) -> None:
     content = text.encode("latin-1", "replace") if random.random() < 0.3 else text.encode()
     if not untouched and random.random() < 0.3:
         content = mutations.bytes_of(random, content)
-    how: dict[str, Any] = {
+    how = {
         "side": (None, "left", "right")[random.integers(3)],
         "kind": kind if random.random() < 0.7 else None,
         "base": KINDS[kind].STARTER if random.random() < 0.3 else None,
@@ -161,14 +155,14 @@ def _attempt_values(random: Generator) -> None:
         _check(content.decode("latin-1"), found, Suspension.load(new), how)
 
 
-def _spring(random: Generator, path: Path) -> None:
+def _spring(random, path):
     """Write the file of a spring, with slips of the hand or broken; or none."""
     if random.random() < 0.7:
         content = _slipped(random, SPRING).encode()
         path.write_bytes(mutations.bytes_of(random, content) if random.random() < 0.3 else content)
 
 
-def _moved(random: Generator, rows: list[Any]) -> list[Any]:
+def _moved(random, rows):
     """Move every hardpoint by a little."""
     if random.random() < 0.3:
         return rows
@@ -178,7 +172,7 @@ def _moved(random: Generator, rows: list[Any]) -> list[Any]:
     ]
 
 
-def _slipped(random: Generator, text: str) -> str:
+def _slipped(random, text):
     """Change one to three lines: a cell, the order, a line that is lost or there twice."""
     lines = text.splitlines()
     for _ in range(random.integers(1, 4)):
@@ -198,13 +192,13 @@ def _slipped(random: Generator, text: str) -> str:
     return ("\n", "\r\n", "\r")[random.integers(3)].join(lines)
 
 
-def _judge(error: InputError) -> None:
+def _judge(error):
     message = str(error)
     if len(message) > 1500 * (len(error.problems) + 1):
         raise RawError(f"{len(message)} characters: {message[:300]}") from error
 
 
-def _check(text: str, found: Any, car: Any, how: dict[str, Any]) -> None:
+def _check(text, found, car, how):
     """Every hardpoint that was read stands in a row of the file, in its unit and its axes."""
     text = re.sub(r"\r\n?", "\n", text)
     units = re.findall(r"(?im)^\s*LENGTH\s*=\s*['\"]?\s*(\w+)", text)
@@ -235,11 +229,11 @@ def _check(text: str, found: Any, car: Any, how: dict[str, Any]) -> None:
         raise WrongError("a parameter is not finite")
 
 
-def _named(line: str, name: str) -> bool:
+def _named(line, name):
     return name in re.findall(r"[^\s'\",]+", line.lower())
 
 
-def _numbers(line: str) -> list[float]:
+def _numbers(line):
     found = re.findall(r"(?:^|[\s,'\"])([-+]?[\d.]+(?:[edED][-+]?\d+)?)(?=$|[\s,'\"$!])", line)
     try:
         return [float(one.lower().replace("d", "e")) for one in found]

@@ -7,10 +7,7 @@ coordinates; where nothing takes or gives energy, the oracle's sum of energies m
 the bar has no rate, each side moves as it does alone.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from kintrafo import Axle, AxleModel, Model, RigidAxle, RigidAxleModel, Suspension, System, simulate
@@ -26,13 +23,6 @@ from support.models import Built
 from ..attempts import UnjudgedError, WrongError
 from ..courses import AT_REST, Sine
 from .axles import moved
-
-if TYPE_CHECKING:
-    from kintrafo.generator import Formulation
-    from numpy.random import Generator
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
 
 SHORT = 4
 SECONDS = 60.0
@@ -84,14 +74,14 @@ class Drawn:
     """
 
     built: Built
-    start: Array
+    start: np.ndarray
     end: float
     roads: dict[str, Sine] = field(default_factory=lambda: dict.fromkeys(SIDES, AT_REST))
     rack: Sine = AT_REST
     sides: dict[str, Model] = field(default_factory=dict)
     lossless: bool = False
 
-    def inputs(self, time: float) -> Array:
+    def inputs(self, time):
         """Return all inputs in their order."""
         given = _rack_at(self.rack, time)
         for side, road in self.roads.items():
@@ -99,11 +89,11 @@ class Drawn:
         return np.array([given.get(name, 0.0) for name in self.built.module.INPUTS])
 
 
-def _road_at(road: Sine, time: float) -> dict[str, float]:
+def _road_at(road, time):
     return {"road_height": road(time), "road_velocity": road.rate(time)}
 
 
-def _rack_at(rack: Sine, time: float) -> dict[str, float]:
+def _rack_at(rack, time):
     return {
         "rack_position": rack(time),
         "rack_velocity": rack.rate(time),
@@ -111,7 +101,7 @@ def _rack_at(rack: Sine, time: float) -> dict[str, float]:
     }
 
 
-def attempt(random: Generator) -> None:
+def attempt(random):
     """Move an axle, and hold it against each of its references."""
     kinds = [_packaged, _beam, *([_two_sides] * 2 if find_compiler() else [])]
     drawn = kinds[random.integers(len(kinds))](random)
@@ -130,14 +120,14 @@ def attempt(random: Generator) -> None:
     _judge_motion(drawn, last, random)
 
 
-def _packaged(random: Generator) -> Drawn:
+def _packaged(random):
     """Return the packaged axle, whose sides are mirror images on roads of their own."""
     return _drawn(random, model_named("front_axle"), System(front_axle), PACKAGED.models)
 
 
-def _two_sides(random: Generator) -> Drawn:
+def _two_sides(random):
     # with a stop on both sides the equations are always the same, and derived once
-    def side() -> Suspension:
+    def side():
         stop = {"clearance_mm": float(random.uniform(1.0, 20.0)), "rate_N_per_m": 1e5}
         return moved(random, WISHBONES).with_changes({"bump_stop": stop})
 
@@ -147,7 +137,7 @@ def _two_sides(random: Generator) -> Drawn:
     return _drawn(random, declared(axle), AxleModel(axle), axle.models)
 
 
-def _beam(random: Generator) -> Drawn:
+def _beam(random):
     places = {
         f"rods.{name}.{end}": (np.array(getattr(rod, end)) + random.uniform(-20, 20, 3)).tolist()
         for name, rod in BEAM.rods.items()
@@ -157,9 +147,7 @@ def _beam(random: Generator) -> Drawn:
     return _drawn(random, model_named("rigid_axle"), model, {})
 
 
-def _drawn(
-    random: Generator, declaration: Formulation, system: System, sides: dict[str, Model]
-) -> Drawn:
+def _drawn(random, declaration, system, sides):
     """Return an axle with rates, kicks and roads; what has no bar between its sides with them."""
     what = str(random.choice(["driven", "lossless", "apart"] if sides else ["driven", "lossless"]))
     values = _values(random, system, lossless=what == "lossless")
@@ -181,7 +169,7 @@ def _drawn(
     return drawn
 
 
-def _values(random: Generator, system: System, *, lossless: bool) -> dict[str, float]:
+def _values(random, system, *, lossless):
     """Return parameters whose rates are others on each side, where a side has its own."""
     values = dict(system.parameters)
     for name in [n for n in values if n.removeprefix("left_") in RATES]:
@@ -192,11 +180,11 @@ def _values(random: Generator, system: System, *, lossless: bool) -> dict[str, f
     return values
 
 
-def _sine(random: Generator, size: float) -> Sine:
+def _sine(random, size):
     return Sine(size * random.normal(), 2.0 * np.pi * random.uniform(0.5, 8.0))
 
 
-def _followed(module: Any, constants: Array, inputs: Any, drawn: Drawn, start: Any = None) -> Any:
+def _followed(module, constants, inputs, drawn, start=None):
     """Integrate the bare right-hand side as tightly as double precision allows."""
     return solve_ivp(
         lambda t, y: module.rhs(y, inputs(t), constants),
@@ -209,7 +197,7 @@ def _followed(module: Any, constants: Array, inputs: Any, drawn: Drawn, start: A
     )
 
 
-def _judge_accelerations(drawn: Drawn, time: float, state: Array) -> None:
+def _judge_accelerations(drawn, time, state):
     """Hold the equations against the mechanism in maximal coordinates."""
     built, inputs = drawn.built, drawn.inputs(time)
     at, named = built.motion(state, inputs), built.named(inputs)
@@ -221,7 +209,7 @@ def _judge_accelerations(drawn: Drawn, time: float, state: Array) -> None:
         raise WrongError(f"accelerations {found} at {time} s, in maximal coordinates {expected}")
 
 
-def _judge_energy(drawn: Drawn, last: Array) -> None:
+def _judge_energy(drawn, last):
     if not drawn.lossless:
         return
     built, none = drawn.built, drawn.inputs(0.0)
@@ -231,7 +219,7 @@ def _judge_energy(drawn: Drawn, last: Array) -> None:
         raise WrongError(f"{built.module.NAME}: {first} J at first, {end} J after {drawn.end} s")
 
 
-def _judge_sides(drawn: Drawn, last: Array) -> None:
+def _judge_sides(drawn, last):
     names = list(drawn.built.module.STATE)
     for side, model in drawn.sides.items():
         own = [names.index(f"{side}_{name}") for name in model.state_names]
@@ -240,7 +228,7 @@ def _judge_sides(drawn: Drawn, last: Array) -> None:
         rates = {name: values.get(f"{prefix}{name}", values[name]) for name in RATES}
         constants = model.equations.prepare({**model.parameters, **rates})
 
-        def inputs(time: float, side: str = side, model: Model = model) -> Array:
+        def inputs(time, side=side, model=model):
             given = _rack_at(drawn.rack, time) | _road_at(drawn.roads[side], time)
             return np.array([given.get(name, 0.0) for name in model.input_names])
 
@@ -249,9 +237,9 @@ def _judge_sides(drawn: Drawn, last: Array) -> None:
             raise WrongError(f"the {side} side moves to {last[own]}, alone to {alone}")
 
 
-def _judge_motion(drawn: Drawn, last: Array, random: Generator) -> None:
+def _judge_motion(drawn, last, random):
     built, method = drawn.built, str(random.choice(METHODS))
-    courses: dict[str, Any] = {f"{side}_road_height": road for side, road in drawn.roads.items()}
+    courses = {f"{side}_road_height": road for side, road in drawn.roads.items()}
     if built.model.motions:  # a rack
         courses["rack_position"] = drawn.rack
     found = simulate(

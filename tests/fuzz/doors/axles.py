@@ -7,8 +7,6 @@ Loads of an axle without a bar are those of each side alone, and with a bar all 
 balance each other on every part.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from kintrafo import Axle, Suspension, characteristics, loads
 from kintrafo.vehicle.assembly import motions

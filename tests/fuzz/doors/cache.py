@@ -1,7 +1,5 @@
 """The cache of compiled mechanisms, damaged: an error, or the same results."""
 
-from __future__ import annotations
-
 import atexit
 import json
 import os
@@ -11,7 +9,6 @@ import tempfile
 import warnings
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import kintrafo
 import numpy as np
@@ -23,15 +20,12 @@ from kintrafo.systems.compile.compiler import Compiler
 
 from ..attempts import WrongError
 
-if TYPE_CHECKING:
-    from numpy.random import Generator
-
 SHORT = 6
 STATES = np.random.default_rng(8).normal(size=(6, 2)) * [0.3, 2.0]
 
 
 @cache
-def sound() -> tuple[Path, bytes]:
+def sound():
     """Return the folder of a mechanism and what it computes; from then on nothing is compiled."""
     derived = outputs.generate(model_of(FOUR_BAR))
     outputs.generate = lambda _, **__: derived
@@ -43,11 +37,11 @@ def sound() -> tuple[Path, bytes]:
     library = target / "libfour_bar.so"
     if library.exists():
         kept = library.read_bytes()
-        Compiler.build = lambda _, __, path, *___: path.write_bytes(kept) and None  # type: ignore[assignment,method-assign,return-value]
+        Compiler.build = lambda _, __, path, *___: path.write_bytes(kept) and None
     return target, values
 
 
-def computed(root: Path) -> bytes:
+def computed(root):
     """Load the mechanism of a cache anew, and compute with it."""
     for name in [name for name in sys.modules if name.startswith("kintrafo_four_bar_")]:
         del sys.modules[name]
@@ -55,7 +49,7 @@ def computed(root: Path) -> bytes:
     return bytes(module.rhs(STATES).tobytes())
 
 
-def attempt(random: Generator) -> None:
+def attempt(random):
     """Damage a copy once to three times; load it, and load it again."""
     target, values = sound()
     with tempfile.TemporaryDirectory() as name:
@@ -76,19 +70,19 @@ def attempt(random: Generator) -> None:
             raise WrongError("not healed")
 
 
-def _file(random: Generator, folder: Path) -> Path:
+def _file(random, folder):
     files = sorted(p for p in folder.glob("*") if p.is_file()) or [folder / "manifest.json"]
     return files[random.integers(len(files))]
 
 
-def _cut(random: Generator, folder: Path) -> None:
+def _cut(random, folder):
     path = _file(random, folder)
     if path.exists():
         content = path.read_bytes()
         path.write_bytes(content[: int(random.integers(len(content) + 1))])
 
 
-def _flip(random: Generator, folder: Path) -> None:
+def _flip(random, folder):
     path = _file(random, folder)
     if path.exists() and path.stat().st_size:
         content = bytearray(path.read_bytes())
@@ -96,18 +90,18 @@ def _flip(random: Generator, folder: Path) -> None:
         path.write_bytes(content)
 
 
-def _remove(random: Generator, folder: Path) -> None:
+def _remove(random, folder):
     if folder.is_dir():
         _file(random, folder).unlink(missing_ok=True)
 
 
-def _replace_by_another(random: Generator, folder: Path) -> None:
+def _replace_by_another(random, folder):
     one, other = _file(random, folder), _file(random, folder)
     if one.exists() and other.exists():
         one.write_bytes(other.read_bytes())
 
 
-def _replace_by_no_file(random: Generator, folder: Path) -> None:
+def _replace_by_no_file(random, folder):
     if not folder.is_dir():
         return
     path = _file(random, folder)
@@ -123,30 +117,30 @@ def _replace_by_no_file(random: Generator, folder: Path) -> None:
         os.mkfifo(path)
 
 
-def _forbid(random: Generator, folder: Path) -> None:
+def _forbid(random, folder):
     path = _file(random, folder)
     if path.exists():
         path.chmod(0)
 
 
-def _empty(_: Generator, folder: Path) -> None:
+def _empty(_, folder):
     if folder.is_dir():
         shutil.rmtree(folder)
         folder.mkdir()
 
 
-def _away(_: Generator, folder: Path) -> None:
+def _away(_, folder):
     if folder.is_dir():
         shutil.rmtree(folder)
 
 
-def _file_instead(_: Generator, folder: Path) -> None:
+def _file_instead(_, folder):
     if folder.is_dir():
         shutil.rmtree(folder)
         folder.write_text("somebody's file")
 
 
-def _foreign(random: Generator, folder: Path) -> None:
+def _foreign(random, folder):
     if folder.is_dir():
         (folder / "notes.txt").write_bytes(random.bytes(9))
         (folder / "__pycache__").mkdir(exist_ok=True)
@@ -154,11 +148,11 @@ def _foreign(random: Generator, folder: Path) -> None:
         (folder / "__pycache__" / f"four_bar.{tag}.pyc").write_bytes(random.bytes(99))
 
 
-def _manifest(random: Generator, folder: Path) -> None:
+def _manifest(random, folder):
     path = folder / "manifest.json"
     if not path.is_file():
         return
-    wrong: list[Any] = [
+    wrong = [
         [], {}, None, 3, {"files": 3, "folder": folder.name}, {"files": {}, "folder": "another"},
         {"files": {"a": [1]}, "folder": folder.name}, {"files": {"a": ["x", 1]}, "folder": 3},
         {"files": {"../a": [1, "x"]}, "folder": folder.name},

@@ -1,11 +1,8 @@
 """Files of Project Chrono: JSON with comments, corrupt, deeply nested, with wrong keys."""
 
-from __future__ import annotations
-
 import json
 import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from kintrafo.core.errors import InputError
@@ -14,22 +11,16 @@ from kintrafo.vehicle.files.chrono import read
 from .. import keys, mutations
 from ..attempts import RawError, WrongError
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from numpy.random import Generator
-
 DATA = Path(__file__).parents[2] / "data/chrono"
 
 
-def _uncommented(name: str) -> dict[str, Any]:
+def _uncommented(name):
     """Return a file of the tests, whose comments are whole lines."""
     lines = (DATA / name).read_text(encoding="utf-8").splitlines()
-    found: dict[str, Any] = json.loads("\n".join(x for x in lines if not x.startswith("//")))
-    return found
+    return json.loads("\n".join(x for x in lines if not x.startswith("//")))
 
 
-def _with_stops(data: dict[str, Any]) -> dict[str, Any]:
+def _with_stops(data):
     """Return a file whose spring has stops."""
     spring = data["Spring"] | {"Minimum Length": 0.3, "Maximum Length": 0.55}
     return data | {"Spring": spring}
@@ -90,7 +81,7 @@ POINTS = {
 }
 
 
-def attempt(random: Generator) -> None:
+def attempt(random):
     """Read a file that was changed, or one with a key more, or misspelt."""
     if random.random() < 0.5:
         _attempt_keys(random)
@@ -98,7 +89,7 @@ def attempt(random: Generator) -> None:
         _attempt_values(random)
 
 
-def _attempt_values(random: Generator) -> None:
+def _attempt_values(random):
     """Read a file that was changed, with comments between its lines."""
     strut, tire = FILES[random.integers(len(FILES))], TIRE
     if random.random() < 0.8:
@@ -126,7 +117,7 @@ def _attempt_values(random: Generator) -> None:
         check(found.suspension, strut, points_only=how < 0.3)
 
 
-def _attempt_keys(random: Generator) -> None:
+def _attempt_keys(random):
     """Add a key, or spell one otherwise: it is used, listed with its value, or refused."""
     of_tire = random.random() < 0.3
     points_only = not of_tire and random.random() < 0.4
@@ -136,7 +127,7 @@ def _attempt_keys(random: Generator) -> None:
     else:
         data = FILES[random.integers(len(FILES))]
 
-    def result(changed: dict[str, Any]) -> tuple[Any, str]:
+    def result(changed):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder, "file.json")
             path.write_text(json.dumps(changed), encoding="utf-8")
@@ -165,13 +156,7 @@ def _attempt_keys(random: Generator) -> None:
             raise WrongError(f"{(*place[:-1], key)} = {offered[key]} is lost")
 
 
-def _judge_respelt(
-    result: Callable[[dict[str, Any]], tuple[Any, str]],
-    before: Any,
-    less: dict[str, Any],
-    place: keys.Place,
-    value: Any,
-) -> None:
+def _judge_respelt(result, before, less, place, value):
     """A key that does something is refused in another spelling, any other is listed."""
     try:
         matters = result(less)[0] != before
@@ -185,14 +170,14 @@ def _judge_respelt(
         raise WrongError(f"{place} = {value} is lost")
 
 
-def _is_listed(key: str, value: Any, left_out: str) -> bool:
+def _is_listed(key, value, left_out):
     """Return whether a key and its value stand there, or those within it."""
     if isinstance(value, dict):
         return all(_is_listed(inner, one, left_out) for inner, one in value.items())
     return f"{key} = {json.dumps(value)}"[:80] in left_out
 
 
-def _commented(random: Generator, data: Any) -> str:
+def _commented(random, data):
     lines = json.dumps(data, indent=1).splitlines()
     return "\n".join(
         line + (COMMENTS[random.integers(len(COMMENTS))] if random.random() < 0.3 else "")
@@ -200,13 +185,13 @@ def _commented(random: Generator, data: Any) -> str:
     )
 
 
-def _judge(error: InputError) -> None:
+def _judge(error):
     message = str(error)
     if len(message) > 500 * (len(error.problems) + 1):
         raise RawError(f"{len(message)} characters: {message[:300]}") from error
 
 
-def check(suspension: Any, given: dict[str, Any], *, points_only: bool = False) -> None:
+def check(suspension, given, *, points_only=False):
     """Points and masses are those of the file."""
     for name, (part, key) in POINTS[given["Template"]].items():
         found = suspension.hardpoints.metres(name)

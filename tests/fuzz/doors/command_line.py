@@ -1,14 +1,11 @@
 """Commands with random arguments and unusual file names."""
 
-from __future__ import annotations
-
 import contextlib
 import io
 import os
 import sys
 import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING
 from unittest import mock
 
 from kintrafo.vehicle import cli
@@ -17,11 +14,6 @@ from kintrafo.vehicle.data.starter import packaged
 from ..attempts import RawError, WrongError
 from .chrono import DATA
 from .toml import TEXTS
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from numpy.random import Generator
 
 
 class RefusedError(Exception):
@@ -165,7 +157,7 @@ value = 0.0
 MECHANISM = "from kintrafo.generator.mechanisms.four_bar import FOUR_BAR\n"
 
 
-def attempt(random: Generator) -> None:
+def attempt(random):
     """Run one command in a folder of files that are somebody's, and look at what is left."""
     with tempfile.TemporaryDirectory() as name, _in(Path(name, "work")) as folder:
         named = _files(random, folder)
@@ -191,7 +183,7 @@ def attempt(random: Generator) -> None:
 
 
 @contextlib.contextmanager
-def _in(folder: Path) -> Iterator[Path]:
+def _in(folder):
     folder.mkdir()
     here = Path.cwd()
     os.chdir(folder)
@@ -202,7 +194,7 @@ def _in(folder: Path) -> Iterator[Path]:
         os.chdir(here)
 
 
-def _files(random: Generator, folder: Path) -> list[str]:
+def _files(random, folder):
     """Fill the folder; return names, of which some are there."""
     (folder / "sub").mkdir()
     (folder / "file").write_text("mine")
@@ -224,7 +216,7 @@ def _files(random: Generator, folder: Path) -> list[str]:
     return names
 
 
-def _content(random: Generator, ending: str) -> bytes:
+def _content(random, ending):
     if ending == ".py":
         return MECHANISM.encode()
     if ending == ".json":
@@ -238,7 +230,7 @@ def _content(random: Generator, ending: str) -> bytes:
     return TEXTS[random.integers(len(TEXTS))]
 
 
-def _arguments(random: Generator, names: list[str]) -> list[str]:
+def _arguments(random, names):
     command = str(random.choice(list(OPTIONS), p=_WEIGHTS))
     arguments = command.split()
     for _ in range(random.choice([0, 1, 1, 1, 1, 2, 2])):
@@ -281,7 +273,7 @@ _WEIGHTS = [
 ]
 
 
-def _value(random: Generator, option: str, names: list[str]) -> list[str]:
+def _value(random, option, names):
     if option in (
         "--json",
         "--free-rack",
@@ -300,7 +292,7 @@ def _value(random: Generator, option: str, names: list[str]) -> list[str]:
     return [str(random.choice(NUMBERS))]
 
 
-def _contents(folder: Path) -> dict[str, bytes]:
+def _contents(folder):
     return {
         str(path.relative_to(folder)): path.read_bytes()
         for path in folder.rglob("*")
@@ -308,10 +300,10 @@ def _contents(folder: Path) -> dict[str, bytes]:
     }
 
 
-def run(arguments: list[str]) -> tuple[int, str, str]:
+def run(arguments):
     """Run a command line in this process; return exit code, stdout and stderr."""
     streams = [io.TextIOWrapper(io.BytesIO(), encoding="utf-8") for _ in range(2)]
-    code: object = 0
+    code = 0
     with (
         mock.patch.object(sys, "argv", ["kintrafo", *arguments]),
         mock.patch.object(sys, "stdout", streams[0]),
@@ -324,5 +316,5 @@ def run(arguments: list[str]) -> tuple[int, str, str]:
     texts = []
     for stream in streams:
         stream.flush()
-        texts.append(stream.buffer.getvalue().decode("utf-8", "replace"))  # type: ignore[attr-defined]
+        texts.append(stream.buffer.getvalue().decode("utf-8", "replace"))
     return (code if isinstance(code, int) else -1), *texts

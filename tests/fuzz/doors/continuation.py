@@ -4,16 +4,9 @@ What is answered over the range of each is compared with paths that are followed
 position in maximal coordinates (`swinging`, `rigid_ways`), one by one and in batches.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 from mechanisms import random_multi_links, random_rigid_axles
 
 from ..attempts import WrongError
-
-if TYPE_CHECKING:
-    import numpy as np
 
 SECONDS = 300.0
 SHORT = 1
@@ -28,7 +21,7 @@ class RefusedError(Exception):
 CLEAR = (RefusedError,)
 
 
-def attempt(random: np.random.Generator) -> None:
+def attempt(random):
     """Draw suspensions and axles, and compare where they are."""
     cars = random_multi_links.some_cars(random, CARS)
     of_cars = random_multi_links.judged(cars, random.uniform(-RACK, RACK), random)

@@ -1,20 +1,14 @@
 """Measured roads and rack motions: tables in all dialects, and corrupt tables."""
 
-from __future__ import annotations
-
 import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from kintrafo.core.errors import InputError
-from kintrafo.vehicle.analysis.measurement import Measurement, measured
+from kintrafo.vehicle.analysis.measurement import measured
 
 from .. import mutations
 from ..attempts import RawError, WrongError
-
-if TYPE_CHECKING:
-    from numpy.random import Generator
 
 SHORT = 300
 FACTORS = {
@@ -34,7 +28,7 @@ CELLS = ("", " ", "nan", "inf", "-inf", "1e400", "1e308", "-1e308", "x", "1,5", 
          '"', "=1+1", "0x10", "1e-400", "--1", "1 2")  # fmt: skip
 
 
-def attempt(random: Generator) -> None:
+def attempt(random):
     """Write a table, as it should be or not, and read it."""
     times = np.sort(random.uniform(0.0, 10.0, random.integers(1, 12))).round(3)
     values = random.normal(0.0, 20.0, times.size).round(3)
@@ -76,7 +70,7 @@ def attempt(random: Generator) -> None:
         _same(samples, FACTORS[name] * values)
 
 
-def _spelt(random: Generator, *names: str) -> tuple[list[str], list[str]]:
+def _spelt(random, *names):
     """Return names of columns in one of the forms that people write, and units that follow."""
     parts = [name.rpartition("_") for name in names]
     labels = [name.replace("_", str(random.choice(["_", " ", "-", ""]))) for name, _, _ in parts]
@@ -93,7 +87,7 @@ def _spelt(random: Generator, *names: str) -> tuple[list[str], list[str]]:
     return labels, units
 
 
-def _with_units(random: Generator, text: str, units: list[str], delimiter: str) -> str:
+def _with_units(random, text, units, delimiter):
     """Return a table with its units in a row of their own, or in a comment."""
     if not units:
         return text
@@ -109,7 +103,7 @@ def _with_units(random: Generator, text: str, units: list[str], delimiter: str) 
     return f"# units: {', '.join(units)}\r\n{text}"
 
 
-def read(content: bytes, speed: float | None) -> Measurement:
+def read(content, speed):
     """Read a table; a refusal must name the file, or the speed that it was given."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "road.csv")
@@ -122,7 +116,7 @@ def read(content: bytes, speed: float | None) -> Measurement:
             raise
 
 
-def check(found: Measurement) -> None:
+def check(found):
     """Numbers are finite, times rise from zero, and each value has its time."""
     if found.times[0] != 0.0 or np.any(np.diff(found.times) < 0.0):
         raise WrongError(f"times {found.times}")
@@ -131,7 +125,7 @@ def check(found: Measurement) -> None:
             raise WrongError(f"{name} {samples}")
 
 
-def _same(found: np.ndarray, expected: np.ndarray) -> None:
+def _same(found, expected):
     # two roundings of each value, and one of the difference from the first time
     if not np.allclose(found, expected, rtol=1e-12, atol=1e-13 * (1.0 + np.abs(expected).max())):
         raise WrongError(f"{found} instead of {expected}")

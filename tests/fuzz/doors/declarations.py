@@ -5,8 +5,6 @@ against the same mechanism in maximal coordinates: loops that close, and acceler
 one of the mechanisms of the tests is tried beside copies of itself.
 """
 
-from __future__ import annotations
-
 import tempfile
 import warnings
 from dataclasses import fields, is_dataclass, replace

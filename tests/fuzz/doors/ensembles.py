@@ -5,10 +5,7 @@ steps short enough for its road, whose height and slope are evaluated apart from
 no step with the lanes. The result of one car must not depend on the other cars.
 """
 
-from __future__ import annotations
-
 from functools import cache
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from kintrafo import Model, ensemble, equilibrium
@@ -17,12 +14,6 @@ from scipy.integrate import solve_ivp
 
 from ..attempts import UnjudgedError, WrongError
 from ..courses import Sine
-
-if TYPE_CHECKING:
-    from numpy.random import Generator
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
 
 SHORT = 6
 SECONDS = 60.0
@@ -37,13 +28,13 @@ _TOLERANCE = 1e-6
 
 
 @cache
-def _car(name: str) -> tuple[Model, Array]:
+def _car(name):
     """Return a car and where it rests."""
     model = Model(name)
     return model, np.asarray(equilibrium(model))
 
 
-def attempt(random: Generator) -> None:
+def attempt(random):
     """Simulate some cars at once, and some of them alone."""
     model, rest = _car(str(random.choice(_CARS)))
     count, end = int(random.integers(1, 12)), float(10.0 ** random.uniform(-1.3, 0.0))
@@ -74,9 +65,7 @@ def attempt(random: Generator) -> None:
         raise UnjudgedError("every car that was looked at is refused")
 
 
-def _judge(
-    model: Model, values: dict[str, float], start: Array, end: float, road: Sine, found: Any
-) -> bool:
+def _judge(model, values, start, end, road, found):
     """Compare one car with the reference; return whether there is one."""
     success, name = bool(found["success"]), model.equations.NAME
     try:
@@ -94,12 +83,12 @@ def _judge(
     return True
 
 
-def _alone(model: Model, values: dict[str, float], start: Array, end: float, road: Sine) -> Array:
+def _alone(model, values, start, end, road):
     """Return the last state of the reference."""
     constants = model.equations.prepare({**model.parameters, **values})
     names = model.input_names
 
-    def rhs(time: float, state: Array) -> Array:
+    def rhs(time, state):
         given = {"road_height": road(time), "road_velocity": road.rate(time)}
         return model.equations.rhs(state, np.array([given.get(n, 0.0) for n in names]), constants)
 

@@ -1,12 +1,9 @@
 """Contents of written CSV, Excel and Parquet files: numbers, texts, units."""
 
-from __future__ import annotations
-
 import csv
 import math
 import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pyarrow.parquet
@@ -15,9 +12,6 @@ from kintrafo.datasets import export
 from openpyxl import load_workbook
 
 from ..attempts import WrongError
-
-if TYPE_CHECKING:
-    from numpy.random import Generator
 
 SHORT = 30
 NUMBERS = (0.0, -0.0, 1e-300, 1e300, math.nan, math.inf, -math.inf, 5e-324, 1.0 / 3.0)
@@ -28,7 +22,7 @@ LABELS = (
 UNITS = {"m": ("mm", 1e3), "rad": ("deg", 180.0 / math.pi), "N": ("N", 1.0), "1": ("", 1.0)}
 
 
-def attempt(random: Generator) -> None:
+def attempt(random):
     """Write a dataset in all formats, and read each by the library of the format."""
     rows = int(random.integers(1, 6))
     labels = [LABELS[i] for i in random.permutation(len(LABELS))[:rows]]
@@ -50,7 +44,7 @@ def attempt(random: Generator) -> None:
         _parquet(paths[".parquet"], labels, values, units)
 
 
-def _csv(path: Path, labels: list[str], values: np.ndarray, units: str) -> None:
+def _csv(path, labels, values, units):
     with path.open(encoding="utf-8", newline="") as file:
         (head, *rows) = csv.reader(file)
     _heading(head[1], units)
@@ -64,7 +58,7 @@ def _csv(path: Path, labels: list[str], values: np.ndarray, units: str) -> None:
         _same(float(number or "nan"), value * UNITS[units][1], 1e-8, values * UNITS[units][1])
 
 
-def _excel(path: Path, labels: list[str], values: np.ndarray, units: str) -> None:
+def _excel(path, labels, values, units):
     (sheet,) = load_workbook(path).worksheets
     # rows that are wholly empty at the end are none for this reader
     (head, *rows) = sheet.iter_rows(max_row=1 + len(labels))
@@ -78,7 +72,7 @@ def _excel(path: Path, labels: list[str], values: np.ndarray, units: str) -> Non
         _same(shown, value * UNITS[units][1], 1e-15, values * UNITS[units][1])
 
 
-def _parquet(path: Path, labels: list[str], values: np.ndarray, units: str) -> None:
+def _parquet(path, labels, values, units):
     table = pyarrow.parquet.read_table(path)
     if table.schema.field("toe").metadata[b"units"].decode() != units:
         raise WrongError(f"units {table.schema.field('toe').metadata}")
@@ -89,13 +83,13 @@ def _parquet(path: Path, labels: list[str], values: np.ndarray, units: str) -> N
         raise WrongError(f"{found} instead of {values}")
 
 
-def _heading(text: str, units: str) -> None:
+def _heading(text, units):
     shown = UNITS[units][0]
     if text != (f"toe [{shown}]" if shown else "toe"):
         raise WrongError(f"heading {text!r} of {units}")
 
 
-def _plain(label: str) -> str:
+def _plain(label):
     """Return a label as a file can hold it: what is no character is written in ASCII."""
     found = []
     for character in label:
@@ -109,7 +103,7 @@ def _plain(label: str) -> str:
     return "".join(found)
 
 
-def _number(text: str) -> bool:
+def _number(text):
     try:
         float(text)
     except ValueError:
@@ -117,7 +111,7 @@ def _number(text: str) -> bool:
     return True
 
 
-def _same(found: float, expected: float, digits: float, column: Any) -> None:
+def _same(found, expected, digits, column):
     finite = np.abs(column[np.isfinite(column)])
     greatest = float(finite.max()) if finite.size else 0.0
     # what is smaller than this part of its column is a rounding error, and a zero for people

@@ -4,8 +4,6 @@ Every position that comes back is measured: the distances of hardpoints that bel
 axes that are orthonormal, the height that was asked for, and lengths that the file allows.
 """
 
-from __future__ import annotations
-
 from itertools import combinations
 
 import numpy as np

@@ -5,8 +5,6 @@ outputs is either what was there before, or what the command writes when nobody 
 nothing that it started runs on.
 """
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess
@@ -18,12 +16,8 @@ from contextlib import suppress
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from ..attempts import RawError, UnjudgedError, WrongError
-
-if TYPE_CHECKING:
-    from numpy.random import Generator
 
 SHORT = 2
 SECONDS = 60.0
@@ -67,7 +61,7 @@ _BEGIN = "import kintrafo.__main__ as m; print('begun', flush=True); m.run()"
 
 
 @cache
-def _sources() -> dict[str, str]:
+def _sources():
     """Return what the commands read: names of files, and texts."""
     read = {path.name: path.read_text(encoding="utf-8") for path in _STUDIES.glob("*.toml")}
     soft = files("kintrafo.vehicle.data").joinpath(f"{CAR}.toml").read_text(encoding="utf-8")
@@ -79,7 +73,7 @@ def _sources() -> dict[str, str]:
     }
 
 
-def attempt(random: Generator) -> None:
+def attempt(random):
     """Interrupt a command once, as a terminal or as another program does."""
     # few are late: a test run, which tries seeds 0 and 1, waits 2.0 s and 0.8 s
     after = 12.0 * random.random() ** 4
@@ -117,7 +111,7 @@ _INTERRUPTED = 130
 _STOPPED = "Stopped: no compiler runs on, and nothing of it is left behind."
 
 
-def _filled(folder: Path) -> Path:
+def _filled(folder):
     (folder / "work").mkdir()
     for name, text in _sources().items():
         (folder / "work" / name).write_text(text, encoding="utf-8")
@@ -126,7 +120,7 @@ def _filled(folder: Path) -> Path:
     return folder
 
 
-def started(folder: Path, command: tuple[str, ...]) -> subprocess.Popen[str]:
+def started(folder, command):
     """Start a command in a session of its own; it has begun when this returns."""
     environment = {**os.environ, "KINTRAFO_CACHE": str(folder / "cache")}
     with (folder / "said").open("w") as message:
@@ -144,9 +138,7 @@ def started(folder: Path, command: tuple[str, ...]) -> subprocess.Popen[str]:
     return process
 
 
-def interrupted(
-    folder: Path, command: tuple[str, ...], after: float, *, whole_group: bool
-) -> tuple[int | None, str, float]:
+def interrupted(folder, command, after, *, whole_group):
     """Return the exit code, what was said as an error, and how long it took after the signal."""
     process = started(folder, command)
     drained = threading.Thread(target=process.stdout.read)  # a pipe that is full would stop it
@@ -169,7 +161,7 @@ def interrupted(
     return code if alone else None, (folder / "said").read_text(), took
 
 
-def _session(leader: int) -> list[str]:
+def _session(leader):
     """Return what runs in a session, a moment after it should have ended."""
     for _ in range(20):
         found = [
@@ -183,7 +175,7 @@ def _session(leader: int) -> list[str]:
     return found
 
 
-def _leader_of(process: Path) -> int:
+def _leader_of(process):
     try:
         fields = (process / "stat").read_text().rpartition(")")[2].split()
     except OSError:
@@ -192,7 +184,7 @@ def _leader_of(process: Path) -> int:
 
 
 @cache
-def whole(command: tuple[str, ...]) -> dict[str, bytes]:
+def whole(command):
     """Return what a command leaves that nobody interrupts."""
     with tempfile.TemporaryDirectory() as name:
         folder = _filled(Path(name))
@@ -201,7 +193,7 @@ def whole(command: tuple[str, ...]) -> dict[str, bytes]:
         return contents(folder / "work")
 
 
-def contents(folder: Path) -> dict[str, bytes]:
+def contents(folder):
     """Return all files by their names."""
     return {
         str(path.relative_to(folder)): path.read_bytes()

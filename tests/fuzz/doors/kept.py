@@ -1,7 +1,5 @@
 """Checkpoints of an ensemble, damaged: computed again or an error, with the same numbers."""
 
-from __future__ import annotations
-
 import atexit
 import json
 import shutil
@@ -9,7 +7,6 @@ import tempfile
 import warnings
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import kintrafo
 import numpy as np
@@ -18,14 +15,11 @@ from kintrafo.ensembles.chunks import cutting
 from ..attempts import WrongError
 from .cache import DAMAGE as OF_FILES
 
-if TYPE_CHECKING:
-    from numpy.random import Generator
-
 SHORT = 20
 
 
 @cache
-def sound() -> tuple[Path, bytes]:
+def sound():
     """Return the folder of an ensemble, in chunks of few cars, and its numbers."""
     cutting._FEWEST = cutting._MOST = 4
     folder = Path(tempfile.mkdtemp()) / "kept"
@@ -33,21 +27,21 @@ def sound() -> tuple[Path, bytes]:
     return folder, computed(folder)
 
 
-def computed(folder: Path) -> bytes:
+def computed(folder):
     """Simulate what is missing, and return the numbers of all."""
     cars = {"damper_rate": np.linspace(1000.0, 2000.0, 10)}
-    given: dict[str, Any] = {"signals": ["camber"], "t_eval": [0.0, 0.01]}
+    given = {"signals": ["camber"], "t_eval": [0.0, 0.01]}
     found = kintrafo.ensemble(model(), cars, (0.0, 0.01), kept=folder, **given)
     return bytes(found["camber"].values.tobytes() + found["final_state"].values.tobytes())
 
 
 @cache
-def model() -> kintrafo.Model:
+def model():
     """Return the car."""
     return kintrafo.Model("reference_car")
 
 
-def attempt(random: Generator) -> None:
+def attempt(random):
     """Damage a copy once to three times; go on from it, and from what is there then."""
     target, values = sound()
     with tempfile.TemporaryDirectory() as name, warnings.catch_warnings():
@@ -63,18 +57,18 @@ def attempt(random: Generator) -> None:
             raise WrongError("not healed")
 
 
-def _of_another(random: Generator, folder: Path) -> None:
+def _of_another(random, folder):
     path = folder / "ensemble.json"
     if path.is_file():
-        wrong: list[Any] = [[], {}, None, 3, {"equations": 3}, {"equations": []}]
+        wrong = [[], {}, None, 3, {"equations": 3}, {"equations": []}]
         path.write_text(json.dumps(wrong[random.integers(len(wrong))]))
 
 
-def _chunks(folder: Path) -> list[Path]:
+def _chunks(folder):
     return sorted(path for path in folder.glob("*.npz") if path.is_file())
 
 
-def _in_the_directory(random: Generator, folder: Path) -> None:
+def _in_the_directory(random, folder):
     """Change one bit of the list of arrays at the end of a file."""
     chunks = _chunks(folder)
     if not chunks:
@@ -87,7 +81,7 @@ def _in_the_directory(random: Generator, folder: Path) -> None:
         path.write_bytes(content)
 
 
-def _exchange(random: Generator, folder: Path) -> None:
+def _exchange(random, folder):
     """Exchange two files, each of which is sound."""
     chunks = _chunks(folder)
     if len(chunks) > 1:

@@ -7,8 +7,6 @@ calls to each next one; and every call, in a process that was forked or spawned 
 same bits.
 """
 
-from __future__ import annotations
-
 import ctypes
 import gc
 import hashlib
@@ -17,7 +15,6 @@ import resource
 import sys
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from kintrafo import Model, Stepper, System, ensemble, linearise, simulate
@@ -27,16 +24,6 @@ from kintrafo.simulation.lanes import library
 from kintrafo.simulation.solvers import native_methods
 
 from ..attempts import WrongError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from multiprocessing.connection import Connection
-
-    from numpy.random import Generator
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
-    Call = Callable[[], bytes]
 
 SHORT = 4
 SECONDS = 120.0
@@ -53,7 +40,7 @@ _LEAST = (0.9, 16.0, 1e3)
 _RESIDENT = 1e7
 
 
-def attempt(random: Generator) -> None:
+def attempt(random):
     """Call something many times, and in other processes a few times."""
     seed, many = int(random.integers(2**31)), random.random() < 0.15
     here = measured(seed, _MANY if many else _SOME)
@@ -64,7 +51,7 @@ def attempt(random: Generator) -> None:
             raise WrongError(f"other bits in a process by {way} than here")
 
 
-def measured(seed: int, calls: int) -> str:
+def measured(seed, calls):
     """Call something so often; return a digest of what each call returns.
 
     What seems to grow is called four times as often, and again: what fills caches comes to an end.
@@ -79,7 +66,7 @@ def measured(seed: int, calls: int) -> str:
     return hashlib.sha256(first).hexdigest()
 
 
-def _growing(call: Call, first: bytes, size: int) -> str:
+def _growing(call, first, size):
     """Call in batches; return what grows in each of them, if anything does."""
     taken = np.zeros((_BATCHES + 1, 3))
     for batch in range(_BATCHES + 1):  # of which the first warms up
@@ -100,7 +87,7 @@ def _growing(call: Call, first: bytes, size: int) -> str:
 # -- memory and open files ------------------------------------------------------------------------
 
 
-def _taken() -> tuple[int, int, int]:
+def _taken():
     """Return how much of the memory of this process is in use, as `_COUNTED` names it."""
     pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
     return sys.getallocatedblocks(), _by_malloc(), pages * resource.getpagesize()
@@ -119,7 +106,7 @@ class _Mallinfo(ctypes.Structure):
 
 
 @cache
-def _mallinfo() -> Any:
+def _mallinfo():
     """Return the function of glibc, or None where there is another library."""
     function = getattr(ctypes.CDLL(None), "mallinfo2", None)
     if function is not None:
@@ -127,7 +114,7 @@ def _mallinfo() -> Any:
     return function
 
 
-def _by_malloc() -> int:
+def _by_malloc():
     function = _mallinfo()
     if function is None:
         return 0
@@ -138,7 +125,7 @@ def _by_malloc() -> int:
 # -- other processes ------------------------------------------------------------------------------
 
 
-def _elsewhere(way: str, seed: int) -> str:
+def _elsewhere(way, seed):
     """Return the digest of what another process computes."""
     context = multiprocessing.get_context(way)
     receiver, sender = context.Pipe(duplex=False)
@@ -160,7 +147,7 @@ def _elsewhere(way: str, seed: int) -> str:
     return str(text)
 
 
-def _send_digest(seed: int, sender: Connection) -> None:
+def _send_digest(seed, sender):
     try:
         sender.send((True, measured(seed, _FEW)))
     except Exception as error:  # noqa: BLE001 (any error goes to the parent, which fails the attempt)
@@ -171,12 +158,12 @@ def _send_digest(seed: int, sender: Connection) -> None:
 
 
 @cache
-def _system(place: int) -> System:
+def _system(place):
     count = len(_MODULES)
     return System(_MODULES[place]) if place < count else Model(_CARS[place - count])
 
 
-def _drawn(random: Generator) -> Call:
+def _drawn(random):
     """Return a function without arguments, which returns all that comes of a call as bytes."""
     system = _system(int(random.integers(len(_MODULES) + len(_CARS))))
     start = np.array(system.design_state)
@@ -191,7 +178,7 @@ def _drawn(random: Generator) -> Call:
         kinds.append(_ensemble)
     call = kinds[random.integers(len(kinds))](random, system, start)
 
-    def guarded() -> bytes:
+    def guarded():
         try:
             return b"".join(np.asarray(part).tobytes() for part in call())
         except KintrafoError as error:
@@ -200,7 +187,7 @@ def _drawn(random: Generator) -> Call:
     return guarded
 
 
-def _function(random: Generator, system: System, start: Array) -> Callable[[], Any]:
+def _function(random, system, start):
     functions = system.equations.equations.functions
     function = functions[sorted(functions)[random.integers(len(functions))]]
     states = start if random.random() < 0.5 else np.tile(start, (20, 1))
@@ -208,29 +195,29 @@ def _function(random: Generator, system: System, start: Array) -> Callable[[], A
     return lambda: [function(states, inputs, system.constants)]
 
 
-def _preparation(random: Generator, system: System, _: Array) -> Callable[[], Any]:
+def _preparation(random, system, _):
     values = dict(system.parameters)
     if random.random() < 0.3:
         values[sorted(values)[random.integers(len(values))]] = float(random.choice([np.nan, -1.0]))
     return lambda: [system.equations.prepare(values)]
 
 
-def _motion(random: Generator, system: System, start: Array) -> Callable[[], Any]:
+def _motion(random, system, start):
     method = str(random.choice([*native_methods(), "RK45"]))
     name = next(iter([n for n in system.input_names if n.endswith("road_height")]), "")
     inputs = {name: lambda t: 0.01 * np.sin(20.0 * t)} if name and random.random() < 0.3 else {}
 
-    def call() -> Any:
+    def call():
         found = simulate(system, (0.0, 0.005), start, inputs=inputs, method=method)
         return [found.t, found.y, found.inputs, *found.signals.values()]
 
     return call
 
 
-def _stepper(random: Generator, system: System, start: Array) -> Callable[[], Any]:
+def _stepper(random, system, start):
     method = str(random.choice(["RK4", "DormandPrince"]))
 
-    def call() -> Any:
+    def call():
         stepper = Stepper(system, 1e-4, start, method=method)
         for _ in range(5):
             stepper.step()
@@ -239,21 +226,21 @@ def _stepper(random: Generator, system: System, start: Array) -> Callable[[], An
     return call
 
 
-def _ensemble(random: Generator, system: System, start: Array) -> Callable[[], Any]:
+def _ensemble(random, system, start):
     names = [name for name in system.parameters if name.endswith(("_mass", "_rate"))]
     name = names[random.integers(len(names))]
     values = system.parameters[name] * np.linspace(1.0, 1.1, int(random.integers(1, 10)))
     threads = int(random.integers(1, 3))
 
-    def call() -> Any:
+    def call():
         found = ensemble(system, {name: values}, (0.0, 0.005), start, threads=threads)
         return [found["final_state"].values, found["success"].values]
 
     return call
 
 
-def _linearisation(_: Generator, system: System, start: Array) -> Callable[[], Any]:
-    def call() -> Any:
+def _linearisation(_, system, start):
+    def call():
         found = linearise(system, start)
         return [found.A, found.B, found.C, found.D]
 

@@ -6,8 +6,6 @@ anew, about the origin; what the chassis carries is what acts from outside less 
 parts. Inertia itself is held against differences of velocities between outputs.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from kintrafo import Model, RigidAxle, RigidAxleModel, Suspension, loads, simulate
 

@@ -3,16 +3,9 @@
 What is answered is compared with a path followed in maximal coordinates (`following`).
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 from mechanisms.random_loops import FAMILIES, judged
 
 from ..attempts import WrongError
-
-if TYPE_CHECKING:
-    import numpy as np
 
 SECONDS = 120.0  # deriving is a part of the first attempt at each family
 SHORT = 2
@@ -27,7 +20,7 @@ class RefusedError(Exception):
 CLEAR = (RefusedError,)
 
 
-def attempt(random: np.random.Generator) -> None:
+def attempt(random):
     """Draw a mechanism and a path, and compare where it leads."""
     family = _QUICK[random.integers(len(_QUICK))]
     found = judged(family, random)

@@ -11,11 +11,8 @@ coordinates, which shares nothing with the equations, says whether hardpoints ke
 and what the accelerations are.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 from kintrafo import Model, SimulationError, System, simulate
@@ -36,11 +33,6 @@ from scipy.integrate import DOP853
 from support.models import Built, own
 
 from ..attempts import UnjudgedError, WrongError
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
 
 SHORT = 4
 SECONDS = 60.0
@@ -95,7 +87,7 @@ SPRINGS_OF_ZERO_LENGTH = (ON_AN_ARM, ON_TWO_ARMS)
 
 
 @cache
-def systems() -> tuple[System, ...]:
+def systems():
     """Return what is moved."""
     return (
         *(System(module) for module in _MODULES),
@@ -121,19 +113,19 @@ class Motion:
     """
 
     system: System
-    start: Array
+    start: np.ndarray
     end: float
     method: str
     rtol: float
-    outputs: Array | None
+    outputs: np.ndarray | None
 
     @property
-    def atol(self) -> float:
+    def atol(self):
         """The absolute tolerance."""
         return 1e-3 * self.rtol
 
 
-def drawn(random: np.random.Generator) -> Motion:
+def drawn(random):
     """Return a random motion."""
     system = systems()[random.integers(len(systems()))]
     start = _start(system, random)
@@ -151,7 +143,7 @@ def drawn(random: np.random.Generator) -> Motion:
     )
 
 
-def _start(system: System, random: np.random.Generator) -> Array:
+def _start(system, random):
     """Return a state on the way from design to where the loops close no more, and rates."""
     half = system.design_state.size // 2
     design = system.design_state[:half]
@@ -169,14 +161,14 @@ def _start(system: System, random: np.random.Generator) -> Array:
     return np.concatenate([design + share * near * way, rates])
 
 
-def _reach(system: System) -> Array:
+def _reach(system):
     """Return by how much each coordinate may be moved at a time."""
     names = system.state_names[: system.design_state.size // 2]
     units = [system.equations.STATE[name]["unit"] for name in names]
     return np.array([0.1 if unit == "rad" else 0.02 for unit in units])
 
 
-def _closes(system: System, coordinates: Array) -> bool:
+def _closes(system, coordinates):
     state = np.concatenate([coordinates, np.zeros_like(coordinates)])
     try:
         system.evaluate("rhs", state)
@@ -208,10 +200,10 @@ class Reference:
 
     time: float
     dead: bool
-    state: Array
+    state: np.ndarray
 
 
-def reference(motion: Motion) -> Reference | None:
+def reference(motion):
     """Follow a motion as well as double precision can; None for one that is too fast for that."""
     system, sign, whole = motion.system, np.sign(motion.end), abs(motion.end)
     time, state, step = 0.0, motion.start, _SHORTEST * whole
@@ -240,7 +232,7 @@ def reference(motion: Motion) -> Reference | None:
     return None
 
 
-def _begun(motion: Motion, time: float, state: Array, step: float) -> Any:
+def _begun(motion, time, state, step):
     return DOP853(
         lambda _, y: motion.system.evaluate("rhs", y),
         time,
@@ -253,7 +245,7 @@ def _begun(motion: Motion, time: float, state: Array, step: float) -> Any:
     )
 
 
-def _heights(system: System, state: Array, lapse: float) -> tuple[Array, Array]:
+def _heights(system, state, lapse):
     """Return the roots of the margins that positions and forces need, and their rates."""
     acting = system.equations.ACTING_GUARDS
     needed = set(acting["positions"]) | set(acting["forces"])
@@ -267,7 +259,7 @@ def _heights(system: System, state: Array, lapse: float) -> tuple[Array, Array]:
     return height, (after - before) / (4.0 * lapse * np.maximum(height, 1e-300))
 
 
-def _through_zero(system: System, before: tuple[float, Array], after: tuple[float, Array]) -> bool:
+def _through_zero(system, before, after):
     """Return whether a height falls to zero and rises again within a step, seen from both ends."""
     step = after[0] - before[0]
     if step == 0.0:
@@ -280,7 +272,7 @@ def _through_zero(system: System, before: tuple[float, Array], after: tuple[floa
     return bool((falls & (height - step * rate <= 0.0)).any())
 
 
-def _left(system: System, state: Array, step: float) -> float:
+def _left(system, state, step):
     """Return the time until a height is zero, by a straight line."""
     height, rate = _heights(system, state, step / 64.0)
     speed = -rate * np.sign(step)
@@ -291,7 +283,7 @@ def _left(system: System, state: Array, step: float) -> float:
 # -- the attempt ----------------------------------------------------------------------------------
 
 
-def attempt(random: np.random.Generator) -> None:
+def attempt(random):
     motion = drawn(random)
     try:
         motion.system.evaluate("rhs", motion.start)
@@ -308,7 +300,7 @@ def attempt(random: np.random.Generator) -> None:
         raise ended
 
 
-def _moved(motion: Motion) -> Any:
+def _moved(motion):
     """Return what comes of a motion, or the error that ends it."""
     try:
         return simulate(
@@ -325,12 +317,12 @@ def _moved(motion: Motion) -> Any:
         return error
 
 
-def _wrong(motion: Motion, text: str) -> NoReturn:
+def _wrong(motion, text):
     name = motion.system.equations.NAME
     raise WrongError(f"{name} by {motion.method} at {motion.rtol:.1e} to {motion.end:g} s: {text}")
 
 
-def _judge(motion: Motion, expected: Reference, ended: Any) -> None:
+def _judge(motion, expected, ended):
     ends = f"the reference {'ends' if expected.dead else 'goes on'} at {expected.time:.9g} s"
     if isinstance(ended, SimulationError):
         text = f"refused at {ended.time:.9g} s ({str(ended)[:300]})"
@@ -344,14 +336,14 @@ def _judge(motion: Motion, expected: Reference, ended: Any) -> None:
         _wrong(motion, f"{text}, {off:.3g} times what the tolerance lets expect; {ends}")
 
 
-def _check_signals(motion: Motion, result: Any) -> None:
+def _check_signals(motion, result):
     try:
         list(result.signals.items())
     except ModelError as error:
         _wrong(motion, f"success, and signals that cannot be had: {error}")
 
 
-def _off(motion: Motion, expected: Reference, ended: Any) -> float:
+def _off(motion, expected, ended):
     """Return the distance from the reference, as a multiple of what the tolerance lets expect.
 
     Errors of a step add up to some hundred tolerances over an oscillation or two; and the
@@ -365,7 +357,7 @@ def _off(motion: Motion, expected: Reference, ended: Any) -> float:
     return float(np.abs(ended.y[:, -1] - expected.state).max() / allowed)
 
 
-def _mended(motion: Motion, expected: Reference, off: float) -> bool:
+def _mended(motion, expected, off):
     """Return whether it was no more than a loose tolerance: a tight one brings it to the reference.
 
     A motion that has bounced off a dead point, or was refused without one, does not come nearer.
@@ -383,7 +375,7 @@ _FAR = 1e-2
 _STATES = 3
 
 
-def _judge_states(motion: Motion, result: Any) -> None:
+def _judge_states(motion, result):
     """Hold the first, the last and a middle state, as far as they are far from dead points."""
     system, built = motion.system, _built(motion.system)
     for place in np.linspace(0, result.t.size - 1, _STATES).astype(int):
@@ -406,7 +398,7 @@ def _judge_states(motion: Motion, result: Any) -> None:
 
 
 @cache
-def _built(system: System) -> Built:
+def _built(system):
     known = {model.name: model for model in (*MODELS, *SPRINGS_OF_ZERO_LENGTH)}
     model = known[system.equations.NAME]
     return Built.of(model, system.equations, system.parameters)

@@ -5,22 +5,16 @@ compiled with the cache of before. What it computes is held against the text its
 Python.
 """
 
-from __future__ import annotations
-
 import math
 import os
 import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import kintrafo
 import numpy as np
 from kintrafo.systems.compile.declaration import MechanismError
 
 from ..attempts import RawError, WrongError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 SECONDS = 120.0
 SHORT = 3
@@ -50,12 +44,12 @@ M = g.Mechanism("mine", "t", (A,), (FORCE,), (A.angle("q", "q"),))
 _HELPER = "from sympy import *\n\ndef helped(q, v, k):\n    return {helper}\n"
 
 # each with what it has inside
-_ONE: tuple[str, ...] = (
+_ONE = (
     "sin({})", "cos({})", "tan({})", "atan({})", "Abs({})", "sign({})", "asin(({})/9)",
     "acos(({})/9)", "sqrt({}**2+1)", "({})**5", "(({})**2+1)**2.5", "(({})**2+1)**-3",
     "Heaviside({})", "Max({}, 0)**1.5", "sqrt({})", "1/({})", "-({})",
 )  # fmt: skip
-_TWO: tuple[str, ...] = (
+_TWO = (
     "({}) + ({})", "({}) - ({})", "({}) * ({})", "({}) * ({})", "Max({}, {})", "Min({}, {})",
     "atan2({}, ({})**2 + 1)", "Piecewise(({}, q > v), ({}, True))",
     "Piecewise(({}, (q < 0.3) & (v <= k)), ({}, True))",
@@ -64,11 +58,11 @@ _REFUSED = ("exp({})", "log({})", "({})**0.3", "tanh({})", "floor({})")
 _LEAVES = ("q", "v", "k", "0.7", "2", "E", "pi", "q", "v")
 
 
-def _first(*pieces: Any) -> Any:
+def _first(*pieces):
     return next(value for value, holds in pieces if holds)
 
 
-_NAMES: dict[str, Any] = {
+_NAMES = {
     "sin": math.sin, "cos": math.cos, "tan": math.tan, "atan": math.atan, "Abs": abs,
     "sign": lambda x: float(np.sign(x)), "asin": math.asin, "acos": math.acos, "sqrt": math.sqrt,
     "Heaviside": lambda x: float(np.heaviside(x, 0.5)), "Max": max, "Min": min,
@@ -78,7 +72,7 @@ _NAMES: dict[str, Any] = {
 }  # fmt: skip
 
 
-def attempt(random: np.random.Generator) -> None:
+def attempt(random):
     """Write a declaration, and edit it twice."""
     parts = {"constant": "1.0", "formula": "q", "helper": "v"}
     refused = ""
@@ -99,7 +93,7 @@ def attempt(random: np.random.Generator) -> None:
         raise MechanismError(refused)
 
 
-def _formula(random: np.random.Generator, depth: int) -> str:
+def _formula(random, depth):
     if depth == 0 or random.random() < 0.1:
         return _LEAVES[random.integers(len(_LEAVES))]
     kinds = _REFUSED if random.random() < 0.02 else (_ONE if random.random() < 0.5 else _TWO)
@@ -107,7 +101,7 @@ def _formula(random: np.random.Generator, depth: int) -> str:
     return form.format(*(_formula(random, depth - 1) for _ in range(form.count("{}"))))
 
 
-def _judge(text: str, parts: dict[str, str]) -> None:
+def _judge(text, parts):
     """See that a refusal names what cannot be emitted, and that there is such a thing."""
     named = [w for w in ("exp", "log", "**0.3", "tanh", "floor") if w in "".join(parts.values())]
     if not named and "is not a finite real number" not in text:
@@ -116,7 +110,7 @@ def _judge(text: str, parts: dict[str, str]) -> None:
         raise RawError(text)
 
 
-def _compare(folder: Path, parts: dict[str, str], random: np.random.Generator) -> None:
+def _compare(folder, parts, random):
     file = folder / "mine.py"
     file.write_text(_FILE.format(**parts))
     (folder / "helper.py").write_text(_HELPER.format(**parts))
@@ -129,7 +123,7 @@ def _compare(folder: Path, parts: dict[str, str], random: np.random.Generator) -
             raise WrongError(f"{parts} at {state}: {found}, by Python {expected}")
 
 
-def _answered(function: Callable[..., Any], state: np.ndarray) -> float | None:
+def _answered(function, state):
     """Return the acceleration; None where it is refused."""
     try:
         return float(function([state])[0, 1])
@@ -137,7 +131,7 @@ def _answered(function: Callable[..., Any], state: np.ndarray) -> float | None:
         return None
 
 
-def _evaluated(parts: dict[str, str], q: float, v: float) -> tuple[float, float] | None:
+def _evaluated(parts, q, v):
     """Return the value in the text, and its change by a rounding of q; None without a value."""
     found = []
     for nudge in (0.0, 1e-13, -1e-13):
@@ -153,7 +147,7 @@ def _evaluated(parts: dict[str, str], q: float, v: float) -> tuple[float, float]
     return found[0], max(found) - min(found)
 
 
-def _agree(value: float | None, expected: tuple[float, float] | None) -> bool:
+def _agree(value, expected):
     """Compare; what Python does not evaluate, such as a root of -1, may be refused."""
     if expected is None:
         return True

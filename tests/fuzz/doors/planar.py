@@ -5,12 +5,9 @@ bodies between two others, with hinges and one guide at most. The independent co
 that are proposed.
 """
 
-from __future__ import annotations
-
 import tempfile
 import warnings
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from kintrafo import generator as g
@@ -25,9 +22,6 @@ from support.models import Built
 
 from ..attempts import UnjudgedError, WrongError
 
-if TYPE_CHECKING:
-    Random = np.random.Generator
-
 SECONDS = 180.0
 SHORT = 3
 
@@ -35,7 +29,7 @@ _NEAR = 0.02  # how far from the design position the coordinates are taken
 _REGULAR = 1e-3  # least singular value of what determines the accelerations, of the greatest
 
 
-def attempt(random: Random) -> None:
+def attempt(random):
     """Draw a linkage, derive it, and compare."""
     mechanism = _Drawn(random).mechanism
     model = _model_of(mechanism)
@@ -52,7 +46,7 @@ def attempt(random: Random) -> None:
         raise UnjudgedError("next to a dead point")
 
 
-def _model_of(mechanism: g.Mechanism) -> g.Formulation:
+def _model_of(mechanism):
     """Return the first proposed model, with iteration where there is no closed form."""
     every = tuple(c.joint for c in mechanism.coordinates)
     search = CoordinateSearch(g.Formulation("planar", "t", mechanism, every))
@@ -66,7 +60,7 @@ def _model_of(mechanism: g.Mechanism) -> g.Formulation:
         return search.model(found.independent, allow_iteration=True)
 
 
-def _compared(built: Built, random: Random) -> bool:
+def _compared(built, random):
     """Compare at a position near the design position; whether that was possible."""
     near = built.design + _NEAR * random.standard_normal(built.size)
     state = np.concatenate((near, random.standard_normal(built.size)))
@@ -95,18 +89,18 @@ def _compared(built: Built, random: Random) -> bool:
 class _Drawn:
     """A linkage, drawn step by step."""
 
-    def __init__(self, random: Random) -> None:
+    def __init__(self, random):
         self._random = random
         self._normal = "yz"[random.integers(2)]
-        self._bodies: list[g.Body] = [g.Ground("ground")]
-        self._joints: list[g.Revolute | g.Prismatic] = []
+        self._bodies = [g.Ground("ground")]
+        self._joints = []
         self._single()
         for _ in range(random.integers(1, 4)):
             grow = self._single if random.random() < 0.3 else self._double
             grow()
 
     @property
-    def mechanism(self) -> g.Mechanism:
+    def mechanism(self):
         upward = {} if self._normal == "y" else {"upward": g.Direction("upward", fixed=(1, 2, 0))}
         one, other = (self._bodies[i] for i in (0, -1))
         spring = g.LinearSpring(
@@ -122,11 +116,11 @@ class _Drawn:
         )
         return g.Mechanism("planar", "t", tuple(self._joints), forces, named)
 
-    def _single(self) -> None:
+    def _single(self):
         parent = self._bodies[self._random.integers(len(self._bodies))]
         self._joint(parent, self._body(), slides=self._random.random() < 0.3)
 
-    def _double(self) -> None:
+    def _double(self):
         """Add two bodies in a row between two that are there."""
         first, second = self._random.choice(len(self._bodies), size=2, replace=False)
         one, other = self._body(), self._body()
@@ -135,14 +129,14 @@ class _Drawn:
         for place, (near, far) in enumerate(pairs):
             self._joint(near, far, slides=place == guide)
 
-    def _body(self) -> g.Body:
+    def _body(self):
         name = f"body_{len(self._bodies)}"
         mass, inertia = self._random.uniform(0.5, 2.0), self._random.uniform(0.005, 0.02)
         body = g.Body(name, mass, self._point(f"{name}_com"), inertia)
         self._bodies.append(body)
         return body
 
-    def _joint(self, first: g.Body, second: g.Body, *, slides: bool) -> None:
+    def _joint(self, first, second, *, slides):
         name = f"j{len(self._joints)}"
         if slides:
             ends = self._point(f"{name}_start"), self._point(f"{name}_end")
@@ -151,6 +145,6 @@ class _Drawn:
         else:
             self._joints.append(g.hinge(name, first, second, self._point(name)))
 
-    def _point(self, name: str) -> g.Point:
+    def _point(self, name):
         x, y = self._random.uniform(-0.3, 0.3, size=2)
         return g.flat(name, (float(x), float(y)), normal=self._normal)

@@ -1,12 +1,9 @@
 """Tables of hardpoints in all spellings, units and axes, and with typing errors."""
 
-from __future__ import annotations
-
 import re
 import tempfile
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from kintrafo import Suspension
@@ -16,9 +13,6 @@ from kintrafo.vehicle.kinds import KINDS
 
 from .. import mutations
 from ..attempts import RawError, WrongError
-
-if TYPE_CHECKING:
-    from numpy.random import Generator
 
 SHORT = 100
 CARS = {kind: Suspension.load(KINDS[kind].STARTER) for kind in KINDS}
@@ -38,7 +32,7 @@ CELLS = (
     "", "x", "nan", "inf", "1e400", "1_0", "1,5", "--1", "0x1F", "mm", "[in]", "=1+1", '"', "#",
     "y [mm]", "x", "units: in", "٣", "9" * 400, "é\u2028",
 )  # fmt: skip
-OPTIONS: tuple[dict[str, Any], ...] = (
+OPTIONS = (
     {"axes": None}, {"left_handed": True}, {"unit": "in"}, {"sheet": "x"},
 )  # fmt: skip
 COMMENTS = (
@@ -47,7 +41,7 @@ COMMENTS = (
 )  # fmt: skip
 
 
-def attempt(random: Generator) -> None:
+def attempt(random):
     """Write the hardpoints of a car as other programs do, read them, and look at each number."""
     car = CARS[str(random.choice(list(CARS)))]
     names = [*random.permutation(car.hardpoints.given())][: random.integers(1, 12)]
@@ -59,7 +53,7 @@ def attempt(random: Generator) -> None:
     if broken:
         _slip(random, rows)
     content = _written(random, rows, unit, how, broken=broken)
-    options: dict[str, Any] = {"axes": " ".join(words), "left_handed": _volume(words) < 0}
+    options = {"axes": " ".join(words), "left_handed": _volume(words) < 0}
     if how == "given":
         options["unit"] = unit
     if broken and random.random() < 0.3:
@@ -86,9 +80,7 @@ def attempt(random: Generator) -> None:
         _same(np.array(getattr(read.hardpoints, name)), np.array(getattr(car.hardpoints, name)))
 
 
-def _written(
-    random: Generator, rows: list[list[str]], unit: str, how: str, *, broken: bool
-) -> bytes:
+def _written(random, rows, unit, how, *, broken):
     """Return a table as a file has it, with comments and broken bytes where it is broken."""
     delimiter = str(random.choice([",", ";", "\t"]))
     text = "\n".join(delimiter.join(row) for row in rows)
@@ -101,7 +93,7 @@ def _written(
     return mutations.bytes_of(random, content) if broken and random.random() < 0.3 else content
 
 
-def _axes(random: Generator) -> list[str]:
+def _axes(random):
     """Return three axes that are one of each pair, as a car's own in a third of the attempts."""
     if random.random() < 0.3:
         return ["forward", "left", "up"]
@@ -109,11 +101,11 @@ def _axes(random: Generator) -> list[str]:
     return [str(random.choice(pairs[i])) for i in random.permutation(3)]
 
 
-def _volume(words: list[str]) -> float:
+def _volume(words):
     return float(np.linalg.det([POINTING[word] for word in words]))
 
 
-def _there(car: Suspension, name: str, unit: str, words: list[str]) -> list[str]:
+def _there(car, name, unit, words):
     """Return the coordinates of a point in other axes and another unit, as texts."""
     place = [Fraction(value) for value in getattr(car.hardpoints, name)]
     assert car.hardpoints.unit == "mm"
@@ -121,9 +113,7 @@ def _there(car: Suspension, name: str, unit: str, words: list[str]) -> list[str]
     return [repr(float(value / MILLIMETRES[unit])) for value in along]
 
 
-def _table(
-    random: Generator, unit: str, places: dict[str, list[str]]
-) -> tuple[list[list[str]], str]:
+def _table(random, unit, places):
     """Return the cells of a table, and where its unit stands."""
     how = str(random.choice(["brackets", "parentheses", "ending", "row", "comment", "given"]))
     spelt = str(random.choice(SPELT[unit]))
@@ -143,7 +133,7 @@ def _table(
     return rows, how
 
 
-def _spelling(random: Generator, name: str) -> str:
+def _spelling(random, name):
     words = name.split("_")
     joint = str(random.choice(["_", " ", "-", ""]))
     if random.random() < 0.5:
@@ -151,7 +141,7 @@ def _spelling(random: Generator, name: str) -> str:
     return joint.join(words).upper() if random.random() < 0.2 else joint.join(words)
 
 
-def _slip(random: Generator, rows: list[list[str]]) -> None:
+def _slip(random, rows):
     """Change one or two cells, or rows: lost, doubled, or doubled in another spelling."""
     for _ in range(random.integers(1, 3)):
         at = int(random.integers(len(rows)))
@@ -165,14 +155,14 @@ def _slip(random: Generator, rows: list[list[str]]) -> None:
             del rows[at]
 
 
-def _judge(error: InputError, new: Path) -> None:
+def _judge(error, new):
     if new.exists():
         raise WrongError(f"refused and written: {error}") from error
     if len(str(error)) > 2100 * (len(error.problems) + 1):
         raise RawError(f"{len(str(error))} characters") from error
 
 
-def _stand_there(content: bytes, table: Any, found: Any) -> None:
+def _stand_there(content, table, found):
     """Every coordinate that was taken is a number of the file; no point was taken twice."""
     text = content.decode("utf-8-sig").replace(",", " ").replace(";", " ")
     numbers = {
@@ -187,7 +177,7 @@ def _stand_there(content: bytes, table: Any, found: Any) -> None:
             raise WrongError(f"{name} at {table.points[name]} is not there: {text}")
 
 
-def _same(found: np.ndarray, expected: np.ndarray) -> None:
+def _same(found, expected):
     # a rounding of the conversion to the other unit, and one of that back
     if not np.allclose(found, expected, rtol=4.5e-16, atol=0.0):
         raise WrongError(f"{found} instead of {expected}")

@@ -5,8 +5,6 @@ beam where the equations put it, axes that are orthonormal, and the heights that
 Loads that come back balance each other, and where they do not there is a reason.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from kintrafo import PositionError, RigidAxle, RigidAxleModel, characteristics, equilibrium, loads
 from kintrafo.vehicle.assembly.by_wheel import flat

@@ -1,12 +1,9 @@
 """Input files with typing errors, corrupt bytes and impossible values."""
 
-from __future__ import annotations
-
 import math
 import tempfile
 from importlib import resources
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import kintrafo.vehicle.data
 import tomlkit
@@ -15,9 +12,6 @@ from kintrafo import InputError, Model, Suspension
 from .. import mutations
 from ..attempts import RawError, UnjudgedError, WrongError
 
-if TYPE_CHECKING:
-    from numpy.random import Generator
-
 FILES = [p for p in resources.files(kintrafo.vehicle.data).iterdir() if p.name.endswith(".toml")]
 TEXTS = [path.read_bytes() for path in sorted(FILES, key=lambda path: path.name)]
 SHORT = 40
@@ -25,7 +19,7 @@ SHORT = 40
 STRANGE_WORDS = ("Traceback", "validation error", "pydantic", "object at 0x", "For further info")
 
 
-def attempt(random: Generator) -> None:
+def attempt(random):
     """Read a file that was changed, and compare what was read with another parser's result."""
     text = TEXTS[random.integers(len(TEXTS))]
     if random.random() < 0.5:
@@ -43,7 +37,7 @@ def attempt(random: Generator) -> None:
     check(suspension, text)
 
 
-def read(path: Path) -> Suspension:
+def read(path):
     """Read a file; a refusal must name it and speak of it."""
     try:
         return Suspension.load(path)
@@ -56,7 +50,7 @@ def read(path: Path) -> Suspension:
         raise
 
 
-def check(suspension: Suspension, text: bytes) -> None:
+def check(suspension, text):
     """The values are those of the file, and the model is in their position."""
     given = tomlkit.parse(text.decode("utf-8-sig").replace("\r\n", "\n")).unwrap()
     compare(given, suspension.to_dict(), "file")
@@ -72,7 +66,7 @@ def check(suspension: Suspension, text: bytes) -> None:
             raise WrongError(f"wheel_center_{axis} {found} m, in the file {unit * coordinate} m")
 
 
-def compare(given: Any, found: Any, place: str) -> None:
+def compare(given, found, place):
     """Compare what another parser reads with what was taken."""
     if isinstance(given, dict):
         for key, value in given.items():

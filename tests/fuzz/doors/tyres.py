@@ -1,11 +1,8 @@
 """Property files of tyres: corrupt, with lost, misspelt or repeated keys; forces by formulas."""
 
-from __future__ import annotations
-
 import re
 import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from cars.tyre_files import FILES
@@ -16,15 +13,12 @@ from oracle import magic_formula as oracle
 from .. import mutations
 from ..attempts import RawError, WrongError
 
-if TYPE_CHECKING:
-    from numpy.random import Generator
-
 SHORT = 60
 VALUES = ("", "x", "nan", "-1e300", "1e-300", "1e999", "0", "-0.0", "1,5", "1_0", "'", "2", "1d-2",
           "9" * 5000, "é\u2028", "$ none", "= 3")  # fmt: skip
 
 
-def attempt(random: Generator) -> None:
+def attempt(random):
     """Read a file that was changed; what it does is what the printed equations say."""
     name = str(random.choice(list(FILES)))
     lines = FILES[name].splitlines()
@@ -48,7 +42,7 @@ def attempt(random: Generator) -> None:
     _judge(random, tyre)
 
 
-def _changed(random: Generator, line: str) -> str:
+def _changed(random, line):
     """Return a line with a slip of the hand."""
     key, equals, value = line.partition("=")
     if not equals:
@@ -65,7 +59,7 @@ def _changed(random: Generator, line: str) -> str:
     return slips[random.integers(len(slips))]
 
 
-def _judge(random: Generator, tyre: tyres.MagicFormula) -> None:
+def _judge(random, tyre):
     """Compare one state with the printed equations, from the numbers that were read."""
     p = oracle.coefficients("\n".join(f"{k} = {v!r}" for k, v in tyre.coefficients.items()))
     load = random.uniform(0.3, 1.5) * tyre.nominal_load

@@ -1,23 +1,17 @@
 """Cells of Excel workbooks with hardpoints: types, formulas, stray cells, sheets."""
 
-from __future__ import annotations
-
 import re
 import tempfile
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 from zipfile import ZIP_DEFLATED, ZipFile
 
 from kintrafo.core.errors import InputError
-from kintrafo.vehicle.files.point_table import PointTable, read_points
+from kintrafo.vehicle.files.point_table import read_points
 from openpyxl import Workbook, load_workbook
 
 from .. import mutations
 from ..attempts import RawError, WrongError
-
-if TYPE_CHECKING:
-    from numpy.random import Generator
 
 SHORT = 60
 SECONDS = 10.0
@@ -31,7 +25,7 @@ STRAYS = ("XFD1048576", "A1048576", "XFD1", "IV20", "F9", "A60", "AA3", "E10000"
 UNITS = {"mm": "mm", "in": "in", "Meters": "m", "(ft)": "ft", "[cm]": "cm"}
 
 
-def attempt(random: Generator) -> None:
+def attempt(random):
     """Save a workbook, and compare what is taken with what another reader of it finds."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "points.xlsx")
@@ -53,11 +47,10 @@ def attempt(random: Generator) -> None:
         raise WrongError(f"{found} instead of {points}")
 
 
-def _saved(random: Generator, path: Path) -> tuple[dict[str, Any], str, bool]:
+def _saved(random, path):
     """Save a workbook; return its points, its unit, and whether something is wrong with it."""
     book = Workbook()
     sheet = book.active
-    assert sheet is not None
     sheet.title = "points"
     told, unit = list(UNITS.items())[random.integers(len(UNITS))]
     above = int(random.integers(0, 4))
@@ -84,7 +77,7 @@ def _saved(random: Generator, path: Path) -> tuple[dict[str, Any], str, bool]:
     return points, unit, broken
 
 
-def _slip(random: Generator, book: Any, sheet: Any, above: int) -> None:
+def _slip(random, book, sheet, above):
     how = random.random()
     if how < 0.5:
         row, column = above + random.integers(1, 5), random.integers(1, 6)
@@ -100,7 +93,7 @@ def _slip(random: Generator, book: Any, sheet: Any, above: int) -> None:
         sheet.merge_cells("A1:C8")
 
 
-def _damaged(random: Generator, path: Path) -> None:
+def _damaged(random, path):
     """Change a member of the archive, or the archive."""
     if random.random() < 0.3:
         path.write_bytes(mutations.bytes_of(random, path.read_bytes()))
@@ -119,7 +112,7 @@ def _damaged(random: Generator, path: Path) -> None:
             archive.writestr(other, text if other == name else content)
 
 
-def _check(path: Path, found: PointTable) -> None:
+def _check(path, found):
     """Each point stands in a row, by the reader of whole workbooks."""
     book = load_workbook(path, data_only=True)
     rows = [
@@ -132,7 +125,7 @@ def _check(path: Path, found: PointTable) -> None:
             raise WrongError(f"{name} {place} stands in no row")
 
 
-def _is_row(row: list[Any], name: str, place: tuple[float, ...]) -> bool:
+def _is_row(row, name, place):
     numbers = []
     for cell in row:
         try:

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from kintrafo.generator.backends.counting import counted
 from kintrafo.generator.backends.numpy.dialect import NUMPY
 from kintrafo.generator.backends.schedule import schedule
-from kintrafo.generator.backends.text import Dialect, text_of
+from kintrafo.generator.backends.text import text_of
 from kintrafo.generator.backends.words import FORMULA
 from kintrafo.generator.program.functions import Guarded, IsPositive, Positive, SignOf
 from support.c_text import count, tokens
@@ -22,7 +22,7 @@ from support.c_text import count, tokens
 SYMBOLS = sp.symbols("x y z")
 
 
-def write(expression: sp.Expr, dialect: Dialect = FORMULA) -> str:
+def write(expression, dialect=FORMULA):
     """Write a single expression."""
     return text_of(schedule(expression), dialect)
 
@@ -37,12 +37,12 @@ calm = settings(deadline=None, max_examples=150)
 FLOOR = sp.Float("1e-24")
 
 
-def positive(expression: sp.Expr) -> sp.Expr:
+def positive(expression):
     """Return an expression that is positive for all values of the symbols."""
     return 1 + expression**2
 
 
-def compound(parts: st.SearchStrategy[sp.Expr]) -> st.SearchStrategy[sp.Expr]:
+def compound(parts):
     """Return what the derivations build from smaller expressions."""
     several = st.lists(parts, min_size=2, max_size=4)
     pairs = st.tuples(parts, parts)
@@ -73,7 +73,7 @@ numbers = st.one_of(
 KNOWN = (sp.sin, sp.cos, sp.atan2, Guarded, SignOf, Positive, IsPositive)
 
 
-def is_written(expression: sp.Expr) -> bool:
+def is_written(expression):
     """Return whether the expression, as SymPy has simplified it, is one that derivations have.
 
     SymPy turns angles between numbers into pi and arc tangents, and products into high powers.
@@ -92,7 +92,7 @@ expressions = st.recursive(
 class _Exact(ast.NodeTransformer):
     """Makes every number of a Python expression one of mpmath's."""
 
-    def visit_Constant(self, node: ast.Constant) -> ast.expr:
+    def visit_Constant(self, node):
         return ast.Call(ast.Name("mpf", ast.Load()), [node], [])
 
 
@@ -103,11 +103,11 @@ class _Functions:
     maximum = staticmethod(max)
 
     @staticmethod
-    def copysign(size: mpmath.mpf, sign: mpmath.mpf) -> mpmath.mpf:
+    def copysign(size, sign):
         return size if sign >= 0 else -size
 
 
-def evaluate(text: str) -> mpmath.mpf:
+def evaluate(text):
     """Evaluate written text in mpmath's precision."""
     tree = ast.fix_missing_locations(_Exact().visit(ast.parse(text, mode="eval")))
     names = {symbol.name: mpmath.mpf(value) for symbol, value in VALUES.items()}
@@ -115,7 +115,7 @@ def evaluate(text: str) -> mpmath.mpf:
     return mpmath.mpf(eval(compile(tree, "text", "eval"), known))
 
 
-def meaning(expression: sp.Expr) -> sp.Expr:
+def meaning(expression):
     """Return the expression with the project's functions replaced by what they mean here."""
     if not expression.args:
         return expression
@@ -157,37 +157,37 @@ class _Counting(ast.NodeVisitor):
         "arctan2": "trigonometric",
     }
 
-    def __init__(self) -> None:
-        self.total: Counter[str] = Counter()
+    def __init__(self):
+        self.total = Counter()
 
     @staticmethod
-    def is_number(node: ast.AST) -> bool:
+    def is_number(node):
         signed = isinstance(node, ast.UnaryOp) and isinstance(node.operand, ast.Constant)
         return signed or isinstance(node, ast.Constant)
 
-    def visit_alone(self, node: ast.AST) -> None:
+    def visit_alone(self, node):
         """Count what is the whole of the text or of an argument: not the sign of a number."""
         if not self.is_number(node):
             self.visit(node)
 
-    def visit_Expression(self, node: ast.Expression) -> None:
+    def visit_Expression(self, node):
         self.visit_alone(node.body)
 
-    def visit_BinOp(self, node: ast.BinOp) -> None:
+    def visit_BinOp(self, node):
         operands = node.left, node.right
         if isinstance(node.op, ast.Div) and all(map(self.is_number, operands)):
             return  # a fraction
         self.total[self.kinds[type(node.op)]] += 1
         self.generic_visit(node)
 
-    def visit_UnaryOp(self, node: ast.UnaryOp) -> None:
+    def visit_UnaryOp(self, node):
         self.total["add"] += 1
         self.generic_visit(node)
 
-    def visit_Compare(self, node: ast.Compare) -> None:
+    def visit_Compare(self, node):
         self.visit_alone(node.left)
 
-    def visit_Call(self, node: ast.Call) -> None:
+    def visit_Call(self, node):
         assert isinstance(node.func, ast.Attribute)
         if node.func.attr in self.calls:
             self.total[self.calls[node.func.attr]] += 1
@@ -199,7 +199,7 @@ class _Counting(ast.NodeVisitor):
 SELECTION = re.compile(r"(?<![\d.])1\.0\*\((?=.* > 0\.0\))")
 
 
-def operations_by_ast(text: str) -> Counter[str]:
+def operations_by_ast(text):
     """Count the operations of Python text."""
     counting = _Counting()
     counting.visit(ast.parse(SELECTION.sub("np.number(", text), mode="eval"))

@@ -7,7 +7,6 @@ own reader of them with the poses of the compiled functions at random states.
 import re
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
@@ -17,9 +16,6 @@ from kintrafo.generator import Point, Revolute
 from kintrafo.generator.declare.declared import parts
 from kintrafo.generator.mechanisms import MODELS
 
-if TYPE_CHECKING:
-    from types import ModuleType
-
 FOLDER = Path(generated.__file__).parent
 NAMES = [model.name for model in MODELS]
 BY_NAME = {model.name: model for model in MODELS}
@@ -28,37 +24,37 @@ BY_NAME = {model.name: model for model in MODELS}
 class V:
     """A scalar, vector or matrix in a printed formula: * multiplies, ^ is the cross product."""
 
-    def __init__(self, value: Any) -> None:
+    def __init__(self, value):
         self.value = np.asarray(value, float)
 
-    def __mul__(self, other: Any) -> "V":
+    def __mul__(self, other):
         a, b = self.value, as_v(other).value
         return V(a * b if a.ndim == 0 or b.ndim == 0 else a @ b)
 
-    def __xor__(self, other: "V") -> "V":
+    def __xor__(self, other):
         return V(np.cross(self.value, other.value))
 
-    def __matmul__(self, other: "V") -> "V":
+    def __matmul__(self, other):
         return V(self.value @ other.value)
 
-    def __truediv__(self, other: "V") -> "V":
+    def __truediv__(self, other):
         return V(self.value / other.value)
 
-    def __add__(self, other: "V") -> "V":
+    def __add__(self, other):
         return V(self.value + other.value)
 
-    def __sub__(self, other: "V") -> "V":
+    def __sub__(self, other):
         return V(self.value - other.value)
 
-    def __neg__(self) -> "V":
+    def __neg__(self):
         return V(-self.value)
 
 
-def as_v(value: Any) -> V:
+def as_v(value):
     return value if isinstance(value, V) else V(value)
 
 
-def turn(axis: Any, angle: Any) -> V:
+def turn(axis, angle):
     """Rodrigues' formula."""
     x, y, z = as_v(axis).value
     w = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
@@ -91,7 +87,7 @@ READ = (
 )
 
 
-def python(formula: str) -> str:
+def python(formula):
     """Return a printed formula as Python reads it."""
     for pattern, by in READ:
         formula = re.sub(pattern, by, formula)
@@ -102,8 +98,8 @@ def python(formula: str) -> str:
 class Place:
     """Values of all signs of a model's report at a random instant near its design position."""
 
-    def __init__(self, name: str) -> None:
-        self.model: ModuleType = import_module(f"kintrafo.generated.{name}")
+    def __init__(self, name):
+        self.model = import_module(f"kintrafo.generated.{name}")
         self.mechanism = BY_NAME[name].mechanism
         self.numbers = self.mechanism.numbers
         self.text = (FOLDER / f"{name}.md").read_text(encoding="utf-8")
@@ -124,7 +120,7 @@ class Place:
         inputs, self.inputs = self.inputs, 0.0 * self.inputs
         self.resting, self.beta0 = self.poses(), self.call("relative_coordinates")
         self.state, self.inputs = moved, inputs
-        self.signs: dict[str, Any] = {
+        self.signs = {
             "one": V(np.eye(3)),
             "zero": V(np.zeros(3)),
             "turn": turn,
@@ -148,32 +144,32 @@ class Place:
         self._screws()
 
     @staticmethod
-    def _about(axis: int) -> Any:
+    def _about(axis):
         return lambda angle: turn(np.eye(3)[axis], angle)
 
-    def call(self, function: str) -> Any:
+    def call(self, function):
         return np.array(getattr(self.model, function)(self.state, self.inputs, self.constants))
 
-    def poses(self) -> dict[str, tuple[Any, Any]]:
+    def poses(self):
         """Return position and rotation of each body."""
         pairs = zip(self.call("positions"), self.call("orientations"), strict=True)
         found = dict(zip(self.model.BODIES, pairs, strict=True))
         return found | {self.mechanism.ground: (np.zeros(3), np.eye(3))}
 
-    def number(self, vector: Any) -> Any:
+    def number(self, vector):
         return np.array([float(sp.sympify(c).subs(self.values)) for c in vector])
 
-    def carried(self, body: str, point: str) -> tuple[Any, Any]:
+    def carried(self, body, point):
         """Return where a body has a hardpoint now, and where at the design position."""
         position = next(p for p in self._points() if p.name == point).position
         start = self.number(position)
         (now, turned), (rest, _) = self.poses_now[body], self.resting[body]
         return now + turned @ (start - rest), start
 
-    def _points(self) -> list[Point]:
+    def _points(self):
         return [p for joint in self.mechanism.joints for p in parts((joint,)) if is_point(p)]
 
-    def _axes(self) -> dict[str, V]:
+    def _axes(self):
         found = {}
         for joint in self.mechanism.joints:
             if joint.kind not in ("revolute", "prismatic"):
@@ -188,7 +184,7 @@ class Place:
             found[joint.name.replace("_", " ")] = V(u)
         return found
 
-    def _screws(self) -> None:
+    def _screws(self):
         """Read the table of the screws, and what a formula needs of the joints beside it."""
         rows = re.findall(
             r"^\| \$`\\beta_\{(\d+)\}`\$ +\| \$`(.*?)`\$ +\| (.*?) *\|$", self.text, re.MULTILINE
@@ -209,14 +205,14 @@ class Place:
                 second = self.poses_now[joint.second.name][1] @ second
                 self.signs["h"][joint.name] = V(np.cross(second, now))
 
-    def equations(self) -> list[tuple[str, int, str]]:
+    def equations(self):
         """Return the printed equations of bodies: sign, index, right-hand side."""
         shown = re.findall(r"```math\n(\S+) = (.*)\n```", self.text)
         found = ((re.fullmatch(r"(\w+)\[(\d+)\]", python_or(left)), right) for left, right in shown)
         return [(m[1], int(m[2]), python(right)) for m, right in found if m]
 
 
-def python_or(formula: str) -> str:
+def python_or(formula):
     """Return the left-hand side of an equation as Python reads it; nothing of those in words."""
     try:
         return python(formula)
@@ -224,11 +220,11 @@ def python_or(formula: str) -> str:
         return ""
 
 
-def numbered(values: Any) -> dict[int, V]:
+def numbered(values):
     return {k: V(value) for k, value in enumerate(values, 1)}
 
 
-def is_point(part: Any) -> bool:
+def is_point(part):
     return isinstance(part, Point)
 
 

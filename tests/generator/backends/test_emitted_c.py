@@ -37,7 +37,7 @@ each_straight_model = pytest.mark.parametrize("name", STRAIGHT)
 each_suspension = pytest.mark.parametrize("name", MODELS)
 
 
-def compare(label: str, exact: list[Rounded], found: np.ndarray, size: mpmath.mpf) -> None:
+def compare(label, exact, found, size):
     """Demand two things of each element that C computed.
 
     - Its error is at most 1e-13 of the size given, which is that of the largest element (the
@@ -53,7 +53,7 @@ def compare(label: str, exact: list[Rounded], found: np.ndarray, size: mpmath.mp
         assert error <= 2 * element.error, f"{label}[{index}]: {value} for {element.value}"
 
 
-def given_names(compiled) -> list[str]:
+def given_names(compiled):
     return [f"given_{name}" for name in compiled.RELATIVE_COORDINATES]
 
 
@@ -105,7 +105,7 @@ def test_constants_against_the_symbolic_program(derived, name, seed):
             compare(label, [element], np.array([value]), size)
 
 
-def run(command: list[str]) -> None:
+def run(command):
     """Run a compiler, which must not print a message."""
     if shutil.which(command[0]) is None:
         pytest.skip(f"{command[0]} is not installed")
@@ -155,7 +155,6 @@ def test_headers_are_cpp(tmp_path):
 @each_model
 def test_constants_are_the_order_of_their_array(name):
     match = re.search(rf"struct {name}_constants \{{\s*double\s+(.*?);", header(name), re.DOTALL)
-    assert match is not None
     names = EMITTED[name].CONSTANTS
     assert tuple(re.split(r",\s+", match[1])) == names
     assert f"{name.upper()}_CONSTANT_COUNT = {len(names)} }}" in header(name)
@@ -255,10 +254,9 @@ def test_compiled_functions_keep_only_what_they_need(tmp_path):
 COUNTED = re.compile(r"(\d+) operations? \(([^)]*)\)")
 
 
-def described_counts(text: str) -> dict[str, int]:
+def described_counts(text):
     """Return the counts of a comment: the total and the kinds."""
     match = COUNTED.search(re.sub(r"\s+", " ", text))
-    assert match is not None
     if match[2] == "none":
         return {"total": int(match[1])}
     kinds = {kind: int(number) for number, kind in (item.split() for item in match[2].split(", "))}
@@ -266,7 +264,7 @@ def described_counts(text: str) -> dict[str, int]:
 
 
 @cache
-def counted(name: str, function: str) -> dict[str, int]:
+def counted(name, function):
     """Return the counts of the C text, as `described_counts` does."""
     counts = count(functions(name)[function])
     return dict(counts) | {"total": counts.total()}

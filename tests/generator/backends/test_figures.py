@@ -2,7 +2,6 @@
 
 import re
 from collections import Counter
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -23,7 +22,7 @@ def drawn(request, tmp_path_factory):
     return plan, words, folder
 
 
-def texts(path: Path) -> list[str]:
+def texts(path):
     """Return the texts of a figure: words as text, formulas in comments before their paths."""
     written = path.read_text(encoding="utf-8")
     words = re.findall(r"<text[^>]*>([^<]*)</text>", written)

@@ -14,14 +14,14 @@ from kintrafo.generator.mechanisms import MODELS
 COMMITTED = Path(generated.__file__).parent
 
 
-def read(folder: Path) -> dict[str, bytes]:
+def read(folder):
     """Return the bytes of all emitted files below a folder, without what a build adds."""
     endings = {".py", ".pyx", ".pyi", ".json", ".md", ".c", ".h"}
     files = (path for path in folder.rglob("*") if path.suffix in endings)
     return {path.relative_to(folder).as_posix(): path.read_bytes() for path in files}
 
 
-def differing(ones: dict[str, bytes], others: dict[str, bytes]) -> dict[str, str]:
+def differing(ones, others):
     """Return the files that differ, with the first line that does."""
     result = {}
     for name in sorted({*ones, *others}):
@@ -33,7 +33,7 @@ def differing(ones: dict[str, bytes], others: dict[str, bytes]) -> dict[str, str
     return result
 
 
-def encoded(texts: dict[str, str]) -> dict[str, bytes]:
+def encoded(texts):
     return {name: text.encode() for name, text in texts.items()}
 
 

@@ -19,11 +19,10 @@ from support.models import derive
 BASELINE = Path(__file__).with_name("operation_counts")
 KINDS = ("add", "multiply", "divide", "root", "trigonometric")
 DERIVED_HERE = (held_by_rods.MODELS[0], n_four_bar(3))
-Counts = dict[str, dict[str, dict[str, int]]]
 
 
 @cache
-def present_counts() -> Counts:
+def present_counts():
     """Return model, function and kind of operation to their number, as the C text shows it."""
     bodies = {model: functions(model) for model in EMITTED}
     for model in DERIVED_HERE:
@@ -35,18 +34,18 @@ def present_counts() -> Counts:
     }
 
 
-def stored_counts() -> Counts:
+def stored_counts():
     """Return the counts of the baseline, a file for each model."""
     files = sorted(BASELINE.glob("*.json"))
     return {file.stem: json.loads(file.read_text(encoding="utf-8")) for file in files}
 
 
-def _numbers(body: list[str]) -> dict[str, int]:
+def _numbers(body):
     found = count(body)
     return {kind: found[kind] for kind in KINDS}
 
 
-def rows(counts: Counts) -> dict[str, str]:
+def rows(counts):
     """Return one line for each function."""
     return {
         f"{model}.{function}": f"{sum(kinds.values())} = "
@@ -56,7 +55,7 @@ def rows(counts: Counts) -> dict[str, str]:
     }
 
 
-def difference(stored: Counts, present: Counts) -> list[str]:
+def difference(stored, present):
     """Return one line for each function whose counts differ."""
     before, now = rows(stored), rows(present)
     return [

@@ -1,10 +1,7 @@
 """A steering shaft that telescopes between two crosses, against Hooke's formula by hand."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import atan2, cos, degrees, pi, radians, sin
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -22,13 +19,10 @@ from scipy.optimize import brentq
 from support.changes import changed
 from support.models import Built, own
 
-if TYPE_CHECKING:
-    from kintrafo.generator import Formulation
-
 TURNS = np.linspace(-pi, pi, 25)
 
 
-def answers(model: Formulation) -> tuple[Built, list[str]]:
+def answers(model):
     """Return a model and the names of its relative coordinates.
 
     All columns in a plane are one model with other parameters.
@@ -38,7 +32,7 @@ def answers(model: Formulation) -> tuple[Built, list[str]]:
     return Built.of(model, module), list(module.RELATIVE_COORDINATES)
 
 
-def off(found: float, expected: float) -> float:
+def off(found, expected):
     """Return how far an angle is from another, without whole turns."""
     return abs((found - expected + pi) % (2 * pi) - pi)
 
@@ -62,7 +56,7 @@ def test_both_crosses_turn_as_hooke_says(bends, phase):
         assert off(turn_about_x(axes), shaft) < 1e-14
 
 
-def turn_about_x(axes: np.ndarray) -> float:
+def turn_about_x(axes):
     """Return the turn of a body about x, along which the shaft lies."""
     return atan2(axes[2, 1], axes[1, 1])
 
@@ -122,7 +116,7 @@ def test_the_pinion_may_turn_the_column(tmp_path):
 # -- several in a row ------------------------------------------------------------------------------
 
 
-def series() -> Formulation:
+def series():
     """Return two shafts with a bearing between them, and a pinion behind the second."""
     return declare(
         "two_shafts",

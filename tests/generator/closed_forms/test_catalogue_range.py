@@ -6,11 +6,9 @@ one that a motion leads to. At the end, where two roots meet, a position is wort
 digits; that is the geometry, and the model loses no more than that.
 """
 
-from __future__ import annotations
-
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cache, cached_property
-from typing import TYPE_CHECKING
 
 import mpmath
 import numpy as np
@@ -22,39 +20,32 @@ from mechanisms.every_closed_form import moving_slider_crank, spatial_four_bar
 from mpmath import mpf
 from support.models import Built, own
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
-
-    from kintrafo.generator import Formulation
-    from oracle.constraints import Array
-
 BY_NAME = {model.name: model for model in SHIPPED}
 DIGITS = 30
 STEPS = 80
 
-Exact = np.ndarray
 """Three numbers of many digits."""
 
 
 # -- geometry in many digits -----------------------------------------------------------------------
 
 
-def exact(values: Mapping[str, float], name: str) -> Exact:
+def exact(values, name):
     """Return a point or direction of a set of parameters."""
     return np.array([mpf(values[f"{name}_{a}"]) for a in "xyz"])
 
 
-def unit(v: Exact) -> Exact:
+def unit(v):
     return v / mpmath.sqrt(v.dot(v))
 
 
-def turned(axis: Exact, angle: mpf, v: Exact) -> Exact:
+def turned(axis, angle, v):
     """Return a vector turned about a unit axis."""
     c, s = mpmath.cos(angle), mpmath.sin(angle)
     return v * c + np.cross(axis, v) * s + axis * (axis.dot(v) * (1 - c))
 
 
-def about(point: Exact, axis: Exact, angle: mpf, v: Exact) -> Exact:
+def about(point, axis, angle, v):
     """Return a point turned about a line."""
     return point + turned(axis, angle, v - point)
 
@@ -85,30 +76,30 @@ class Loop:
     """
 
     built: Built
-    state: Callable[[float], tuple[Array, Array]]
+    state: Callable[[float], tuple[np.ndarray, np.ndarray]]
     body: str
-    ends: Callable[[mpf, mpf], tuple[Exact, Exact]]
-    place: Callable[[mpf], Exact]
+    ends: Callable[[mpf, mpf], tuple[np.ndarray, np.ndarray]]
+    place: Callable[[mpf], np.ndarray]
     span: float
     guard: str
     _paths: dict[int, list[tuple[mpf, mpf]]] = field(default_factory=dict)
 
     @cached_property
-    def _rod(self) -> mpf:
+    def _rod(self):
         """Length of the rod, squared."""
         with mpmath.workdps(DIGITS):
             start, end = self.ends(mpf(0), mpf(0))
             return (start - end).dot(start - end)
 
-    def left(self, unknown: mpf, drive: mpf) -> mpf:
+    def left(self, unknown, drive):
         """Return how much longer than the rod the way between its ends is, squared."""
         one, other = self.ends(unknown, drive)
         return (one - other).dot(one - other) - self._rod
 
-    def solve(self, drive: mpf, guess: mpf) -> mpf | None:
+    def solve(self, drive, guess):
         """Return the root next to a guess, by Newton's method; None if it leads away."""
 
-        def slope(x: mpf) -> mpf:
+        def slope(x):
             h = mpf(10) ** (-DIGITS // 2)
             return (self.left(x + h, drive) - self.left(x - h, drive)) / (2 * h)
 
@@ -118,13 +109,13 @@ class Loop:
             return None
         return root if abs(root - guess) < mpf(0.5) else None
 
-    def followed(self, side: int) -> list[tuple[mpf, mpf]]:
+    def followed(self, side):
         """Return drives and roots from the design position on, until there is none."""
         if side not in self._paths:
             self._paths[side] = list(self._followed(side))
         return self._paths[side]
 
-    def _followed(self, side: int) -> Iterator[tuple[mpf, mpf]]:
+    def _followed(self, side):
         """Yield drives and roots from the design position on, until there is none."""
         root = mpf(0)
         for i in range(1, STEPS + 1):
@@ -135,7 +126,7 @@ class Loop:
             root = found
             yield drive, root
 
-    def end(self, side: int) -> mpf | None:
+    def end(self, side):
         """Return the drive at which two roots meet, or None if that is not in the span."""
         path = self.followed(side)
         if len(path) == STEPS:
@@ -143,13 +134,13 @@ class Loop:
         drive, root = path[-1]
         h = mpf(10) ** (-DIGITS // 3)
 
-        def both(x: mpf, d: mpf) -> list[mpf]:
+        def both(x, d):
             return [self.left(x, d), (self.left(x + h, d) - self.left(x - h, d)) / (2 * h)]
 
         _, where = mpmath.findroot(both, (root, drive))
         return where
 
-    def off_by(self, drive: mpf, root: mpf) -> float:
+    def off_by(self, drive, root):
         """Return how far the model's body is from where it should be, m."""
         state, inputs = self.state(float(drive))
         places = self.built("positions", state, inputs)
@@ -158,7 +149,7 @@ class Loop:
         return float(max(abs(mpf(f) - e) for f, e in zip(found, expected, strict=True)))
 
 
-def other_branch(loop: Loop) -> mpf:
+def other_branch(loop):
     """Return the second root of the design position."""
     guesses = [mpmath.pi * i / 12 - 3 for i in range(24)]
     roots = [mpmath.findroot(lambda x: loop.left(x, mpf(0)), (g, g + mpf("0.01"))) for g in guesses]
@@ -167,7 +158,7 @@ def other_branch(loop: Loop) -> mpf:
     return apart[0]
 
 
-def rocker(built: Built) -> Loop:
+def rocker(built):
     """Return hinge - rod - hinge in space: the angle of the rocker."""
     p = built.parameters
     crank, pivot, pin, eye = (
@@ -189,7 +180,7 @@ def rocker(built: Built) -> Loop:
     )
 
 
-def slider(built: Built) -> Loop:
+def slider(built):
     """Return hinge - rod - guide in space, base and table at their design positions."""
     p = built.parameters
     crank, pin, eye = (exact(p, n) for n in ("crank_bearing", "crank_end", "slider_end"))
@@ -209,7 +200,7 @@ def slider(built: Built) -> Loop:
     )
 
 
-def knuckle(built: Built, *, wishbone: bool) -> Loop:
+def knuckle(built, *, wishbone):
     """Return a knuckle about the line of its two points, held by the tie rod; the rack drives."""
     p = built.parameters
     low = exact(p, "lower_ball_joint" if wishbone else "ball_joint")
@@ -217,7 +208,7 @@ def knuckle(built: Built, *, wishbone: bool) -> Loop:
     outer, inner, com = (exact(p, n) for n in ("tie_rod_outer", "tie_rod_inner", "knuckle_com"))
     line, rack = unit(high - low), unit(exact(p, "rack_axis"))
 
-    def state(d: float) -> tuple[Array, Array]:
+    def state(d):
         inputs = np.zeros(len(built.module.INPUTS))
         inputs[0] = d
         return np.array([built.design[0], 0.0, 0.0, 0.0]), inputs
@@ -233,7 +224,7 @@ def knuckle(built: Built, *, wishbone: bool) -> Loop:
     )
 
 
-def upper_arm(built: Built) -> Loop:
+def upper_arm(built):
     """Return the upper arm of a double wishbone, held by the knuckle; the lower arm drives."""
     p = built.parameters
     low_rear, low_front = exact(p, "lower_arm_rear"), exact(p, "lower_arm_front")
@@ -256,7 +247,7 @@ def upper_arm(built: Built) -> Loop:
     )
 
 
-def compiled(model: Formulation) -> Built:
+def compiled(model):
     """Return a model with its default parameters."""
     return Built.of(model, own(model, derivatives=False))
 
@@ -282,7 +273,7 @@ def loop():
     return cache(find)
 
 
-def _on_the_other_side(make: Callable[[Built], Loop], built: Built, body: str) -> Loop:
+def _on_the_other_side(make, built, body):
     """Return a loop declared where the other branch has its design position."""
     with mpmath.workdps(DIGITS):
         first = make(built)
@@ -373,7 +364,7 @@ def test_a_shaft_next_to_the_first_axis_of_its_cross(off, loop):
         assert max(map(abs, left)) < 4e-15 / off
 
 
-def crossed(shaft: Exact, axis: Exact) -> Exact:
+def crossed(shaft, axis):
     """Return the axes of a shaft as columns: its line, and the second axis of its cross."""
     second = unit(np.cross(axis, shaft))
     return np.array([shaft, second, np.cross(shaft, second)]).T

@@ -6,11 +6,8 @@ the law of cosines says where. The lever passes such a gap within a small angle,
 crank is where it was before.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -20,17 +17,13 @@ from mechanisms.random_loops import REGULAR, Follower
 from support.models import Built, needs_gcc, own
 from support.placements import Placements
 
-if TYPE_CHECKING:
-    from kintrafo.generator import Formulation
-    from oracle.constraints import Array
-
 PINS = {name: (one, two, at) for name, one, two, at in iterated_loops.STEPHENSON_PINS}
 CRANK, END = (np.array(PINS[name][2]) for name in ("arm_hinge", "arm_pin"))
 RADIUS = float(np.linalg.norm(END - CRANK))
 
 
 @cache
-def model(drive: str) -> Formulation:
+def model(drive):
     """Return the linkage, driven by a "lever" or a "slide"; its dimensions are parameters."""
     pins = PINS | {
         "lever_hinge": ("ground", "lever", (1.5, 0.4)),
@@ -42,7 +35,7 @@ def model(drive: str) -> Formulation:
     if drive == "slide":
         directions["along"] = heading(0.5)
         first = guide("lever_hinge", "ground", "lever", "along")
-    places: dict[str, list[tuple[float, float]]] = {}
+    places = {}
     for one, two, at in pins.values():
         places.setdefault(one, []).append(at)
         places.setdefault(two, []).append(at)
@@ -68,7 +61,7 @@ def model(drive: str) -> Formulation:
     )
 
 
-def turned(vector: Array, angle: float) -> Array:
+def turned(vector, angle):
     c, s = np.cos(angle), np.sin(angle)
     return np.array([[c, -s], [s, c]]) @ vector
 
@@ -90,13 +83,13 @@ class Drive:
     """
 
     kind: str
-    places: dict[str, Array]
-    along: Array
+    places: dict[str, np.ndarray]
+    along: np.ndarray
     middle: float
     lengths: tuple[float, float, float]
 
     @classmethod
-    def of(cls, kind: str, ratio: float, gap: float, start: float) -> Drive:
+    def of(cls, kind, ratio, gap, start):
         """Return the drive with a lever that is `ratio` times as long as the crank.
 
         Parameters
@@ -126,7 +119,7 @@ class Drive:
         places = {"lever_hinge": center, "lever_pin": pin, "rod_pin": END}
         return cls(kind, places, along, float(middle), (lever, ground, rod))
 
-    def far(self, inputs: Array) -> Array:
+    def far(self, inputs):
         """Return how far the pin of the lever is from the hinge of the crank."""
         lever, ground, _ = self.lengths
         off = inputs - self.middle
@@ -134,7 +127,7 @@ class Drive:
             return np.hypot(lever, off)
         return np.sqrt(lever**2 + ground**2 - 2.0 * lever * ground * np.cos(off))
 
-    def closes(self, inputs: Array) -> Array:
+    def closes(self, inputs):
         """Return where the rod closes all the way from the design position."""
         rod, whole = self.lengths[2], []
         for value in inputs:
@@ -142,7 +135,7 @@ class Drive:
             whole.append(((rod - RADIUS < far) & (far < rod + RADIUS)).all())
         return np.array(whole)
 
-    def parameters(self) -> dict[str, float]:
+    def parameters(self):
         """Return all parameters of the linkage."""
         points = {f"{name}_at": askew(*at) for name, at in self.places.items()}
         found = {p.name: p.default for p in model(self.kind).mechanism.parameters}

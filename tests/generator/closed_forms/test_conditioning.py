@@ -5,10 +5,6 @@ decreasing powers of ten. What a model returns on the way is given to the joints
 which reads nothing but the declaration: gaps of joints, and axes that must be orthonormal.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
-
 import numpy as np
 import pytest
 from kintrafo.equations.errors import ModelError, ParameterError
@@ -18,9 +14,6 @@ from mechanisms.iterated_loops import KNEE
 from mechanisms.scotch_yokes import SCOTCH_YOKE
 from oracle.maximal import Motion
 from support.models import Built, needs_gcc, own, shipped
-
-if TYPE_CHECKING:
-    from oracle.constraints import Array
 
 PROMISED = 1e-9
 FREE = 8  # hardpoint coordinates that are moved, besides those of the joints
@@ -40,7 +33,7 @@ NO_POSE = ("pivot", "cos_camber", "shaft_level")
 CASES = (*(model for model in MODELS if model.name in SHIPPED), *OWN, SCOTCH_YOKE, KNEE)
 
 
-def module_of(model: Any) -> Any:
+def module_of(model):
     """Return the compiled module of a model."""
     return shipped(model) if model in MODELS else own(model, derivatives=False)
 
@@ -48,7 +41,7 @@ def module_of(model: Any) -> Any:
 class Place:
     """A model at hardpoints and coordinates, all of which are one vector."""
 
-    def __init__(self, model: Any, random: np.random.Generator) -> None:
+    def __init__(self, model, random):
         self.model, self.module = model, module_of(model)
         points = [
             name
@@ -63,7 +56,7 @@ class Place:
         self.state[: design.size] = design.design
         self.start = np.concatenate([np.zeros(len(self.moved)), np.zeros(design.size)])
 
-    def _stays(self, name: str) -> bool:
+    def _stays(self, name):
         values = {n: e["default"] for n, e in self.module.PARAMETERS.items()}
         try:
             self.module.prepare(values | {name: values[name] + 1e-3})
@@ -71,7 +64,7 @@ class Place:
             return False
         return True
 
-    def at(self, x: Array) -> tuple[Built, Array]:
+    def at(self, x):
         """Return the model with moved hardpoints, and the state."""
         defaults = {n: e["default"] for n, e in self.module.PARAMETERS.items()}
         changes = dict(zip(self.moved, x[: len(self.moved)], strict=True))
@@ -82,7 +75,7 @@ class Place:
         state[: x.size - len(self.moved)] += x[len(self.moved) :]
         return built, state
 
-    def margin(self, x: Array, guard: int) -> float:
+    def margin(self, x, guard):
         """Return how far a quantity is over its floor; NaN where there is no model."""
         built, state = self.at(x)
         try:
@@ -90,7 +83,7 @@ class Place:
         except ModelError:
             return np.nan
 
-    def error(self, x: Array) -> float | None:
+    def error(self, x):
         """Return by how much the joints gape, as a part of the size; None if that is refused."""
         built, state = self.at(x)
         try:
@@ -110,7 +103,7 @@ class Place:
         )
 
 
-def singular(place: Place, guard: int, random: np.random.Generator) -> tuple[Array, Array]:
+def singular(place, guard, random):
     """Return a start, and a place where a quantity has vanished or is as small as it gets."""
     start = place.start + 0.02 * random.standard_normal(place.start.size)
     x = start

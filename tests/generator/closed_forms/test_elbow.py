@@ -1,13 +1,11 @@
 """Two links with a driven hinge between them, as a leg: a four-bar driven at its coupler's pin."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from kintrafo.equations.errors import ClosureError
-from kintrafo.generator import Formulation, Motion, Point
+from kintrafo.generator import Motion, Point
 from kintrafo.generator.closed_forms.elbow import Elbow, PlaceElbow
 from kintrafo.generator.closed_forms.prismatic import PrismaticByLength
 from kintrafo.generator.closed_forms.revolute import RevoluteByLength
@@ -18,14 +16,14 @@ from oracle.random_states import check_with_the_oracle
 from support.changes import changed, named
 
 
-def other_way_round(model: Formulation) -> Formulation:
+def other_way_round(model):
     """Declare the driven hinge from the coupler to the crank, which the coupler then carries."""
     knee = model.mechanism.joint("knee")
     turned = replace(knee, first=knee.second, second=knee.first)
     return replace(changed(model, (knee, turned)), name="turned_knee")
 
 
-def driven_slider() -> Formulation:
+def driven_slider():
     """Push the piston of a slider-crank by the hinge between crank and rod."""
     (model,) = SLIDER_CRANKS
     mechanism = replace(model.mechanism, forces=())
@@ -33,7 +31,7 @@ def driven_slider() -> Formulation:
     return replace(model, name="knee_slider", mechanism=mechanism, independent=(driving,))
 
 
-def counted_to_a_point() -> Formulation:
+def counted_to_a_point():
     """Count the angle of the driven hinge from a direction of the crank to the rocker's pin."""
     knee = KNEE.mechanism.joint("knee")
     counted = replace(knee, angle_to=named(KNEE, Point, "knuckle_at"))

@@ -5,20 +5,11 @@ other two, follows. The path is followed here in steps of 1/100 of a radian of w
 by the positions of the pins alone.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import kintrafo
 import numpy as np
 import pytest
 from kintrafo import generator as g
 from support.models import own
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
 
 PINS = "abcdp"
 DESIGN = {"a": (0.0, 0.0), "b": (0.3, 0.0), "c": (0.0, 0.15), "d": (0.3, 0.15), "p": (0.15, 0.35)}
@@ -31,7 +22,7 @@ STEP = 1e-2
 LAST = 2.6
 
 
-def five_bar(follower: str) -> g.Formulation:
+def five_bar(follower):
     """Return the linkage: hinges on the ground, on the cranks, and at the knee."""
     a, b, c, d, p = (g.flat(name, DESIGN[name]) for name in PINS)
     ground = g.Ground("ground")
@@ -41,7 +32,7 @@ def five_bar(follower: str) -> g.Formulation:
     lead = g.hinge("j3", u, x, c)
     geared = {"follows": g.Gear(lead, ratio)}
 
-    def joint(name: str, first: g.Body, second: g.Body, at: g.Point) -> g.Revolute:
+    def joint(name, first, second, at):
         return g.Revolute(
             name, first, second, g.Line(at, g.UP), **(geared if name == follower else {})
         )
@@ -57,12 +48,12 @@ def five_bar(follower: str) -> g.Formulation:
     )  # fmt: skip
 
 
-def turned(angle: float, vector: Array) -> Array:
+def turned(angle, vector):
     cosine, sine = np.cos(angle), np.sin(angle)
     return np.array([cosine * vector[0] - sine * vector[1], sine * vector[0] + cosine * vector[1]])
 
 
-def open_by(angles: Array, at: dict[str, Array]) -> Array:
+def open_by(angles, at):
     """Return by how much the loop is open at the knee, in place and in angle."""
     q1, q2, q3, q4, q5 = angles
     one = at["a"] + turned(q1, at["c"] - at["a"]) + turned(q1 + q3, at["p"] - at["c"])
@@ -70,13 +61,13 @@ def open_by(angles: Array, at: dict[str, Array]) -> Array:
     return np.array([*(one - two), q1 + q3 + q5 - q2 - q4])
 
 
-def path(follower: str, ratio: float, sense: float, places: dict[str, Array]) -> Array:
+def path(follower, ratio, sense, places):
     """Return the angles along the way, until it ends at a dead point or is as long as is asked."""
     size = max(np.linalg.norm(place - places["a"]) for place in places.values())
     at = {name: place / size for name, place in places.items()}
     found = [i for i in range(5) if i not in (2, int(follower[1]) - 1)]
 
-    def slopes(angles: Array) -> Array:
+    def slopes(angles):
         around = np.eye(5)[found] * 1e-6
         return np.transpose(
             [(open_by(angles + d, at) - open_by(angles - d, at)) / 2e-6 for d in around]

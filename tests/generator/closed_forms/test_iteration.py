@@ -3,12 +3,9 @@
 The oracles: maximal coordinates, and the program itself in 50 digits.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import kintrafo
 import mpmath
@@ -20,7 +17,7 @@ from kintrafo.equations.following import ITERATIONS
 from kintrafo.generated import double_wishbone
 from kintrafo.generator import Line, Revolute
 from kintrafo.generator.backends.report.markdown import markdown
-from kintrafo.generator.equations.outputs import Derivation, generate
+from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.loops.errors import NoClosedFormError
 from kintrafo.generator.mechanisms import held_by_rods
 from kintrafo.generator.mechanisms.held_by_rods import CONTROL_ARM, FIVE_LINK, MODELS
@@ -31,9 +28,6 @@ from support import models
 from support.changes import changed
 from support.models import Built, needs_gcc, own
 from support.symbolic import constants_of, derivatives_of, python
-
-if TYPE_CHECKING:
-    from oracle.constraints import Array
 
 ARM, FIVE, STRUT = MODELS
 BY_NAME = {model.name: model for model in MODELS}
@@ -63,7 +57,7 @@ def built():
     return found
 
 
-def states(built: Built, count: int, seed: int = 0) -> tuple[Array, Array]:
+def states(built, count, seed=0):
     """Return random states within the travel, and inputs: rack within 30 mm."""
     rng = np.random.default_rng(seed)
     q = built.design + np.column_stack(
@@ -312,7 +306,7 @@ def test_angles_of_the_links_can_be_reported():
     assert float(beta["link_azimuth"]) == pytest.approx(np.arctan2(-x, y), abs=1e-14)
 
 
-def design_angle(derived: Derivation) -> float:
+def design_angle(derived):
     """Return the angle of the arm at the design position."""
     parameters = {p.name: p.default for p in derived.formulation.mechanism.parameters}
     return float(Built(derived.formulation, None, parameters).design[0])

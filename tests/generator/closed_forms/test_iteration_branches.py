@@ -4,10 +4,7 @@ The oracles: the closed forms of a Hooke joint and of a spherical four-bar linka
 are followed in maximal coordinates (`following`).
 """
 
-from __future__ import annotations
-
 from functools import cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -19,12 +16,8 @@ from mechanisms.random_loops import FAMILIES, Judged, judged
 from scipy.spatial.transform import Rotation
 from support.placements import Placements
 
-if TYPE_CHECKING:
-    from kintrafo.generator import Formulation
-    from oracle.constraints import Array
 
-
-def turned(model: Formulation, inputs: Array) -> tuple[Array, Array]:
+def turned(model, inputs):
     """Return where the first hinge of a ring is answered, and how far its last body has turned.
 
     The turn is that about the axis of the last hinge, which is on the ground.
@@ -37,7 +30,7 @@ def turned(model: Formulation, inputs: Array) -> tuple[Array, Array]:
     return answered, vectors @ axis / np.linalg.norm(axis)
 
 
-def assert_same_turns(found: Array, expected: Array) -> None:
+def assert_same_turns(found, expected):
     """See that angles are equal but for whole turns.
 
     1e-13: rounding of angles, hundredfold for the least determinant on the way.
@@ -114,7 +107,7 @@ def test_behind_a_dead_point_is_no_answer():
     assert any(np.array_equal(answered, run) for run in runs)
 
 
-def _around(place: int, holds: Array) -> Array:
+def _around(place, holds):
     """Return where something holds without a gap from a place on."""
     gaps = np.flatnonzero(~holds)
     low = max(gaps[gaps < place], default=-1)
@@ -143,7 +136,7 @@ RACK = 0.015403
 
 
 @cache
-def two_branches() -> Model:
+def two_branches():
     return Model(random_multi_links.CAR.with_changes(TWO_BRANCHES))
 
 

@@ -4,11 +4,8 @@ The oracles: maximal coordinates; the program itself in 50 digits; and the mean 
 where a motion has to be continuous.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cache
-from typing import TYPE_CHECKING
 
 import mpmath
 import numpy as np
@@ -28,10 +25,6 @@ from support import models
 from support.changes import with_default
 from support.models import Built, own
 from support.symbolic import constants_of, derivatives_of
-
-if TYPE_CHECKING:
-    from kintrafo.generator import Formulation
-    from oracle.constraints import Array
 
 MODELS = {
     model.name: model
@@ -83,7 +76,7 @@ def built():
     return lambda model: found(model.name)
 
 
-def states(built: Built, count: int) -> Array:
+def states(built, count):
     """Return states over the whole span, at random rates; a wheel turns anywhere."""
     rng = np.random.default_rng(0)
     q = built.design + rng.uniform(-np.pi, np.pi, (count, built.size))
@@ -91,7 +84,7 @@ def states(built: Built, count: int) -> Array:
     return np.hstack((q, rng.uniform(-3.0, 3.0, (count, built.size))))
 
 
-def given(built: Built) -> Array:
+def given(built):
     """Return inputs: no forces, and a prescribed joint that is on its way."""
     inputs = np.zeros(len(built.module.INPUTS))
     start = {
@@ -107,7 +100,7 @@ def given(built: Built) -> Array:
     return inputs
 
 
-def path(built: Built, step: float) -> Array:
+def path(built, step):
     """Return states at rest from one end of the span to the other."""
     low, high = SPANS[built.model.name]
     found = np.zeros((round((high - low) / step), 2 * built.size))
@@ -116,7 +109,7 @@ def path(built: Built, step: float) -> Array:
     return found
 
 
-def each(*models: Formulation) -> pytest.MarkDecorator:
+def each(*models):
     """Return the mark of a test of some models."""
     return pytest.mark.parametrize("model", models, ids=[m.name for m in models])
 

@@ -32,7 +32,7 @@ Plane = NDArray[np.complex128]
 Array = NDArray[np.float64]
 
 
-def carried(crank: Array) -> tuple[Plane, Plane, Plane]:
+def carried(crank):
     """Return where the pins of crank, rocker and link are, by the angle from the crank's design."""
     pin = PINS["crank_hinge"] + (PINS["crank_pin"] - PINS["crank_hinge"]) * np.exp(1j * crank)
     coupler, rocker = (abs(PINS["rocker_pin"] - PINS[end]) for end in ("crank_pin", "rocker_hinge"))
@@ -63,7 +63,7 @@ class Levers:
     farthest: Array
 
     @classmethod
-    def passing(cls, ratio: float, count: int) -> Levers:
+    def passing(cls, ratio, count):
         """Return levers that are `ratio` times as long as the link, and pass by a gap.
 
         The link stands across the way of its pin where the lever passes: there it is at a dead
@@ -91,24 +91,24 @@ class Levers:
             & (abs(found.slope(found.crank, 0.0 * turned)) > 0.03)
         )
 
-    def chosen(self, which: Array) -> Levers:
+    def chosen(self, which):
         return Levers(self.pin[which], self.hinge[which], self.crank[which], self.farthest[which])
 
-    def apart(self, crank: Array, lever: Array) -> Array:
+    def apart(self, crank, lever):
         """Return by how much of itself the link is too short."""
         pin = self.hinge + (self.pin - self.hinge) * np.exp(1j * lever)
         return abs(pin - carried(crank)[2]) / abs(PINS["arm_pin"] - PINS["link_pin"]) - 1.0
 
-    def slope(self, crank: Array, lever: Array) -> Array:
+    def slope(self, crank, lever):
         small = 1e-5
         return (self.apart(crank + small, lever) - self.apart(crank - small, lever)) / (2 * small)
 
     @property
-    def inputs(self) -> Array:
+    def inputs(self):
         """Return angles of the levers, in rows."""
         return self.farthest[:, None] * np.arange(1, COUNT + 1) / COUNT
 
-    def reached(self) -> NDArray[np.int_]:
+    def reached(self):
         """Return how many positions a path leads to: it ends where the lever turns back."""
         crank, part = self.crank, 0.0 * self.crank
         before, end = np.stack([0.0 * part, 1.0 + part]), 0.0 * part
@@ -130,12 +130,12 @@ class Levers:
         message = "too few steps"
         raise AssertionError(message)
 
-    def gradient(self, crank: Array, part: Array) -> tuple[Array, Array]:
+    def gradient(self, crank, part):
         small, lever = 1e-5, self.farthest * part
         more, less = (self.apart(crank, lever + s * small * self.farthest) for s in (1, -1))
         return self.slope(crank, lever), (more - less) / (2 * small)
 
-    def parameters(self, which: int) -> dict[str, float]:
+    def parameters(self, which):
         """Return all parameters of a linkage."""
         names = "crank_pin", "rocker_pin", "link_pin", "arm_pin", "arm_hinge"
         places = *carried(self.crank[which]), self.pin[which], self.hinge[which]
@@ -147,7 +147,7 @@ class Levers:
 
 
 @cache
-def some(ratio: float) -> tuple[Levers, NDArray[np.int_]]:
+def some(ratio):
     """Return levers, and how many positions of each a path leads to."""
     every = Levers.passing(ratio, 1000)
     levers = every.chosen(np.array([*range(12), PASSED.get(ratio, 12)]))

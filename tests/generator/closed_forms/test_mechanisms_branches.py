@@ -19,7 +19,7 @@ from support.models import Built
 EPSILON = 2.0**-52
 
 
-def linkage(crank: float, coupler: float, rocker: float, ground: float, side: int) -> Built:
+def linkage(crank, coupler, rocker, ground, side):
     """Return a four-bar of given lengths, declared with its crank upright.
 
     `side` is that of the rocker's pin, seen from the crank's pin towards the rocker's bearing:
@@ -42,7 +42,7 @@ def linkage(crank: float, coupler: float, rocker: float, ground: float, side: in
     return Built.of(FOUR_BARS[0], four_bar, changes)
 
 
-def crank_and_slider(crank: float, rod: float, side: int, offset: float = 0.0) -> Built:
+def crank_and_slider(crank, rod, side, offset=0.0):
     """Return a slider-crank, declared with its crank upright and its piston in front or behind."""
     changes = {
         "crank_pin_x": 0.0,
@@ -63,25 +63,25 @@ class Exact:
     place: dict[str, tuple[mpf, mpf]]
 
     @classmethod
-    def of(cls, built: Built, *names: str) -> "Exact":
+    def of(cls, built, *names):
         given = built.parameters
         return cls({n: (mpf(given[f"{n}_x"]), mpf(given[f"{n}_y"])) for n in names})
 
-    def length(self, first: str, second: str) -> mpf:
+    def length(self, first, second):
         return mpmath.hypot(*self.between(self.place[first], self.place[second]))
 
     @staticmethod
-    def between(a: tuple[mpf, mpf], b: tuple[mpf, mpf]) -> tuple[mpf, mpf]:
+    def between(a, b):
         return b[0] - a[0], b[1] - a[1]
 
-    def pin(self, angle: float) -> tuple[mpf, mpf]:
+    def pin(self, angle):
         """Return the crank's pin, the crank turned from the start."""
         x, y = self.place["crank_pin"]
         c, s = mpmath.cos(mpf(angle)), mpmath.sin(mpf(angle))
         return c * x - s * y, s * x + c * y
 
 
-def rocker_angle(built: Built, angle: float, side: int) -> mpf:
+def rocker_angle(built, angle, side):
     """Return the turn of the rocker, where the circles of coupler and rocker meet."""
     exact = Exact.of(built, "crank_pin", "rocker_pin", "rocker_bearing")
     coupler = exact.length("crank_pin", "rocker_pin")
@@ -99,7 +99,7 @@ def rocker_angle(built: Built, angle: float, side: int) -> mpf:
     )
 
 
-def piston_slide(built: Built, angle: float, side: int) -> mpf:
+def piston_slide(built, angle, side):
     """Return the slide of the piston, where the circle of the rod cuts the guide."""
     exact = Exact.of(built, "crank_pin", "piston_pin")
     rod, pin = exact.length("crank_pin", "piston_pin"), exact.pin(angle)
@@ -107,13 +107,13 @@ def piston_slide(built: Built, angle: float, side: int) -> mpf:
     return pin[0] + side * mpmath.sqrt(rod**2 - height**2) - exact.place["piston_pin"][0]
 
 
-def reported(built: Built, coordinate: str, angle: float) -> float:
+def reported(built, coordinate, angle):
     """Return a relative coordinate of a model with one degree of freedom."""
     index = list(built.module.RELATIVE_COORDINATES).index(coordinate)
     return float(built("relative_coordinates", np.array([angle, 0.0]))[index])
 
 
-def off_by(found: float, expected: mpf) -> float:
+def off_by(found, expected):
     """Return how far an angle is from another, without whole turns."""
     turn = 2 * mpmath.pi
     difference = mpf(found) - expected
@@ -163,7 +163,7 @@ class Dead:
     guard: str
 
 
-def dead_point(kind: str, side: int) -> Dead:
+def dead_point(kind, side):
     """Return the end of a linkage's reach, from its own lengths by the law of cosines."""
     if kind == "rod too short":
         built = crank_and_slider(0.2, 0.15, side, 0.1)
@@ -264,7 +264,7 @@ def test_degenerate_lengths_are_refused():
 
 def test_a_design_at_a_dead_point_is_refused():
     # coupler and rocker in line: no side to be on, which only rounding would choose
-    flat: dict[str, float] = {"crank_pin_y": 0.0, "crank_pin_x": 0.1, "rocker_pin_y": 0.0}
+    flat = {"crank_pin_y": 0.0, "crank_pin_x": 0.1, "rocker_pin_y": 0.0}
     built = Built.of(FOUR_BARS[0], four_bar, flat | {"rocker_pin_x": 0.2})
     with pytest.raises(built.module.ParameterError, match="coupler is at its dead point"):
         _ = built.constants

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import permutations, product
-from typing import Any
 
 import mpmath
 import numpy as np
@@ -19,7 +18,6 @@ from kintrafo.generator import (
     Direction,
     Formulation,
     Ground,
-    Joint,
     Mechanism,
     Point,
     Prismatic,
@@ -49,7 +47,7 @@ BOOM, BASE = (
 )  # from the boom's hinge to the cylinder's pin on it, and to that on the ground
 
 
-def crane(driven: str) -> Formulation:
+def crane(driven):
     """Return the crane with the boom's hinge or the bore of the cylinder driven."""
     ground = Ground("ground")
     foot, low, high = (
@@ -118,10 +116,10 @@ class Exact:
     start: mpf
 
     @classmethod
-    def of(cls, built: Built) -> Exact:
+    def of(cls, built):
         given = {name: mpf(value) for name, value in built.parameters.items()}
 
-        def place(name: str) -> tuple[mpf, mpf]:
+        def place(name):
             return given[f"{name}_x"] - given["foot_x"], given[f"{name}_y"] - given["foot_y"]
 
         barrel, piston = place("barrel_pin"), place("piston_pin")
@@ -138,19 +136,19 @@ class Exact:
             mpmath.atan2(turned, barrel[0] * piston[0] + barrel[1] * piston[1]),
         )
 
-    def boom_angle(self, stroke: float) -> mpf:
+    def boom_angle(self, stroke):
         """Return the turn of the boom from the start at a stroke."""
         squared = (self.along + mpf(stroke)) ** 2 + self.beside**2
         cosine = (self.boom**2 + self.base**2 - squared) / (2 * self.boom * self.base)
         return self.side * mpmath.acos(cosine) - self.start
 
-    def stroke(self, turn: float) -> mpf:
+    def stroke(self, turn):
         """Return the stroke at a turn of the boom from the start."""
         cosine = mpmath.cos(self.start + mpf(turn))
         squared = self.boom**2 + self.base**2 - 2 * self.boom * self.base * cosine
         return mpmath.sign(self.along) * mpmath.sqrt(squared - self.beside**2) - self.along
 
-    def barrel_angle(self, turn: mpf, stroke: mpf) -> mpf:
+    def barrel_angle(self, turn, stroke):
         """Return the turn of the barrel: that of the line from pin to pin, less that in it."""
         now = self.start + turn
         line = mpmath.atan2(self.boom * mpmath.sin(now), self.boom * mpmath.cos(now) - self.base)
@@ -160,7 +158,7 @@ class Exact:
         inside = mpmath.atan2(self.beside, self.along + stroke)
         return line - first - inside + mpmath.atan2(self.beside, self.along)
 
-    def all_at(self, built: Built, driven: float) -> tuple[mpf, mpf, mpf]:
+    def all_at(self, built, driven):
         """Return boom angle, barrel angle and stroke."""
         if built.model.independent[0].name == "pivot":
             turn, stroke = mpf(driven), self.stroke(driven)
@@ -169,7 +167,7 @@ class Exact:
         return turn, self.barrel_angle(turn, stroke), stroke
 
 
-def off_by(found: np.ndarray[Any, Any], expected: tuple[mpf, ...]) -> float:
+def off_by(found, expected):
     """Return how far the coordinates are off, angles without whole turns."""
     off = [mpf(float(f)) - e for f, e in zip(found, expected, strict=True)]
     turn = 2 * mpmath.pi
@@ -179,7 +177,7 @@ def off_by(found: np.ndarray[Any, Any], expected: tuple[mpf, ...]) -> float:
 
 # -- the whole range ------------------------------------------------------------------------------
 
-GEOMETRIES: dict[str, dict[str, float]] = {
+GEOMETRIES = {
     "as declared": {},
     "boom on the right": {"piston_pin_y": -BOOM, "way_y": -0.7},
     "guide the other way": {"way_x": 0.5, "way_y": -0.7},
@@ -199,7 +197,7 @@ def test_position_over_the_whole_range(built, geometry):
             assert off_by(found, Exact.of(built).all_at(built, driven)) < 5e-15
 
 
-def reach(built: Built, exact: Exact) -> tuple[float, float]:
+def reach(built, exact):
     """Return the ends of the driven coordinate: of the boom half a turn, of the stroke its ends."""
     if built.model.independent[0].name == "pivot":
         return nearest_pins(exact), float(exact.side * mpmath.pi - exact.start)
@@ -210,7 +208,7 @@ def reach(built: Built, exact: Exact) -> tuple[float, float]:
     return shortest, longest
 
 
-def nearest_pins(exact: Exact) -> float:
+def nearest_pins(exact):
     """Return the boom's angle at which the pins are as near as boom or guide lets them be."""
     least = max(exact.beside**2, (exact.boom - exact.base) ** 2)
     cosine = (exact.boom**2 + exact.base**2 - least) / (2 * exact.boom * exact.base)
@@ -229,7 +227,7 @@ class End:
     guard: str
 
 
-def end_of(built: Built, which: str) -> End:
+def end_of(built, which):
     """Return an end of the range of a crane whose guide passes far beside its pins."""
     with mpmath.workdps(40):
         exact = Exact.of(built)
@@ -242,7 +240,7 @@ def end_of(built: Built, which: str) -> End:
         return End(shortest, inward, "boom_closure")
 
 
-def with_end(built: Built, which: str) -> Built:
+def with_end(built, which):
     """Return a crane that has such an end.
 
     Where the stroke follows, both stand for the pins coming together, on either side of the boom:
@@ -326,7 +324,7 @@ def test_any_order_of_declaration(driven):
             assert kinds == ANSWERS[driven]
 
 
-ANSWERS: dict[str, list[type]] = {
+ANSWERS = {
     "pivot": [RPR],
     "bore": [RevoluteByLength, PlaceTelescope],
     "A": [PrismaticByLength],
@@ -334,14 +332,14 @@ ANSWERS: dict[str, list[type]] = {
 }
 
 
-def sliding(driven: str) -> Formulation:
+def sliding(driven):
     """Return the slider-crank without forces, its crank or its piston driven."""
     model = SLIDER_CRANKS[0]
     still = replace(model.mechanism, forces=())
     return replace(model, mechanism=still, independent=(still.joint(driven),))
 
 
-def reversed_joint(joint: Joint) -> Joint:
+def reversed_joint(joint):
     return replace(joint, first=joint.second, second=joint.first)
 
 
@@ -365,7 +363,7 @@ def test_guide_along_the_pins_is_a_guide_that_does_not_miss_them(built):
         assert operations_of(derived.functions["rhs"]).total() < general
 
 
-def evaluated(derived: Any, state: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+def evaluated(derived, state):
     """Evaluate the right-hand side of a derived model in many digits."""
     defaults = {p.name: p.default for p in derived.formulation.mechanism.parameters}
     values = constants_of(derived, defaults)

@@ -17,7 +17,7 @@ from kintrafo.equations.errors import ClosureError
 from kintrafo.generated import macpherson_general
 from oracle.constraints import Array, Pose
 from oracle.newton import AssemblyError, Mechanism, residual_norm, solve_pose
-from oracle.reference import Parameters, general_parameters, mirrored_parameters, set_vector, vector
+from oracle.reference import general_parameters, mirrored_parameters, set_vector, vector
 
 MODEL = macpherson_general
 GUARDS = [name for name, _ in MODEL.GUARDS]
@@ -36,36 +36,36 @@ class Offset:
     car: Mechanism
     constants: Array
 
-    def at(self, turn: float, rack: float = 0.0, spin: float = 0.3) -> At:
+    def at(self, turn, rack=0.0, spin=0.3):
         """Return the model with the arm turned from design (rad) and the rack moved (m)."""
         instant = Instant(self.car.beta1_design + turn, spin, rack)
         return At(MODEL, instant, self.constants)
 
-    def slackness(self, at: At) -> float:
+    def slackness(self, at):
         """Return the lever of the rod over how far it is from its dead point."""
         lever = self.car.points["tie_rod_outer"] - self.car.points["ball_joint"]
         return float(np.linalg.norm(lever) / np.sqrt(margin(at, "knuckle_closure")))
 
 
-def offset_car(parameters: Parameters) -> Offset:
+def offset_car(parameters):
     """Return a car from parameters of any model."""
     given = of_model(MODEL, parameters)
     return Offset(Mechanism(given), MODEL.prepare(given))
 
 
-def random_car(seed: int, offset: float | None = None) -> Offset:
+def random_car(seed, offset=None):
     """Return a general car with an offset of up to 120 mm, every second one on the left."""
     rng = np.random.default_rng(seed)
     parameters = general_parameters(rng, rng.uniform(0.0, 0.12) if offset is None else offset)
     return offset_car(mirrored_parameters(parameters) if seed % 2 else parameters)
 
 
-def margin(at: At, guard: str) -> float:
+def margin(at, guard):
     """Return one of the margins, whether it is positive or not."""
     return float(at("margins")[GUARDS.index(guard)])
 
 
-def closed_form(at: At) -> Pose | None:
+def closed_form(at):
     """Return the pose of the closed form; None where it refuses."""
     try:
         return Pose(at("positions"), at("orientations"))
@@ -73,7 +73,7 @@ def closed_form(at: At) -> Pose | None:
         return None
 
 
-def by_newton(car: Mechanism, at: At) -> Pose | None:
+def by_newton(car, at):
     """Return the pose that Newton finds on the branch of the design position; None without."""
     try:
         return solve_pose(car, at.instant.beta1, at.instant.rack, at.instant.spin)
@@ -81,13 +81,13 @@ def by_newton(car: Mechanism, at: At) -> Pose | None:
         return None
 
 
-def difference(one: Pose, other: Pose) -> float:
+def difference(one, other):
     """Return the largest difference of positions (m) and direction cosines."""
     positions = np.abs(one.position - other.position).max()
     return float(max(positions, np.abs(one.rotation - other.rotation).max()))
 
 
-def last_reached(subject: Offset, side: float) -> float:
+def last_reached(subject, side):
     """Return the last rack displacement (m) to one side at which the rod reaches the knuckle."""
     reached, missed = 0.0, 0.4 * side
     assert margin(subject.at(TURN, missed), "knuckle_closure") < 0.0
@@ -142,7 +142,7 @@ def test_accelerations_up_to_the_dead_point(seed):
         assert np.abs(at("rhs")[2:] - expected).max() < allowed
 
 
-def almost_touching(seed: int, reach: float) -> Offset:
+def almost_touching(seed, reach):
     """Return a car whose strut top is, along the strut's axis, a reach (m) from the ball joint."""
     parameters = general_parameters(np.random.default_rng(seed), 0.06)
     ball, top, lower = (

@@ -1,7 +1,5 @@
 """Three parallel cranks on one rod, as on a locomotive: one equation more than it takes."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from itertools import permutations
 from math import pi

@@ -1,7 +1,5 @@
 """A pin in a slot: the Scotch yoke, on the ground and on a body that moves."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,10 +1,7 @@
 """A single cross between two hinges whose axes meet in it, against Hooke's formula by hand."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import atan2, cos, pi, radians, sin
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -20,9 +17,6 @@ from mechanisms.steering_shafts import column, crosses_in_a_row
 from oracle.random_states import check_with_the_oracle
 from support.changes import changed, with_default
 from support.models import Built, own
-
-if TYPE_CHECKING:
-    from kintrafo.generator import Formulation
 
 TURNS = np.linspace(-pi, pi, 25)
 
@@ -76,7 +70,7 @@ def test_numbers_that_take_a_hinge_off_the_center_are_refused():
         System(built, {"own_point_y": 0.22})
 
 
-def with_crosses(model: Formulation, name: str) -> Formulation:
+def with_crosses(model, name):
     """Report the angles of the shafts as well, and give every body mass."""
     mechanism = model.mechanism
     coordinates = (*mechanism.coordinates, *shaft_angles(mechanism.joints))
@@ -84,7 +78,7 @@ def with_crosses(model: Formulation, name: str) -> Formulation:
     return replace(model, name=name, mechanism=whole, massive=whole.moving)
 
 
-def through_its_cross() -> Formulation:
+def through_its_cross():
     """Return two shafts whose second one is reached through the cross alone, which is oblique."""
     model = with_default(column("reached", 0.6, 0.0, 0.0, links="one"), plane_x=0.4, plane_z=0.2)
     rolling = model.mechanism.joint("rolling")

@@ -1,7 +1,5 @@
 """Forces on single joints, points and bodies, compared with maximal coordinates."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import pytest
@@ -16,7 +14,6 @@ from kintrafo.generator import (
     Direction,
     Displacement,
     ForceElement,
-    Formulation,
     Ground,
     Input,
     Length,
@@ -44,7 +41,7 @@ FREE = LinearSpring(RATE, free_length=Displacement("free", -0.1, "length without
 TURN = Input("turn", "N m", "turn")
 
 
-def touched(name: str) -> Stop:
+def touched(name):
     """Return a stop of the bump side."""
     length = Length(f"{name}_length", 0.1, "length at which it is touched")
     return Stop(
@@ -52,7 +49,7 @@ def touched(name: str) -> Stop:
     )
 
 
-def under_a_slope(model: Formulation) -> Formulation:
+def under_a_slope(model):
     """Return a model on which gravity does not pull downward."""
     (weight,) = (f for f in model.mechanism.forces if isinstance(f, Weight))
     return changed(model, (weight, TILTED))

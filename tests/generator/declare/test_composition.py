@@ -4,10 +4,7 @@ The mirror is tested by what it means: at the same coordinates, rates and inputs
 mechanism has the same accelerations, and its bodies are where a mirror shows those of the original.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -53,10 +50,6 @@ from support.changes import changed
 from support.models import Built, shipped
 from support.symbolic import constants_of, python
 
-if TYPE_CHECKING:
-    from kintrafo.generator.equations.outputs import Derivation
-    from oracle.constraints import Array
-
 IMAGE = np.diag([1.0, -1.0, 1.0])
 DECLARED = {
     m.name: m
@@ -64,7 +57,7 @@ DECLARED = {
 }
 
 
-def image_of(model: Formulation) -> Formulation:
+def image_of(model):
     """Return the mirror image of a model, under other names."""
     image = Copy(model.mechanism, "m_", mirrored=True)
     return replace(
@@ -77,7 +70,7 @@ def image_of(model: Formulation) -> Formulation:
     )
 
 
-def parameters_of(model: Formulation) -> dict[str, float]:
+def parameters_of(model):
     """Return the declared parameters, or for a general strut those of a car that uses them all."""
     names = [p.name for p in model.mechanism.parameters]
     if model.name.startswith("macpherson"):
@@ -86,7 +79,7 @@ def parameters_of(model: Formulation) -> dict[str, float]:
     return {p.name: p.default for p in model.mechanism.parameters}
 
 
-def evaluated(derived: Derivation, function: str, values: dict[str, float]) -> Array:
+def evaluated(derived, function, values):
     """Evaluate a function of the symbolic program."""
     return np.array([float(x) for x in python(derived.functions[function])(values)])
 
@@ -243,7 +236,7 @@ LAWS = (
 )
 
 
-def pendulum(first: str, second: str) -> Formulation:
+def pendulum(first, second):
     """Return a double pendulum about oblique axes, with everything between its two hinges."""
     shoulder, elbow = HINGES.values()
     mechanism = Mechanism(
@@ -291,7 +284,7 @@ def test_moments_between_hinges_are_those_of_their_angles(order):
 # -- parts in axes of their own --------------------------------------------------------------------
 
 
-def pair_of_pendulums(*, roped: bool) -> Formulation:
+def pair_of_pendulums(*, roped):
     """Return a double pendulum and its mirror image, also with a spring from tip to tip."""
     one = pendulum("shoulder", "elbow")
     a, b = Copy(one.mechanism, "a_"), Copy(one.mechanism, "b_", mirrored=True)

@@ -3,8 +3,6 @@
 Every row is what somebody may write. Nothing is derived.
 """
 
-from __future__ import annotations
-
 import re
 import subprocess
 from dataclasses import replace

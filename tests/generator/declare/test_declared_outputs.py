@@ -1,9 +1,6 @@
 """Declared outputs, against the mechanism in maximal coordinates and against differences."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -29,16 +26,11 @@ from mechanisms.every_closed_form import moving_slider_crank
 from support.changes import named
 from support.models import Built
 
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from kintrafo.generator import Formulation
-
 POINT = Point("mark", (0.2, 0.15, 0.25))
 LINE, HINGE = Direction("line", (0.4, -0.3, 0.8)), Direction("about", (0.2, 0.9, 0.3))
 
 
-def declared() -> Formulation:
+def declared():
     """Return the tilted slider-crank, whose table is prescribed, with every kind of output."""
     model = moving_slider_crank("shown_crank", prescribed=True)
     mechanism = model.mechanism
@@ -59,13 +51,13 @@ def declared() -> Formulation:
 @pytest.fixture(scope="module")
 def built(tmp_path_factory):
     model = declared()
-    folder: Path = tmp_path_factory.mktemp("outputs") / "shown_crank-arrays"
+    folder = tmp_path_factory.mktemp("outputs") / "shown_crank-arrays"
     folder.mkdir()
     build(generate(model, derivatives=False), folder, None)
     return Built.of(model, load(folder))
 
 
-def states(built: Built) -> list[tuple[np.ndarray, np.ndarray]]:
+def states(built):
     random = np.random.default_rng(3)
     found = []
     for _ in range(6):
@@ -76,11 +68,11 @@ def states(built: Built) -> list[tuple[np.ndarray, np.ndarray]]:
     return found
 
 
-def shown(built: Built, state: np.ndarray, inputs: np.ndarray) -> dict[str, float]:
+def shown(built, state, inputs):
     return dict(zip(built.module.SIGNALS, built("signals", state, inputs), strict=True))
 
 
-def vector(signals: dict[str, float], name: str) -> np.ndarray:
+def vector(signals, name):
     return np.array([signals[f"{name}_{axis}"] for axis in "xyz"])
 
 

@@ -1,7 +1,5 @@
 """A declared number is in the unit that the equations read it in, or it is refused."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import kintrafo

@@ -4,11 +4,8 @@ In a shaft on two crosses, and as a telescope of known length, they are looked a
 else in `test_mechanisms`.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import pi
-from typing import TYPE_CHECKING
 
 import kintrafo
 import numpy as np
@@ -28,11 +25,8 @@ from oracle.random_states import check_with_the_oracle
 from support.changes import changed
 from support.models import derive
 
-if TYPE_CHECKING:
-    from kintrafo.generator import Formulation
 
-
-def five_bar_at_its_pin() -> Formulation:
+def five_bar_at_its_pin():
     """Return a five-bar that is driven by its left crank and the pin of both couplers."""
     bars = planar(
         "five_bar_at_its_pin",
@@ -49,7 +43,7 @@ def five_bar_at_its_pin() -> Formulation:
     return replace(bars, allow_iteration=False, massive=bars.mechanism.bodies[1:])
 
 
-def counted_from_design(model: Formulation, joint: str) -> Formulation:
+def counted_from_design(model, joint):
     """Return a model one of whose hinges counts its angle from the design position."""
     hinge = model.mechanism.joint(joint)
     return changed(model, (hinge, replace(hinge, angle_to=None)))
@@ -87,7 +81,7 @@ FRAME = g.Ground("frame")
 INERTIA = {"motor": 0.02, "wheel": 0.3}
 
 
-def shaft(name: str, place: tuple[float, float, float]) -> tuple[g.Body, g.Line]:
+def shaft(name, place):
     """Return a body of revolution, and the line about which it turns."""
     at = g.Point(f"{name}_at", place)
     tensor = tuple(INERTIA.get(name, 0.1) * np.eye(3)[[0, 1, 2], [0, 1, 2]])
@@ -102,7 +96,7 @@ TORQUE = g.Input("torque", "N m", "torque of the motor")
 LOAD = g.Input("load", "N m", "moment on the wheel")
 
 
-def train() -> kintrafo.System:
+def train():
     """Return a motor that turns a wheel, and one more behind it by a belt."""
     turning = g.Revolute("turning", FRAME, WHEEL, WHEEL_LINE, follows=g.Gear(DRIVE, RATIO))
     third, line = shaft("third", (0.0, 0.9, 0.1))
@@ -133,7 +127,7 @@ def test_a_train_of_gears_has_the_inertia_that_the_motor_feels():
         np.testing.assert_allclose(rates[:, 0], [1.0, ratio, belt * ratio], rtol=1e-14, atol=1e-16)
 
 
-def screw_press(name: str = "press") -> g.Mechanism:
+def screw_press(name="press"):
     """Return a spindle that a nut turns, and a spring under the ram that it drives."""
     nut, line = shaft("nut", (0.2, 0.0, 0.5))
     turning = g.Revolute("turning", FRAME, nut, line)
@@ -225,7 +219,7 @@ def test_only_hinges_and_guides_are_followed():
         g.Revolute("turning", FRAME, WHEEL, WHEEL_LINE, follows=g.Gear(ball, RATIO))
 
 
-def two_shafts() -> tuple[g.Mechanism, g.Joint]:
+def two_shafts():
     """Return two wheels in mesh, and the joint of the one that follows."""
     turning = g.Revolute("turning", FRAME, WHEEL, WHEEL_LINE, follows=g.Gear(DRIVE, RATIO))
     angles = DRIVE.angle("drive_angle", "motor"), turning.angle("turning_angle", "wheel")

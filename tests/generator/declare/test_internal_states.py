@@ -25,7 +25,7 @@ SPRING = g.LinearSpring(
 PUSH = g.Input("push", "N", "push")
 
 
-def model(*forces: Force) -> g.Formulation:
+def model(*forces):
     mechanism = g.Mechanism(
         "lagging",
         "a block on a guide",
@@ -104,7 +104,7 @@ class Follower(Force):
     rates: object = None
 
     @property
-    def identity(self) -> tuple[str, str]:
+    def identity(self):
         return "Follower", self.state.name
 
     def act(self, at):

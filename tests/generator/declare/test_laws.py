@@ -1,6 +1,5 @@
 """Laws of force elements by themselves: value, sign, derivative, and both ends of every curve."""
 
-from collections.abc import Callable, Mapping
 from itertools import pairwise
 
 import numpy as np
@@ -33,8 +32,8 @@ from kintrafo.generator import (
     SpringTable,
     Stop,
 )
-from kintrafo.generator.declare.laws import Law, Stretch
-from kintrafo.generator.program import ConstantStage, Function, Program
+from kintrafo.generator.declare.laws import Stretch
+from kintrafo.generator.program import ConstantStage, Program
 from oracle import laws as oracle
 from oracle.reference import completed, reference_parameters, set_damper_curve, spring_parameters
 from scipy.interpolate import PchipInterpolator
@@ -48,7 +47,7 @@ calm = settings(deadline=None, max_examples=60)
 velocities = st.floats(-5.0, 5.0)
 
 
-def programs(law: Law) -> tuple[Function, Function]:
+def programs(law):
     """Return the program of a law's force, and that of its derivatives by length and velocity."""
     program = Program(ConstantStage(()))
     length, velocity, slide = map(Symbol, STATE)
@@ -60,12 +59,12 @@ def programs(law: Law) -> tuple[Function, Function]:
     return value, program.function("slopes", "", slopes)
 
 
-def evaluated(function: Function, given: Mapping[str, float], **state: float) -> list[float]:
+def evaluated(function, given, **state):
     """Evaluate a program; parameters that it does not read are left out."""
     return [float(value) for value in python(function)(dict(given) | STATE | state)]
 
 
-def force_of(law: Law, given: Mapping[str, float]) -> Callable[..., float]:
+def force_of(law, given):
     """Return the force of a law as a function of length, velocity and slide."""
     function, _ = programs(law)
     return lambda **state: evaluated(function, given, **state)[0]
@@ -167,7 +166,7 @@ def test_names_of_signals():
 # -- the damper's table ---------------------------------------------------------------------------
 
 
-def table(count: int, seed: int) -> tuple[PchipInterpolator, dict[str, float]]:
+def table(count, seed):
     """Return a curve with some knots, not always rising, and the parameters that describe it."""
     rng = np.random.default_rng(seed)
     knots = np.cumsum(rng.uniform(0.02, 0.6, count)) - 1.2
@@ -242,7 +241,7 @@ def test_table_without_force():
 SPRING = SpringTable(name="spring_table", segments=10)
 
 
-def spring(seed: int) -> dict[str, float]:
+def spring(seed):
     """Return a curve of a spring about 0.6 m, and no rate beside it."""
     parameters = completed(reference_parameters()) | {"spring_rate": 0.0}
     return parameters | spring_parameters(np.random.default_rng(seed), 0.6)

@@ -18,7 +18,7 @@ from mechanisms.own_force import ARM, FOLLOWER, A, B, Own, Showing, mechanism, m
 RATE = g.Ratio("rate", 1.5, "a number")
 
 
-def compiled(force: Force, *joints: Any, backend: str = "numpy", folder: Any = None) -> Any:
+def compiled(force, *joints, backend="numpy", folder=None):
     return kintrafo.compile(model(force, *joints), backend=backend, folder=folder)
 
 
@@ -59,7 +59,7 @@ FORMULAS = {
 }  # fmt: skip
 
 
-def shows_formulas(at: Any, action: Any) -> Any:
+def shows_formulas(at, action):
     del at, action
     for name, formula in FORMULAS.items():
         yield Shown(f"s_{name}", formula, "N m", name)
@@ -150,7 +150,7 @@ def test_steps_of_its_own_may_have_formulas(tmp_path):
 # -- errors ---------------------------------------------------------------------------------------
 
 
-def refused(force: Force, *joints: Any) -> str:
+def refused(force, *joints):
     with pytest.raises(kintrafo.MechanismError) as error:
         compiled(force, *joints)
     text = str(error.value)
@@ -325,9 +325,7 @@ def test_the_line_of_an_own_file_is_named(tmp_path):
         kintrafo.compile(file)
 
 
-def after_jumps(
-    start: float, jumps: int, far: float, jump: float, time: float
-) -> tuple[float, ...]:
+def after_jumps(start, jumps, far, jump, time):
     """Return angle and rate of a rotor of 1 kg m^2 that a moment brakes, by parts in closed form.
 
     The moment grows by a jump at each half and one, two, ... times an angle.

@@ -1,7 +1,5 @@
 """Gravity along the normal of a plane does nothing to what moves in it, which nobody means."""
 
-from __future__ import annotations
-
 import kintrafo
 import pytest
 from kintrafo import generator as g

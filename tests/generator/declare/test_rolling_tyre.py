@@ -1,7 +1,5 @@
 """A rolling tyre in equations: a wheel on a rig, against NumPy's kinematics and tyres on arrays."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -33,7 +31,7 @@ DEFLECTIONS = (
 COORDINATES = ("ahead", "across", "heave", "steering", "lean", "spin")
 
 
-def rig(law, name: str, *, damped: bool = False, relaxing: bool = False) -> g.Formulation:
+def rig(law, name, *, damped=False, relaxing=False):
     """Return a wheel that hangs on three guides and turns about three axes through its centre."""
     ground = g.Ground("rig", 1)
     line = {
@@ -102,7 +100,7 @@ def system_of(folder):
     return built
 
 
-def states(count: int, *, speed: float = 15.0) -> np.ndarray:
+def states(count, *, speed=15.0):
     """Return states of all six coordinates, pressed onto the road, rolling forward and backward."""
     random = np.random.default_rng(7)
     found = np.zeros((count, 12))
@@ -120,7 +118,7 @@ def states(count: int, *, speed: float = 15.0) -> np.ndarray:
 class Wheel:
     """A disc in a state of the rig, by vectors in the world."""
 
-    def __init__(self, state: np.ndarray, radius: float) -> None:
+    def __init__(self, state, radius):
         (s, c), (sl, cl) = ((np.sin(x), np.cos(x)) for x in state[3:5])
         turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
         lean = np.array([[1.0, 0.0, 0.0], [0.0, cl, -sl], [0.0, sl, cl]])
@@ -137,7 +135,7 @@ class Wheel:
         self.loaded = self.height / -self.down[2]
         self.deflection = -(self.height + radius * self.down[2])
 
-    def slips(self, rolling_radius: float, lowest: float) -> tuple[float, float, float]:
+    def slips(self, rolling_radius, lowest):
         """Return speed, longitudinal slip and slip angle."""
         ahead = self.forward @ self.velocity
         contact = self.velocity + np.cross(self.turning, self.loaded * self.down)
@@ -145,7 +143,7 @@ class Wheel:
         slip = (rolling_radius * self.spin - ahead) / size
         return ahead, slip, np.arctan(self.left @ contact / size)
 
-    def power(self, rates: np.ndarray, forces: tuple, state: np.ndarray) -> float:
+    def power(self, rates, forces, state):
         """Return the power of forces and moments as the coordinates move at some rates."""
         fx, fy, fz, mx, my, mz = forces
         moved = state.copy()
@@ -159,7 +157,7 @@ class Wheel:
         return force @ at_contact + fz * UP @ at_lowest + moment @ wheel
 
 
-def _see_jacobian(system, places) -> None:
+def _see_jacobian(system, places):
     """Compare the Jacobian with differences of the right-hand side."""
     inputs = system.inputs({})
     for state in places:

@@ -12,15 +12,14 @@ from functools import cache
 import mpmath
 import numpy as np
 import pytest
-from cars.instants import MODELS, Instant, car_parameters, counted_by, random_instants
-from kintrafo.generator import Body, Formulation, Motion, Rotor
-from kintrafo.generator.equations.outputs import Derivation
+from cars.instants import MODELS, car_parameters, counted_by, random_instants
+from kintrafo.generator import Body, Motion, Rotor
 from kintrafo.generator.mechanisms import MODELS as DECLARED
 from mechanisms.every_closed_form import oblique_four_bar
-from oracle.constraints import WHEEL, Array
+from oracle.constraints import WHEEL
 from oracle.newton import Mechanism
 from oracle.random_states import check_with_the_oracle
-from oracle.reference import INERTIA_ELEMENTS, Parameters, inertia
+from oracle.reference import INERTIA_ELEMENTS, inertia
 from support.changes import changed, named
 from support.models import derive
 from support.symbolic import constants_of, python
@@ -31,21 +30,21 @@ POINTS = 2  # for each car
 pytestmark = pytest.mark.slow
 
 
-def without_rotor(model: Formulation) -> Formulation:
+def without_rotor(model):
     """Return a model whose wheel is a body with a full inertia tensor."""
     wheel = named(model, Rotor, "wheel")
     return changed(model, (wheel, Body("wheel", wheel.mass.default, wheel.center, (0.0, 0.0, 0.0))))
 
 
 @cache
-def unfolded(name: str) -> Derivation:
+def unfolded(name):
     """Derive a model without the rotor."""
     return derive(
         without_rotor(next(model for model in DECLARED if model.name == name)), derivatives=False
     )
 
 
-def with_tensor(parameters: Parameters, tensor: list[list]) -> Parameters:
+def with_tensor(parameters, tensor):
     """Return parameters whose wheel has a tensor (chassis axes at design) instead of moments."""
     given = {k: v for k, v in parameters.items() if not k.startswith("wheel_inertia")}
     for element in INERTIA_ELEMENTS:
@@ -54,7 +53,7 @@ def with_tensor(parameters: Parameters, tensor: list[list]) -> Parameters:
     return given
 
 
-def exact_tensor(parameters: Parameters) -> list[list[mpmath.mpf]]:
+def exact_tensor(parameters):
     """Return the tensor of the wheel of revolution in mpmath's precision."""
     axis = mpmath.matrix([parameters[f"spin_axis_{a}"] for a in "xyz"])
     axis /= mpmath.norm(axis)
@@ -63,9 +62,7 @@ def exact_tensor(parameters: Parameters) -> list[list[mpmath.mpf]]:
     return tensor.tolist()
 
 
-def evaluate(
-    model: Derivation, constants: dict[str, mpmath.mpf], function: str, state: Array, inputs: Array
-) -> list[mpmath.mpf]:
+def evaluate(model, constants, function, state, inputs):
     """Evaluate a function of a derived model in mpmath's precision."""
     values = dict(constants)
     values |= zip([e.name for e in model.state], map(mpmath.mpf, state.tolist()), strict=True)
@@ -73,7 +70,7 @@ def evaluate(
     return python(model.functions[function])(values)
 
 
-def instants(name: str, seed: int) -> tuple[Parameters, list[Instant]]:
+def instants(name, seed):
     parameters = car_parameters(seed, MODELS[name])
     car = Mechanism(parameters)
     return parameters, random_instants(np.random.default_rng(50 + seed), car, POINTS)

@@ -1,7 +1,5 @@
 """Bodies that are welded to others: the same as one body of both."""
 
-from __future__ import annotations
-
 import kintrafo
 import numpy as np
 import pytest
@@ -19,7 +17,7 @@ WELD = g.Weld("weld", ARM, BURDEN)
 TIP = g.Point("tip", (0.6, 0.3, 0.3))
 
 
-def pendulum() -> kintrafo.System:
+def pendulum():
     """Return an arm with a burden, and where a point of the burden is."""
     mechanism = g.Mechanism(
         "welded_pendulum",

@@ -35,7 +35,7 @@ RATE = 20.0
 """Of the swing [rad/s]."""
 
 
-def swing(time: float) -> float:
+def swing(time):
     return float(0.3 * np.sin(RATE * time))
 
 
@@ -155,7 +155,7 @@ def test_a_motion_that_begins_beyond_a_dead_point_ends_there(driven, method, rat
 def test_methods_that_need_a_state_say_so(lift):
     for method in ("Adams", "Verner"):
         with pytest.raises(kintrafo.InputError, match="all that moves here is prescribed"):
-            kintrafo.simulate(lift, (0.0, 1.0), [], method=method)  # type: ignore[arg-type]
+            kintrafo.simulate(lift, (0.0, 1.0), [], method=method)
 
 
 def test_its_linear_equations_are_those_of_the_signals(lift):

@@ -4,16 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from kintrafo.generator import (
-    Body,
-    Copy,
-    DeclarationError,
-    Formulation,
-    Free,
-    Ground,
-    Spherical,
-    combined,
-)
+from kintrafo.generator import Body, Copy, DeclarationError, Free, Ground, Spherical, combined
 from kintrafo.generator.backends.counting import operations_of
 from kintrafo.generator.backends.report.derivation import joint_rows, mobility_line
 from kintrafo.generator.closed_forms.free_body import PlaceFree
@@ -56,7 +47,7 @@ def on_it(parts):
     return changed(parts, (CHASSIS, MOVING))
 
 
-def free_model(**changes) -> Formulation:
+def free_model(**changes):
     """Return its model, with the six coordinates of the chassis."""
     given = {
         "mechanism": freed(),

@@ -5,9 +5,7 @@ bearing. The amounts that the messages name are computed here from the numbers o
 """
 
 import re
-from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -20,7 +18,6 @@ from kintrafo.generator import (
     Direction,
     Formulation,
     Ground,
-    Joint,
     Line,
     Mechanism,
     Point,
@@ -34,7 +31,6 @@ from kintrafo.generator.program.vectors import Vector
 from mechanisms.every_closed_form import (
     NORMAL,
     Parts,
-    Sketch,
     askew,
     guide,
     heading,
@@ -45,10 +41,8 @@ from mechanisms.every_closed_form import (
 from support.changes import changed, with_default
 from support.models import Built, derive, has_gcc, own
 
-Place = tuple[float, float, float]
 
-
-def make(model: Formulation) -> list[Any]:
+def make(model):
     """Build a model over NumPy arrays, and as C where there is a compiler."""
     return [
         own(model, arrays=arrays, derivatives=False)
@@ -56,12 +50,12 @@ def make(model: Formulation) -> list[Any]:
     ]
 
 
-def numbers(model: Formulation) -> dict[str, float]:
+def numbers(model):
     """Return the default parameters."""
     return {p.name: p.default for p in model.mechanism.parameters}
 
 
-def moved(values: Mapping[str, float], name: str, by: Any) -> dict[str, float]:
+def moved(values, name, by):
     """Return parameters with a vector added to a point or a direction."""
     return dict(values) | {
         f"{name}_{axis}": values[f"{name}_{axis}"] + float(step)
@@ -69,21 +63,21 @@ def moved(values: Mapping[str, float], name: str, by: Any) -> dict[str, float]:
     }
 
 
-def vector(values: Mapping[str, float], name: str) -> Any:
+def vector(values, name):
     return np.array([values[f"{name}_{axis}"] for axis in "xyz"])
 
 
-def unit(v: Any) -> Any:
+def unit(v):
     return np.asarray(v) / np.linalg.norm(v)
 
 
-def accepted(modules: list[Any], values: Mapping[str, float]) -> None:
+def accepted(modules, values):
     """See that parameters are taken by all builds of a model."""
     for module in modules:
         module.prepare(values)
 
 
-def refusal(modules: list[Any], values: Mapping[str, float]) -> str:
+def refusal(modules, values):
     """Return the message of `prepare` for refused parameters, which is the same in all builds."""
     messages = set()
     for module in modules:
@@ -94,27 +88,21 @@ def refusal(modules: list[Any], values: Mapping[str, float]) -> str:
     return text
 
 
-def amount(text: str, unit: str) -> float:
+def amount(text, unit):
     """Return the number in front of a unit in a message."""
     found = re.search(rf"off by (\S+) {unit}", text)
     assert found is not None, text
     return float(found[1])
 
 
-def with_joint(model: Formulation, joint: Joint) -> Formulation:
+def with_joint(model, joint):
     """Return a model with another joint of the same name."""
     return changed(model, (model.mechanism.joint(joint.name), joint))
 
 
-def declared(
-    name: str,
-    joints: tuple[Sketch, ...],
-    points: Mapping[str, Place],
-    directions: Mapping[str, Place],
-    independent: tuple[str, ...],
-) -> Formulation:
+def declared(name, joints, points, directions, independent):
     """Return a model of the bodies that some joints connect, each with its centre of mass."""
-    bodies: dict[str, Body] = {"ground": Ground("ground")}
+    bodies = {"ground": Ground("ground")}
     for body in (b for joint in joints for b in (joint.first, joint.second)):
         if body not in bodies:
             bodies[body] = Body(body, 1.0, (0.1, 0.2, 0.1), (0.02, 0.03, 0.04))
@@ -128,22 +116,17 @@ def declared(
     return Formulation(name, name, mechanism, independent=tuple(map(mechanism.joint, independent)))
 
 
-def by_directions(model: Formulation) -> Formulation:
+def by_directions(model):
     """Give every hinge a direction of its own, every other one the other way round."""
     return _lines(model, lambda joint, place: Direction(f"{joint.name}_line", place))
 
 
-def by_points(model: Formulation) -> Formulation:
+def by_points(model):
     """Make every hinge a line through two points, every other one the other way round."""
     return _lines(model, lambda joint, place: Point(f"{joint.name}_line", place), by_points=True)
 
 
-def _lines(
-    model: Formulation,
-    towards: Callable[[Joint, Place], Point | Direction],
-    *,
-    by_points: bool = False,
-) -> Formulation:
+def _lines(model, towards, *, by_points=False):
     values, normal = numbers(model), np.array(NORMAL)
     hinges = [j for j in model.mechanism.joints if isinstance(j, Revolute)]
     for i, joint in enumerate(hinges):
@@ -155,7 +138,7 @@ def _lines(
     return model
 
 
-def by_the_oracle(model: Formulation, module: Any, values: Mapping[str, float]) -> None:
+def by_the_oracle(model, module, values):
     """Compare poses and accelerations with those in maximal coordinates."""
     built = Built.of(model, module, values)
     state = np.array([0.4, -0.7, 1.1, 0.8])
@@ -222,7 +205,7 @@ def test_equations_do_not_read_what_must_be_zero():
         assert assumption.quantity not in function.free_symbols
 
 
-def crane(*, reverse: bool = False) -> Formulation:
+def crane(*, reverse=False):
     """Return a boom and a cylinder in an oblique plane; the guide is declared from pin to pin."""
     pins = ("barrel_pin", "piston_pin") if reverse else ("piston_pin", "barrel_pin")
     return declared(
@@ -300,7 +283,7 @@ def test_a_shaft_that_is_not_the_line_of_its_rod_is_refused(*, at_rocker):
 # -- rotors ---------------------------------------------------------------------------------------
 
 
-def fan(*, axis: Place = (0.3, 0.9, -0.2), center: Place = (0.1, 0.2, 0.3)) -> Formulation:
+def fan(*, axis=(0.3, 0.9, -0.2), center=(0.1, 0.2, 0.3)):
     """Return a rotor in a bearing on an arm; the axis and the centre of the rotor are free."""
     foot, bearing = Point("foot", (0.0, 0.0, 0.0)), Point("bearing", (0.1, 0.2, 0.3))
     arm = Body("arm", 1.0, (0.05, 0.1, 0.1), (0.01, 0.01, 0.01))
@@ -359,7 +342,7 @@ def test_all_that_is_wrong_with_the_defaults_is_reported_at_once():
 EDGE_AT = Point("edge_at", (0.9, 0.4, 0.1))
 
 
-def gate(line: Place, **flap: Any) -> Formulation:
+def gate(line, **flap):
     """Return a leaf on a post with a flap at its end; no angle counts from or to anything."""
     model = declared(
         "gate",
@@ -415,7 +398,7 @@ def test_an_angle_that_counts_from_along_its_hinge_is_refused_by_name():
 # -- hinges that are parallel by their numbers ----------------------------------------------------
 
 
-def four_bar() -> Formulation:
+def four_bar():
     """Return a four-bar in an oblique plane, its points at different heights."""
     return declared(
         "four_bar",
@@ -436,7 +419,7 @@ def four_bar() -> Formulation:
     )
 
 
-def driven_crane() -> Formulation:
+def driven_crane():
     """Return the crane with the stroke of its cylinder given."""
     model = crane()
     return replace(model, independent=(model.mechanism.joint("bore"),))

@@ -4,8 +4,6 @@ Beside a copy of it stands its mirror image, in one mechanism with it. Both get 
 original, and so they have its accelerations.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import sympy as sp

@@ -11,7 +11,6 @@ import pytest
 from cars.instants import MODELS, At, Instant, car_parameters, counted_by, of_model, random_instants
 from kintrafo.generated import macpherson, macpherson_general
 from oracle.constraints import WHEEL
-from oracle.multipliers import Solution
 from oracle.newton import Mechanism, observe
 from oracle.reference import (
     BETA1_DESIGN,
@@ -43,7 +42,7 @@ def test_accelerations(model, seed):
         assert at("rhs")[at.size :] == pytest.approx(expected, rel=1e-10, abs=1e-10)
 
 
-def regimes(car: Mechanism, instant: Instant, solution: Solution) -> set[str]:
+def regimes(car, instant, solution):
     """Say on which side of every kink of the force laws an instant is."""
     given, seen = car.parameters, observe(car, instant.pose(car))
     knots = [given[f"damper_table_knot_{i}"] for i in range(DAMPER_SEGMENTS + 1)]

@@ -5,7 +5,7 @@ import pytest
 from cars.instants import MODELS, At, car_parameters, counted_by, random_instants
 from kintrafo.generated import macpherson_general
 from oracle import laws
-from oracle.constraints import KNUCKLE, WHEEL, Array, Pose, unit
+from oracle.constraints import KNUCKLE, WHEEL, unit
 from oracle.newton import Mechanism, observe
 
 SEEDS = range(5)  # 0 is the reference car
@@ -21,7 +21,7 @@ BEYOND_THE_PAPER = (
 """Signals that only the general model has."""
 
 
-def spring_velocity(car: Mechanism, pose: Pose, twist: Array) -> float:
+def spring_velocity(car, pose, twist):
     """Return how fast the spring's seats part, m/s."""
     seat = car.point(pose, "spring_seat", KNUCKLE)
     arm = seat - pose.position[KNUCKLE - 1]

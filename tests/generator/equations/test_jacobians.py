@@ -10,8 +10,6 @@ import mpmath
 import numpy as np
 import pytest
 from cars.instants import MODELS, At, Instant, car_parameters, random_instants
-from kintrafo.generator.equations.outputs import Derivation
-from oracle.constraints import Array
 from oracle.newton import Mechanism
 from oracle.reference import BETA1_DESIGN
 from support.symbolic import derivatives_of
@@ -31,9 +29,9 @@ DERIVATIVES = {
 """Of each Jacobian, the function that it differentiates, and by what."""
 
 
-def gradient_of_program(model: Derivation, function: str, at: At, names: list[str]) -> Array:
+def gradient_of_program(model, function, at, names):
     """Differentiate the symbolic program of a function by elements of state or inputs."""
-    values: dict[str, mpmath.mpf] = {}
+    values = {}
     for keys, array in (
         (at.model.CONSTANTS, at.constants),
         (at.model.STATE, at.state),

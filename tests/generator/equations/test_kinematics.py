@@ -2,13 +2,12 @@
 
 from dataclasses import dataclass
 from functools import cache
-from types import ModuleType
 
 import numpy as np
 import pytest
 from cars.instants import MODELS, At, Instant, car_parameters
 from kintrafo.generated import macpherson, macpherson_general
-from oracle.constraints import KNUCKLE, RACK, WHEEL, Array, Pose
+from oracle.constraints import KNUCKLE, RACK, WHEEL, Pose
 from oracle.newton import Mechanism, solve_pose_at_height
 from oracle.reference import BETA1_DESIGN, KINEMATICS, KINEMATICS_COLUMNS
 
@@ -30,7 +29,7 @@ class Placed(At):
 
 
 @cache
-def poses(car_of: ModuleType, seed: int) -> tuple[Mechanism, list[tuple[Instant, Pose]]]:
+def poses(car_of, seed):
     """Return poses over a travel of 0.15 m up and down, and 60 mm of the rack to both sides."""
     car = Mechanism(car_parameters(seed, car_of))
     middle = car.points["wheel_center"][2]
@@ -81,23 +80,23 @@ def test_positions_and_orientations_are_newtons(travel):
         assert np.abs(place("orientations") - place.pose.rotation).max() < 1e-12
 
 
-def rotation_x(angle: float) -> Array:
+def rotation_x(angle):
     c, s = np.cos(angle), np.sin(angle)
     return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
 
 
-def rotation_z(angle: float) -> Array:
+def rotation_z(angle):
     c, s = np.cos(angle), np.sin(angle)
     return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
-def elevation_and_azimuth(direction: Array) -> tuple[float, float]:
+def elevation_and_azimuth(direction):
     """Angles of R = Rz(azimuth) Rx(elevation) whose y axis is along a vector."""
     n = direction / np.linalg.norm(direction)
     return float(np.arcsin(n[2])), float(np.arctan2(-n[0], n[1]))
 
 
-def coordinates_of(car: Mechanism, pose: Pose) -> dict[str, float]:
+def coordinates_of(car, pose):
     """Measure the relative coordinates on a pose, by the paper's definitions and no equation."""
     top = car.points["strut_top"]
     lower = car.point(pose, "strut_lower", KNUCKLE)

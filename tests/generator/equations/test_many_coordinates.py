@@ -4,8 +4,6 @@ An open chain with a wheel at its end is differentiated in 50 digits; a Stewart 
 is found by iteration, moves like the oracle.
 """
 
-from __future__ import annotations
-
 import mpmath
 import numpy as np
 import pytest
@@ -21,10 +19,10 @@ from support.models import Built
 from support.symbolic import constants_of, derivatives_of
 
 
-def open_chain(hinges: int) -> g.Formulation:
+def open_chain(hinges):
     """Return a chain of links, with a wheel in the last one and torques that act on both ends."""
     links = [g.Ground("ground", 1)]
-    joints: list[g.Joint] = []
+    joints = []
     for i in range(hinges):
         inertia = (0.11, 0.04, 0.12, 0.01, -0.004, 0.006)
         links.append(g.Body(f"link_{i}", 2.0, (0.1, 0.4 * i + 0.2, 0.05), inertia))

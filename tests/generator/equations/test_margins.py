@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from cars.instants import MODELS, At, car_parameters, counted_by, random_instants
 from kintrafo.generated import macpherson_general
-from oracle.constraints import ARM, KNUCKLE, RACK, WHEEL, Array, Pose, unit
+from oracle.constraints import ARM, KNUCKLE, RACK, WHEEL, unit
 from oracle.multipliers import reduced_equations
 from oracle.newton import X_AXIS, Z_AXIS, Mechanism
 
@@ -12,11 +12,11 @@ SEEDS = range(4)  # 0 is the reference car
 POINTS = 3  # for each car
 
 
-def squared(v: Array) -> float:
+def squared(v):
     return float(v @ v)
 
 
-def measured(car: Mechanism, at: At) -> dict[str, float]:
+def measured(car, at):
     """Return all margins from where the points are, and from the mass matrix of the oracle."""
     pose = at.instant.pose(car)
     axis = pose.rotation[WHEEL - 1] @ car.spin_axis
@@ -39,7 +39,7 @@ def measured(car: Mechanism, at: At) -> dict[str, float]:
     }
 
 
-def directions(car: Mechanism, pose: Pose) -> tuple[Array, Array]:
+def directions(car, pose):
     """Return the unit vectors of the strut, downwards, and of the tie rod, from the rack."""
     outer, inner = car.point(pose, "tie_rod_outer", KNUCKLE), car.point(pose, "tie_rod_inner", RACK)
     return unit(car.point(pose, "strut_lower", KNUCKLE) - car.points["strut_top"]), unit(
@@ -47,14 +47,14 @@ def directions(car: Mechanism, pose: Pose) -> tuple[Array, Array]:
     )
 
 
-def steering(car: Mechanism, pose: Pose) -> tuple[Array, Array, Array, Array]:
+def steering(car, pose):
     """Return strut top to ball joint, ball joint to both ends of the rod, and the rod."""
     top, ball = car.points["strut_top"], car.point(pose, "ball_joint", ARM)
     outer, inner = car.point(pose, "tie_rod_outer", KNUCKLE), car.point(pose, "tie_rod_inner", RACK)
     return ball - top, outer - ball, inner - ball, outer - inner
 
 
-def knuckle_on_axis(car: Mechanism, pose: Pose) -> dict[str, float]:
+def knuckle_on_axis(car, pose):
     """Return the margins of a knuckle that turns about a strut through its ball joint.
 
     Its closure is how far the rod reaches across the plane of strut and lever.
@@ -69,7 +69,7 @@ def knuckle_on_axis(car: Mechanism, pose: Pose) -> dict[str, float]:
     }
 
 
-def knuckle_off_axis(car: Mechanism, pose: Pose) -> dict[str, float]:
+def knuckle_off_axis(car, pose):
     """Return the margins of a knuckle whose ball joint is beside the strut's axis.
 
     Its closure is how far the end of the rod is from the plane of its anchor, ball joint and top.
@@ -107,7 +107,7 @@ def test_margins(model, seed):
         assert all(0.0 <= floors[name] < 2e-3 * expected[name] for name in relative)
 
 
-def floor_of(at: At, name: str) -> float:
+def floor_of(at, name):
     """Return what a margin is measured from: a constant of the loop's extent, or a number."""
     shared = {"knuckle_plane_squared": "knuckle_reach_squared"}
     constants = dict(zip(at.model.CONSTANTS, at.constants, strict=True))

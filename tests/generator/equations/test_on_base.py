@@ -1,12 +1,10 @@
 """Bodies on a moving base: exact derivatives, by corners that do not affect each other."""
 
-from __future__ import annotations
-
 import mpmath
 import numpy as np
 import pytest
 from cars.driving_cars import car_on_arms
-from kintrafo.generator.equations.outputs import Derivation, generate
+from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import model_named
 from kintrafo.vehicle.models.car.equations import declared
 from mechanisms.free_bodies import freed
@@ -26,7 +24,7 @@ def strut():
     return generate(freed(model_named("macpherson")))
 
 
-def values_of(model: Derivation, seed: int = 0, **changed: float) -> dict[str, mpmath.mpf]:
+def values_of(model, seed=0, **changed):
     """Return constants, and a state and inputs near the design position."""
     random = np.random.default_rng(seed)
     names = [entry.name for entry in (*model.states.entries, *model.inputs)]

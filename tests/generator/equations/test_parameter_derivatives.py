@@ -6,8 +6,6 @@ tangents: the weighted sum of one is that of the other.
 """
 
 import re
-from collections.abc import Iterator, Mapping
-from typing import Any
 
 import kintrafo
 import mpmath
@@ -16,9 +14,8 @@ import pytest
 from kintrafo import variation
 from kintrafo.core.errors import InputError
 from kintrafo.equations.errors import ClosureError
-from kintrafo.generator import Formulation
 from kintrafo.generator.backends.counting import operations_of
-from kintrafo.generator.equations.outputs import Derivation, generate
+from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import MODELS
 from mechanisms.iterated_loops import STEPHENSON
 from mechanisms.scotch_yokes import WHEEL_ON_A_YOKE
@@ -34,13 +31,13 @@ ROUNDED = 1e-12
 STEP = mpmath.mpf("1e-22")
 
 
-def system_of(mechanism: Formulation, backend: Any = "c") -> kintrafo.System:
+def system_of(mechanism, backend="c"):
     """Return a mechanism with its defaults."""
     module = kintrafo.compile(mechanism, parameter_derivatives=True, backend=backend)
     return kintrafo.System(module)
 
 
-def place_and_direction(system: kintrafo.System) -> tuple[Any, Any, dict[str, float]]:
+def place_and_direction(system):
     """Return a state beside the design position, inputs, and a direction of everything."""
     random = np.random.default_rng(7)
     state = system.design_state + random.uniform(-0.05, 0.05, system.design_state.size)
@@ -53,9 +50,7 @@ def place_and_direction(system: kintrafo.System) -> tuple[Any, Any, dict[str, fl
     return state, inputs, along
 
 
-def by_differences(
-    model: Derivation, system: kintrafo.System, at: Any, along: Mapping[str, float]
-) -> Iterator[tuple[str, Any]]:
+def by_differences(model, system, at, along):
     """Differentiate the programs of all functions along a direction in 50 digits."""
     state, inputs = at
     names = (*system.parameters, *system.state_names, *system.input_names)
@@ -64,7 +59,7 @@ def by_differences(
     with mpmath.workdps(50):
         here = {name: mpmath.mpf(value) for name, value in zip(names, values, strict=True)}
 
-        def moved(step: Any) -> dict[str, Any]:
+        def moved(step):
             place = {name: value + step * along.get(name, 0.0) for name, value in here.items()}
             return place | constants_of(model, {name: place[name] for name in system.parameters})
 
@@ -244,7 +239,7 @@ def test_arguments_are_refused_by_name():
 @pytest.fixture(scope="module")
 def page():
     """Return what the examples of the page find."""
-    found: dict[str, Any] = {}
+    found = {}
     text = (ROOT / "docs/simulation/derivatives.md").read_text(encoding="utf-8")
     exec("\n".join(re.findall(r"```python\n(.*?)```", text, re.DOTALL)), found)
     return found

@@ -23,7 +23,7 @@ ALONG = Direction("along", (0.6, 0.0, 0.8))
 MASSES = np.random.default_rng(0).uniform(0.1, 100.0, 50)  # kg
 
 
-def compiled(name: str, first, second) -> kintrafo.System:
+def compiled(name, first, second):
     told = [j.slide if isinstance(j, Prismatic) else j.angle for j in (first, second)]
     shown = tuple(tell(j.name, j.name) for tell, j in zip(told, (first, second), strict=True))
     mechanism = Mechanism(name, "Two bodies in a row", (first, second), (Weight(),), shown)
@@ -53,7 +53,7 @@ def pendulum():
     )
 
 
-def of(system: kintrafo.System, mass: float) -> dict[str, float]:
+def of(system, mass):
     """Return parameters by which the second body alone has mass, in a point."""
     light = {n: 0.0 for n in system.parameters if n.endswith("_mass") or "_inertia" in n}
     return light | {"b_mass": float(mass)}

@@ -5,7 +5,6 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import cache
-from types import ModuleType
 
 import numpy as np
 import pytest
@@ -15,7 +14,7 @@ from hypothesis import strategies as st
 from kintrafo import System
 from kintrafo.equations.errors import ClosureError, ModelError, ParameterError
 from kintrafo.generated import macpherson, macpherson_free_rack, macpherson_general, trailing_arm
-from oracle.constraints import KNUCKLE, Array
+from oracle.constraints import KNUCKLE
 from oracle.newton import Mechanism, rotation_matrix
 from oracle.reference import (
     BETA1_DESIGN,
@@ -134,7 +133,7 @@ class Edge:
     build: Callable[[], tuple[Parameters, Instant]]
 
 
-def ball_joint_at(parameters: Parameters, beta1: float) -> Array:
+def ball_joint_at(parameters, beta1):
     """Return where the arm carries the ball joint; the strut top does not matter for it."""
     car = Mechanism(parameters)
     _, h_y, h_z = car.hinge
@@ -142,7 +141,7 @@ def ball_joint_at(parameters: Parameters, beta1: float) -> Array:
     return car.hinge_foot + radius * (np.sin(beta1) * h_y + np.cos(beta1) * h_z)
 
 
-def strut_along(direction: Array) -> tuple[Parameters, Instant]:
+def strut_along(direction):
     """Return a car whose strut has a given vector (m) from ball joint to top, off the design."""
     parameters = reference_parameters()
     instant = Instant(BETA1_DESIGN - 0.3)
@@ -150,7 +149,7 @@ def strut_along(direction: Array) -> tuple[Parameters, Instant]:
     return parameters, instant
 
 
-def rod_end_on_the_strut() -> tuple[Parameters, Instant]:
+def rod_end_on_the_strut():
     parameters = reference_parameters()
     instant = Instant(BETA1_DESIGN, rack=0.1)
     ball, top = vector(parameters, "ball_joint"), vector(parameters, "strut_top")
@@ -161,7 +160,7 @@ def rod_end_on_the_strut() -> tuple[Parameters, Instant]:
     return parameters, instant
 
 
-def rod_along(direction: Array) -> tuple[Parameters, Instant]:
+def rod_along(direction):
     """Return a car whose tie rod has a given direction once the rack has moved."""
     parameters = reference_parameters()
     instant = Instant(BETA1_DESIGN, rack=-0.05)
@@ -178,7 +177,7 @@ def rod_along(direction: Array) -> tuple[Parameters, Instant]:
     return parameters, instant
 
 
-def massless(*but: str) -> tuple[Parameters, Instant]:
+def massless(*but):
     parameters = reference_parameters()
     for body in ("control_arm", "knuckle", "tie_rod", "rack", "upper_strut"):
         if body not in but:
@@ -189,7 +188,7 @@ def massless(*but: str) -> tuple[Parameters, Instant]:
     return parameters, Instant(BETA1_DESIGN)
 
 
-def flat_wheel(beta1: float) -> tuple[Parameters, Instant]:
+def flat_wheel(beta1):
     """Return a car whose spin axis is vertical once the arm has turned."""
     parameters = reference_parameters()
     instant = Instant(beta1)
@@ -198,7 +197,7 @@ def flat_wheel(beta1: float) -> tuple[Parameters, Instant]:
     return parameters, instant
 
 
-def top_within_the_offset() -> tuple[Parameters, Instant]:
+def top_within_the_offset():
     """Return a car whose ball joint comes nearer to the strut top than to the strut's axis."""
     parameters, instant = strut_along(np.array([0.01, 0.01, 0.01]))
     ball, top = vector(parameters, "ball_joint"), vector(parameters, "strut_top")
@@ -207,7 +206,7 @@ def top_within_the_offset() -> tuple[Parameters, Instant]:
     return parameters, instant
 
 
-def rod_end_on_the_line_of_the_knuckle() -> tuple[Parameters, Instant]:
+def rod_end_on_the_line_of_the_knuckle():
     """Return a car whose outer rod end comes onto the line from ball joint to strut top.
 
     With an offset strut that line turns in the knuckle as the strut slides. The inner end is where
@@ -231,7 +230,7 @@ def rod_end_on_the_line_of_the_knuckle() -> tuple[Parameters, Instant]:
     return parameters, instant
 
 
-def strut_through_its_mount() -> tuple[Parameters, Instant]:
+def strut_through_its_mount():
     """Return a car whose strut is 50 mm long at design, and a wheel that has risen by more."""
     parameters = reference_parameters()
     ball, top = vector(parameters, "ball_joint"), vector(parameters, "strut_top")
@@ -241,7 +240,7 @@ def strut_through_its_mount() -> tuple[Parameters, Instant]:
     return parameters, Instant(BETA1_DESIGN - 0.3)
 
 
-def spring_without_length() -> tuple[Parameters, Instant]:
+def spring_without_length():
     """Return a car whose spring seats meet once the arm has turned."""
     parameters = reference_parameters()
     instant = Instant(BETA1_DESIGN - 0.3)
@@ -311,7 +310,7 @@ def test_every_guard_has_an_edge(model):
 
 
 @cache
-def depends_on(model: ModuleType, function: str) -> set[str]:
+def depends_on(model, function):
     """Return the tokens on which the results of a function depend, as the C text shows it."""
     call = getattr(model, function)
     start = model.equations.manifest["functions"].get(function, {}).get("start", 0)
@@ -319,7 +318,7 @@ def depends_on(model: ModuleType, function: str) -> set[str]:
     return sources_of(functions(model.NAME)[call.stage], results)
 
 
-def reads(model: ModuleType, function: str) -> set[str]:
+def reads(model, function):
     """Return the state and inputs that a function depends on, as the C text shows it."""
     tokens = depends_on(model, function)
     arrays = (("state", model.STATE), ("inputs", model.INPUTS))
@@ -428,13 +427,13 @@ def test_parameters_in_an_array(model):
             model.prepare(wrong)
 
 
-def coincident(first: str, second: str) -> Parameters:
+def coincident(first, second):
     parameters = reference_parameters()
     set_vector(parameters, first, vector(parameters, second))
     return parameters
 
 
-def moved(name: str, place: tuple[float, float, float]) -> Parameters:
+def moved(name, place):
     parameters = reference_parameters()
     set_vector(parameters, name, place)
     return parameters
@@ -579,7 +578,7 @@ def test_results_are_new_and_constants_are_fixed(model):
 calm = settings(deadline=None, max_examples=100)
 
 
-def attempt(call: Callable[[], Array]) -> tuple[Array | None, ModelError | None]:
+def attempt(call):
     """Return the result of a call, or its error; other errors are failures."""
     try:
         return call(), None
@@ -587,7 +586,7 @@ def attempt(call: Callable[[], Array]) -> tuple[Array | None, ModelError | None]
         return None, error
 
 
-def finite_or_refused(model: ModuleType, instant: Instant, constants: Array) -> set[str]:
+def finite_or_refused(model, instant, constants):
     """Demand a finite result or a clear error of every function, and closed loops with a result.
 
     Returns the functions that gave a result.
@@ -615,14 +614,14 @@ def finite_or_refused(model: ModuleType, instant: Instant, constants: Array) -> 
     return done
 
 
-def usual_constants(model: ModuleType) -> Array:
+def usual_constants(model):
     """Return the reference car's constants, and those of a car with everything where that is."""
     if model is macpherson_general:
         return model.prepare(car_parameters(1, model))
     return model.DEFAULT_CONSTANTS
 
 
-def number(largest: float) -> st.SearchStrategy[float]:
+def number(largest):
     return st.floats(-largest, largest)
 
 
@@ -648,7 +647,7 @@ def test_any_finite_rates(model, instant, turn, rack):
 
 
 @st.composite
-def plausible_cars(draw: st.DrawFn) -> Parameters:
+def plausible_cars(draw):
     """The reference car with every hardpoint moved by up to 0.2 m, and any directions."""
     parameters = reference_parameters()
     shift = number(0.2)

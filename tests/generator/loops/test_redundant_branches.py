@@ -1,7 +1,5 @@
 """Messages name redundant branches and bodies that leave their plane."""
 
-from __future__ import annotations
-
 import kintrafo
 import pytest
 from kintrafo import generator as g
@@ -16,7 +14,7 @@ from kintrafo.generator.planning.proposal import model_of
 GROUND = g.Ground("ground")
 
 
-def couplers(count: int, apart: float = 0.0) -> Mechanism:
+def couplers(count, apart=0.0):
     """Return a four-bar with several couplers, on the same pins or apart."""
     crank = g.Body("crank", 1.0, g.flat("crank_com", (0.0, 0.05)), 0.01)
     rocker = g.Body("rocker", 1.0, g.flat("rocker_com", (0.3, 0.1)), 0.01)
@@ -32,7 +30,7 @@ def couplers(count: int, apart: float = 0.0) -> Mechanism:
     return g.Mechanism("couplers", "t", tuple(joints), (), named)
 
 
-def shafts(count: int) -> Mechanism:
+def shafts(count):
     """Return two bearings with several telescopes between crosses from one to the other."""
     upper, lower = g.Point("upper", (0.0, 0.0, 0.0)), g.Point("lower", (0.3, 0.0, -0.1))
     along = g.Direction("along", between=(upper, lower))
@@ -111,7 +109,7 @@ def test_a_second_bearing_is_redundant():
     assert "pin (joints on_crank, bearing)" in found
 
 
-def slider_crank(direction: g.Direction) -> Mechanism:
+def slider_crank(direction):
     ends = {n: g.flat(n, at) for n, at in (("o", (0, 0)), ("a", (0, 0.1)), ("b", (0.3, 0)))}
     crank, rod, slider = (
         g.Body(n, 1.0, g.flat(f"{n}_com", at), 0.01)

@@ -1,7 +1,5 @@
 """Struts in space, and rods on two ball joints: what `test_mechanisms` does not show of them."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 
@@ -32,7 +30,7 @@ from support.changes import changed, named
 from support.models import Built, own
 
 
-def compiled(model: Formulation) -> Built:
+def compiled(model):
     """Return a model with its default parameters."""
     return Built.of(model, own(model, derivatives=False))
 
@@ -84,7 +82,7 @@ def test_ends_that_meet_are_named():
 # -- telescopes that may also turn ----------------------------------------------------------------
 
 
-def telescope(name: str, *, ball_at_boom: bool) -> Formulation:
+def telescope(name, *, ball_at_boom):
     """Return the turret with a telescope that may turn about its axis, from a cross to the boom."""
     model = turret(name, "lift")
     foot, eye, seat = (named(model, Point, name) for name in ("foot", "eye", "piston_seat"))
@@ -131,7 +129,7 @@ def test_a_piston_without_mass_may_turn_as_it_likes():
 # -- rods on two ball joints ----------------------------------------------------------------------
 
 
-def on_two_balls(massive: tuple[str, ...]) -> Formulation:
+def on_two_balls(massive):
     """Return a spatial four-bar whose rod has a ball joint in place of its cross."""
     model = spatial_four_bar("two_balls")
     cross = model.mechanism.joint("cross")
@@ -176,7 +174,7 @@ def test_a_rod_with_mass_on_two_balls_is_refused():
         on_two_balls(("crank", "rod", "rocker"))
 
 
-def leg_on_a_plate(along: Direction) -> Formulation:
+def leg_on_a_plate(along):
     """A plate on a hinge, held by a leg of a Stewart platform: cross, guide and ball joint."""
     inertia = (1e-3, 2e-3, 1.5e-3)
     ground = Ground("ground")

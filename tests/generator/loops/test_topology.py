@@ -1,6 +1,5 @@
 """Mobility, shortest paths, cycles and characteristic pairs, against the paper and at large."""
 
-from collections.abc import Sequence
 from dataclasses import replace
 from itertools import combinations, pairwise
 
@@ -17,7 +16,6 @@ from kintrafo.generator import (
     Distance,
     Formulation,
     Ground,
-    Joint,
     Line,
     Mechanism,
     Point,
@@ -31,7 +29,7 @@ from kintrafo.generator.closed_forms.revolute import RevoluteByLength
 from kintrafo.generator.closed_forms.telescope import Telescope
 from kintrafo.generator.closed_forms.turn import TurnByLength
 from kintrafo.generator.loops.errors import NoClosedFormError, TopologyError
-from kintrafo.generator.loops.graph import Cycle, JointGraph, MinimalBasis
+from kintrafo.generator.loops.graph import JointGraph, MinimalBasis
 from kintrafo.generator.loops.tilted import tilted
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
@@ -54,7 +52,7 @@ def plan(request):
     return CataloguePlan.of(request.param)
 
 
-def numbers(cycle: Cycle) -> set[int]:
+def numbers(cycle):
     return {SUSPENSION.numbers[name] for name in cycle.bodies}
 
 
@@ -104,7 +102,7 @@ def test_table_2(topology, ends, edges):
     assert sorted(paths) == sorted(tuple(p) for p in simple if length_of(topology, p) == least)
 
 
-def length_of(topology: JointGraph, path: Sequence[str]) -> int:
+def length_of(topology, path):
     """Return the sum of the joint degrees of freedom along a path."""
     return sum(topology.joint_between(a, b).freedoms for a, b in pairwise(path))
 
@@ -209,7 +207,7 @@ BODIES = (Ground("body_0"), *(Body(f"body_{i}", 1.0, (0.0, 0.0, 0.0)) for i in r
 LENGTH = Distance("length", 1.0, "length")
 
 
-def joint_between(kind: type[Joint], name: str, first: Body, second: Body) -> Joint:
+def joint_between(kind, name, first, second):
     """Return a joint of a kind; topology does not ask where it is."""
     random = np.random.default_rng([*name.encode()])
     ends = (Point(f"{name}_{i}", tuple(random.normal(size=3).tolist())) for i in (1, 2))
@@ -223,7 +221,7 @@ def joint_between(kind: type[Joint], name: str, first: Body, second: Body) -> Jo
     return kind(name=name, first=first, second=second, **geometry[kind])
 
 
-def mechanism_of(joints: list[Joint]) -> Mechanism:
+def mechanism_of(joints):
     return Mechanism(name="any", title="any", joints=tuple(joints))
 
 
@@ -231,7 +229,7 @@ KINDS = (Revolute, Prismatic, Cylindrical, Universal, Spherical)
 
 
 @st.composite
-def mechanisms(draw: st.DrawFn) -> Mechanism:
+def mechanisms(draw):
     """Connected joint graphs with up to eight bodies and five loops."""
     count = draw(st.integers(2, 8))
     tree = [(draw(st.integers(0, i - 1)), i) for i in range(1, count)]
@@ -249,7 +247,7 @@ def mechanisms(draw: st.DrawFn) -> Mechanism:
 def test_minimal_cycle_basis(mechanism, choice):
     """Any choice among the shortest extensions ends at a basis as short as networkx's."""
     topology = JointGraph(mechanism)
-    chosen: list[Cycle] = []
+    chosen = []
     while options := MinimalBasis(topology, chosen).options():
         chosen.append(choice.choice(options))
     assert len(chosen) == topology.loop_count
@@ -259,7 +257,7 @@ def test_minimal_cycle_basis(mechanism, choice):
     assert sorted(c.length for c in chosen) == sorted(lengths)
 
 
-def in_order(graph: nx.Graph, cycles: list[list[str]]) -> list[list[str]]:
+def in_order(graph, cycles):
     """Return networkx's cycles with their bodies in the order of a walk."""
     ordered = []
     for nodes in cycles:
@@ -304,7 +302,7 @@ def test_two_joints_between_the_same_bodies():
         JointGraph(replace(SUSPENSION, joints=(*SUSPENSION.joints, second)))
 
 
-def loop_of(*kinds: type[Joint]) -> Formulation:
+def loop_of(*kinds):
     """Return a single loop whose first joint is driven."""
     count = len(kinds)
     joints = [

@@ -17,7 +17,6 @@ import numpy as np
 import pytest
 import sympy as sp
 from kintrafo.generated import andrews as compiled
-from kintrafo.generator.equations.outputs import Derivation
 from kintrafo.generator.mechanisms import andrews
 from mpmath import mpf
 from scipy.integrate import solve_ivp
@@ -74,12 +73,12 @@ INERTIAS = ("2.194e-6", "4.410e-7", "5.255e-6", "5.667e-7", "1.169e-5", "5.667e-
 SPRING_RATE, FREE_LENGTH = "4530", "0.07785"
 
 
-def lengths() -> dict[str, mpf]:
+def lengths():
     """Return the dimensions by the names of the book, m, in the present precision."""
     return {name: mpf(text) for name, text in LENGTHS.items()}
 
 
-def book_accelerations(angles: dict[str, mpf], rates: dict[str, mpf]) -> dict[str, mpf]:
+def book_accelerations(angles, rates):
     """Return the second derivatives of the seven angles by the equations of the book."""
     k = lengths()
     mass, forces = _book_inertia(k, angles, rates)
@@ -90,9 +89,7 @@ def book_accelerations(angles: dict[str, mpf], rates: dict[str, mpf]) -> dict[st
     return dict(zip(ANGLES, mpmath.lu_solve(system, right)[:7], strict=True))
 
 
-def _book_inertia(
-    k: dict[str, mpf], angles: dict[str, mpf], rates: dict[str, mpf]
-) -> tuple[mpmath.matrix, list[mpf]]:
+def _book_inertia(k, angles, rates):
     """Return mass matrix and forces of the book, constraints apart."""
     m, i = ([mpf(text) for text in texts] for texts in (MASSES, INERTIAS))
     sin = {name: mpmath.sin(angle) for name, angle in angles.items()}
@@ -142,9 +139,7 @@ _LOOPS = (
 )
 
 
-def _book_constraints(
-    k: dict[str, mpf], angles: dict[str, mpf], rates: dict[str, mpf]
-) -> tuple[mpmath.matrix, list[mpf]]:
+def _book_constraints(k, angles, rates):
     """Return the gradient of the six constraints, and their second derivatives without p''."""
     gradient, convective = mpmath.zeros(6, 7), [mpf(0)] * 6
     for loop, terms in enumerate(_LOOPS):
@@ -166,7 +161,7 @@ def _book_constraints(
 class ExactModel:
     """The program of the model with the exact numbers of the test set, in mpmath's precision."""
 
-    def __init__(self, derived: Derivation) -> None:
+    def __init__(self, derived):
         self.derived = derived
         exact = {
             f"{name}_{axis}": mpf(str(sp.N(value, 38)))
@@ -180,12 +175,12 @@ class ExactModel:
         self.fixed = dict(zip(labels, python(derived.prepare)(exact), strict=True))
         self.fixed["drive_torque"] = mpf(TORQUE)
 
-    def __call__(self, function: str, beta: mpf, rate: mpf) -> list[mpf]:
+    def __call__(self, function, beta, rate):
         """Evaluate a function of the model at an angle of the crank from the start."""
         values = self.fixed | {"beta": beta, "beta_rate": rate}
         return list(python(self.derived.functions[function])(values))
 
-    def angles(self, beta: mpf, rate: mpf) -> tuple[dict[str, mpf], dict[str, mpf]]:
+    def angles(self, beta, rate):
         """Return the angles of the test set, and their rates."""
         names = [entry.name for entry in self.derived.relative]
         turned = dict(zip(names, self("relative_coordinates", beta, rate), strict=True))
@@ -197,7 +192,7 @@ class ExactModel:
         )
 
 
-def book_angles(ours: dict[str, mpf]) -> dict[str, mpf]:
+def book_angles(ours):
     """Return the angles of the book (or slopes), counted from the start, from those of the model.
 
     The book counts bodies 4 and 6 from their outer neighbours, 5 and 7; the model from body 3.
@@ -278,11 +273,11 @@ def test_digits_of_the_published_rates(end):
         assert 5e-9 < max(map(abs, gradient * _column(published))) < 2e-8
 
 
-def _column(rates: dict[str, mpf]) -> mpmath.matrix:
+def _column(rates):
     return mpmath.matrix([rates[n] for n in ANGLES])
 
 
-def _nearest(difference: mpf) -> mpf:
+def _nearest(difference):
     """Return a difference of angles without whole turns."""
     turn = 2 * mpmath.pi
     return difference - turn * mpmath.nint(difference / turn)

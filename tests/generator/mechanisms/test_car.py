@@ -1,9 +1,5 @@
 """Cars against the oracle in maximal coordinates; what their equations take."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
 import pytest
 from kintrafo.generator.equations.in_motion import InMotion
@@ -14,19 +10,16 @@ from mechanisms.free_bodies import compared
 from oracle.random_states import check_with_the_oracle
 from support.models import Built, own
 
-if TYPE_CHECKING:
-    from kintrafo.generator import Formulation
-
 WISHBONES = model_named("double_wishbone")
 
 
-def front_and_rear() -> tuple[Formulation, Formulation]:
+def front_and_rear():
     """Return the axles of the reference car."""
     struts = car.of_corners(model_named("macpherson"), pulls="control_arm")
     return struts, car.of_corners(WISHBONES, steered=False)
 
 
-def axles_without_sides() -> tuple[Formulation, Formulation]:
+def axles_without_sides():
     """Return a rigid axle and a twist-beam axle, which have coordinates named as a body's."""
     rigid, twisted = (car.of_whole_axle(model_named(n)) for n in ("rigid_axle", "twist_beam"))
     return rigid, twisted

@@ -1,9 +1,6 @@
 """Cars that drive against the oracle in maximal coordinates: tyres, torques, air."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -14,17 +11,14 @@ from kintrafo.generator.mechanisms.steering_column import on_a_column as on_colu
 from oracle.random_states import check_with_the_oracle
 from support.models import Built, own
 
-if TYPE_CHECKING:
-    from kintrafo.generator import Formulation
-
 PLACES = {"air_drag_area": 0.7, "air_lift_area": 0.1, "air_pitching": -0.2, "air_center_x": -1.3}
 
 
-def linear(name: str) -> g.LinearContact:
+def linear(name):
     return g.LinearContact(name=name)
 
 
-def on_arms() -> Formulation:
+def on_arms():
     """Return a car on trailing arms: reactions on the body at the front, on arms at the rear."""
     arms = car.of_corners(model_named("trailing_arm"))
     front = car.driving(arms, linear, brakes_on="body", drive_on="body")
@@ -32,7 +26,7 @@ def on_arms() -> Formulation:
     return car.full("arms", "A car on arms", (front, rear))
 
 
-def on_struts_and_a_beam() -> Formulation:
+def on_struts_and_a_beam():
     """Return a car with a steered front axle and an undriven axle without sides."""
     struts = car.of_corners(model_named("macpherson"), pulls="control_arm")
     beam = car.of_whole_axle(model_named("twist_beam"))
@@ -40,7 +34,7 @@ def on_struts_and_a_beam() -> Formulation:
     return car.full("struts", "A car on struts and a beam", axles)
 
 
-def on_a_column() -> Formulation:
+def on_a_column():
     """Return a car with a compliant steering column and an inertia of the pinion."""
     struts = on_column(car.of_corners(model_named("macpherson")))
     arms = car.of_corners(model_named("trailing_arm"))
@@ -48,7 +42,7 @@ def on_a_column() -> Formulation:
     return car.full("column", "A car with a column", tuple(axles))
 
 
-def on_arms_and_rods() -> Formulation:
+def on_arms_and_rods():
     """Return a car with a driven rigid axle, whose loops close by Newton's method."""
     arms = car.of_corners(model_named("trailing_arm"))
     rods = car.of_whole_axle(model_named("rigid_axle"))
@@ -56,7 +50,7 @@ def on_arms_and_rods() -> Formulation:
     return car.full("rods", "A car on rods", (front, car.driving(rods, linear, drive_on="carrier")))
 
 
-def built_on(model: Formulation) -> Built:
+def built_on(model):
     random = np.random.default_rng(1)
     module = own(model, arrays=True, derivatives=False)
     tyres = {
@@ -76,7 +70,7 @@ def built_on(model: Formulation) -> Built:
     return Built.of(model, module, PLACES | tyres | more)
 
 
-def at_speed(built: Built, random: np.random.Generator) -> np.ndarray:
+def at_speed(built, random):
     """Return a state with wheels on the road that roll and slide at some 15 m/s, or fly."""
     layout, names = built.module.LAYOUT, list(built.module.STATE)
     state = built.module.design_state(built.parameters)
@@ -94,7 +88,7 @@ def at_speed(built: Built, random: np.random.Generator) -> np.ndarray:
     return state
 
 
-def given(built: Built, random: np.random.Generator) -> np.ndarray:
+def given(built, random):
     """Return inputs of the size that they have on a road."""
     sizes = {"torque": 400.0, "height": 0.01, "velocity": 0.1, "position": 0.01}
     limits = [sizes.get(name.rpartition("_")[2], 30.0) for name in built.module.INPUTS]

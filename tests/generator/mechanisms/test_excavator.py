@@ -3,10 +3,7 @@
 `test_mechanisms` compares its motion and its equations with maximal coordinates.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -15,13 +12,10 @@ from kintrafo.generator.mechanisms.excavator import MODELS
 from kintrafo.generator.planning.plan import CataloguePlan
 from support.changes import changed
 
-if TYPE_CHECKING:
-    from oracle.constraints import Array
-
 CYLINDERS = ("boom", "arm", "bucket")
 
 
-def state_at(strokes: Array) -> Array:
+def state_at(strokes):
     return np.array([*strokes, 0.0, 0.0, 0.0])
 
 

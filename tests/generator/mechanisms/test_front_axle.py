@@ -4,11 +4,8 @@
 those of the `macpherson` of that side, whose left hardpoints this file mirrors.
 """
 
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -25,9 +22,6 @@ from support.symbolic import accelerations
 
 from benchmarks.front_axle import COUNTED, WITH, WITHOUT, rates, wheel_rate
 
-if TYPE_CHECKING:
-    from oracle.constraints import Array
-
 SIDES = ("right", "left")
 PAGE = ROOT / "docs/mechanisms/composition.md"
 BASELINE = ROOT / "tests/generator/backends/operation_counts"
@@ -39,7 +33,7 @@ AGAINST = {  # of the right side's parameters, those that the left one has with 
 }
 
 
-def parameters_of(seed: int, **changes: float) -> dict[str, float]:
+def parameters_of(seed, **changes):
     """Return an axle: the reference car's, or a general one with a bar of its own."""
     given = {name: entry["default"] for name, entry in front_axle.PARAMETERS.items()}
     if seed:
@@ -53,7 +47,7 @@ def parameters_of(seed: int, **changes: float) -> dict[str, float]:
     return given | changes
 
 
-def left_of(given: dict[str, float]) -> dict[str, float]:
+def left_of(given):
     """Return the parameters of a left suspension as `macpherson` takes them."""
     mirrored = {name: given[name] for name in macpherson.PARAMETERS}
     points = [
@@ -77,11 +71,11 @@ class Compared:
 
     axle: System
     parts: dict[str, System]
-    state: Array
-    inputs: Array
+    state: np.ndarray
+    inputs: np.ndarray
 
     @classmethod
-    def of(cls, seed: int, count: int = 50, **changes: float) -> Compared:
+    def of(cls, seed, count=50, **changes):
         given = parameters_of(seed, **changes)
         axle = System(front_axle, given)
         right = {name: given[name] for name in macpherson.PARAMETERS}
@@ -99,7 +93,7 @@ class Compared:
         )
         return cls(axle, parts, state, size * rng.standard_normal((count, len(size))))
 
-    def of_side(self, side: str) -> tuple[Array, Array]:
+    def of_side(self, side):
         """Return state and inputs of one suspension."""
         part, axle = self.parts[side], self.axle
         states = [axle.state_names.index(f"{side}_{name}") for name in part.state_names]
@@ -157,13 +151,13 @@ def test_halves_of_the_bar_may_have_mass():
 # -- the page --------------------------------------------------------------------------------------
 
 
-def cells(page: str, first: str) -> list[str]:
+def cells(page, first):
     """Return the numbers of a table's row, by what it begins with."""
     row = next(line for line in page.splitlines() if line.startswith(f"| {first} "))
     return [cell.strip().replace(" ", "") for cell in row.split("|")[2:-1]]
 
 
-def counts_of(model: str) -> dict[str, dict[str, int]]:
+def counts_of(model):
     """Return the operation counts of a model that are stored."""
     text = (BASELINE / f"{model}.json").read_text(encoding="utf-8")
     return json.loads(text)

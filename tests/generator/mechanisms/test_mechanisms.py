@@ -5,15 +5,13 @@ plane is a special one. The states are random, within all but the last part of t
 a dead point the rounding of any method grows without bound (`test_mechanisms_branches`).
 """
 
-from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
-from typing import Any
 
 import mpmath
 import numpy as np
 import pytest
-from kintrafo.generator import FORWARD, AlongLine, Formulation
+from kintrafo.generator import FORWARD, AlongLine
 from kintrafo.generator.closed_forms.catalogue import STEPS
 from kintrafo.generator.closed_forms.elbow import PlaceElbow
 from kintrafo.generator.closed_forms.free_body import PlaceFree
@@ -21,14 +19,14 @@ from kintrafo.generator.closed_forms.parallel_links import ParallelLinks
 from kintrafo.generator.closed_forms.passive_turn import PlacePassive
 from kintrafo.generator.closed_forms.scotch_yoke import ScotchYoke
 from kintrafo.generator.closed_forms.single_cross import SingleCross
-from kintrafo.generator.equations.outputs import Derivation, generate
+from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import MODELS as SHIPPED
 from kintrafo.generator.mechanisms import chains, held_by_rods
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from kintrafo.generator.planning.plan import CataloguePlan
 from mechanisms import every_closed_form
 from oracle.constraints import Array
-from oracle.maximal import Jet, Motion, Oracle, Reduced
+from oracle.maximal import Motion, Oracle
 from oracle.reference import completed, further_parameters, general_parameters, spring_parameters
 from scipy.integrate import solve_ivp
 from support import models
@@ -48,8 +46,6 @@ DIFFERENTIATED = [
 SEEDS = range(3)  # 0 is the declaration's own geometry
 STATES = 4  # for each geometry
 
-Derived = Callable[[str], Derivation]
-Modules = Callable[[str], Any]
 
 SCALES = {
     "m": 0.02,
@@ -73,23 +69,23 @@ class At:
     inputs: Array
     motion: Motion
 
-    def __call__(self, function: str) -> Array:
+    def __call__(self, function):
         return self.built(function, self.state, self.inputs)
 
     @property
-    def given(self) -> dict[str, float]:
+    def given(self):
         """Accelerations of the prescribed joints."""
         named = self.built.named(self.inputs)
         motions = self.built.model.motions
         return {joint: named[motion.rates[1]] for joint, motion in motions.items()}
 
-    def reduced(self, **given: float) -> Reduced:
+    def reduced(self, **given):
         """Solve the equations of motion with the oracle, some accelerations given otherwise."""
         named = self.built.named(self.inputs)
         return self.built.oracle.reduced(self.motion, named, self.given | given)
 
     @cached_property
-    def solved(self) -> Reduced:
+    def solved(self):
         """The reference of several tests."""
         return self.reduced()
 
@@ -114,13 +110,13 @@ def module():
     return found
 
 
-def each_model(names: Iterable[str] = MODELS) -> pytest.MarkDecorator:
+def each_model(names=MODELS):
     """Parametrise a test by model."""
     parameters = [pytest.param(n, marks=[needs_gcc] if n in OWN else []) for n in names]
     return pytest.mark.parametrize("name", parameters)
 
 
-def places(name: str, found: Any, seeds: Iterable[int] = SEEDS) -> list[At]:
+def places(name, found, seeds=SEEDS):
     """Return geometries of a model, each at random states, searched for once."""
     for seed in seeds:
         if (name, seed) not in _PLACES:
@@ -128,16 +124,16 @@ def places(name: str, found: Any, seeds: Iterable[int] = SEEDS) -> list[At]:
     return [at for seed in seeds for at in _PLACES[name, seed]]
 
 
-_PLACES: dict[tuple[str, int], list[At]] = {}
+_PLACES = {}
 
 
-def _places(name: str, seed: int, found: Any) -> list[At]:
+def _places(name, seed, found):
     rng = np.random.default_rng([seed, *name.encode()])
     built = geometry(MODELS[name], found, rng) if seed else Built.of(MODELS[name], found)
     return [random_place(built, rng) for _ in range(STATES)]
 
 
-def geometry(model: Formulation, found: Any, rng: np.random.Generator) -> Built:
+def geometry(model, found, rng):
     """Return a model of other dimensions; its loops are about as far from dead points."""
     reference = margins(Built.of(model, found))
     for _ in range(100):
@@ -147,7 +143,7 @@ def geometry(model: Formulation, found: Any, rng: np.random.Generator) -> Built:
     raise AssertionError(f"{model.name}: no other geometry found")
 
 
-def other_values(model: Formulation, rng: np.random.Generator) -> dict[str, float]:
+def other_values(model, rng):
     """Return other values of all parameters that may be chosen freely."""
     if model.name.startswith("macpherson"):
         car = completed(general_parameters(rng, offset=rng.uniform(0.0, 0.08)))
@@ -187,13 +183,13 @@ def other_values(model: Formulation, rng: np.random.Generator) -> dict[str, floa
     return new
 
 
-def margins(built: Built) -> Array:
+def margins(built):
     """Return what must be positive, at the design position."""
     state = np.concatenate((built.design, np.zeros(built.size)))
     return built("margins", state)
 
 
-def random_place(built: Built, rng: np.random.Generator) -> At:
+def random_place(built, rng):
     """Return a random state within the reach, at most where the design's margins are a tenth."""
     least = 0.1 * margins(built)
     states = list(built.module.STATE.values())[: built.size]
@@ -249,12 +245,12 @@ def test_bodies_stand_and_move_as_the_state_says(name, module):
             assert jet.rate[0] == pytest.approx(rate, rel=1e-12, abs=1e-12)
 
 
-def whole_turns_off(jet: Jet, value: float) -> float:
+def whole_turns_off(jet, value):
     """Return how far a coordinate is from a value; angles count up to whole turns."""
     return abs(np.remainder(jet.value[0] - value + np.pi, 2.0 * np.pi) - np.pi)
 
 
-def reported(at: At) -> list[Jet]:
+def reported(at):
     """Return all relative coordinates by the oracle."""
     return [
         at.built.oracle.coordinate(at.motion, c.joint, c.kind)
@@ -293,7 +289,7 @@ def test_global_jacobian_is_the_twists_for_unit_rates(name, module):
         np.testing.assert_allclose(found, jacobian, atol=1e-12 * np.abs(jacobian).max())
 
 
-def oracle_jacobian(at: At) -> Array:
+def oracle_jacobian(at):
     """Return the twists of the massive bodies for unit rates of the independent coordinates."""
     bodies = [b.name for b in at.built.model.mechanism.bodies[1:]]
     massive = [bodies.index(b) for b in at.built.module.MASSIVE_BODIES]
@@ -349,7 +345,7 @@ def test_what_is_differentiated_has_every_step_of_the_catalogue():
 # -- dynamics --------------------------------------------------------------------------------------
 
 
-def reduced(at: At, **given: float) -> Reduced:
+def reduced(at, **given):
     """Solve the equations of motion with the oracle."""
     return at.reduced(**given) if given else at.solved
 
@@ -380,7 +376,7 @@ def test_accelerations_are_those_of_the_maximal_coordinates(name, module):
         )
 
 
-def acceleration_scale(oracle: Any) -> float:
+def acceleration_scale(oracle):
     """Return how large accelerations would be if forces and inertia did not cancel."""
     inverse = np.abs(np.linalg.inv(oracle.mass_matrix))
     return float((inverse @ (np.abs(oracle.applied) + np.abs(oracle.inertial))).max())
@@ -465,7 +461,7 @@ def test_energy_stays_where_nothing_dissipates(name, module):
     assert (np.ptp(rates, axis=1) > 1e-3 * np.abs(rates).max(axis=1)).all()  # it does move
 
 
-def kinetic_energy(built: Built, state: Array) -> float:
+def kinetic_energy(built, state):
     """Return half of q' M q'."""
     rates = state[built.size :]
     return float(0.5 * rates @ built("mass_matrix", state) @ rates)
@@ -474,7 +470,7 @@ def kinetic_energy(built: Built, state: Array) -> float:
 # -- declarations ----------------------------------------------------------------------------------
 
 
-def four_bar(name: str, **changes: Any) -> Formulation:
+def four_bar(name, **changes):
     """Return the four-bar that ships, declared otherwise."""
     model = MODELS["four_bar"]
     return replace(model, name=name, mechanism=replace(model.mechanism, name=name, **changes))
@@ -523,10 +519,10 @@ def test_every_angle_of_a_planar_loop_can_be_reported(joint, *, counted):
         assert whole_turns_off(expected, float(angle)) < 1e-13
 
 
-def motion_of(derived: Derivation, values: dict[str, Any]) -> Motion:
+def motion_of(derived, values):
     """Return poses and twists of all bodies, from the symbolic program."""
 
-    def found(name: str, *shape: int) -> Array:
+    def found(name, *shape):
         numbers = python(derived.functions[name])(values)
         return np.array([float(n) for n in numbers]).reshape(-1, *shape)
 

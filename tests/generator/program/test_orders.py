@@ -8,7 +8,7 @@ from kintrafo.generator.program.orders import by_class, by_size, first_term
 from support.random_expressions import random_expression
 
 
-def _samples() -> list[sp.Expr]:
+def _samples():
     random_ = random.Random(2)
     found = dict.fromkeys(random_expression(random_, 3) for _ in range(400))
     return [e for e in found if not e.has(sp.zoo, sp.nan)]

@@ -1,7 +1,5 @@
 """The straight-line program: steps are shared, differentiated, pruned and staged without loss."""
 
-from collections.abc import Mapping
-
 import pytest
 import sympy as sp
 from hypothesis import given, settings
@@ -10,7 +8,7 @@ from kintrafo.generator.backends.counting import counted, operations_of
 from kintrafo.generator.backends.schedule import schedule
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import MODELS
-from kintrafo.generator.program import ConstantStage, Function, Program, Step
+from kintrafo.generator.program import ConstantStage, Program, Step
 from kintrafo.generator.program.derivatives import chain_rule
 from kintrafo.generator.program.functions import Guarded, Positive
 from kintrafo.generator.program.sharing import share
@@ -21,11 +19,11 @@ X, Y = sp.symbols("x y")  # variables
 calm = settings(deadline=None, max_examples=60)
 
 
-def new_program(*parameters: sp.Symbol) -> Program:
+def new_program(*parameters):
     return Program(ConstantStage(parameters))
 
 
-def expanded(program: Program, expression: sp.Expr) -> sp.Expr:
+def expanded(program, expression):
     """Return an expression in parameters and variables only."""
     for stage in (program, program.constants):
         for step in reversed(stage.steps.values()):
@@ -33,7 +31,7 @@ def expanded(program: Program, expression: sp.Expr) -> sp.Expr:
     return expression.replace(Guarded, lambda q, _: q)
 
 
-def run(function: Function, values: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Expr]:
+def run(function, values):
     """Carry out a function's steps in order, reading only what was given or computed before."""
     known = dict(values)
     for step in function.steps:
@@ -118,10 +116,10 @@ def test_variants_share_their_constants():
 
 
 @st.composite
-def programs(draw: st.DrawFn) -> tuple[Program, list[sp.Symbol]]:
+def programs(draw):
     """Programs of up to eight steps, each of which reads parameters, variables or other steps."""
     program = new_program(A, B)
-    known: list[sp.Expr] = [A, B, X, Y]
+    known = [A, B, X, Y]
     for index in range(draw(st.integers(1, 8))):
         one, other = draw(st.sampled_from(known)), draw(st.sampled_from(known))
         expression = draw(
@@ -148,7 +146,7 @@ VALUES = {A: sp.Float("0.7", 40), B: sp.Float("-1.3", 40), X: sp.Float("0.4", 40
 VALUES |= {Y: sp.Float("1.9", 40)}
 
 
-def assert_equal(one: sp.Expr, other: sp.Expr) -> None:
+def assert_equal(one, other):
     """Compare two numbers of forty digits; thirty must agree."""
     assert abs(one - other) <= sp.Float("1e-30", 40) * (1 + abs(other)), f"{one} is not {other}"
 

@@ -15,23 +15,22 @@ from kintrafo.generator.program.signs import take_out_signs
 from kintrafo.generator.program.steps import Step
 
 A, B, C, S, T, U = sp.symbols("a b c s t shared_1")
-Program = tuple[list[Step], list[sp.Expr]]
 
 
-def without_signs(steps: dict[sp.Symbol, sp.Expr], *results: sp.Expr, has=()) -> Program:
+def without_signs(steps, *results, has=()):
     made = [Step(symbol, expression, "") for symbol, expression in steps.items()]
     return alive(*take_out_signs(made, results, {*results}, {*has}.__contains__))
 
 
-def alive(steps: list[Step], results: list[sp.Expr]) -> Program:
+def alive(steps, results):
     return drop_dead(steps, results), results
 
 
-def written(program: Program) -> dict[str, sp.Expr]:
+def written(program):
     return {step.symbol.name: step.expression for step in program[0]}
 
 
-def evaluated(steps: list[Step], results: list[sp.Expr], values: dict[str, float]) -> list[float]:
+def evaluated(steps, results, values):
     names = {"np": np} | values
     for step in steps:
         names[step.symbol.name] = eval(text_of(schedule(step.expression), NUMPY), names)

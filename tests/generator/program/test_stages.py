@@ -1,7 +1,6 @@
 """Functions that are computed together: the same bits as alone, the same refusals, less work."""
 
 import operator
-from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -11,17 +10,17 @@ from kintrafo.equations.status import LAST_GUARD_BIT, NOT_FINITE, bit_of, mask_o
 from kintrafo.generated import four_bar
 from kintrafo.generator.backends.counting import operations_of
 from kintrafo.generator.backends.numpy.dialect import NUMPY
-from kintrafo.generator.backends.schedule import Operation, Schedule, ordered
+from kintrafo.generator.backends.schedule import ordered
 from kintrafo.generator.backends.sharing import scheduled
 from kintrafo.generator.backends.text import text_of
-from kintrafo.generator.equations.outputs import TOGETHER, Derivation
+from kintrafo.generator.equations.outputs import TOGETHER
 from kintrafo.generator.program.function import Function, Stage
 
 # a plane, a plane with telescopes, and space with all laws of force
 each_model = pytest.mark.parametrize("name", ["four_bar", "excavator_lifting", "double_wishbone"])
 
 
-def stages(model: Derivation) -> Iterator[Stage]:
+def stages(model):
     return (emitted for emitted in model.emitted.values() if isinstance(emitted, Stage))
 
 
@@ -39,7 +38,7 @@ CALLED = {
 }
 
 
-def carried_out(operation: Operation, values: dict[str, np.float64]) -> np.float64:
+def carried_out(operation, values):
     """Return what comes of an operation in double precision."""
     if operation.kind == "symbol":
         return values[operation.of.name]
@@ -49,7 +48,7 @@ def carried_out(operation: Operation, values: dict[str, np.float64]) -> np.float
     return np.float64((ARITHMETIC.get(operation.kind) or CALLED[operation.of])(*operands))
 
 
-def evaluated(schedule: Schedule, values: dict[str, np.float64]) -> list[np.float64]:
+def evaluated(schedule, values):
     """Return the results of a schedule, step by step."""
     named = dict(values)
     for step in schedule.steps:
@@ -82,7 +81,7 @@ def test_less_work_than_alone(derived, name):
     }
 
 
-def function(name: str, steps: dict[str, sp.Expr], *results: sp.Expr) -> Function:
+def function(name, steps, *results):
     from kintrafo.generator.program import Step
 
     made = tuple(Step(sp.Symbol(n), e, "") for n, e in steps.items())
@@ -159,7 +158,7 @@ def test_a_sum_of_which_each_term_waits_for_the_one_before_is_cut_into_steps():
     assert operations_of(made).total() == 2 * 600 - 1
 
 
-def _brackets(text: str) -> int:
+def _brackets(text):
     """Return how many brackets are open at a time."""
     depths = np.cumsum([{"(": 1, ")": -1}.get(letter, 0) for letter in text])
     return int(depths.max(initial=0))

@@ -2,14 +2,13 @@
 
 import sympy as sp
 from kintrafo.generator.program import ConstantStage, Program
-from kintrafo.generator.program.function import Function
 from kintrafo.generator.program.together import share_together
 
 P, X, Y, Z = sp.symbols("p x y z")
 TAKEN = frozenset({"x", "y", "z", "shared_1", "speed_held"})
 
 
-def program(speed: sp.Expr, *, guarded: bool = False) -> Program:
+def program(speed, *, guarded=False):
     """Return a program in which a distance is as in others, and the speed is not."""
     made = Program(ConstantStage((P,), TAKEN))
     made.define("distance", X * Y + P)
@@ -19,12 +18,12 @@ def program(speed: sp.Expr, *, guarded: bool = False) -> Program:
     return made
 
 
-def shared(variants: dict[str, list[Function]], main: Program) -> dict[str, Function]:
+def shared(variants, main):
     functions, _ = share_together(variants, main.steps, main.constants.has)
     return {function.name: function for function in functions}
 
 
-def steps(function: Function) -> dict[str, sp.Expr]:
+def steps(function):
     return {step.symbol.name: step.expression for step in function.steps}
 
 

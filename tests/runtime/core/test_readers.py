@@ -1,10 +1,7 @@
 """Files that are too large, not text, or not to be shown: every reader refuses them alike."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 from zipfile import ZIP_DEFLATED, ZipFile
 
 import pytest
@@ -19,10 +16,7 @@ from kintrafo.vehicle.files import adams_car
 from kintrafo.vehicle.files.point_table import read_points
 from kintrafo.vehicle.studies.goals import read as read_goals
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-READERS: dict[str, tuple[str, Callable[[Path], Any]]] = {
+READERS = {
     "a suspension": (".toml", Suspension.load),
     "an axle": (".toml", Axle.load),
     "a rigid axle": (".toml", RigidAxle.load),
@@ -38,7 +32,7 @@ READERS: dict[str, tuple[str, Callable[[Path], Any]]] = {
 TOML = [name for name, (ending, _) in READERS.items() if ending == ".toml"]
 
 
-def refusal(reader: str, path: Path) -> str:
+def refusal(reader, path):
     with pytest.raises(InputError) as caught:
         READERS[reader][1](path)
     assert str(path) in str(caught.value)
@@ -127,7 +121,7 @@ def test_an_error_holds_what_can_be_read():
 # -- workbooks -------------------------------------------------------------------------------------
 
 
-def book_with(path: Path, cells: dict[str, Any]) -> Path:
+def book_with(path, cells):
     openpyxl = pytest.importorskip("openpyxl")
     book = openpyxl.Workbook()
     for row in (["point", "x [mm]", "y [mm]", "z [mm]"], ["ball_joint", 1, 2, 3]):

@@ -11,7 +11,7 @@ from threadpoolctl import threadpool_info, threadpool_limits
 np.linalg.inv(np.eye(2))
 
 
-def numbers() -> list[int]:
+def numbers():
     """Return how many threads each library may have."""
     return [found["num_threads"] for found in threadpool_info() if found["user_api"] == "blas"]
 

@@ -1,10 +1,8 @@
 """Words of the command line and of pages: units and names that users know."""
 
-from __future__ import annotations
-
 import json
 import re
-from typing import Any, get_type_hints
+from typing import get_type_hints
 
 import kintrafo
 import numpy as np
@@ -54,13 +52,13 @@ def test_every_page_has_its_data_without_marks(tmp_path):
 # -- numbers at the command line -------------------------------------------------------------------
 
 
-def number_options() -> list[tuple[str, str, str, bool]]:
+def number_options():
     """Return command, option, unit and whether it is whole, of every option that is a number."""
     found = []
     root = typer.main.get_command(cli.app)
     for name, module in cli.COMMANDS.items():
         hints = get_type_hints(with_groups(module.command), include_extras=True)
-        command: Any = root
+        command = root
         for word in name.split():
             command = command.commands[word]
         for parameter in command.params:
@@ -131,7 +129,7 @@ def test_what_is_not_at_rest_has_its_own_unit():
 
 def test_rest_of_a_mechanism_is_named():
     with pytest.raises(InputError, match=r"for another mechanism, use kintrafo\.rest"):
-        kintrafo.equilibrium(kintrafo.System(four_bar))  # type: ignore[arg-type]
+        kintrafo.equilibrium(kintrafo.System(four_bar))
 
 
 TINY = (5e-324, 1e-320, 1e-200, 1e-13, 1e12, 1e200, 1e308)

@@ -5,7 +5,6 @@ import shutil
 import threading
 from dataclasses import replace
 from importlib import import_module
-from typing import Any
 
 import kintrafo
 import numpy as np
@@ -54,7 +53,7 @@ def start(car):
     return state_at_height(car, 0.310, spin_rate=93.0)
 
 
-def alone(car: Model, cars: dict[str, np.ndarray], place: int, start: Any, **options: Any) -> Any:
+def alone(car, cars, place, start, **options):
     """Simulate one of some cars alone."""
     own = {n: float(v[place]) for n, v in cars.items() if n in car.parameters}
     state = np.array(start)
@@ -256,7 +255,7 @@ def test_an_error_that_no_step_keeps(car, start, monkeypatch):
 # -- checkpoints --------------------------------------------------------------------------------
 
 
-def time_above(values: np.ndarray, times: np.ndarray, level: float) -> float:
+def time_above(values, times, level):
     """Return how long straight lines are above a level, by the times at which they cross it."""
     by = values - level
     cross = np.flatnonzero(by[:-1] * by[1:] < 0.0)
@@ -278,7 +277,7 @@ def test_time_above_of_a_known_motion(car):
     assert float(found["toe_above_0"][0]) == pytest.approx(above, rel=1e-12)
 
 
-def welch_by_hand(series: np.ndarray, step: float, segment: int) -> np.ndarray:
+def welch_by_hand(series, step, segment):
     """Return the one-sided density by sums over complex exponentials, segment after segment."""
     count = np.arange(segment)
     window = 0.5 - 0.5 * np.cos(2.0 * np.pi * count / segment)
@@ -327,7 +326,7 @@ def test_series_do_not_fill_the_memory(car, start, monkeypatch):
     options = {"t_eval": times, "reductions": {"camber": [("percentile", 95.0), ("psd", 64)]}}
     expected = ensemble(car, some_cars(100), SPAN, start, **options)
     monkeypatch.setattr(run, "SAMPLES", 8 * 301 * 5)
-    held: list[int] = []
+    held = []
     real = Problem.integrate
     monkeypatch.setattr(
         Problem, "integrate", lambda *given: (held.append(given[2] - given[1]), real(*given))[1]
@@ -339,7 +338,7 @@ def test_series_do_not_fill_the_memory(car, start, monkeypatch):
 def test_what_is_kept_is_written_and_goes_on_in_pieces(car, start, tmp_path):
     """An ensemble in chunks, each written to a file, is the whole, to the last bit."""
     cars = some_cars(9)
-    options: dict[str, Any] = {
+    options = {
         "t_eval": TIMES,
         "reductions": {"camber": [("psd", 16), ("percentile", 95.0), ("above", 0.0)]},
     }
@@ -365,7 +364,7 @@ def test_what_is_kept_is_written_and_goes_on_in_pieces(car, start, tmp_path):
 # -- stiff systems --------------------------------------------------------------------------------
 
 
-def sticking(friction: list[float]) -> tuple[Model, dict[str, Any], Any]:
+def sticking(friction):
     """Return a car whose strut comes to stick soon, frictions of some, and a start."""
     changes = {"strut.friction_N": 600.0, "strut.friction_velocity_m_per_s": 1e-5}
     model = Model(kintrafo.Suspension.load("reference_car").with_changes(changes))
@@ -506,12 +505,11 @@ def test_a_model_without_signals():
 
 
 def test_progress_is_reported(car, start, monkeypatch):
-    reported: list[int] = []
+    reported = []
     monkeypatch.setattr(run, "_FEWEST", 10)
     real = run._wait_for
 
     def noted(waiting, report):
-        assert report is not None
         real(waiting, lambda done: (reported.append(done), report(done)))
 
     monkeypatch.setattr(run, "_wait_for", noted)
@@ -545,28 +543,28 @@ def test_an_interruption_ends_what_bdf_does(monkeypatch):
 # -- arguments ----------------------------------------------------------------------------------
 
 
-def by_label(*cars: int) -> xr.DataArray:
+def by_label(*cars):
     """Return a row of numbers of labelled cars."""
     return xr.DataArray([1e3, 2e3, 3e3], dims="car", coords={"car": list(cars)})
 
 
 class _Name:
-    def __repr__(self) -> str:
+    def __repr__(self):
         return "damper_rate"
 
 
-def roads(*labels: Any, given: Any = None) -> dict[str, Any]:
+def roads(*labels, given=None):
     """Return cars by their labels, or those that are given, and a course for each of the labels."""
     courses = {label: 0.01 * place for place, label in enumerate(labels)}
     variants = {"road_height": list(labels) if given is None else given}
     return {"variants": variants, "inputs": {"road_height": courses}}
 
 
-def along(*values: float, **coordinates: Any) -> xr.DataArray:
+def along(*values, **coordinates):
     return xr.DataArray(list(values), dims="car", coords=coordinates)
 
 
-WRONG: list[tuple[dict[str, Any], str]] = [
+WRONG = [
     roads("1", 1),
     roads("1", 1, given=xr.DataArray(["1", 1], dims="car")),
     roads("1", given=["1", 1]),
@@ -743,7 +741,7 @@ def test_a_mechanism_with_the_names_of_results():
     named = changed(FOUR_BAR, (SPRING.rate, replace(SPRING.rate, name="steps")))
     force, highest = (ForceOf(n, named.elements[0], "force") for n in ("success", "success_max"))
     system = System(kintrafo.compile(replace(named, outputs=(force, highest))))
-    cases: list[tuple[str, dict[str, Any]]] = [
+    cases = [
         ("steps", {"variants": {"steps": [300.0, 500.0]}}),
         ("success", {"signals": ["success"]}),
         ("success_max", {"signals": ["success_max"], "reductions": {"success": "max"}}),

@@ -14,7 +14,6 @@ from functools import partial
 from importlib import import_module
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
 
 import kintrafo
 import numpy as np
@@ -68,7 +67,7 @@ def small(monkeypatch):
 @pytest.fixture
 def done(monkeypatch):
     """Note which chunks are simulated here."""
-    found: list[tuple[int, int]] = []
+    found = []
 
     def noted(common, some, *given):
         found.append((some.first, some.first + some.systems.count))
@@ -223,7 +222,7 @@ def test_few_pieces_are_held_at_a_time(client, car, start, monkeypatch):
 
 
 def test_progress_is_reported(client, car, start, monkeypatch):
-    shown: list[int] = []
+    shown = []
     real = ensembles.run_in_chunks
 
     def noted(*given):
@@ -280,7 +279,7 @@ def test_what_is_left_between_what_overlaps():
     assert cutting.left_of(3, []) == [(0, 3)]
 
 
-OTHERS: list[tuple[dict[str, Any], str]] = [
+OTHERS = [
     ({"variants": {"damper_rate": [1e3, 3e3]}}, "variants"),
     ({"variants": {"spring_rate": [1e3, 2e3]}}, "variants"),
     ({"t_span": (0.0, 0.6)}, "t_span and inputs"),
@@ -297,7 +296,7 @@ OTHERS: list[tuple[dict[str, Any], str]] = [
 
 
 def test_a_folder_of_another_ensemble_is_refused(car, tmp_path, start):
-    given: dict[str, Any] = {
+    given = {
         "model": car, "variants": {"damper_rate": [1e3, 2e3]}, "t_span": SPAN, "y0": start,
         "kept": tmp_path,
     }  # fmt: skip
@@ -358,7 +357,7 @@ def test_what_is_damaged_is_done_again(car, start, tmp_path, done):
 # -- arguments ------------------------------------------------------------------------------------
 
 
-WRONG: list[tuple[dict[str, Any], str]] = [
+WRONG = [
     {"cluster": 0},
     {"cluster": -1},
     {"cluster": 1.5},

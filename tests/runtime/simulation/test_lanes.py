@@ -3,7 +3,6 @@
 import ctypes
 import shutil
 from dataclasses import replace
-from typing import Any
 
 import kintrafo
 import mpmath
@@ -32,12 +31,12 @@ def drivers(tmp_path_factory):
     return {width: lanes.driver(folder, width) for width in widths()}
 
 
-def off(exact: mpmath.mpf, found: float) -> float:
+def off(exact, found):
     """Return an error in units of the last place."""
     return float(abs(mpmath.mpf(found) - exact) / mpmath.mpf(float(np.spacing(abs(float(exact))))))
 
 
-def angles(rng: np.random.Generator) -> np.ndarray:
+def angles(rng):
     """Return angles of all sizes, and ones as near to quarter turns as numbers are."""
     quarters = rng.integers(-600_000, 600_000, ANGLES) * (np.pi / 2)
     sizes = 10.0 ** rng.uniform(-12, np.log10(LARGEST), ANGLES)
@@ -103,16 +102,16 @@ def test_powers_of_two(drivers):
 class Both:
     """A model as C for one state, as it is built, and in lanes."""
 
-    def __init__(self, name: str, drivers: dict[int, ctypes.CDLL]) -> None:
+    def __init__(self, name, drivers):
         kind = ctypes.CFUNCTYPE(ctypes.c_int, *[ctypes.c_void_p] * 4)
         # those of parameters take two pointers, and look at no more
         addresses = EMITTED[name].ADDRESSES
         self.scalar = {function: kind(address) for function, address in addresses.items()}
         self.name, self.drivers, self.lanes = name, drivers, lanes.in_lanes(name)
 
-    def same(self, function: str, *arguments: np.ndarray, size: int) -> np.ndarray:
+    def same(self, function, *arguments, size):
         """Demand the same bits of a function; the arguments have a column for each lane."""
-        width: int = arguments[0].shape[1]
+        width = arguments[0].shape[1]
         called = getattr(self.lanes, f"{self.name}_{function}_{width}")
         found, status = lanes.call(self.drivers[width], called, *arguments, size=size)
         alone = self.scalar[function]
@@ -126,12 +125,12 @@ class Both:
             np.testing.assert_array_equal(found[:, lane], out, strict=True)
         return found
 
-    def bounded(self, signals: dict[str, Any], *arguments: np.ndarray) -> None:
+    def bounded(self, signals, *arguments):
         """Demand the same bits of signals with ranges, where no other is evaluated."""
         ranged = [i for i, described in enumerate(signals.values()) if "ranges" in described]
         if not ranged:
             return
-        width: int = arguments[0].shape[1]
+        width = arguments[0].shape[1]
         (everything, refused), (found, status) = (
             lanes.call(
                 self.drivers[width],
@@ -145,7 +144,7 @@ class Both:
         assert not (status & ~refused).any()  # it has some of the guards
 
 
-def some_parameters(model, rng: np.random.Generator, width: int) -> np.ndarray:
+def some_parameters(model, rng, width):
     """Return the defaults in the first lane, and sets near them; some are of no mechanism."""
     defaults = np.array([entry["default"] for entry in model.PARAMETERS.values()])
     spread = rng.choice([0.0, 0.01, 1.0], width, p=[0.2, 0.6, 0.2])
@@ -161,7 +160,7 @@ def test_the_same_bits_as_one_by_one(drivers, name):
         compare(pair, EMITTED[name], np.random.default_rng(width), width)
 
 
-def compare(pair: Both, model, rng: np.random.Generator, width: int) -> None:
+def compare(pair, model, rng, width):
     functions = {
         f: len(getattr(model, f).labels)
         for f in ("rhs", "signals", "margins")

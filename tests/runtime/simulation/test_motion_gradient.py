@@ -1,7 +1,6 @@
 """Gradients of what a motion is judged by, against differences of motions."""
 
 from dataclasses import replace
-from typing import Any
 
 import kintrafo
 import numpy as np
@@ -29,7 +28,7 @@ def system():
     return kintrafo.System(module, CAR.parameters)
 
 
-def judged(signals: Any, states: Any) -> float:
+def judged(signals, states):
     """Return the number, from its definition."""
     share = np.full(TIMES.size, 1.0 / (TIMES.size - 1))
     share[[0, -1]] /= 2.0
@@ -37,7 +36,7 @@ def judged(signals: Any, states: Any) -> float:
     return float(np.sqrt(share @ moved**2) + share @ signals["toe"] + WEIGHTS @ states[0])
 
 
-def moved(system: kintrafo.System, name: str, by: float, inputs: Any, **options: Any) -> float:
+def moved(system, name, by, inputs, **options):
     """Return the number of a motion in which something is another."""
     parameters, start, own = dict(system.parameters), START.copy(), dict(inputs)
     if name in parameters:
@@ -51,9 +50,7 @@ def moved(system: kintrafo.System, name: str, by: float, inputs: Any, **options:
     return judged(found.signals, found.y)
 
 
-def by_difference(
-    system: kintrafo.System, name: str, step: float, inputs: Any, **options: Any
-) -> float:
+def by_difference(system, name, step, inputs, **options):
     up, down = (moved(system, name, sign * step, inputs, **options) for sign in (1.0, -1.0))
     return (up - down) / (2.0 * step)
 
@@ -115,7 +112,7 @@ def test_what_is_at_rest_at_first_is_followed_too(system):
 
 def test_it_is_the_gradient_of_the_numbers_that_the_steps_give(system):
     """Steps of 10 ms with any error: gradients of these numbers, not of the true motion."""
-    coarse: dict[str, Any] = {"rtol": 0.5, "atol": 1e3, "max_step": 0.01}
+    coarse = {"rtol": 0.5, "atol": 1e3, "max_step": 0.01}
     found = kintrafo.motion_gradient(system, SPAN, START, OF, t_eval=TIMES, **coarse)
     true = kintrafo.motion_gradient(system, SPAN, START, OF, t_eval=TIMES, rtol=1e-11, atol=1e-13)
     apart = []

@@ -1,7 +1,6 @@
 """Gradients of motions over kinks: stops, knots of dampers, wheels that leave the road."""
 
 from dataclasses import replace
-from typing import Any
 
 import kintrafo
 import numpy as np
@@ -21,9 +20,9 @@ BUMP = {"road_height": Samples([0.0, 0.05, 0.1, 0.13, 0.5], [0.0, 0.0, 0.05, 0.0
 DAMPER = {"velocity_m_per_s": [-1.0, -0.2, 0.0, 0.2, 1.0], "force_N": [-2500, -1000, 0, 400, 1500]}
 
 
-def with_changes(**sections: dict[str, Any]) -> Model:
+def with_changes(**sections):
     """Return the car with keys of sections added, or without those that are None."""
-    data: Any = CAR.to_dict()
+    data = CAR.to_dict()
     for section, keys in sections.items():
         merged = data.setdefault(section, {}) | keys
         data[section] = {key: value for key, value in merged.items() if value is not None}
@@ -55,10 +54,10 @@ def equations():
     return kintrafo.compile(SHIPPED["macpherson_general"], parameter_derivatives=True)
 
 
-def judged(system: kintrafo.System, start: Any) -> float:
+def judged(system, start):
     """Return the RMS of the acceleration, and mean toe, of a motion that is followed closely."""
     # another method than that of the gradient, and in C: it is done two dozen times
-    method: Any = "Verner" if native_available() else "DOP853"
+    method = "Verner" if native_available() else "DOP853"
     found = kintrafo.simulate(
         system, SPAN, start, inputs=BUMP, t_eval=TIMES, method=method, max_step=1e-3,
         rtol=1e-12, atol=1e-14,
@@ -68,7 +67,7 @@ def judged(system: kintrafo.System, start: Any) -> float:
     return float(np.sqrt(SHARE @ moved**2) + SHARE @ found.signals["toe"])
 
 
-OF: dict[str, Any] = {"wheel_acceleration": "rms", "toe": "mean"}
+OF = {"wheel_acceleration": "rms", "toe": "mean"}
 
 
 @pytest.mark.parametrize(
@@ -130,7 +129,7 @@ def test_a_mechanism_without_inputs():
     for declared in (FOUR_BAR, replace(FOUR_BAR, name="alone", forces=FOUR_BAR.forces[:1])):
         system = kintrafo.System(kintrafo.compile(declared, parameter_derivatives=True))
         start = system.state(crank_angle=0.3)
-        of: Any = {"crank_angle": "rms"}
+        of = {"crank_angle": "rms"}
         found.append(kintrafo.motion_gradient(system, (0.0, 0.5), start, of).by)
     given, alone = found
     assert given.keys() - alone.keys() == {"crank_torque"}

@@ -4,8 +4,6 @@ Against the gradient backwards, motions of complex numbers, and, where they are 
 same in NumPy and in other lanes.
 """
 
-from typing import Any
-
 import kintrafo
 import numpy as np
 import pytest
@@ -61,10 +59,10 @@ needs_lanes = pytest.mark.skipif(not widths(), reason="built without lanes")
 Changed = kintrafo.MotionSensitivity
 
 
-def in_lanes(monkeypatch: pytest.MonkeyPatch, width: int | None, *, done: bool = True) -> None:
+def in_lanes(monkeypatch, width, *, done=True):
     """Let directions be followed in so many lanes, without any in NumPy; see that it is done."""
 
-    def found(*given: Any) -> Any:
+    def found(*given):
         followed = directions.followed(*given, width) if width else None
         assert (followed is not None) is (done and bool(width))
         return followed
@@ -72,7 +70,7 @@ def in_lanes(monkeypatch: pytest.MonkeyPatch, width: int | None, *, done: bool =
     monkeypatch.setattr(forwards, "in_lanes", found)
 
 
-def same(one: Changed, other: Changed, rounding: float = 0.0) -> None:
+def same(one, other, rounding=0.0):
     """Demand the same derivatives along the directions of one of them."""
     for name, rows in one.by.items():
         for wanted, row in rows.items():
@@ -172,5 +170,5 @@ def test_against_a_motion_of_complex_numbers(four_bar, monkeypatch):
     ],
 )
 def test_what_cannot_be_used_is_refused(system, changes, refused):
-    asked: dict[str, object] = {"t_span": SPAN, "y0": START, **changes}
-    refused(InputError, lambda: kintrafo.motion_sensitivity(system, **asked))  # type: ignore[arg-type]
+    asked = {"t_span": SPAN, "y0": START, **changes}
+    refused(InputError, lambda: kintrafo.motion_sensitivity(system, **asked))

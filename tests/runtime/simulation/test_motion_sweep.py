@@ -5,7 +5,6 @@ And the sweep through compiled equations against that through functions over Num
 
 import ctypes
 from itertools import pairwise
-from typing import Any
 
 import kintrafo
 import numpy as np
@@ -28,12 +27,12 @@ JUMP, BEFORE, BEHIND = 0.15, 2.0, -0.5
 TORQUE = Samples([0.0, JUMP, JUMP, 0.4], [0.0, BEFORE, BEHIND, BEHIND], "linear")
 
 
-def torque(time: float, *step: float) -> float:
+def torque(time, *step):
     """Return the torque within a step, none of which passes over the jump."""
     return BEFORE * time / JUMP if sum(step) < 2.0 * JUMP else BEHIND
 
 
-def through(model: Any, constants: Any, state: Any, borders: Any, torque_at: Any) -> complex:
+def through(model, constants, state, borders, torque_at):
     """Return the number, of the same steps by SciPy's coefficients of the method."""
     weighted = 0.0j
     for begin, end in pairwise(borders):
@@ -64,7 +63,7 @@ def test_against_the_same_steps_in_complex_numbers(monkeypatch, backend, *, vari
     system = kintrafo.System(module)
     assert system.signal_names[2] == "spring_force"
     start = system.state(crank_angle=ANGLE)
-    inputs: Any = {"crank_torque": TORQUE if varies else 0.5}
+    inputs = {"crank_torque": TORQUE if varies else 0.5}
     found = kintrafo.motion_gradient(system, SPAN, start, OF, inputs=inputs, t_eval=TIMES)
     model = printed(FOUR_BAR, monkeypatch)
     exact = {}
@@ -91,8 +90,8 @@ def test_compiled_as_over_arrays(monkeypatch):
     same = next(model for model in MODELS if model.name == car.equations.NAME)
     system = kintrafo.System(kintrafo.compile(same, parameter_derivatives=True), car.parameters)
     start = kintrafo.state_at_height(car, 0.325, spin_rate=93.0)
-    of: Any = {"wheel_acceleration": "rms", "toe": "mean", "beta1": WEIGHTS}
-    road: Any = {"road_height": Samples([0.0, 0.1, 0.1, 0.4], [0.0, 0.01, 0.03, 0.0], "linear")}
+    of = {"wheel_acceleration": "rms", "toe": "mean", "beta1": WEIGHTS}
+    road = {"road_height": Samples([0.0, 0.1, 0.1, 0.4], [0.0, 0.01, 0.03, 0.0], "linear")}
 
     def found():
         return kintrafo.motion_gradient(system, SPAN, start, of, inputs=road, t_eval=TIMES)

@@ -6,7 +6,6 @@ import re
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
 
 import kintrafo
 import numpy as np
@@ -27,9 +26,6 @@ from kintrafo.simulation.solvers import native_available
 from support.folders import ROOT
 from support.models import needs_gcc, own
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
 pytestmark = pytest.mark.skipif(not native_available(), reason="nothing is integrated in C")
 
 Matrix = list[list[Fraction]]
@@ -39,7 +35,7 @@ SPAN = (0.0, 1.0)
 TIMES = np.linspace(*SPAN, 101)
 
 
-def run(step: float = 1e-3, model: Any = MODEL, start: Any = START, **options: Any) -> Any:
+def run(step=1e-3, model=MODEL, start=START, **options):
     span = options.pop("span", SPAN)
     return simulate(model, span, start, method="RODASP", step=step, **options)
 
@@ -51,26 +47,26 @@ STAGES, GAMMA = 6, Fraction(1, 4)
 ROUNDED = 1e-12
 
 
-def numbers(name: str) -> list[list[Fraction]]:
+def numbers(name):
     """Return the rows of a table of the method as they are compiled, each of six numbers."""
     text = (ROOT / "runtime/simulation/native/rodasp.h").read_text(encoding="utf-8")
-    body = re.search(rf" {name}\[.*?= \{{(.*?)\}};", text, flags=re.DOTALL).group(1)  # type: ignore[union-attr]
+    body = re.search(rf" {name}\[.*?= \{{(.*?)\}};", text, flags=re.DOTALL).group(1)
     rows = re.findall(r"\{(.*?)\}", body, flags=re.DOTALL) or [body]
     found = [[Fraction(n) for n in row.replace("\n", " ").split(",") if n.strip()] for row in rows]
     return [row + [Fraction(0)] * (STAGES - len(row)) for row in found]
 
 
-def times(a: Matrix, b: Matrix) -> Matrix:
+def times(a, b):
     return [
         [sum(x * y for x, y in zip(row, col, strict=True)) for col in zip(*b, strict=True)]
         for row in a
-    ]  # type: ignore[misc]
+    ]
 
 
-def coupling() -> tuple[Matrix, Matrix]:
+def coupling():
     """Return Gamma and alpha of the classical form: C = I / g - Gamma^-1, A = alpha Gamma^-1."""
     c = numbers("C")
-    inverse: Matrix = []
+    inverse = []
     for i in range(STAGES):  # (I / gamma - C) Gamma = I, row by row
         row = [
             GAMMA * ((i == j) + sum((c[i][k] * inverse[k][j] for k in range(i)), Fraction(0)))
@@ -85,14 +81,14 @@ BETA = [[a + b for a, b in zip(*rows, strict=True)] for rows in zip(ALPHA, GAMMA
 NODE = [sum(row) for row in ALPHA]
 
 
-def by(matrix: Matrix, vector: Sequence[Fraction]) -> list[Fraction]:
-    return [sum(x * y for x, y in zip(row, vector, strict=True)) for row in matrix]  # type: ignore[misc]
+def by(matrix, vector):
+    return [sum(x * y for x, y in zip(row, vector, strict=True)) for row in matrix]
 
 
 ONES = [Fraction(1)] * STAGES
 BY_BETA = by(BETA, ONES)
 SQUARES = [node**2 for node in NODE]
-TREES: list[tuple[int, list[Fraction], Fraction]] = [
+TREES = [
     (1, ONES, Fraction(1)),
     (2, BY_BETA, Fraction(1, 2)),
     (3, SQUARES, Fraction(1, 3)),
@@ -105,7 +101,7 @@ TREES: list[tuple[int, list[Fraction], Fraction]] = [
 """Order, product of a rooted tree, and what its weighted sum is (Hairer and Wanner, IV.7)."""
 
 
-def weights(part: Fraction) -> list[Fraction]:
+def weights(part):
     """Return the weights of the rates by which the state at a part of the step is found."""
     first, second = numbers("DENSE")
     end = [*numbers("A")[-1][:-1], Fraction(1)]
@@ -115,7 +111,7 @@ def weights(part: Fraction) -> list[Fraction]:
     ]
     return [
         sum(w * row[j] for w, row in zip(of_stages, GAMMAS, strict=True)) for j in range(STAGES)
-    ]  # type: ignore[misc]
+    ]
 
 
 @pytest.mark.parametrize(
@@ -142,7 +138,7 @@ def test_it_is_l_stable_and_stiffly_accurate():
     assert abs(NODE[-1] - 1) < ROUNDED
     series, vector = [Fraction(1)], ONES
     for _ in range(STAGES):
-        series.append(sum(b * x for b, x in zip(end, vector, strict=True)))  # type: ignore[arg-type]
+        series.append(sum(b * x for b, x in zip(end, vector, strict=True)))
         vector = by(BETA, vector)
     z, y = sp.symbols("z y", real=True)
     below = sp.expand((1 - sp.Rational(1, 4) * z) ** STAGES)
@@ -234,10 +230,10 @@ class Follower(Force):
     target: g.Input = TARGET
 
     @property
-    def identity(self) -> tuple[str, str]:
+    def identity(self):
         return "Follower", "pull"
 
-    def act(self, at: Any) -> Action:
+    def act(self, at):
         rate = (sp.Symbol(self.target.name) - self.state.symbol) / self.lag.symbol
         return Action({at.coordinate("way"): sp.Integer(0)}, rates={"pull": rate})
 
@@ -347,5 +343,5 @@ def test_equations_without_a_jacobian_are_refused(method, monkeypatch):
     monkeypatch.delattr(MODEL.equations, "rhs_jacobian")
     step = {} if method == "BDF" else {"step": 1e-3}
     with pytest.raises(InputError, match="macpherson was derived without derivatives"):
-        simulate(MODEL, SPAN, START, method=method, **step)  # type: ignore[arg-type]
+        simulate(MODEL, SPAN, START, method=method, **step)
     assert simulate(MODEL, (0.0, 0.01), START, method="DormandPrince").success

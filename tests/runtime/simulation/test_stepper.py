@@ -1,7 +1,5 @@
 """Simulations that are advanced step by step: against `simulate`, and what they refuse."""
 
-from __future__ import annotations
-
 import runpy
 import tracemalloc
 
@@ -20,7 +18,7 @@ STEP = 1e-3
 EXAMPLE = ROOT / "examples/active_damping.py"
 
 
-def place(name: str) -> int:
+def place(name):
     return MODEL.input_names.index(name)
 
 
@@ -158,7 +156,7 @@ def test_what_is_assigned_is_copied():
     np.testing.assert_array_equal(arrays[1], rest)
     assert arrays[0] is assigned.inputs
     with pytest.raises(AttributeError):
-        assigned.length = 0.5  # type: ignore[misc]
+        assigned.length = 0.5
 
 
 @pytest.mark.parametrize(

@@ -4,10 +4,7 @@ A spring pulls at an arm on a hinge from a point that lies on the circle of its 
 The oracle of the times is the energy of the arm: ``t = integral dq / q'(q)``.
 """
 
-from __future__ import annotations
-
 from functools import cache
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
@@ -18,23 +15,18 @@ from kintrafo.simulation.solvers import native_available, native_methods
 from kintrafo.simulation.trust import SINGULAR
 from scipy.integrate import quad, solve_ivp
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
-
 RADIUS, RATE, FREE, INERTIA = 0.3, 2000.0, 0.3, 0.01 + 1.0 * 0.2**2
 START, SPEED, END = 0.5, -90.0, 0.05
 METHODS = tuple(dict.fromkeys([*native_methods(), "BDF", "Radau", "LSODA", "RK45", "DOP853"]))
 STEP = 1e-5
 
 
-def flat(name: str, x: float, z: float) -> g.Point:
+def flat(name, x, z):
     return g.flat(name, (x, z), name, "y")
 
 
 @cache
-def built() -> Any:
+def built():
     ground = g.Ground("ground")
     arm = g.Body("arm", 1.0, flat("arm_center", 0.2, 0.0), 0.01)
     hinge = g.hinge("hinge", ground, arm, flat("pin", 0.0, 0.0))
@@ -59,20 +51,20 @@ def built() -> Any:
     )
 
 
-def system(beside: float = 0.0) -> System:
+def system(beside=0.0):
     """Return the arm with the top of its spring outside of the circle by a distance [m]."""
     return System(built(), {"top_x": RADIUS + beside})
 
 
-def options(method: str) -> dict[str, float]:
+def options(method):
     return {"step": STEP} if method == "RK4" else {"rtol": 1e-8, "atol": 1e-11}
 
 
-def time_of_meeting() -> float:
-    def energy(angle: float) -> float:
+def time_of_meeting():
+    def energy(angle):
         return 0.5 * RATE * (2.0 * RADIUS * np.sin(0.5 * angle) - FREE) ** 2
 
-    def slowness(angle: float) -> float:
+    def slowness(angle):
         return 1.0 / np.sqrt(SPEED**2 + 2.0 * (energy(START) - energy(angle)) / INERTIA)
 
     return float(quad(slowness, 0.0, START, epsabs=1e-13)[0])
@@ -87,7 +79,7 @@ def test_a_motion_ends_where_the_ends_meet(method):
 
 
 @cache
-def followed_closely() -> np.ndarray:
+def followed_closely():
     """Return where the motion that passes beside ends, by SciPy in tiny steps."""
     arm, tiny = system(0.003), {"rtol": 1e-12, "atol": 1e-13, "max_step": 1e-5}
     return solve_ivp(

@@ -67,7 +67,7 @@ def test_of_what_takes_long_the_rest_is_estimated(monkeypatch):
     assert _estimated([80_000, 80_000, 80_000]) == ", about 15 s"
 
 
-def waiting_compiler(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def waiting_compiler(folder, monkeypatch):
     """Let CC be a program that starts another one, waits, and writes the numbers of both."""
     script, numbers = folder / "slow-cc", folder / "numbers"
     script.write_text(
@@ -80,7 +80,7 @@ def waiting_compiler(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return numbers
 
 
-def runs(number: str) -> bool:
+def runs(number):
     try:
         os.kill(int(number), 0)
     except ProcessLookupError:

@@ -19,7 +19,7 @@ FREE = Model(CAR, free_rack=True)
 REST = equilibrium(HELD, spin_rate=SPIN_RATE)
 
 
-def accelerations_of_the_oracle(free: bool, coordinates, rates):
+def accelerations_of_the_oracle(free, coordinates, rates):
     """Return the accelerations in maximal coordinates; order: arm, spin, rack."""
     car = Mechanism(reference_parameters())
     arm, spin, rack = coordinates

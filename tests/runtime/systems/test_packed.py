@@ -1,11 +1,8 @@
 """Compiled mechanisms in archives: used for their structure and sources only, never otherwise."""
 
-from __future__ import annotations
-
 import sys
 import zipfile
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import kintrafo
 import numpy as np
@@ -17,9 +14,6 @@ from kintrafo.systems.compile import packed
 from kintrafo.systems.compile.build import derived_again, packed_mechanism
 from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.systems.compile.loader import forget
-
-if TYPE_CHECKING:
-    from types import ModuleType
 
 pytestmark = pytest.mark.skipif(find_compiler() is None, reason="no compiler")
 NAME, STRUCTURE = "four_bar", "four bars"
@@ -36,18 +30,16 @@ def archive(tmp_path, monkeypatch):
     forget(own)
 
 
-def found(structure: str = STRUCTURE) -> ModuleType | None:
+def found(structure=STRUCTURE):
     return packed_mechanism(NAME, structure, lambda: model_of(FOUR_BAR))
 
 
-def folder_of(equations: ModuleType | None) -> Path:
-    assert equations is not None
+def folder_of(equations):
     return Path(str(equations.__file__)).parent
 
 
 def test_it_is_what_was_compiled(archive):
     equations = found()
-    assert equations is not None
     assert folder_of(equations).parent == archive.parent / "cache"
     states = [[0.2, 1.0], [0.3, -1.0]]
     np.testing.assert_array_equal(equations.rhs(states), generated.rhs(states))
@@ -64,13 +56,11 @@ def test_a_changed_structure_or_source_has_no_archive(archive, monkeypatch):
 
 def test_a_damaged_file_in_the_cache_is_unpacked_again(archive):
     equations = found()
-    assert equations is not None
     folder = archive.parent / "cache" / folder_of(equations).name
     (folder / "four_bar.json").write_text("{}")
     package = equations.__name__.partition(".")[0]
     forget([name for name in sys.modules if name.partition(".")[0] == package])
-    again = found()
-    assert again is not None
+    assert found() is not None
     assert (folder / "four_bar.json").stat().st_size > 1000
 
 
@@ -98,7 +88,7 @@ def test_files_of_other_folders_are_refused(archive, name):
     assert list(archive.parent.rglob("*side.py")) == []
 
 
-def rewritten(archive: Path, more: dict[str, bytes]) -> None:
+def rewritten(archive, more):
     """Add files to an archive."""
     with zipfile.ZipFile(archive, "a", zipfile.ZIP_LZMA) as opened:
         for name, content in more.items():

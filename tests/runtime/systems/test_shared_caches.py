@@ -1,7 +1,5 @@
 """Files of the cache are executed: none is used from a folder in which others can write."""
 
-from __future__ import annotations
-
 import os
 import pickle
 import sys

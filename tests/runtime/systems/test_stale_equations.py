@@ -1,7 +1,5 @@
 """Compiled equations follow every edit of a declaration, of its code and of files that it reads."""
 
-from __future__ import annotations
-
 import json
 import math
 import os

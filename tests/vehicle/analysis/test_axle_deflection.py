@@ -1,11 +1,10 @@
 """Whole axles on their bushes by any amount: maximal coordinates, one side, limits."""
 
 from importlib import import_module
-from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import Axle, InputError, Model, PositionError, Suspension, compliance
+from kintrafo import Axle, InputError, Model, PositionError, compliance
 from kintrafo.core.validator import Validator
 from kintrafo.vehicle.analysis.compliance.bars import Bars, Foot
 from kintrafo.vehicle.analysis.compliance.on_bushes import on_joints, softs_of
@@ -14,7 +13,6 @@ from kintrafo.vehicle.assembly.axle import AxleAssembly
 from kintrafo.vehicle.assembly.axle_kinematics import AxleKinematics
 from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.corner.bushes import mirrored_bushings
-from kintrafo.vehicle.models.axle.bar import HalfBar
 from kintrafo.vehicle.report import elastokinematics_chapter
 from oracle.bushes import (
     BAR_OF,
@@ -35,7 +33,7 @@ from scipy.spatial.transform import Rotation
 from support.folders import DATA
 
 
-def without_bar(car: Suspension) -> Axle:
+def without_bar(car):
     return Axle.from_dict({"axle": "rear", "side": car})
 
 
@@ -68,11 +66,11 @@ def test_derivatives_of_the_twist_are_those_along_screws():
 # -- equilibrium --------------------------------------------------------------------------------
 
 
-def angle_of(half: HalfBar, foot: np.ndarray) -> float:
+def angle_of(half, foot):
     """Return the angle of half a bar by a search for the length of its link."""
     length = np.linalg.norm(half.top - half.foot)
 
-    def too_long(angle: float) -> float:
+    def too_long(angle):
         top = half.bush + Rotation.from_rotvec(angle * half.axis).apply(half.top - half.bush)
         return float(np.linalg.norm(top - foot) - length)
 
@@ -85,7 +83,7 @@ class Whole:
     Both sides have a body for the rack; these are tied together.
     """
 
-    def __init__(self, axle: Axle, car: Suspension, suspension: Any, state: Any) -> None:
+    def __init__(self, axle, car, suspension, state):
         self.axle, self.rack_axis = axle, np.array(car.rack.axis) / np.linalg.norm(car.rack.axis)
         bushes = {"left": mirrored_bushings(SOFTER[car]), "right": SOFTER[car]}
         self.energies = {s: Energy(axle.sides[s], bushes[s], car) for s in SIDES}
@@ -101,7 +99,7 @@ class Whole:
             energy.pose = Pose(position, rotation)
         self.shift = float(moved[suspension._connections.index(0, "rack")] @ self.rack_axis)
 
-    def twist(self) -> float:
+    def twist(self):
         found = []
         for side, energy in self.energies.items():
             half = self.axle.halves[side]
@@ -111,10 +109,10 @@ class Whole:
             found.append(angle_of(half, at))
         return found[0] - found[1]
 
-    def torque(self) -> float:
+    def torque(self):
         return float(self.axle.bar.rate() * (self.twist() - self.axle.bar.free_twist()))
 
-    def slopes(self, forces: dict[str, list[float]], road: np.ndarray) -> np.ndarray:
+    def slopes(self, forces, road):
         """Return the derivatives by all displacements and rotations, those of the bar too."""
         own = zip(SIDES, self.energies.values(), road, strict=True)
         found = np.concatenate([e.slopes(np.array(forces[s]), float(up)) for s, e, up in own])
@@ -129,7 +127,7 @@ class Whole:
         found[rack : rack + 3] += STIFFNESS_OF_RACK * self.shift * self.rack_axis
         return found
 
-    def twist_after(self, side: str, body: int, component: int, size: float) -> float:
+    def twist_after(self, side, body, component, size):
         energy = self.energies[side]
         at = energy.pose
         position, rotation = at.position.copy(), at.rotation.copy()
@@ -143,10 +141,10 @@ class Whole:
         energy.pose = at
         return found
 
-    def of_rack(self, side: str) -> int:
+    def of_rack(self, side):
         return self.begin[side] + 6 * (self.energies[side].index("rack") - 1)
 
-    def held(self) -> np.ndarray:
+    def held(self):
         """Return what all joints hold, the guide of the rack among them."""
         left, right = self.of_rack("left"), self.of_rack("right")
         tied, guide = np.zeros((6, self.size)), np.zeros((5, self.size))
@@ -281,14 +279,11 @@ def test_rates_are_slopes_of_the_loads():
     np.testing.assert_allclose(roll["roll_stiffness_at_contacts"][:, 0], expected, rtol=1e-6)
 
 
-def _contact(corner: Any) -> np.ndarray:
+def _contact(corner):
     """Return the lowest point of a wheel by hand."""
     axis, up = corner.axis, np.array([0.0, 0.0, 1.0])
     across = up - axis[2] * axis
-    lowest: np.ndarray = corner.center - corner.vehicle.tyre_radius * across / np.linalg.norm(
-        across
-    )
-    return lowest
+    return corner.center - corner.vehicle.tyre_radius * across / np.linalg.norm(across)
 
 
 # -- refusals -------------------------------------------------------------------------------------

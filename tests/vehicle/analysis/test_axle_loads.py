@@ -1,10 +1,7 @@
 """Loads of whole axles: against balances of the whole, and work."""
 
-from typing import Any
-
 import numpy as np
 import pytest
-import xarray as xr
 from cars.axles import AXLE, BENT, placed
 from kintrafo import Axle, AxleModel, System, equilibrium, loads, roads, simulate
 from kintrafo.systems.compile.compiler import find_compiler
@@ -15,7 +12,7 @@ from kintrafo.vehicle.models.reach import at_rest
 
 SIDES = ("left", "right")
 # Forces at both ends, on both wheels, of different sizes, the rack aside.
-PUSHED: dict[str, Any] = {
+PUSHED = {
     "pushed": {
         "rack_mm": 8.0,
         "left": {"contact_N": [-1500.0, 700.0, 3900.0], "contact_Nm": [20.0, 5.0, -60.0]},
@@ -24,7 +21,7 @@ PUSHED: dict[str, Any] = {
 }
 
 
-def of(found: xr.Dataset, part: str, by: str = "", point: str = "") -> xr.Dataset:
+def of(found, part, by="", point=""):
     """Return the loads on a part, of its first case."""
     rows = (found["part"] == part) & found["by"].str.startswith(by)
     return found.isel(case=0).isel(load=(rows & found["point"].str.startswith(point)).values)

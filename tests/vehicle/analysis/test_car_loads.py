@@ -70,7 +70,7 @@ def test_forces_on_the_body_move_it(motion, loads):
     the_body_is_balanced(motion, loads)
 
 
-def the_body_is_balanced(motion, loads, vertical=UP) -> None:
+def the_body_is_balanced(motion, loads, vertical=UP):
     """Newton and Euler for the body, which is not among the parts that the analysis balances."""
     parameters, com = motion.model.parameters, motion.assembly.car.com
     own = loads.sel(load=loads["part"] == "chassis")

@@ -1,16 +1,14 @@
 """Wheel travel and a load at once: the equilibria of each by itself, of corner and axles."""
 
-from typing import Any
-
 import numpy as np
 import pytest
 import xarray as xr
 from kintrafo import InputError, compliance, load
 
 AT, LOADS = np.array([-0.03, 0.0, 0.04]), np.array([-2000.0, 0.0, 3000.0])
-OF_ARMS: dict[str, Any] = {"arm_rear": {"axial_N_per_mm": 500.0, "radial_N_per_mm": 2000.0}}
+OF_ARMS = {"arm_rear": {"axial_N_per_mm": 500.0, "radial_N_per_mm": 2000.0}}
 OF_RODS = {"panhard_rod_chassis": {"axial_N_per_mm": 2000.0}}
-SUBJECTS: dict[str, Any] = {
+SUBJECTS = {
     "reference_car": OF_ARMS,
     "reference_axle": OF_ARMS | {"rack": {"axial_N_per_mm": 3000.0}},
     "rigid_axle": OF_RODS,
@@ -58,6 +56,6 @@ def test_what_cannot_be_used_is_refused():
         ({"bushings": {}}, "one or more are needed"),
         ({"travel": [np.nan]}, "finite"),
     ):
-        arguments: dict[str, Any] = {"bushings": OF_ARMS, "under": "lateral", "amounts": [1.0]}
+        arguments = {"bushings": OF_ARMS, "under": "lateral", "amounts": [1.0]}
         with pytest.raises(InputError, match=words):
             compliance.combined(car, **(arguments | given))

@@ -1,7 +1,6 @@
 """Compliance of corners, axles and rigid axles: what holds for every assembly on its bushes."""
 
 from importlib import import_module
-from typing import Any
 
 import numpy as np
 import pytest
@@ -28,12 +27,12 @@ FREE = {"gravity.acceleration_m_per_s2": 0.0, "spring.force_at_design_N": 0.0}
 HEAVY = {"gravity.acceleration_m_per_s2": 9.81}
 
 
-def with_rack(car: Any) -> dict[str, Any]:
+def with_rack(car):
     """Return the bushes of a car, and a soft rack if it has one."""
     return BUSHES_OF[car] | (RACK if car.steered() else {})
 
 
-def force_at_design(car: Any) -> str:
+def force_at_design(car):
     return "strut.spring_force_at_design_N" if car is STRUT else "spring.force_at_design_N"
 
 
@@ -45,7 +44,7 @@ AXLE_OF_STRUTS = Axle.from_dict(
         "anti_roll_bar": BAR_OF[STRUT],
     }
 )
-WITHOUT_LOAD: dict[str, tuple[Any, Any, dict[str, Any]]] = {
+WITHOUT_LOAD = {
     **{
         car.suspension: (Model(car.with_changes({"bump_stop": None})), BUSHES_OF[car], {})
         for car in (STRUT, WISHBONES, LINKED, TRAILING)
@@ -94,7 +93,7 @@ def test_small_loads_are_those_of_the_unit_load_theorem(of, bushes, options, hel
 
 
 # With a bar that is twisted at design and loads the bushes there.
-LOADED: dict[str, tuple[Any, Any]] = {
+LOADED = {
     **{
         car.suspension: (
             Model(car.with_changes(HEAVY | {force_at_design(car): 4000.0})),

@@ -2,7 +2,6 @@
 
 import re
 import tomllib
-from typing import Any
 
 import numpy as np
 import pytest
@@ -21,7 +20,7 @@ from kintrafo import (
 from kintrafo.core.validator import Validator
 from kintrafo.core.vectors import unit_vector
 from kintrafo.vehicle.analysis.compliance.connections import CompliantJoints
-from kintrafo.vehicle.analysis.compliance.equilibrium import ElasticEquilibrium, ElasticState
+from kintrafo.vehicle.analysis.compliance.equilibrium import ElasticEquilibrium
 from kintrafo.vehicle.analysis.compliance.on_bushes import softs_of
 from kintrafo.vehicle.analysis.compliance.rigid_displacements import (
     Angles,
@@ -45,14 +44,14 @@ from support.folders import ROOT
 CARS = [STRUT, WISHBONES, LINKED, TRAILING]
 
 
-def without_stops(car: Suspension) -> Suspension:
+def without_stops(car):
     return car.with_changes({"bump_stop": None})
 
 
 # -- derivatives ----------------------------------------------------------------------------------
 
 
-def random_measures(rng: np.random.Generator) -> list[Any]:
+def random_measures(rng):
     bodies = np.array([[0, 1], [1, 2], [2, 1], [2, 0]])
     vectors = rng.normal(size=(3, 1, 4, 3))
     return [
@@ -89,9 +88,7 @@ def test_derivatives_are_those_along_screws(seed):
 # -- equilibrium ----------------------------------------------------------------------------------
 
 
-def pushed(
-    car: Suspension, bushes: Any, travel: float, force: list[float]
-) -> tuple[Any, ElasticState]:
+def pushed(car, bushes, travel, force):
     """Return the equilibrium under a force at the wheel centre, the wheel held at its height."""
     model = Model(car)
     with Validator("test") as given:
@@ -312,7 +309,7 @@ def test_what_the_suspension_cannot_do_ends_a_command_with_1(kintrafo, tmp_path)
 
 def test_what_cannot_be_is_refused(refused):
     model = Model("reference_car")
-    bushes: dict[str, Any] = {"arm_rear": {"axial_N_per_mm": 500.0}}
+    bushes = {"arm_rear": {"axial_N_per_mm": 500.0}}
     with pytest.raises(InputError, match="under"):
         compliance.nonlinear(model, bushes, "sideways", [1.0])
     with pytest.raises(InputError, match="1e\\+06 N"):
@@ -368,7 +365,7 @@ BEARINGS = {
 }  # fmt: skip
 
 
-def _given_way(bush: Any, force: np.ndarray) -> np.ndarray:
+def _given_way(bush, force):
     """Return where a bush goes under a force, by a search along each of its axes [m]."""
     carried = bush.axes @ force
     found = bush.soft * carried
@@ -379,8 +376,7 @@ def _given_way(bush: Any, force: np.ndarray) -> np.ndarray:
         size = np.linalg.norm(carried[1:])
         far = brentq(lambda d: radial.force(np.array(d)) - size, 0.0, 0.1, xtol=1e-15)
         found[1:] = far * carried[1:] / size
-    moved: np.ndarray = bush.axes.T @ found
-    return moved
+    return bush.axes.T @ found
 
 
 @pytest.mark.parametrize("kind", BEARINGS)
@@ -396,7 +392,7 @@ def test_two_bearings_share_a_force_as_their_bushes_do(kind, on):
         bushes = {one: front, other: rear}
         with Validator("test") as given:
             axle = Axle.from_dict({"axle": "front", "side": car})
-            assembly: Any = assembly_of(model if on == "suspension" else axle)
+            assembly = assembly_of(model if on == "suspension" else axle)
             suffix = "" if on == "suspension" else f"_{car.vehicle.side}"
             soft = softs_of(given, assembly, bushes, "loaded")[suffix]
         forces = {at: soft.carried["chassis", arm, at][:3] for at in (one, other)}
@@ -422,11 +418,11 @@ def test_two_bearings_share_a_force_as_their_bushes_do(kind, on):
 @pytest.mark.parametrize("what", ["bush", "tyre"])
 def test_loads_that_no_rubber_carries_are_refused(subject, what):
     """They are what a slip of the hand makes, and used to give metres without a word."""
-    bushes: dict[str, Any] = {"arm_rear": {"axial_N_per_mm": 400.0, "radial_N_per_mm": 1200.0}}
+    bushes = {"arm_rear": {"axial_N_per_mm": 400.0, "radial_N_per_mm": 1200.0}}
     tyre = {"tyre.lateral_rate_N_per_m": 55e3} if what == "tyre" else {}
     car = Suspension.load("reference_car").with_changes(tyre)
     rods = {"panhard_rod_chassis": {"axial_N_per_mm": 500.0}}
-    doors: dict[str, Any] = {
+    doors = {
         "suspension": lambda most: compliance.nonlinear(Model(car), bushes, "lateral", [most]),
         "axle": lambda most: compliance.nonlinear(
             Axle.from_dict({"axle": "front", "side": car}), bushes, "lateral", [most]
@@ -454,15 +450,14 @@ def test_wheels_that_lie_in_their_bushes_at_rest_are_refused():
         )
 
 
-def _of_page(page: str, name: str) -> dict[str, Any]:
+def _of_page(page, name):
     """Return the bushes that a page of the documentation has."""
     text = (ROOT / "docs/suspension" / page).read_text(encoding="utf-8")
     block = re.search(rf"```toml\n# {name}\n(.*?)```", text, re.DOTALL)
-    bushings: dict[str, Any] = tomllib.loads(block[1])["bushings"]
-    return bushings
+    return tomllib.loads(block[1])["bushings"]
 
 
-def _slope_over_first_order(changes: Any) -> float:
+def _slope_over_first_order(changes):
     """Return the slope at zero, by central differences, over that of first order."""
     slopes = changes.values[:, 1] - changes.values[:, 0]
     return float(slopes[0] / slopes[1])

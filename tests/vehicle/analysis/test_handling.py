@@ -36,7 +36,7 @@ def car():
     return rail_car.car(**values)
 
 
-def quiet(part: float) -> None:
+def quiet(part):
     del part
 
 

@@ -1,7 +1,5 @@
 """Loads as cards of programs for strength."""
 
-from typing import Any
-
 import kintrafo
 import numpy as np
 import pytest
@@ -13,7 +11,7 @@ from oracle.load_cards import READERS, wrench, wrenches
 
 CAR = Model("reference_car")
 TURN = {"left": {"contact_N": [0, 900, 3000]}, "right": {"contact_N": [400, 2000, 5000]}}
-SUBJECTS: dict[str, Any] = {"corner": CAR, "axle": AXLE, "rigid": RIGID["lopsided"]}
+SUBJECTS = {"corner": CAR, "axle": AXLE, "rigid": RIGID["lopsided"]}
 # Numbers of the cards have 10 digits, and points of 1 m carry forces of 1e4 N: some tens of them.
 FORCE, MOMENT = 1e-4, 1e-4
 
@@ -107,7 +105,7 @@ def test_inertia_keeps_parts_of_a_motion_in_equilibrium(tmp_path):
     ],
 )
 def test_what_cannot_be_written(tmp_path, found, changes, words):
-    given: dict[str, Any] = {"dataset": found["corner"], "path": "loads.inp"} | changes
+    given = {"dataset": found["corner"], "path": "loads.inp"} | changes
     with pytest.raises(InputError, match=words):
         loads.write_cards(**given | {"path": tmp_path / given["path"]})
     assert not [*tmp_path.iterdir()]

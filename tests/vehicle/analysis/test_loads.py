@@ -4,11 +4,9 @@ import csv
 import math
 import re
 from contextlib import suppress
-from typing import Any
 
 import numpy as np
 import pytest
-import xarray as xr
 from cars.instants import Instant
 from kintrafo import (
     InputError,
@@ -44,9 +42,9 @@ STOPPED = CAR.with_changes(
 STILL = {"static": {"contact_g": [0.0, 0.0, 1.0]}}
 
 
-def heavy(suspension: Suspension) -> Suspension:
+def heavy(suspension):
     """Return a suspension all of whose parts have mass, beside every axis."""
-    changes: dict[str, Any] = {}
+    changes = {}
     for i, body in enumerate(("tie_rod", "upper_strut", "rack")):
         center = {"tie_rod": [-120.0, -510.0, 255.0], "upper_strut": [-15.0, -600.0, 770.0]}
         changes[f"bodies.{body}.mass_kg"] = 1.0 + i
@@ -56,7 +54,7 @@ def heavy(suspension: Suspension) -> Suspension:
     return suspension.with_changes(changes)
 
 
-def total(found: xr.Dataset, part: str, by: str, about: np.ndarray) -> np.ndarray:
+def total(found, part, by, about):
     """Return force and moment about a point that one part exerts on another."""
     chosen = found.isel(load=((found["part"] == part) & (found["by"] == by)).values)
     force, moment = chosen["force"].values[0], chosen["moment"].values[0]
@@ -98,7 +96,7 @@ def test_loads_of_the_joints_are_the_multipliers(seed, free):
 
     def multipliers(first, second):
         own = (bodies == (first, second)).all(axis=1)
-        wrench: np.ndarray = -(rows[own].T @ solved.multipliers[:count][own]).reshape(6, 6)
+        wrench = -(rows[own].T @ solved.multipliers[:count][own]).reshape(6, 6)
         return wrench[second - 1]
 
     for first, second in pairs:
@@ -175,7 +173,7 @@ def test_joints_do_no_work(car):
     bodies = model.equations.BODIES
     twists = model.evaluate("velocities", states, inputs)
     centers = model.evaluate("positions", states, inputs)
-    powers: dict[frozenset[str], np.ndarray] = {}
+    powers = {}
     for i, (part, by) in enumerate(zip(found["part"].values, found["by"].values, strict=True)):
         acting = ("gravity", "inertia", "spring", "damper", "road", "steering")
         if by in acting or part == "chassis":
@@ -234,7 +232,7 @@ def test_at_rest_positions_are_those_of_the_equations(car):
     assert float(found["residual"].max()) < 1e-8
 
 
-def state_of(model: Model, travel: float, rack: float) -> tuple[np.ndarray, np.ndarray]:
+def state_of(model, travel, rack):
     """Return state and inputs of a position at rest."""
     return at_rest(model, arm_angles(model, design_height(model) + travel, rack), rack)
 

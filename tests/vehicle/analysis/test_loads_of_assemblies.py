@@ -1,7 +1,5 @@
 """Loads of corners, axles and rigid axles: what holds for every assembly."""
 
-from typing import Any
-
 import kintrafo
 import numpy as np
 import pytest
@@ -22,7 +20,7 @@ AXLES = {
     "multi-link": Axle.from_dict({"axle": "rear", "side": Suspension.load("multi_link_car")}),
 }
 WHOLE = {name: kintrafo.load(name) for name in whole_axles()}
-EVERY: dict[str, Any] = {**CORNERS, **AXLES, **RIGID, **WHOLE}
+EVERY = {**CORNERS, **AXLES, **RIGID, **WHOLE}
 SHORT = {"corner": CORNERS["reference_car"], "axle": AXLE, "rigid": RIGID["lopsided"]}
 each = pytest.mark.parametrize("subject", EVERY.values(), ids=EVERY)
 
@@ -36,12 +34,12 @@ RIGHT = {
 HELD = {"travel_mm": 12.0, "contact_N": [800.0, -500.0, 0.0]}
 
 
-def steered(subject: Any) -> bool:
+def steered(subject):
     """Return whether there is a rack."""
     return assembly_of(subject).steered
 
 
-def cases_of(subject: Any) -> dict[str, Any]:
+def cases_of(subject):
     """Return cases with free wheels, with held ones, and with one of each."""
     rack = {"rack_mm": 8.0} if steered(subject) else {}
     if isinstance(subject, Model):
@@ -111,12 +109,12 @@ def test_mounts_carry_together_what_the_chassis_does(subject):
     np.testing.assert_allclose(together, wrench(found.isel(load=own.values)), atol=1e-7)
 
 
-def other(name: str) -> str:
+def other(name):
     """Return a name with its sides exchanged."""
     return name.replace("left", "?").replace("right", "left").replace("?", "right")
 
 
-def image_of(subject: Any) -> Any:
+def image_of(subject):
     """Return the mirror image of an assembly whose sides are alike but for its rods."""
     if not isinstance(subject, RigidAxle):
         return subject.mirror_image if isinstance(subject, Model) else subject
@@ -127,7 +125,7 @@ def image_of(subject: Any) -> Any:
     return RigidAxle.from_dict(subject.to_dict() | {"rods": rods})
 
 
-def mirrored(case: dict[str, Any]) -> dict[str, Any]:
+def mirrored(case):
     """Return the mirror image of what a case says of a wheel."""
     signs = {"N": [1.0, -1.0, 1.0], "Nm": [-1.0, 1.0, -1.0]}
     return {
@@ -161,7 +159,7 @@ def test_the_mirror_image_of_a_case_is_carried_alike(subject):
 # -- errors ---------------------------------------------------------------------------------------
 
 # Of every assembly, of those with two wheels, and of one of them.
-WRONG: list[tuple[str, Any, str]] = [
+WRONG = [
     *(
         (name, cases, words)
         for name in SHORT
@@ -202,7 +200,7 @@ WRONG: list[tuple[str, Any, str]] = [
     ("rigid", {"a": {"left": {"rack_mm": 3.0}}}, "its wheels are not steered"),
 ]
 FAR = {"travel_mm": 900.0}
-BEYOND: list[tuple[str, Any, str]] = [
+BEYOND = [
     ("corner", FAR, "wheel height 1200 mm is out of reach"),
     ("corner", {"rack_mm": 900.0}, "the rack cannot be at 900 mm"),
     ("axle", {"left": FAR}, "left: wheel height 1200 mm is out of reach"),
@@ -280,12 +278,12 @@ def test_usual_cases_of_an_axle_act_where_its_file_holds_the_torque(axle, drive,
 def test_arguments_that_cannot_be_used(subject):
     for load in (0.0, -3.0, np.inf, "much"):
         with pytest.raises(InputError, match="static_load"):
-            loads.static(subject, static_load=load)  # type: ignore[arg-type]
+            loads.static(subject, static_load=load)
     for function in (loads.static, loads.standard_cases):
         with pytest.raises(InputError, match="a RigidAxle is needed"):
             function("rigid_axle")
     with pytest.raises(InputError, match="RigidAxleModel or CarModel is needed"):
-        loads.along(Suspension.load("reference_car"), 3)  # type: ignore[arg-type]
+        loads.along(Suspension.load("reference_car"), 3)
 
 
 def test_dead_points_are_named(monkeypatch):

@@ -1,7 +1,5 @@
 """How cars ride: roads, weighting, rest, modes, linear responses, simulations."""
 
-from __future__ import annotations
-
 import kintrafo
 import numpy as np
 import pytest

@@ -8,21 +8,11 @@ along the line to the rod's other end, wherever the axle goes: SciPy puts a beam
 import math
 import re
 import tomllib
-from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 import pytest
 from cars.rigid_axles import AXLE, FIVE, LOPSIDED, TRIANGULATED, Found
-from kintrafo import (
-    InputError,
-    PositionError,
-    RigidAxle,
-    RigidAxleModel,
-    characteristics,
-    compliance,
-    loads,
-)
+from kintrafo import InputError, PositionError, RigidAxleModel, characteristics, compliance, loads
 from kintrafo.vehicle.analysis.checkup import checkup
 from kintrafo.vehicle.analysis.compliance.tables import compliances_of_beam
 from kintrafo.vehicle.analysis.sheet import sheet
@@ -33,7 +23,6 @@ from scipy.optimize import root
 from scipy.spatial.transform import Rotation
 from support.folders import ROOT
 
-Array = np.ndarray
 UP = np.array([0.0, 0.0, 1.0])
 SIDES = {"left": 1.0, "right": -1.0}
 # Without preload, as the linear theory has it, and with stops that just touch.
@@ -42,7 +31,7 @@ FREE = {
     "spring.force_at_design_N": 0.0,
     "bump_stop": {"clearance_mm": 0.0, "rate_N_per_m": 5e4, "progression_N_per_mm3": 0.05},
 }
-BUSHES: dict[str, dict[str, Any]] = {
+BUSHES = {
     "left_link_chassis": {"axial_N_per_mm": 900.0, "radial_N_per_mm": [1500.0, 4000.0],
                           "axis": [0.1, 1.0, 0.0], "radial_axis": [1.0, 0.0, 0.3]},
     "left_link_axle": {"axial_N_per_mm": 2500.0},
@@ -58,7 +47,7 @@ OF = {
 }  # fmt: skip
 
 
-def upward(axis: Array) -> Array:
+def upward(axis):
     """Return what points up in the plane of a wheel."""
     found = UP - axis * axis[2]
     return found / np.linalg.norm(found)
@@ -67,7 +56,7 @@ def upward(axis: Array) -> Array:
 class Placed:
     """The points of an axle where the root finder puts it."""
 
-    def __init__(self, axle: RigidAxle, heave: float = 0.0, roll: float = 0.0) -> None:
+    def __init__(self, axle, heave=0.0, roll=0.0):
         self.axle = axle
         fifth = {*axle.rods} - {*axle.guides}
         four = axle.with_changes({f"rods.{name}": None for name in fifth} | {"bushings": None})
@@ -80,21 +69,20 @@ class Placed:
                        for s, k in SIDES.items()}  # fmt: skip
         self.contacts = {s: self.contact(s) for s in SIDES}
 
-    def beam(self, point: Array) -> Array:
+    def beam(self, point):
         return np.asarray(self.middle + self.turn.apply(point - self.axle.center))
 
-    def contact(self, side: str) -> Array:
+    def contact(self, side):
         radius = self.axle.tyre_radius()
-        assert radius is not None
         axis = self.turn.apply(self.axle.wheel.spin_axis(SIDES[side]))
         return self.wheels[side] - radius * upward(axis)
 
-    def ends(self, line: str, side: str) -> tuple[Array, Array]:
+    def ends(self, line, side):
         points = self.axle.points(side)
         return points[f"{line}_top"], self.beam(points[f"{line}_seat"])
 
 
-def matrix(bush: Mapping[str, Any], axis: Array) -> Array:
+def matrix(bush, axis):
     """Return how soft a bush is, (3, 3) [m/N]."""
     axis = np.array(bush.get("axis", axis), dtype=float)
     axis /= np.linalg.norm(axis)
@@ -108,13 +96,13 @@ def matrix(bush: Mapping[str, Any], axis: Array) -> Array:
 
 
 def stiffnesses(  # noqa: C901, PLR0915 (one thing after the other)
-    axle: RigidAxle, bushes: Mapping[str, Any], travel: float, held: str
-) -> Array:
+    axle, bushes, travel, held
+):
     """Return displacements and rotations of both contacts by forces and moments, chassis axes."""
     at = Placed(axle, travel)
     stiff, rigid = np.zeros((18, 18)), []
 
-    def on_beam(point: Array, along: Array) -> Array:
+    def on_beam(point, along):
         return np.concatenate([along, np.cross(point - at.middle, along), np.zeros(12)])
 
     for name, (inner, outer) in at.rods.items():
@@ -168,7 +156,6 @@ def stiffnesses(  # noqa: C901, PLR0915 (one thing after the other)
     across = at.turn.apply([0.0, 1.0, 0.0])
     about = np.cross(across, UP) / math.hypot(across[0], across[1])
     bar = np.concatenate([np.zeros(3), about, np.zeros(12)])
-    assert axle.anti_roll_bar is not None
     stiff += math.degrees(axle.anti_roll_bar.rate_Nm_per_deg) * np.outer(bar, bar)
     return np.asarray(loads @ minimum(stiff, np.array(rigid), loads.T))
 
@@ -239,7 +226,7 @@ RATES = {"left_link_chassis": 400.0, "right_link_axle": 600.0, "upper_link_chass
 RATES_OF_FIVE = RATES | {"right_upper_link_chassis": 700.0}
 
 
-def every_way(rates: Mapping[str, float]) -> dict[str, Any]:
+def every_way(rates):
     """Return bushes that are as stiff in every direction."""
     return {p: {"axial_N_per_mm": rate, "radial_N_per_mm": rate} for p, rate in rates.items()}
 
@@ -250,7 +237,7 @@ EVERY_WAY = every_way(RATES)
 class OnSprings:
     """A beam with its wheels on springs along its rods, with springs, stops, bar and road."""
 
-    def __init__(self, axle: RigidAxle, *, loaded: bool) -> None:
+    def __init__(self, axle, *, loaded):
         self.axle, self.center = axle, axle.center
         self.rates = RATES_OF_FIVE if len(axle.rods) > len(RATES) else RATES
         at = Placed(axle)
@@ -265,7 +252,7 @@ class OnSprings:
             moved = (inner + shift, outer) if end == "chassis" else (inner, outer - shift)
             self.rods[name] = (*moved, 1e3 * rate, np.linalg.norm(way))
 
-    def at_design(self, at: Placed) -> dict[str, float]:
+    def at_design(self, at):
         """Return the pull of each rod at design, the road holding both wheels."""
         arms = [(outer, inner - outer) for inner, outer in at.rods.values()]
         columns = [np.concatenate([w, np.cross(p - self.center, w)]) / np.linalg.norm(w)
@@ -279,11 +266,11 @@ class OnSprings:
         right = np.concatenate([np.zeros(len(columns)), -self.inside(at)])
         return dict(zip(at.rods, np.linalg.solve(matrix, right), strict=False))
 
-    def inside(self, at: Placed) -> Array:
+    def inside(self, at):
         """Return force and moment of springs, stops, bar and weight about the design's middle."""
         axle, total = self.axle, np.zeros(6)
 
-        def push(point: Array, force: Array) -> None:
+        def push(point, force):
             total[:3] += force
             total[3:] += np.cross(point - self.center, force)
 
@@ -304,7 +291,6 @@ class OnSprings:
                     force = (4e4 * pressed + 5e7 * pressed**3) * (pressed > 0.0)
                     force *= axle.bump_stop is not None
                 push(seat, force * away / length)
-        assert axle.anti_roll_bar is not None
         across = at.turn.apply([0.0, 1.0, 0.0])
         roll, level = math.asin(across[2]), math.hypot(across[0], across[1])
         total[3:] -= math.degrees(axle.anti_roll_bar.rate_Nm_per_deg) * roll * (
@@ -312,14 +298,14 @@ class OnSprings:
         )  # fmt: skip
         return total
 
-    def solve(self, loads: Array, heights: Array | None, road: Array) -> tuple[Placed, Array]:
+    def solve(self, loads, heights, road):
         """Return where it is under force and moment on each wheel, (2, 6), and the road's forces.
 
         At some heights of the contacts, or under the road's forces as they are given.
         """
         at = Placed(self.axle)
 
-        def misfit(x: Array) -> Array:
+        def misfit(x):
             at.middle, at.turn = self.center + x[:3], Rotation.from_rotvec(x[3:6])
             at.wheels = {s: at.beam(self.center + k * self.axle.half_track * np.eye(3)[1])
                          for s, k in SIDES.items()}  # fmt: skip
@@ -344,7 +330,7 @@ class OnSprings:
         return at, 1e4 * found.x[6:]
 
 
-def told_of(at: Placed) -> dict[str, float]:
+def told_of(at):
     left, right = at.wheels["left"], at.wheels["right"]
     axis = at.turn.apply(at.axle.wheel.spin_axis(-1.0))
     return {
@@ -456,7 +442,7 @@ def test_five_rods_move_only_as_their_bushes_give_way():
         FIVE.with_changes({"bushings": None})
 
 
-WRONG: list[tuple[dict[str, Any], str]] = [
+WRONG = [
     {},
     {"panhard_rod": {"axial_N_per_mm": 900.0}},
     {"panhard_rod_axle": {"axial_N_per_mm": -1.0}},

@@ -4,11 +4,9 @@ The root finder of `test_rigid_axle` shares nothing with the equations or the ba
 """
 
 import math
-from typing import Any
 
 import numpy as np
 import pytest
-import xarray as xr
 from cars.rigid_axles import AXLE, LOPSIDED, MODEL, STOPPED, Found, each_axle, slopes
 from kintrafo import (
     InputError,
@@ -25,7 +23,7 @@ from kintrafo.vehicle.analysis.scenario import Scenario, run
 
 SIDES = ("left", "right")
 # Forces and moments at both places of both wheels, all of them different.
-PUSHED: dict[str, Any] = {
+PUSHED = {
     "pushed": {
         "left": {"contact_N": [-1500.0, 700.0, 5900.0], "contact_Nm": [20.0, 5.0, -60.0]},
         "right": {
@@ -44,13 +42,13 @@ PUSHED = {name.replace(" ", "_"): case for name, case in PUSHED.items()}
 each_case = pytest.mark.parametrize("case", PUSHED)
 
 
-def on(found: xr.Dataset, part: str, by: str = "") -> xr.Dataset:
+def on(found, part, by=""):
     """Return the loads on a part."""
     rows = (found["part"] == part) & found["by"].str.startswith(by)
     return found.isel(load=rows.values)
 
 
-def where(axle: RigidAxle, found: xr.Dataset) -> tuple[float, float]:
+def where(axle, found):
     """Return heave and roll of one case."""
     left, right = (float(found["travel"].sel(wheel=side)) for side in SIDES)
     return 0.5 * (left + right), math.asin(0.5 * (left - right) / axle.half_track)
@@ -59,25 +57,25 @@ def where(axle: RigidAxle, found: xr.Dataset) -> tuple[float, float]:
 class Held(Found):
     """The root finder with one rod longer than it is."""
 
-    def __init__(self, axle: RigidAxle, rod: int = 0, longer: float = 0.0) -> None:
+    def __init__(self, axle, rod=0, longer=0.0):
         super().__init__(axle)
         self.lengths = self.lengths + longer * np.eye(4)[rod]
 
 
-def outside(found: xr.Dataset) -> xr.Dataset:
+def outside(found):
     """Return what acts on the wheels from outside."""
     rows = found["by"].str.startswith("road") | found["by"].str.startswith("drive")
     return found.isel(load=rows.values)
 
 
-def work_of(axle: RigidAxle, here: xr.Dataset, at: tuple[float, float]) -> Any:
+def work_of(axle, here, at):
     """Return what takes poses and tells energy less the work of the outside from one pose on."""
     middle, turn = Found(axle).pose(*at)
     pushes = outside(here)
     places = pushes["at"].values
     local = turn.inv().apply(places - middle)
 
-    def potential(finder: Found, heave: float, roll: float) -> float:
+    def potential(finder, heave, roll):
         moved, turned = finder.pose(heave, roll)
         ways = moved + turned.apply(local) - places
         # a small turn from the pose; its square is odd, and even ones the differences leave out

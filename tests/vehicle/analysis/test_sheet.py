@@ -18,7 +18,7 @@ TO_SAE = np.diag([1.0, -1.0, -1.0])
 TURNED = {"steer_gradient", "roll_steer", "roll_center_lateral", "heave_steer", "jacking"}
 
 
-def _heading(model: Model, rack: float, axes: np.ndarray) -> float:
+def _heading(model, rack, axes):
     """Return the direction of the knuckle's forward axis about z in some axes [deg]."""
     states, inputs = at_rest(model, arm_angles(model, [design_height(model)], rack), rack)
     turned = model.evaluate("orientations", states, inputs)

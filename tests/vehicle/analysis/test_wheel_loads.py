@@ -3,7 +3,6 @@
 import pickle
 from dataclasses import replace
 from functools import cache
-from typing import Any
 
 import numpy as np
 import pytest
@@ -173,19 +172,19 @@ def test_a_car_with_friction_and_a_free_rack_is_looked_at():
 # -- rigid axles ----------------------------------------------------------------------------------
 
 SIDES = {"left": 1.0, "right": -1.0}
-CASE: dict[str, Any] = {
+CASE = {
     "left": {"contact_N": [-900.0, 700.0, 4900.0], "contact_Nm": [0.0, 0.0, 60.0]},
     "right": {"contact_N": [-1900.0, 1100.0, 7900.0], "center_N": [300.0, 0.0, -200.0]},
 }
 
 
 @cache
-def lopsided() -> RigidAxleModel:
+def lopsided():
     """Return an axle whose sides differ; its equations are compiled when first needed."""
     return RigidAxleModel(LOPSIDED, wheel_loads=True)
 
 
-def inputs_of(case: dict[str, Any]) -> dict[str, float]:
+def inputs_of(case):
     """Return a load case as inputs."""
     names = {"contact_N": "contact_force", "contact_Nm": "wheel_moment", "center_N": "center_force"}
     return {
@@ -228,7 +227,6 @@ def test_power_on_an_axle_is_that_at_the_places_of_the_root_finder():
         "forces", state, model.inputs({})
     )
     finder, radius = Found(LOPSIDED), LOPSIDED.tyre_radius()
-    assert radius is not None
     _, turn = finder.pose(*at)
     wanted = np.zeros(len(ours))
     spins = {side: model.state_names.index(f"{side}_spin_angle") for side in SIDES}

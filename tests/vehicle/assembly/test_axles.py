@@ -1,7 +1,6 @@
 """Axles: against their own compiled equations, differences, and formulas by hand."""
 
 import re
-from typing import Any
 
 import numpy as np
 import pytest
@@ -36,7 +35,7 @@ from kintrafo.vehicle.models.axle.bar import AntiRollBar
 from kintrafo.vehicle.models.axle.steering import SteeringCurve
 from kintrafo.vehicle.models.positions import arm_angles, design_height
 from kintrafo.vehicle.models.reach import at_rest, travel_range
-from kintrafo.vehicle.report import Chapter, axle_chapter
+from kintrafo.vehicle.report import axle_chapter
 from kintrafo.vehicle.studies.evaluation import values_of
 from scipy.optimize import brentq
 
@@ -44,7 +43,7 @@ CAR = Suspension.load("reference_car")
 BAR = AXLE.bar.model_dump(exclude_none=True)
 
 
-def somewhere(seed: int, count: int = 20, size: float = 0.05) -> tuple[np.ndarray, ...]:
+def somewhere(seed, count=20, size=0.05):
     """Return travels of both wheels and displacements of the rack [m]."""
     random = np.random.default_rng(seed)
     left, right = random.uniform(-size, size, (2, count))
@@ -101,7 +100,7 @@ def compiled(request):
     return AxleModel({"reference": AXLE, "bent": BENT}[request.param])
 
 
-def without_weight(model: AxleModel) -> AxleModel:
+def without_weight(model):
     """Return the axle on which springs, stops and bar act alone."""
     zero = {n: 0.0 for n in model.parameters if n.endswith(("tyre_rate", "gravity"))}
     other = AxleModel.__new__(AxleModel)
@@ -216,7 +215,7 @@ def test_in_the_middle_the_axle_is_what_its_sides_are():
     np.testing.assert_allclose(whole["bar_torque"], 0.0, atol=1e-8)
 
 
-def wheel_centers(axle: Axle, travels: Any, rack: float) -> dict[str, np.ndarray]:
+def wheel_centers(axle, travels, rack):
     """Return where the wheel centres are, by the signals of each side's equations [m]."""
     found = {}
     for (side, model), travel in zip(axle.models.items(), travels, strict=True):
@@ -569,7 +568,7 @@ def test_usual_positions_are_within_reach():
         motions.rolls(AXLE, motions.SweepRange(roll=-1.0))
 
 
-def pictured(chapter: Chapter) -> list[str]:
+def pictured(chapter):
     """Return the motions over which a chapter has curves, in one picture or several."""
     known = {f"Curves: {words}": name for name, words in motions.MOTIONS.items()}
     return [*dict.fromkeys(known[p.words.partition(", 1 of")[0].partition(", 2 of")[0]]

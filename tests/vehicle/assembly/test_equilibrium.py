@@ -1,7 +1,6 @@
 """The state of rest of a corner, an axle and a rigid axle: the same arguments do the same."""
 
 from functools import cache
-from typing import Any
 
 import kintrafo
 import numpy as np
@@ -30,11 +29,11 @@ each = pytest.mark.parametrize("name", MODELS)
 
 
 @cache
-def model_of(name: str) -> Any:
+def model_of(name):
     return MODELS[name]()
 
 
-def of_wheels(name: str, rest: kintrafo.State) -> tuple[np.ndarray, np.ndarray]:
+def of_wheels(name, rest):
     """Return heights of wheel centres and of the roads below them."""
     model, names = model_of(name), CENTERS[name].values()
     heights = [float(model.signal(f"{signals}wheel_center_z", rest)) for _, signals in names]

@@ -40,7 +40,7 @@ PAGE = ROOT / "docs/suspension/types.md"
 PLACES = [(0.0, 0.0), (0.06, 0.0), (-0.05, 0.08), (0.03, -0.1), (-0.08, -0.03)]
 
 
-def beam_at(axle: RigidAxle, heave: float, roll: float) -> RigidAxleKinematics:
+def beam_at(axle, heave, roll):
     """Return an axle in one position."""
     model = RigidAxleModel(axle)
     return RigidAxleKinematics(RigidAxleParts.of(model, model.state(heave=heave, roll=roll)[None]))
@@ -121,7 +121,7 @@ def test_rates_at_the_wheels_are_those_of_the_energy():
 # -- hand formulas of the guidance ----------------------------------------------------------------
 
 
-def planar(slope: float, height: float) -> RigidAxle:
+def planar(slope, height):
     """Return an axle with links along x, its Panhard rod in the plane of the wheels."""
     rise = 600.0 * slope
     return AXLE.with_changes(
@@ -426,7 +426,7 @@ def test_other_doors_refuse_it_by_name():
     with pytest.raises(InputError, match="rigid_axle is missing"):
         RigidAxle.from_dict({"axle": "rear"})
     with pytest.raises(InputError, match="a RigidAxle, a name or a path is needed"):
-        RigidAxleModel(3)  # type: ignore[arg-type]
+        RigidAxleModel(3)
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,5 @@
 """Anti-roll bars on soft bushes and drop links: springs in series, statics of a body on springs."""
 
-from typing import Any
-
 import numpy as np
 import pytest
 from kintrafo import Axle, InputError, characteristics, compliance, loads
@@ -9,7 +7,7 @@ from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.assembly.rig import SweepRange
 from kintrafo.vehicle.models.axle.bar import AntiRollBar
 
-STRAIGHT: dict[str, Any] = {
+STRAIGHT = {
     "unit": "mm",
     "bush": [240.0, -400.0, 320.0],
     "link_top": [30.0, -580.0, 320.0],
@@ -38,7 +36,7 @@ def test_springs_in_series():
     assert AntiRollBar(**STRAIGHT).rate() == pytest.approx(bar, rel=1e-12)
 
 
-def statics(bar: AntiRollBar, up: float, *, rigid: bool) -> tuple[float, float]:
+def statics(bar, up, *, rigid):
     """Return twist and torque of a bar, a body on springs, for a little further roll.
 
     Its coordinates are displacement, rotation and twist. One foot is moved up, the other one down,
@@ -49,7 +47,7 @@ def statics(bar: AntiRollBar, up: float, *, rigid: bool) -> tuple[float, float]:
     stiffness, load = np.zeros((7, 7)), np.zeros(7)
     middle = halves[0].bush * (1.0, 0.0, 1.0)
 
-    def spring(at: Any, along: Any, twist: Any, rate: float, moved: float) -> None:
+    def spring(at, along, twist, rate, moved):
         row = np.concatenate([along, np.cross(at - middle, along), [twist @ along]])
         stiffness[...] += rate * np.outer(row, row)
         load[...] += rate * row * moved
@@ -85,10 +83,9 @@ def test_a_bar_as_a_body_on_springs(points):
 # -- in an axle ---------------------------------------------------------------------------------
 
 
-def axle_with(**keys: Any) -> Axle:
+def axle_with(**keys):
     """Return the reference axle with a bar that has further keys."""
     axle = Axle.load("reference_axle")
-    assert axle.bar is not None
     bar = axle.bar.model_dump(exclude_none=True) | keys
     return Axle.from_dict({"axle": "front", "side": axle.right, "anti_roll_bar": bar})
 
@@ -98,7 +95,6 @@ STIFF, YIELDING = axle_with(), axle_with(**SOFT)
 
 def test_an_axle_rolls_as_much_more():
     """Roll stiffness, the torque of the bar, and the loads on its links and bearings."""
-    assert YIELDING.bar is not None
     share = YIELDING.bar.rate() / YIELDING.bar.rate_of_bar()
     extent = SweepRange(roll=0.02)
     stiff, soft = (
@@ -116,7 +112,6 @@ def test_an_axle_rolls_as_much_more():
 
 def test_the_matrix_of_both_contacts_has_the_bar():
     """Stiffness of both wheels under vertical forces: with the bar, its rate times slopes."""
-    assert YIELDING.bar is not None
     bushes, vertical = {"rack": {"axial_N_per_mm": 5000.0}}, [2, 8]
     without = Axle.from_dict({"axle": "front", "side": STIFF.right})
 

@@ -5,10 +5,7 @@ of every mechanism. Here the poses of beam and knuckles are the root of all dist
 forces of the steering follow from virtual work on these poses.
 """
 
-from __future__ import annotations
-
 import math
-from typing import Any
 
 import kintrafo
 import numpy as np
@@ -32,7 +29,6 @@ from kintrafo.vehicle.studies.design_variables import places_of
 from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
-Array = np.ndarray
 AXLE = load("steered_rigid_axle")
 MODEL = kintrafo.model_of(AXLE)
 SIDES = ("left", "right")
@@ -51,7 +47,7 @@ class Poses:
 
     BODIES = ("beam", *SIDES)
 
-    def __init__(self, axle: Any, longer: dict[str, float] | None = None) -> None:
+    def __init__(self, axle, longer=None):
         self.axle, unit = axle, 1e-3
         self.longer = {"drag": 0.0, "track": 0.0} | (longer or {})
         right = {n: unit * np.array(getattr(axle.hardpoints, n)) for n in
@@ -67,17 +63,17 @@ class Poses:
             (unit * np.array(r.chassis), unit * np.array(r.axle)) for r in axle.rods.values()
         ]
 
-    def pitman(self, rack: float) -> Array:
+    def pitman(self, rack):
         """Return where the ball of the Pitman arm is."""
         turn = Rotation.from_rotvec(self.axis * rack / self.length)
         return self.pivot + turn.apply(self.ball - self.pivot)
 
-    def at(self, x: Array, body: str, point: Array) -> Array:
+    def at(self, x, body, point):
         """Return where a point of a body is, of its place at design."""
         own = x.reshape(3, 6)[self.BODIES.index(body)]
         return np.asarray(point + own[:3] + Rotation.from_rotvec(own[3:]).apply(point) - point)
 
-    def misfit(self, x: Array, rack: float, heights: Array | None, beam: Array | None) -> Array:
+    def misfit(self, x, rack, heights, beam):
         near = self.axle.drag_link.side
         off = [
             np.linalg.norm(self.at(x, "beam", end) - start) - np.linalg.norm(end - start)
@@ -98,9 +94,7 @@ class Poses:
         centre = self.points["left"]["wheel_center"][2]
         return np.array([*off, *(np.array(wheels) - centre - heights)])
 
-    def found(
-        self, rack: float, heights: tuple[float, float] = (0.0, 0.0), beam: Array | None = None
-    ) -> Array:
+    def found(self, rack, heights=(0.0, 0.0), beam=None):
         """Return the poses at heights of both wheel centres, or with the pose of the beam."""
         given = (rack, np.array(heights), beam)
         root = least_squares(
@@ -110,7 +104,7 @@ class Poses:
         assert np.abs(root.fun).max() < 2e-14
         return np.asarray(root.x)
 
-    def direction(self, x: Array, side: str, way: Array) -> Array:
+    def direction(self, x, side, way):
         """Return a direction of a knuckle."""
         turn = x.reshape(3, 6)[self.BODIES.index(side), 3:]
         return np.asarray(Rotation.from_rotvec(turn).apply(way))
@@ -170,7 +164,7 @@ CASES = {
 }
 
 
-def work(axle: Any, case: Any, poses: tuple[Array, Array], oracle: Poses) -> float:
+def work(axle, case, poses, oracle):
     """Return the work of contact forces and weights between two poses with the same beam."""
     total = 0.0
     g, body, wheel = 9.81, axle.bodies.knuckle, axle.bodies.wheel

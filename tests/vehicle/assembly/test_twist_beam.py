@@ -6,8 +6,6 @@ instant, what roll does first is compared with the drawing of textbooks, stiffne
 of springs and beam, and compliance with a frame of two rigid bodies on springs.
 """
 
-from typing import Any
-
 import numpy as np
 import pytest
 from kintrafo import (
@@ -27,7 +25,6 @@ from kintrafo.vehicle.assembly.twist_beam import TwistBeamParts
 from oracle.constraints import skew
 from scipy.integrate import solve_ivp
 
-Array = np.ndarray
 AXLE = load("twist_beam")
 MODEL = model_of(AXLE)
 UPRIGHT = AXLE.with_changes({"wheel.camber_deg": 0.0, "wheel.toe_deg": 0.0})
@@ -40,7 +37,7 @@ BUSH = {"axial_N_per_mm": 1200.0, "radial_N_per_mm": 4000.0}
 K_AXIAL, K_RADIAL = 1.2e6, 4e6
 
 
-def of(side: str, point: Array) -> Array:
+def of(side, point):
     """Return the image of a point of the right side."""
     return point if side == "right" else point * MIRROR
 
@@ -48,7 +45,7 @@ def of(side: str, point: Array) -> Array:
 # -- positions ------------------------------------------------------------------------------------
 
 
-def turning(turned: dict[str, Array], rises: Array) -> Array:
+def turning(turned, rises):
     """Return the angular velocities of both halves at rates of both wheels' heights, (2, 3).
 
     Their pivots are still. In the middle of the beam they have one velocity, and turn against each
@@ -70,10 +67,10 @@ def turning(turned: dict[str, Array], rises: Array) -> Array:
     return found.reshape(2, 3)
 
 
-def followed(left: float, right: float) -> dict[str, Array]:
+def followed(left, right):
     """Return the rotations of both halves at heights of the wheels, from design on."""
 
-    def rates(_: float, state: Array) -> Array:
+    def rates(_, state):
         frames = state.reshape(2, 3, 3)
         turned = dict(zip(SIDES, frames, strict=True))
         omega = turning(turned, np.array([left, right]))
@@ -117,7 +114,7 @@ def test_positions_out_of_reach_are_refused():
 # -- motion in roll -------------------------------------------------------------------------------
 
 
-def drawn(side: str = "left") -> dict[str, float]:
+def drawn(side="left"):
     """Return what a drawing of the axle says, without camber and toe.
 
     In roll a wheel turns about the line from its pivot to the shear centre. Where that passes the
@@ -148,7 +145,7 @@ def test_first_order_in_roll_is_that_of_the_drawing():
 # -- springs --------------------------------------------------------------------------------------
 
 
-def energy(left: float, right: float) -> float:
+def energy(left, right):
     """Return the energy of springs and beam, from rotations that are followed."""
     turned = followed(left, right)
     total = 0.0
@@ -161,10 +158,10 @@ def energy(left: float, right: float) -> float:
     return total
 
 
-def twist(left: float, right: float) -> float:
+def twist(left, right):
     """Return the twist of the beam, the sum of the halves' turns about the pivots' direction."""
 
-    def rates(_: float, state: Array) -> Array:
+    def rates(_, state):
         frames = state[:-1].reshape(2, 3, 3)
         omega = turning(dict(zip(SIDES, frames, strict=True)), np.array([left, right]))
         moved = [(skew(w) @ r).ravel() for w, r in zip(omega, frames, strict=True)]
@@ -199,12 +196,12 @@ def test_forces_and_rates_are_slopes_of_the_energy():
         np.testing.assert_allclose(rates[:, i], change, rtol=1e-6, atol=1e-6 * np.abs(rates).max())
 
 
-def _at(heights: Array) -> Any:
+def _at(heights):
     position = RigPosition({"left": heights[:1], "right": heights[1:]}, np.zeros(()))
     return assembly_of(AXLE).kinematics(position)
 
 
-def _force(heights: Array, side: str) -> float:
+def _force(heights, side):
     return float(_at(heights).wheel_force(side)[0])
 
 
@@ -237,7 +234,7 @@ class Frame:
     its rate. Unknown are six motions of each half, and what holds them.
     """
 
-    def __init__(self) -> None:
+    def __init__(self):
         self.stiffness = np.zeros((12, 12))
         pivot = np.diag([K_RADIAL, K_AXIAL, K_RADIAL])
         for i, side in enumerate(SIDES):
@@ -260,7 +257,7 @@ class Frame:
             self.springs += MODEL.parameters["spring_rate"] * np.outer(row, row)
 
     @staticmethod
-    def at(half: int, point: Array) -> Array:
+    def at(half, point):
         """Return how a point moves by the motions of a half, which are about the origin."""
         rows = np.zeros((3, 12))
         rows[:, 6 * half : 6 * half + 3], rows[:, 6 * half + 3 : 6 * half + 6] = (
@@ -269,7 +266,7 @@ class Frame:
         )
         return rows
 
-    def under(self, forces: dict[str, Array]) -> Array:
+    def under(self, forces):
         """Return the motions of both halves under forces at the contacts, (2, 6)."""
         load = sum(
             self.at(i, of(side, WHEEL) * [1.0, 1.0, 0.0]).T @ forces[side]

@@ -1,9 +1,5 @@
 """Numbers that no car can have are refused before its equations are derived."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import pytest
 from kintrafo import InputError
 from kintrafo.vehicle.analysis.handling import load_manoeuvre
@@ -11,15 +7,10 @@ from kintrafo.vehicle.cli import drive, ride
 from kintrafo.vehicle.data.starter import manoeuvres
 from kintrafo.vehicle.input.units import unit_of
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    Run = Callable[..., tuple[int, str, str]]
-
 SILLY = ("0", "-1", "nan", "inf", "1e9", "1e-9", "1e300")
 BUMP, KERB = ("--bump-height", "20"), ("--kerb", "50", "--contact-length", "120")
 # Options of ride, others beside them, and values that are a road, though a flat or a smooth one.
-OPTIONS: dict[tuple[str, tuple[str, ...]], tuple[str, ...]] = {
+OPTIONS = {
     **{
         (name, beside): ()
         for name in ("--speed", "--duration", "--output-step")

@@ -1,14 +1,12 @@
 """Subsystems of Adams/Car: the same car comes back that was written, or words of what is wrong."""
 
 import re
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from cars.adams_files import kind_of, rows_of, subsystem
 from kintrafo import InputError, Model, Suspension, characteristics
-from kintrafo.vehicle.files.adams_car import ImportedSubsystem, imported, read, read_names
+from kintrafo.vehicle.files.adams_car import imported, read, read_names
 from kintrafo.vehicle.files.point_table import write_merged
 from kintrafo.vehicle.kinds import KINDS
 from support.folders import ROOT
@@ -29,17 +27,17 @@ MORE = """\
 """
 
 
-def written(folder: Path, text: str, encoding: str = "utf-8") -> Path:
+def written(folder, text, encoding="utf-8"):
     path = folder / "front.sub"
     path.write_bytes(text.encode(encoding))
     return path
 
 
-def taken(folder: Path, text: str, **how: Any) -> ImportedSubsystem:
+def taken(folder, text, **how):
     return imported(read(written(folder, text)), **how)
 
 
-def loaded(found: ImportedSubsystem, folder: Path) -> Suspension:
+def loaded(found, folder):
     return Suspension.load(write_merged(found, folder / "imported.toml", force=True))
 
 
@@ -95,7 +93,7 @@ def test_what_lies_elsewhere_is_brought_along(tmp_path):
             assert force_at_design(new) == pytest.approx(force_at_design(old), abs=1e-5)
 
 
-def force_at_design(car: Any) -> float:
+def force_at_design(car):
     """Return the force of a strut's spring at design [N]."""
     if not hasattr(car, "strut"):
         return float(car.spring.force_at_design_N)
@@ -302,7 +300,7 @@ def test_a_straight_spring_is_read(kind, folder, tmp_path):
     (tmp_path / folder / "own.spr").write_text(SPRING, encoding="utf-8")
     found = taken(tmp_path, subsystem(CARS[kind], more=MORE + PRELOAD))
     assert ("read", "spring 45 N/mm, 5100 N at design (own.spr)") in found.words()
-    car: Any = loaded(found, tmp_path)
+    car = loaded(found, tmp_path)
     if kind == "macpherson":
         assert car.strut.spring_rate_N_per_m == 45000.0
         assert force_at_design(car) == pytest.approx(5100.0)
@@ -320,10 +318,8 @@ def test_the_force_at_an_installed_length_is_that_of_the_curve(unit, factor, tmp
     own = own.replace("-50.0 ", repr(-50.0 / factor)).replace("100.0 ", repr(100.0 / factor) + " ")
     (tmp_path / "own.spr").write_text(own, encoding="utf-8")
     spring = taken(tmp_path, text).spring
-    assert spring is not None
     assert spring.force == pytest.approx(3600.0)
     far = taken(tmp_path, text.replace("USER_VALUE = 220", "USER_VALUE = 100"))
-    assert far.spring is not None
     assert far.spring.force is None  # beyond the curve
     assert any("USER_VALUE = 100" in line for line in far.left_out)
 
@@ -334,7 +330,6 @@ def test_units_of_a_spring(tmp_path):
     text = text.replace("-50.0  -2250.0", "-1.0 -100.0").replace("100.0  4500.0", "2.0 200.0")
     (tmp_path / "own.spr").write_text(text, encoding="utf-8")
     spring = taken(tmp_path, subsystem(WISHBONES, more=MORE)).spring
-    assert spring is not None
     assert spring.force is None
     assert spring.rate == pytest.approx(100.0 * 0.45359237 * 9.80665 / 0.0254)
 
@@ -349,7 +344,7 @@ def test_a_spring_by_a_curve_is_read(kind, preload, tmp_path):
     (tmp_path / "own.spr").write_text(text, encoding="utf-8")
     entries = "" if preload is None else PRELOAD.replace("5100", "1500")
     found = taken(tmp_path, subsystem(CARS[kind], more=MORE + entries), kind=kind)
-    car: Any = loaded(found, tmp_path)
+    car = loaded(found, tmp_path)
     seats = car.hardpoints.distance("spring_seat", "spring_top")
     assert car.spring.compression_mm == tuple(curve)
     assert car.spring.force_N == tuple(curve.values())
@@ -407,7 +402,7 @@ def test_springs_that_are_not_taken(tmp_path):
     assert shown in based.left_out
 
 
-def changed(old: str, new: str, count: int = -1) -> str:
+def changed(old, new, count=-1):
     text = subsystem(WISHBONES)
     assert old in text
     return text.replace(old, new, count)

@@ -3,11 +3,8 @@
 What a car must be is computed here from these files once more, in the axes of Chrono's chassis.
 """
 
-from __future__ import annotations
-
 import json
 import shutil
-from typing import TYPE_CHECKING, Any
 
 import kintrafo
 import numpy as np
@@ -19,9 +16,6 @@ from scipy.spatial.transform import Rotation
 from support.folders import DATA
 from typer.testing import CliRunner
 
-if TYPE_CHECKING:
-    from pathlib import Path
-
 FILES = json.loads((DATA / "chrono/vehicle.json").read_text(encoding="utf-8"))
 VEHICLE = "generic/vehicle/Vehicle_DoubleWishbones_ARB.json"
 ARM, RACK = "generic/suspension/SemiTrailingArm.json", "generic/steering/RackPinion.json"
@@ -30,11 +24,11 @@ PITMAN, TIRE = "generic/steering/PitmanArm.json", "generic/tire/RigidTire.json"
 FRONT, REAR = (f"generic/suspension/DoubleWishbone{x}.json" for x in ("Curve", ""))
 
 
-def changed(files: dict[str, Any], changes: dict[tuple[Any, ...], Any]) -> dict[str, Any]:
+def changed(files, changes):
     """Return files with other values, by the file and the keys in it; None removes one."""
     files = json.loads(json.dumps(files))
     for (*above, key), value in changes.items():
-        place: Any = files
+        place = files
         for each in above:
             place = place[each]
         if value is None:
@@ -44,7 +38,7 @@ def changed(files: dict[str, Any], changes: dict[tuple[Any, ...], Any]) -> dict[
     return files
 
 
-def folder(tmp_path: Path, changes: dict[tuple[Any, ...], Any] | None = None) -> Path:
+def folder(tmp_path, changes=None):
     """Return a folder of data with the files."""
     for name, data in changed(FILES, changes or {}).items():
         file = tmp_path / "data" / name
@@ -53,7 +47,7 @@ def folder(tmp_path: Path, changes: dict[tuple[Any, ...], Any] | None = None) ->
     return tmp_path / "data"
 
 
-def read(tmp_path: Path, changes: dict[tuple[Any, ...], Any] | None = None) -> Any:
+def read(tmp_path, changes=None):
     root = folder(tmp_path, changes)
     return chrono.read_vehicle(root / VEHICLE, tire=root / TIRE)
 
@@ -63,7 +57,7 @@ def found(tmp_path):
     return read(tmp_path)
 
 
-def centers() -> dict[str, np.ndarray]:
+def centers():
     """Return the left wheel centres in Chrono's chassis [m]."""
     return {
         end: np.add(FILES[file]["Spindle"]["COM"], axle["Suspension Location"])
@@ -73,7 +67,7 @@ def centers() -> dict[str, np.ndarray]:
     }
 
 
-def origin(found: Any) -> np.ndarray:
+def origin(found):
     """Return where the car's axes begin, in Chrono's chassis: by one of its wheel centres [m]."""
     return centers()["front"] - found.car.wheel_centers["front_left"]
 
@@ -193,7 +187,7 @@ def test_a_pitman_arm_keeps_its_points_and_axes(found):
     assert any(line.startswith("steering: a Pitman arm, in Chrono") for line in found.assumptions)
 
 
-def lower_ball_of_chrono() -> np.ndarray:
+def lower_ball_of_chrono():
     """Return where the lower ball joint of the left front is in the axes of the chassis [m]."""
     place = FILES[VEHICLE]["Axles"][0]["Suspension Location"]
     return np.add(FILES[FRONT]["Lower Control Arm"]["Location Upright"], place)
@@ -211,7 +205,7 @@ def test_a_rack_goes_as_far_as_its_pinion(tmp_path):
 def test_brakes_and_driveline_give_shares(tmp_path):
     rear = "generic/brake/Rear.json"
     brake = FILES["generic/brake/BrakeSimple.json"]
-    changes: dict[tuple[Any, ...], Any] = {(rear,): brake | {"Maximum Torque": 1000.0}}
+    changes = {(rear,): brake | {"Maximum Torque": 1000.0}}
     changes |= {(VEHICLE, "Axles", 1, f"{s} Brake Input File"): rear for s in ("Left", "Right")}
     simple = "generic/driveline/DrivelineSimple.json"
     changes[VEHICLE, "Driveline"] = {"Input File": simple, "Suspension Indexes": [0, 1]}
@@ -278,7 +272,7 @@ def test_a_tyre_that_rolls_is_that_of_a_car_that_drives(tmp_path):
     assert rate == pytest.approx(-np.diff(loads)[0] / np.diff(radii)[0], rel=1e-5)
 
 
-MISTAKES: dict[str, dict[tuple[Any, ...], Any]] = {
+MISTAKES = {
     "no such file": {(VEHICLE, "Chassis", "Input File"): "generic/chassis/Other.json"},
     "outside": {(VEHICLE, "Chassis", "Input File"): "../../etc/passwd"},
     "three axles": {(VEHICLE, "Axles"): FILES[VEHICLE]["Axles"] * 2},
@@ -313,7 +307,7 @@ def test_a_tire_is_asked_for(tmp_path, monkeypatch, refused):
 
 
 class TestCommand:
-    def run(self, *given: str) -> Any:
+    def run(self, *given):
         return CliRunner().invoke(app, ["import", *given])
 
     def test_writes_five_files_that_are_the_car(self, tmp_path, monkeypatch):

@@ -1,7 +1,5 @@
 """``kintrafo import``: a file's format by its ending and its content, and the options of each."""
 
-from __future__ import annotations
-
 import shutil
 
 import pytest

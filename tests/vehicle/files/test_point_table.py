@@ -2,8 +2,6 @@
 
 import tomllib
 from itertools import product
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -20,7 +18,7 @@ from kintrafo.vehicle.kinds import KINDS
 CAR = Suspension.load("reference_car")
 
 
-def table(tmp_path: Path, text: str, name: str = "points.csv") -> Path:
+def table(tmp_path, text, name="points.csv"):
     path = tmp_path / name
     path.write_text(text, encoding="utf-8")
     return path
@@ -272,7 +270,7 @@ SIDES = (
 )
 
 
-def workbook(tmp_path: Path, sheets: dict[str, Any], hidden: str = "") -> Path:
+def workbook(tmp_path, sheets, hidden=""):
     openpyxl = pytest.importorskip("openpyxl")
     book = openpyxl.Workbook()
     book.remove(book.active)

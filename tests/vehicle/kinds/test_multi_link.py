@@ -19,7 +19,7 @@ LINKS = ("front_upper_link", "rear_upper_link", "front_lower_link", "rear_lower_
 TRAVELS = np.linspace(-0.08, 0.08, 9)
 
 
-def points_at(model: Model, travels: np.ndarray, rack: float = 0.0) -> dict[str, np.ndarray]:
+def points_at(model, travels, rack=0.0):
     """Return the hardpoints at wheel travels."""
     angles = arm_angles(model, design_height(model) + travels, rack)
     return hardpoints(model, *at_rest(model, angles, rack))

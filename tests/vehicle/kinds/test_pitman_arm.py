@@ -7,7 +7,6 @@ carrier on five rods behind it. The equations of motion are compared with maxima
 
 import json
 import re
-from typing import Any
 
 import kintrafo
 import numpy as np
@@ -30,7 +29,7 @@ from oracle.corners import Wishbones, difference
 from support.models import needs_gcc, own
 
 # A linkage in which nothing is parallel, upright or equal.
-ARM: dict[str, Any] = {
+ARM = {
     "pivot_mm": [-385.0, 300.0, 268.0],
     "axis": [0.05, 0.1, 1.0],
     "ball_mm": [-140.0, 310.0, 270.0],
@@ -240,7 +239,6 @@ def test_at_the_rear_of_a_car_it_is_a_part_of_the_body():
 def test_its_report_has_the_linkage_in_place_of_a_rack():
     text = render(Model(RIGHT))
     found = re.search(r'id="payload">(.*?)</script>', text, re.DOTALL)
-    assert found is not None
     data = json.loads(found[1])
     assert data["on_rack"] is False
     assert {"pitman_pivot", "pitman_ball", "idler_pivot", "idler_ball"} <= set(data["points"])

@@ -21,14 +21,14 @@ TRAVELS = np.linspace(-0.07, 0.07, 15)
 ROCKERS = pytest.mark.parametrize("car", [CAR, PULL], ids=["push", "pull"])
 
 
-def points_at(travels: np.ndarray, car: Suspension = CAR) -> dict[str, np.ndarray]:
+def points_at(travels, car=CAR):
     """Return the hardpoints at wheel travels."""
     model = Model(car)
     angles = arm_angles(model, design_height(model) + travels)
     return hardpoints(model, *at_rest(model, angles))
 
 
-def turned(place: np.ndarray, turn: float, car: Suspension = CAR) -> np.ndarray:
+def turned(place, turn, car=CAR):
     """Return where a point of the rocker goes, by Rodrigues' formula."""
     design = car.hardpoints.at_design()
     axis = design["rocker_front"] - design["rocker_rear"]

@@ -39,19 +39,19 @@ OF_STEERING = {
 }  # fmt: skip
 
 
-def turned(vector: np.ndarray, axis: np.ndarray, angle: float) -> np.ndarray:
+def turned(vector, axis, angle):
     """Rodrigues' formula."""
     along = axis * (axis @ vector)
     return along + np.cos(angle) * (vector - along) + np.sin(angle) * np.cross(axis, vector)
 
 
-def hinge(car: Suspension) -> tuple[np.ndarray, np.ndarray]:
+def hinge(car):
     """Return a point of the hinge and its direction."""
     inner, outer = (car.hardpoints.metres(f"arm_{end}") for end in ("inner", "outer"))
     return inner, (outer - inner) / np.linalg.norm(outer - inner)
 
 
-def angle_for(car: Suspension, travel: float) -> float:
+def angle_for(car, travel):
     """Return the angle about the hinge that lifts the wheel centre, the smaller of two."""
     start, axis = hinge(car)
     arm = car.hardpoints.metres("wheel_center") - start
@@ -63,14 +63,14 @@ def angle_for(car: Suspension, travel: float) -> float:
     return float(min(found, key=abs))
 
 
-def spin_outboard(car: Suspension) -> np.ndarray:
+def spin_outboard(car):
     """Return the spin axis at design, by the definitions of camber and toe."""
     camber, toe = np.radians([car.wheel.camber_deg, car.wheel.toe_deg])
     axis = np.array([np.tan(toe), car.vehicle.sign, -np.tan(camber)])
     return np.asarray(axis / np.linalg.norm(axis))
 
 
-def wheel_at(car: Suspension, travel: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def wheel_at(car, travel):
     """Return wheel centre, spin axis pointing outboard, and contact."""
     (start, axis), angle = hinge(car), angle_for(car, travel)
     center = start + turned(car.hardpoints.metres("wheel_center") - start, axis, angle)
@@ -89,7 +89,7 @@ def test_wheel_swings_about_the_hinge(name):
     found, path = characteristics.over(model, "travel", TRAVELS), positions(model, TRAVELS)
     _, _, at_design = wheel_at(car, 0.0)
     # roundings of lengths and angles below 1
-    near: dict[str, float] = {"rtol": 0.0, "atol": 1e-13}
+    near = {"rtol": 0.0, "atol": 1e-13}
     for i, travel in enumerate(TRAVELS):
         center, spin, contact = wheel_at(car, travel)
         ours = [path[f"wheel_center_{axis}"].values[i] for axis in "xyz"]

@@ -1,9 +1,5 @@
 """The structure of a car has all on which its declaration depends, and no more."""
 
-from __future__ import annotations
-
-from typing import Any
-
 import pytest
 from cars.driving_cars import FILE, TYRE
 from kintrafo.systems.compile.identity import identity
@@ -11,7 +7,7 @@ from kintrafo.vehicle.models.car import Car
 from kintrafo.vehicle.models.car.equations import CarStructure
 
 DRIVEN = FILE["front"]["drive"]
-CHANGES: list[tuple[dict[str, Any], bool]] = [
+CHANGES = [
     ({}, True),
     ({"body.mass_kg": 1400.0, "front.side.hardpoints.wheel_center.z": 300.0}, True),
     ({"tyres.front": TYRE | {"friction": 0.8}}, True),

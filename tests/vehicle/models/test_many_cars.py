@@ -24,7 +24,7 @@ ALL = [
 ]
 
 
-def drawn(car: Suspension, count: int) -> dict[str, np.ndarray]:
+def drawn(car, count):
     """Return cars of which every number is off: points by a third of a mm, others by 1 %."""
     rng = np.random.default_rng(3)
     found = {}
@@ -91,7 +91,7 @@ def test_each_car_has_the_curves_that_it_has_alone(name):
             assert (np.nan_to_num(np.abs(rows[one] - wanted)) <= limit).all()
 
 
-def alone(car: Suspension, changes: dict[str, float], at: list[float], name: str) -> object:
+def alone(car, changes, at, name):
     """Return the curve of one car by itself, or why it has none."""
     try:
         return characteristics.over(Model(car.with_changes(changes)), "travel", at)[name].values
@@ -99,13 +99,7 @@ def alone(car: Suspension, changes: dict[str, float], at: list[float], name: str
         return str(error)
 
 
-def held_against_each(
-    car: Suspension,
-    values: dict[str, np.ndarray],
-    at: list[float],
-    name: str,
-    rounding: float = 1e-14,
-) -> list[bool]:
+def held_against_each(car, values, at, name, rounding=1e-14):
     """Hold many cars against each by itself; return who has no curve."""
     found = variation.cars(car, values, positions=at, names=[name])
     for one, reason in enumerate(found["reason"].values.tolist()):
@@ -159,7 +153,7 @@ def test_cars_go_together_up_to_the_ends_of_their_dampers(name, monkeypatch):
     # the dampers of some end before that
     ends = np.array(travel_range(model).height) - design_height(model)
     at = [float(ends[0]) + 1e-3, 0.0, float(ends[1]) - 1e-4]
-    by_themselves: list[object] = []
+    by_themselves = []
 
     def counted(*given, **options):
         by_themselves.append(given)
@@ -216,4 +210,4 @@ def test_grids_reductions_and_threads():
 def test_what_cannot_be_used_is_refused_by_name(values, refused):
     refused(
         InputError, lambda: variation.cars(Suspension.load("reference_car"), values, names=["toe"])
-    )  # type: ignore[arg-type]
+    )

@@ -1,7 +1,5 @@
 """Pictures of free bodies: labels name their neighbours and points, and none is on another."""
 
-from __future__ import annotations
-
 from itertools import combinations
 
 import numpy as np
@@ -27,7 +25,7 @@ def test_labels_do_not_overlap(of, case):
     usual = {case: loads.standard_cases(of)[case]}
     figure = free_bodies(loads.static(of, usual), case)
     canvas = FigureCanvasAgg(figure)
-    canvas.draw()  # type: ignore[no-untyped-call]
+    canvas.draw()
     count = 0
     for axes in figure.axes:
         shown = [text for text in axes.texts if text.get_text()]

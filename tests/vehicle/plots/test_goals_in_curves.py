@@ -2,7 +2,6 @@
 
 import json
 from base64 import b64decode
-from typing import Any
 
 import numpy as np
 import pytest
@@ -40,7 +39,7 @@ most = 25.0
 """
 
 
-def called(*words: str) -> Any:
+def called(*words):
     return CliRunner().invoke(app, [*words])
 
 
@@ -98,12 +97,12 @@ def test_a_chapter_of_the_report_has_them(goals):
     with pytest.raises(InputError, match="goals is empty"):
         goals_chapter(Model("reference_car"), [])
     with pytest.raises(InputError, match="an Axle, or a RigidAxle is needed"):
-        goals_chapter("reference_car", wanted)  # type: ignore[arg-type]
+        goals_chapter("reference_car", wanted)
 
 
 @pytest.mark.parametrize("file", ["reference_axle", "rigid_axle"])
 def test_a_chapter_of_an_axle_has_the_curves_of_each_motion(file):
-    axle: Any = (Axle if file == "reference_axle" else RigidAxle).load(file)
+    axle = (Axle if file == "reference_axle" else RigidAxle).load(file)
     over_roll = characteristics.over(axle, "roll", np.deg2rad([-2.0, 2.0]))
     height = over_roll["roll_center_height"].values * 1e3
     described = {
@@ -202,7 +201,7 @@ def test_what_does_not_vary_has_its_place_where_there_are_goals(goals):
     assert {*pages} - {*without} == {"toe"}
 
 
-def drawn(axes: Any, label: str, *, level: bool = False) -> list[list[list[float]]]:
+def drawn(axes, label, *, level=False):
     """Return position and value of all marks that are called so."""
     bars = [one.lines[0] for one in axes.containers if one.get_label() == label]
     lines = [one for one in axes.get_lines() if one.get_label() == label]
@@ -252,7 +251,7 @@ def test_goals_of_an_axle_are_those_of_its_sides():
 @pytest.fixture
 def figures(monkeypatch):
     """Return the panels that chapters draw, by what is above each picture and the curve's name."""
-    found: dict[tuple[str, str], Any] = {}
+    found = {}
     draw = curves.figure
 
     def noted(dataset, names, *, title, **words):
@@ -285,7 +284,7 @@ def test_chapters_of_axles_have_what_is_wanted(file, figures):
         },
     }
     wanted = variation.goals(described, OF_AXLES)
-    axle: Any = (Axle if file == "reference_axle" else RigidAxle).load(file)
+    axle = (Axle if file == "reference_axle" else RigidAxle).load(file)
     axle_chapter(axle, wanted)
     expected = {
         ("roll", "roll_moment", "target"): [[1.5, 900.0]],
@@ -337,7 +336,7 @@ def test_goals_over_one_axis_are_not_mixed_up():
 )
 def test_goals_of_axles_are_drawn_over_their_motion_alone(tmp_path, monkeypatch, file, goal, words):
     (tmp_path / "goals.toml").write_text(goal, encoding="utf-8")
-    given: dict[str, int] = {}
+    given = {}
 
     def note(_, path, *__, goals, **___):
         given[path.name] = len(goals)
@@ -362,7 +361,7 @@ def test_axles_are_compared_with_goals(tmp_path):
         assert shown.exit_code == 0, shown.output
         goals = json.loads(shown.stdout)["goals"]
         assert [goal["file"] for goal in goals] == [file, f"{file} (2)"]
-        axle: Any = (Axle if file == "reference_axle" else RigidAxle).load(file)
+        axle = (Axle if file == "reference_axle" else RigidAxle).load(file)
         over_roll = characteristics.over(axle, "roll", np.deg2rad([-2.0, 2.0]))
         stiffness = over_roll["roll_stiffness"].values
         beyond = stiffness.max() - np.rad2deg(600.0)
@@ -422,7 +421,7 @@ def test_where_goals_mean_nothing_they_are_refused(goals, words, text):
 
 def test_goals_have_a_door():
     car = Suspension.load("reference_car")
-    makers: list[Any] = [
+    makers = [
         lambda wrong: axle_chapter(Axle.load("reference_axle"), wrong),
         lambda wrong: axle_chapter(RigidAxle.load("rigid_axle"), wrong),
         lambda wrong: goals_chapter(Model(car), wrong),
@@ -435,4 +434,4 @@ def test_goals_have_a_door():
     with pytest.raises(InputError, match="no_such"):
         variation.goals({"targets": {"no_such": {"value": 0.0, "within": 1.0}}})
     with pytest.raises(InputError):
-        variation.goals(3)  # type: ignore[arg-type]
+        variation.goals(3)

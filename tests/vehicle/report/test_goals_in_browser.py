@@ -4,8 +4,6 @@ A chart tells its own scale: the marker on its curve stands at two positions, wh
 compiled model has.
 """
 
-from typing import Any
-
 import kintrafo
 import numpy as np
 import pytest
@@ -57,21 +55,21 @@ def watched(browser, report):
     watched.context.close()
 
 
-def middle(box: dict[str, float]) -> np.ndarray:
+def middle(box):
     return np.array([box["x"] + box["width"] / 2, box["y"] + box["height"] / 2])
 
 
-def value_at(name: str, over: str, millimetres: float) -> float:
+def value_at(name, over, millimetres):
     """Return what the compiled model has, in the unit of the reader."""
     found = characteristics.over(CAR, over, [millimetres * 1e-3])[name]
     return float(found.values[0] * found.attrs["display_factor"])
 
 
-def shown(figure: Any) -> float:
+def shown(figure):
     return pages.number(figure.locator("output").inner_text())
 
 
-def scale_of(watched: Any, name: str, over: str) -> Any:
+def scale_of(watched, name, over):
     """Return the pixel of a position and value in a chart, from where its marker stands."""
     key = name if over == "travel" else f"{name}_over_rack"
     figure = pages.show(watched.page, key)
@@ -87,7 +85,7 @@ def scale_of(watched: Any, name: str, over: str) -> Any:
     plot = figure.locator(".u-over").bounding_box()
     (first, top), (second, bottom) = seen.items()
 
-    def place(millimetres: float, value: float) -> list[float]:
+    def place(millimetres, value):
         part = 0.5 * (1.0 + millimetres / ENDS[over])
         of_value = top + (value - first) / (second - first) * (bottom - top)
         if over == "travel":
@@ -97,13 +95,12 @@ def scale_of(watched: Any, name: str, over: str) -> Any:
     return figure, place
 
 
-def box_of(mark: Any) -> dict[str, float]:
+def box_of(mark):
     """Return where a mark is on the screen, without the width of its lines."""
-    found: dict[str, float] = mark.evaluate(WITHOUT_WIDTH)
-    return found
+    return mark.evaluate(WITHOUT_WIDTH)
 
 
-def boxes(marks: Any) -> list[dict[str, float]]:
+def boxes(marks):
     return [box_of(mark) for mark in marks.all()]
 
 

@@ -2,7 +2,6 @@
 
 import json
 import re
-from typing import Any
 
 import kintrafo
 import numpy as np
@@ -39,16 +38,14 @@ def coarse(monkeypatch):
     monkeypatch.setattr("kintrafo.vehicle.report.page.reachable_grid", lambda _: grid)
 
 
-def handed(page: str) -> dict[str, Any]:
+def handed(page):
     """Return the curves that the page's script reads, by their keys."""
     found = re.search(r'id="payload">(.*?)</script>', page, re.DOTALL)
-    assert found is not None
     return {curve["key"]: curve for curve in json.loads(found[1])["curves"]}
 
 
-def figure_of(page: str, key: str) -> str:
+def figure_of(page, key):
     found = re.search(rf'<figure data-curve="{key}">.*?</figure>', page, re.DOTALL)
-    assert found is not None
     return found[0]
 
 
@@ -151,7 +148,7 @@ def test_wheels_with_one_curve_have_one_page(left, right, shown):
                for name, table in of.items()}  # fmt: skip
     goals = variation.goals({"targets": targets}, OF_AXLES)
     axle = Axle.load("reference_axle")
-    found: list[Any] = of_shown_side(axle, goals, "right")
+    found = of_shown_side(axle, goals, "right")
     assert [goal.name for goal in found] == [*shown]
     factors = [goal.quantity.attributes()["display_factor"] for goal in found]
     assert [f * g.within for f, g in zip(factors, found, strict=True)] == pytest.approx(

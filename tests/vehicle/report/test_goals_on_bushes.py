@@ -1,11 +1,8 @@
 """Targets and limits in the curves of a chapter on bushes: those about them, and no others."""
 
-from __future__ import annotations
-
 import re
 from base64 import b64decode
 from pathlib import Path
-from typing import Any
 
 import pytest
 import xarray as xr
@@ -24,11 +21,11 @@ OF_AXLES = ("bump", "roll", "left", "right")
 TOE = {"value": 0.0, "within": 0.05}
 
 
-def wanted(ways: tuple[str, ...], **targets: Any) -> list[Any]:
+def wanted(ways, **targets):
     return variation.goals({"targets": targets}, ways)
 
 
-def marks(chapter: Any) -> list[int]:
+def marks(chapter):
     """Return how many targets each picture names in its legend."""
     svgs = [b64decode(p.source.partition("base64,")[2]).decode() for p in chapter.pictures]
     return [len(re.findall(r">target<", svg)) for svg in svgs]
@@ -84,7 +81,7 @@ def test_what_can_be_wanted_of_curves_is_what_they_are(name):
         )
 
 
-def words(data: xr.DataArray) -> str:
+def words(data):
     return str(data.attrs["long_name"])
 
 

@@ -1,9 +1,5 @@
 """Studies of whole cars: motions of the body, and steady turns of cars that drive."""
 
-from __future__ import annotations
-
-from typing import Any
-
 import kintrafo
 import numpy as np
 import pytest
@@ -27,12 +23,12 @@ RATE = "rear.side.spring.rate_N_per_m"
 SECOND_ORDER = 1e-4
 
 
-def turn(car: Any, acceleration: float, speed: float = TURNING_SPEED) -> Any:
+def turn(car, acceleration, speed=TURNING_SPEED):
     found = circle(car, speed=speed, lateral_acceleration=[acceleration])
     return flat(found.curves[""].isel(lateral_acceleration=0))
 
 
-def understeer(car: Any, acceleration: float) -> float:
+def understeer(car, acceleration):
     """Return the understeer gradient by its definition, from angles of two turns beside it."""
     near = 1e-3
     more, less = turn(car, acceleration + near), turn(car, acceleration - near)

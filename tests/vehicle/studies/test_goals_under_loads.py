@@ -1,7 +1,6 @@
 """Targets and limits of compliance: what studies make of them, where they are printed and drawn."""
 
 import json
-from typing import Any
 
 import numpy as np
 import pytest
@@ -19,7 +18,7 @@ from typer.testing import CliRunner
 
 pytestmark = pytest.mark.usefixtures("rough_drawings")
 REAR = "bushings.arm_rear.radial_N_per_mm"
-BUSHES: dict[str, Any] = {
+BUSHES = {
     "arm_rear": {"axial_N_per_mm": 400.0, "radial_N_per_mm": 900.0, "axis": [0.2, 0.1, 1.0]},
     "strut_top": {"axial_N_per_mm": 1500.0, "radial_N_per_mm": 700.0},
 }
@@ -37,11 +36,11 @@ within = 0.01
 """
 
 
-def called(*words: str) -> Any:
+def called(*words):
     return CliRunner().invoke(app, [*words])
 
 
-def under(car: Suspension, name: str, at: Any, held: Any = "height") -> Any:
+def under(car, name, at, held="height"):
     """Return a compliance in the unit for people, deg/kN."""
     return np.rad2deg(compliance.linear(Model(car), None, at, held=held)[name].values) * 1e3
 
@@ -75,7 +74,7 @@ def test_a_stiffness_is_found_for_a_compliance():
     found = variation.optimise(CAR, {REAR: 500.0}, target)
 
     def missed(rate):
-        toe: float = under(CAR.with_changes({REAR: rate}), "toe_by_lateral", [0.0])[0]
+        toe = under(CAR.with_changes({REAR: rate}), "toe_by_lateral", [0.0])[0]
         return toe - wanted
 
     assert found.success
@@ -182,7 +181,7 @@ def test_commands_vary_stiffnesses(soft_car, tmp_path):
 
 def test_a_front_of_stiffnesses():
     pytest.importorskip("pymoo")
-    asked: dict[str, Any] = {"population": 4, "generations": 2}
+    asked = {"population": 4, "generations": 2}
     softest = {"toe_by_recession": {"at_mm": 0.0}}
     stiffest = {"toe_by_lateral": {"value": 0.1, "within": 0.01}}
     found = variation.pareto(CAR, {REAR: 300.0}, stiffest, maximise=softest, **asked)
@@ -194,7 +193,7 @@ def test_a_front_of_stiffnesses():
         variation.pareto(CAR, {REAR: 300.0}, {"toe": {"value": 0.1, "within": 0.01}}, **asked)
 
 
-WRONG: list[tuple[dict[str, Any], str]] = [
+WRONG = [
     {"toe_by_lateral": {"held": "air", "most": 1.0}},
     {"toe": {"held": "height", "most": 1.0}},
     {"toe_by_lateral": {"over": "rack", "most": 1.0}},
@@ -257,7 +256,7 @@ def test_goals_of_both_wheels(axle, bushes):
 )  # fmt: skip
 def test_the_chapter_of_compliance_draws_those_of_its_wheels(of, name, label, monkeypatch):
     """Those with wheels that are held otherwise are in the chapter of goals alone."""
-    panels: dict[str, Any] = {}
+    panels = {}
     draw = curves.figure
 
     def noted(dataset, names, **words):
@@ -293,7 +292,7 @@ def test_compliance_prints_and_draws_them(goals, tmp_path, monkeypatch):
         for point, table in BUSHES.items()
     )
     (tmp_path / "bushes.toml").write_text(text, encoding="utf-8")
-    given: list[str] = []
+    given = []
 
     def note(_, path, *__, goals, **___):
         given.extend(goal.name for goal in goals)
@@ -330,7 +329,7 @@ def test_compliance_prints_and_draws_them(goals, tmp_path, monkeypatch):
 def test_compliance_draws_what_is_named(tmp_path, monkeypatch, file, asked, found):
     bushes = tmp_path / "bushes.toml"
     bushes.write_text("[bushings.arm_rear]\nradial_N_per_mm = 900\n", encoding="utf-8")
-    given: list[str] = []
+    given = []
 
     def note(_, path, names, *__, **___):
         given.extend(names)

@@ -5,7 +5,6 @@ import itertools
 import json
 import signal
 import sys
-from typing import Any
 
 import numpy as np
 import pytest
@@ -23,7 +22,7 @@ HEIGHT = {"roll_center_height_kinematic": {"at_mm": 0.0}}
 # The ball joint may come down by some seven of its ten millimetres.
 MOST_SCRUB = 21.0
 SCRUB = {"scrub_radius": {"at_mm": 0.0, "most": MOST_SCRUB}}
-SHORT: dict[str, Any] = {"population": 4, "generations": 2}
+SHORT = {"population": 4, "generations": 2}
 STUDY = f"""
 [free]
 "{ROD}" = 15.0
@@ -39,7 +38,7 @@ most = {MOST_SCRUB}
 QUICK = ("--population", 4, "--generations", 2)
 
 
-def numbers_of(suspension: Suspension) -> tuple[float, float, float]:
+def numbers_of(suspension):
     """Return deviation of toe [rad], roll-centre height [m] and scrub radius [m], by the curves."""
     found = characteristics.over(Model(suspension), "travel", [-0.05, 0.0, 0.05])
     toe = np.hypot(*found["toe"].values[[0, 2]]) / np.sqrt(2.0)
@@ -60,7 +59,7 @@ def costs(front):
     return in_parts(front, toe, height)
 
 
-def in_parts(front: variation.Front, toe: Any, height: Any) -> np.ndarray:
+def in_parts(front, toe, height):
     """Return what is to be small, from 0 to 1 over the front."""
     found = []
     for sign, values, objective in zip((1, -1), (toe, height), front.objectives, strict=True):
@@ -69,7 +68,7 @@ def in_parts(front: variation.Front, toe: Any, height: Any) -> np.ndarray:
     return np.stack(found, axis=-1)
 
 
-def beats(one: np.ndarray, other: np.ndarray, by: float = 0.0) -> bool:
+def beats(one, other, by=0.0):
     return bool((one <= other - by).all() and (one < other - by).any())
 
 
@@ -187,7 +186,7 @@ def test_the_seed_decides(kintrafo, tmp_path):
 
 def test_what_cannot_be_built_is_beyond_all_limits():
     """With half a metre to either side no arm reaches most bearings."""
-    parts: list[float] = []
+    parts = []
     found = variation.pareto(
         CAR, {"hardpoints.tie_rod_outer.y": 500.0}, TOE, maximise=HEIGHT,
         population=12, generations=2, progress=parts.append,
@@ -326,8 +325,8 @@ def test_without_pymoo_it_is_said_how_to_install_it(kintrafo, tmp_path, monkeypa
 # -- mistakes -------------------------------------------------------------------------------------
 
 
-def call(**given: Any) -> None:
-    right: dict[str, Any] = {"suspension": CAR, "free": FREE, "targets": TOE, "maximise": HEIGHT}
+def call(**given):
+    right = {"suspension": CAR, "free": FREE, "targets": TOE, "maximise": HEIGHT}
     variation.pareto(**(right | given))
 
 

@@ -3,8 +3,6 @@
 The root finder of `test_rigid_axle` shares nothing with the equations.
 """
 
-from typing import Any
-
 import numpy as np
 import pytest
 from cars.rigid_axles import AXLE, Found
@@ -24,15 +22,14 @@ from kintrafo.vehicle.analysis.scenario import Scenario, run
 from kintrafo.vehicle.models.rigid_axle.model import RigidAxleModel
 from kintrafo.vehicle.studies.design_variables import linkage_of, matching
 
-Array = np.ndarray
 ROLLS = np.deg2rad([-3.0, 2.0])
-GOALS: dict[str, Any] = {
+GOALS = {
     "targets": {"axle_steer": {"over": "roll", "at_deg": [-3.0, 2.0], "value": 0.0, "within": 0.1}},
     "limits": {"roll_center_height": {"at_mm": [0.0, 20.0], "least": 390.0, "most": 420.0}},
 }
 
 
-def steer(axle: RigidAxle) -> Array:
+def steer(axle):
     """Return the steer angle of an axle in some rolls of the body, by the root finder."""
     found = Found(axle)
     turns = [found.pose(0.0, -roll)[1] for roll in ROLLS]
@@ -122,7 +119,7 @@ def test_goals_are_judged_of_axles_too():
     assert (camber.met, camber.at, stiffness.met) == (True, 0.05, False)
 
 
-WRONG: list[tuple[Any, str]] = [
+WRONG = [
     lambda: variation.sensitivity(AXLE, over="travel"),
     lambda: variation.sensitivity(AXLE, ["rods.panhard"]),
     lambda: variation.sensitivity(AXLE, names=["scrub_radius"]),

@@ -2,7 +2,6 @@
 
 import importlib
 import math
-from typing import Any
 
 import numpy as np
 import pytest
@@ -30,7 +29,7 @@ WISHBONES = Suspension.load("double_wishbone_car")
 ROD = "hardpoints.tie_rod_inner.z"
 
 
-def curve(suspension: Suspension, name: str, at: Any) -> np.ndarray:
+def curve(suspension, name, at):
     return Curves("travel", np.atleast_1d(at), (name,)).of(assembly_of(suspension))[0]
 
 
@@ -88,11 +87,11 @@ def test_there_is_no_derivative_where_a_stop_begins_to_act():
     assert np.isfinite(found["camber"].values).all()
 
 
-def start_of_the_stop(suspension: Suspension) -> float:
+def start_of_the_stop(suspension):
     """Return the wheel travel at which the bump stop touches."""
     model = Model(suspension)
 
-    def gap(travel: float) -> float:
+    def gap(travel):
         return float(gaps(model, arm_angles(model, 0.3 + travel))[0])
 
     return float(brentq(gap, 0.02, 0.05, xtol=1e-9))
@@ -149,7 +148,7 @@ def test_values_at_the_end_of_their_range_have_neighbours_on_one_side():
         assert float(found.sel(place=place)) == pytest.approx(np.diff(rates)[0] / by, rel=1e-6)
 
 
-def stop_of(car: Suspension, place: str) -> float:
+def stop_of(car, place):
     return places_of(car)[place].value
 
 
@@ -215,7 +214,7 @@ def test_shares_where_a_stop_begins_to_act_are_not_told():
 
 def test_points_that_are_off_together_turn_no_axis():
     both = {"hardpoints.strut_top.x": 1.0, "hardpoints.ball_joint.x": 1.0}
-    options: dict[str, Any] = {"count": 20, "positions": [0.0], "names": ["caster"]}
+    options = {"count": 20, "positions": [0.0], "names": ["caster"]}
     apart = variation.tolerance(CAR, both, **options)
     together = variation.tolerance(CAR, both, correlation=np.ones((2, 2)), **options)
     spread = [np.ptp(found["caster"].values) for found in (apart, together)]
@@ -236,7 +235,7 @@ def test_correlation_is_in_the_order_of_the_file():
 
 
 def test_the_same_seed_makes_the_same_cars():
-    options: dict[str, Any] = {"count": 5, "positions": [0.03], "names": ["toe"]}
+    options = {"count": 5, "positions": [0.03], "names": ["toe"]}
     one, same, other = (
         variation.tolerance(CAR, {ROD: 1.0}, seed=seed, **options) for seed in (1, 1, 2)
     )
@@ -349,7 +348,7 @@ def test_limits_anywhere_are_kept_and_found(least):
 
 
 def test_a_characteristic_may_have_several_targets():
-    aims: dict[str, Any] = {
+    aims = {
         "camber": [
             {"at_mm": [-40.0, 40.0], "value": -0.5, "within": 0.1},
             {"over": "rack", "at_mm": [-30.0, 30.0], "value": -0.5, "within": 0.1},
