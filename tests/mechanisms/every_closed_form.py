@@ -10,37 +10,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from kintrafo.generator import (
-    FORWARD,
-    AlongLine,
-    Body,
-    DamperRate,
-    Direction,
-    ForceElement,
-    Formulation,
-    Gear,
-    Ground,
-    Input,
-    JointForce,
-    Lead,
-    Length,
-    Line,
-    LinearDamper,
-    LinearSpring,
-    Mechanism,
-    Motion,
-    Point,
-    Prismatic,
-    Ratio,
-    Revolute,
-    Rotor,
-    Spherical,
-    SpringRate,
-    TurnPerTravel,
-    Universal,
-    Weight,
-    Weld,
-)
+from kintrafo import generator as g
 from support.changes import changed
 
 if TYPE_CHECKING:
@@ -58,9 +28,9 @@ INERTIA = (0.021, 0.034, 0.029, 0.004, -0.003, 0.005)
 class Parts:
     """Bodies, points and directions of a mechanism by their names."""
 
-    bodies: Mapping[str, Body]
-    points: Mapping[str, Point]
-    directions: Mapping[str, Direction]
+    bodies: Mapping[str, g.Body]
+    points: Mapping[str, g.Point]
+    directions: Mapping[str, g.Direction]
 
 
 @dataclass(frozen=True)
@@ -88,20 +58,20 @@ class Sketch:
         named = self.name, parts.bodies[self.first], parts.bodies[self.second]
         at = parts.points.get(self.at)
         to = None if self.to is None else parts.points[self.to]
-        if self.kind is Spherical:
-            return Spherical(*named, at)
+        if self.kind is g.Spherical:
+            return g.Spherical(*named, at)
         along = self._direction(parts)
-        if self.kind is Prismatic:
-            return Prismatic(*named, along)
-        if self.kind is Universal:
-            return Universal(*named, at, shaft=Line(at, to), first_axis=along)
-        return Revolute(*named, Line(at, along), angle_from=FORWARD, angle_to=to)
+        if self.kind is g.Prismatic:
+            return g.Prismatic(*named, along)
+        if self.kind is g.Universal:
+            return g.Universal(*named, at, shaft=g.Line(at, to), first_axis=along)
+        return g.Revolute(*named, g.Line(at, along), angle_from=g.FORWARD, angle_to=to)
 
-    def _direction(self, parts: Parts) -> Direction:
+    def _direction(self, parts: Parts) -> g.Direction:
         if isinstance(self.along, str):
             return parts.directions[self.along]
         start, end = (parts.points[name] for name in self.along)
-        return Direction("_".join(self.along), between=(start, end))
+        return g.Direction("_".join(self.along), between=(start, end))
 
 
 def hinge(name: str, first: str, second: str, at: str, along: str, to: str | None = None) -> Sketch:
@@ -109,38 +79,38 @@ def hinge(name: str, first: str, second: str, at: str, along: str, to: str | Non
 
     Its angle counts from the design position, or from forward to a point.
     """
-    return Sketch(Revolute, name, first, second, at, along, to)
+    return Sketch(g.Revolute, name, first, second, at, along, to)
 
 
 def guide(name: str, first: str, second: str, along: str | tuple[str, str]) -> Sketch:
     """Return a guide along a direction."""
-    return Sketch(Prismatic, name, first, second, along=along)
+    return Sketch(g.Prismatic, name, first, second, along=along)
 
 
 def ball(name: str, first: str, second: str, at: str) -> Sketch:
     """Return a ball joint at a point."""
-    return Sketch(Spherical, name, first, second, at)
+    return Sketch(g.Spherical, name, first, second, at)
 
 
 def cross(name: str, first: str, rod: str, at: str, to: str, axis: str) -> Sketch:
     """Return a universal joint that holds a rod at a point; the rod runs to another point."""
-    return Sketch(Universal, name, first, rod, at, axis, to)
+    return Sketch(g.Universal, name, first, rod, at, axis, to)
 
 
 def reported(joints: Sequence[Joint]) -> tuple:
     """Return the angles and slides of hinges and guides, named after their joints."""
     return tuple(
-        (j.angle if isinstance(j, Revolute) else j.slide)(
+        (j.angle if isinstance(j, g.Revolute) else j.slide)(
             f"{j.name}_{j.coordinates[0]}", f"{j.coordinates[0]} of {j.name}"
         )
         for j in joints
-        if isinstance(j, Revolute | Prismatic)
+        if isinstance(j, g.Revolute | g.Prismatic)
     )
 
 
 def shaft_angles(joints: Sequence[Joint]) -> tuple:
     """Return the angles of the shafts at crosses, named after their joints."""
-    crosses = [joint for joint in joints if isinstance(joint, Universal)]
+    crosses = [joint for joint in joints if isinstance(joint, g.Universal)]
     return tuple(
         report(f"{joint.name}_{kind}", f"{kind} of {joint.name}")
         for joint in crosses
@@ -148,9 +118,9 @@ def shaft_angles(joints: Sequence[Joint]) -> tuple:
     )
 
 
-def motion_of(joint: Joint, name: str) -> Motion:
+def motion_of(joint: Joint, name: str) -> g.Motion:
     """Return a prescribed motion of a joint."""
-    return Motion(name, "m" if isinstance(joint, Prismatic) else "rad", f"position of {name}")
+    return g.Motion(name, "m" if isinstance(joint, g.Prismatic) else "rad", f"position of {name}")
 
 
 def declare(
@@ -166,7 +136,7 @@ def declare(
     wheel: tuple[str, Place] | None = None,
     crosses: bool = False,
     **more: object,
-) -> Formulation:
+) -> g.Formulation:
     """Return a model with weight, a spring with a damper, and a force on every coordinate.
 
     Parameters
@@ -187,21 +157,23 @@ def declare(
     named = {joint.name: joint for joint in built}
     seats = ((parts.bodies[p.split("_", maxsplit=1)[0]], parts.points[p]) for p in spring)
     laws = (
-        LinearSpring(
-            SpringRate("spring_rate", 300.0, "rate of the spring"),
-            free_length=Length("spring_free_length", 0.3, "free length of the spring"),
+        g.LinearSpring(
+            g.SpringRate("spring_rate", 300.0, "rate of the spring"),
+            free_length=g.Length("spring_free_length", 0.3, "free length of the spring"),
         ),
-        LinearDamper(DamperRate("damper_rate", 5.0, "rate of the damper")),
+        g.LinearDamper(g.DamperRate("damper_rate", 5.0, "rate of the damper")),
     )
-    mechanism = Mechanism(
+    mechanism = g.Mechanism(
         name=name,
         title=name,
         joints=built,
         forces=(
-            Weight(),
-            ForceElement("spring", AlongLine(*seats), laws),
+            g.Weight(),
+            g.ForceElement("spring", g.AlongLine(*seats), laws),
             *(
-                JointForce(named[j], Input(f"{j}_force", named[j].force_unit, f"force along {j}"))
+                g.JointForce(
+                    named[j], g.Input(f"{j}_force", named[j].force_unit, f"force along {j}")
+                )
                 for j in independent
             ),
         ),
@@ -209,7 +181,7 @@ def declare(
     )
     given = {named[j]: motion_of(named[j], motion) for j, motion in (prescribed or {}).items()}
     massive = more.pop("massive", bodies)
-    return Formulation(
+    return g.Formulation(
         name=name,
         title=name,
         mechanism=mechanism,
@@ -221,13 +193,13 @@ def declare(
     )
 
 
-def geared(model: Formulation, follower: str, followed: str, ratio: float) -> Formulation:
+def geared(model: g.Formulation, follower: str, followed: str, ratio: float) -> g.Formulation:
     """Return a model in which one of the driven joints follows another through a gear."""
     behind, before = map(model.mechanism.joint, (follower, followed))
-    units = ["m" if isinstance(joint, Prismatic) else "rad" for joint in (behind, before)]
+    units = ["m" if isinstance(joint, g.Prismatic) else "rad" for joint in (behind, before)]
     unit = "1" if units[0] == units[1] else "/".join(units)
-    kind = {"1": Ratio, "m/rad": Lead, "rad/m": TurnPerTravel}[unit]
-    gear = Gear(before, kind(f"{follower}_ratio", ratio, "ratio of the gear"))
+    kind = {"1": g.Ratio, "m/rad": g.Lead, "rad/m": g.TurnPerTravel}[unit]
+    gear = g.Gear(before, kind(f"{follower}_ratio", ratio, "ratio of the gear"))
     given = {joint: motion for joint, motion in model.prescribed.items() if joint != behind}
     forces = tuple(f for f in model.mechanism.forces if f.along != behind)
     alone = replace(
@@ -241,11 +213,11 @@ def geared(model: Formulation, follower: str, followed: str, ratio: float) -> Fo
     return changed(alone, (behind, replace(behind, follows=gear)))
 
 
-def welded(model: Formulation, body: str) -> Formulation:
+def welded(model: g.Formulation, body: str) -> g.Formulation:
     """Return a model with a burden on one of its bodies."""
-    center = Point("burden_com", (0.5, 0.15, 0.2))
-    burden = Body("burden", 1.3, center, tuple(0.4 * value for value in INERTIA))
-    weld = Weld("weld", model.mechanism.body(body), burden)
+    center = g.Point("burden_com", (0.5, 0.15, 0.2))
+    burden = g.Body("burden", 1.3, center, tuple(0.4 * value for value in INERTIA))
+    weld = g.Weld("weld", model.mechanism.body(body), burden)
     return replace(
         model,
         name=f"{model.name}_with_a_burden",
@@ -261,17 +233,17 @@ def _parts(
     wheel: tuple[str, Place] | None,
 ) -> Parts:
     centers = {f"{body}_com": place for body, place in bodies.items()}
-    places = {n: Point(n, place) for n, place in {**points, **centers}.items()}
+    places = {n: g.Point(n, place) for n, place in {**points, **centers}.items()}
     along = dict(directions) | ({"spin": wheel[1]} if wheel else {})
-    ways = {n: Direction(n, way) for n, way in along.items()}
-    built: dict[str, Body] = {"ground": Ground("ground")}
+    ways = {n: g.Direction(n, way) for n, way in along.items()}
+    built: dict[str, g.Body] = {"ground": g.Ground("ground")}
     for number, body in enumerate(bodies, 1):
         center, scale = places[f"{body}_com"], 1.0 + 0.3 * number
         if wheel and body == wheel[0]:
-            built[body] = Rotor(body, 1.5, center, axis=ways["spin"], spin=0.03, diametral=0.02)
+            built[body] = g.Rotor(body, 1.5, center, axis=ways["spin"], spin=0.03, diametral=0.02)
         else:
             tensor = tuple(scale * value for value in INERTIA)
-            built[body] = Body(body, 0.8 * scale, center, tensor)
+            built[body] = g.Body(body, 0.8 * scale, center, tensor)
     return Parts(built, places, ways)
 
 
@@ -299,7 +271,7 @@ NORMAL: Place = tuple((2.0 * _NORMAL).tolist())
 # -- a spatial four-bar: hinge, rod with a cross and a ball joint, hinge on a skew axis ------------
 
 
-def spatial_four_bar(name: str, *, cross_at_rocker: bool = False) -> Formulation:
+def spatial_four_bar(name: str, *, cross_at_rocker: bool = False) -> g.Formulation:
     """Return hinge - rod - hinge on skew axes; the rod's cross at either of its ends."""
     if cross_at_rocker:
         rod = (
@@ -341,7 +313,7 @@ def spatial_four_bar(name: str, *, cross_at_rocker: bool = False) -> Formulation
 # -- a spatial slider-crank between two bodies that both turn --------------------------------------
 
 
-def moving_slider_crank(name: str, *, prescribed: bool = False) -> Formulation:
+def moving_slider_crank(name: str, *, prescribed: bool = False) -> g.Formulation:
     """Return crank, rod and slider; the crank's bearing and the slider's guide move by themselves.
 
     The guide is declared from the slider to its table: the slide counts the other way round.
@@ -388,7 +360,7 @@ def moving_slider_crank(name: str, *, prescribed: bool = False) -> Formulation:
 # -- planar loops in an oblique plane, on a base that turns ----------------------------------------
 
 
-def oblique_four_bar() -> Formulation:
+def oblique_four_bar() -> g.Formulation:
     """Return a planar four-bar on a base that turns, with a rotor on its coupler.
 
     Its hinges' points lie at different heights over the plane, as in a real mechanism.
@@ -426,7 +398,7 @@ def oblique_four_bar() -> Formulation:
     )
 
 
-def oblique_slider_crank(name: str, *, driven: str) -> Formulation:
+def oblique_slider_crank(name: str, *, driven: str) -> g.Formulation:
     """Return a planar slider-crank on a base that turns; the crank or the piston is driven."""
     return declare(
         name,
@@ -457,7 +429,7 @@ def oblique_slider_crank(name: str, *, driven: str) -> Formulation:
     )
 
 
-def oblique_trammel() -> Formulation:
+def oblique_trammel() -> g.Formulation:
     """Return two sliders on guides of one base, joined by a rod: Archimedes' trammel."""
     return declare(
         "oblique_trammel",
@@ -495,7 +467,7 @@ def oblique_trammel() -> Formulation:
 # -- telescopes in an oblique plane, on a base that turns ------------------------------------------
 
 
-def given_telescope() -> Formulation:
+def given_telescope() -> g.Formulation:
     """Return a boom held by a cylinder of given stroke, whose guide passes beside both pins."""
     return declare(
         "given_telescope",
@@ -527,7 +499,7 @@ def given_telescope() -> Formulation:
     )
 
 
-def inverted_slider_crank() -> Formulation:
+def inverted_slider_crank() -> g.Formulation:
     """Return a crank whose pin carries a block that slides along a rocker.
 
     All joints but the driven ones are declared from the far body to the near one.
@@ -561,7 +533,7 @@ def inverted_slider_crank() -> Formulation:
     )
 
 
-def pushed_slider() -> Formulation:
+def pushed_slider() -> g.Formulation:
     """Return a slider on a guide, pushed by a cylinder whose stroke is driven."""
     return declare(
         "pushed_slider",
@@ -591,7 +563,7 @@ def pushed_slider() -> Formulation:
 # -- one loop after another ------------------------------------------------------------------------
 
 
-def chain() -> Formulation:
+def chain() -> g.Formulation:
     """Return a planar four-bar whose rocker drives a spatial one, which drives a slider."""
     return declare(
         "chain",
@@ -643,7 +615,9 @@ def chain() -> Formulation:
 # -- a boom on a turret, held by a cylinder in space -----------------------------------------------
 
 
-def turret(name: str, driven: str, *, carriage: bool = False, reverse: bool = False) -> Formulation:
+def turret(
+    name: str, driven: str, *, carriage: bool = False, reverse: bool = False
+) -> g.Formulation:
     """Return turret, boom and cylinder: guide between a cross and a ball joint.
 
     Parameters
@@ -698,7 +672,7 @@ def turret(name: str, driven: str, *, carriage: bool = False, reverse: bool = Fa
 # -- a steering column whose shaft telescopes between two crosses ----------------------------------
 
 
-def steering_shaft(name: str, *, turned: bool = False) -> Formulation:
+def steering_shaft(name: str, *, turned: bool = False) -> g.Formulation:
     """Return column, shaft of two links and pinion; the bearings of both ends move by themselves.
 
     The crosses have axes that are oblique to their bearings, and the column's is beside its own.

@@ -6,33 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from kintrafo.generator import (
-    AccelerationOf,
-    AlongLine,
-    AppliedForce,
-    Body,
-    DamperRate,
-    Direction,
-    DistanceBetween,
-    ForceElement,
-    Formulation,
-    Free,
-    Gravity,
-    Ground,
-    Input,
-    Length,
-    Line,
-    LinearDamper,
-    LinearSpring,
-    Mechanism,
-    Point,
-    PositionOf,
-    Revolute,
-    Rotor,
-    SpringRate,
-    VelocityOf,
-    Weight,
-)
+from kintrafo import generator as g
 from kintrafo.generator.declare.world import WORLD
 from support.changes import changed
 
@@ -45,12 +19,12 @@ if TYPE_CHECKING:
 INERTIA = (0.11, 0.23, 0.31, 0.02, -0.03, 0.01)
 
 
-def freed(model: Formulation) -> Formulation:
+def freed(model: g.Formulation) -> g.Formulation:
     """Return a model whose ground is a body that moves freely in the world."""
     mechanism = model.mechanism
-    ground = next(body for body in mechanism.bodies if isinstance(body, Ground))
-    moving = Body(ground.name, 4.0, (0.1, -0.1, 0.2), INERTIA, order=ground.order)
-    joint = Free("flight", moving)
+    ground = next(body for body in mechanism.bodies if isinstance(body, g.Ground))
+    moving = g.Body(ground.name, 4.0, (0.1, -0.1, 0.2), INERTIA, order=ground.order)
+    joint = g.Free("flight", moving)
     pairs = [(ground, moving)]
     parts = ("joints", "forces", "coordinates", "outputs")
     found = {name: changed(getattr(mechanism, name), *pairs) for name in parts}
@@ -66,53 +40,55 @@ def freed(model: Formulation) -> Formulation:
     )
 
 
-def thrown() -> Formulation:
+def thrown() -> g.Formulation:
     """Return a body in the air."""
-    body = Body("block", 3.0, (0.4, -0.2, 0.9), INERTIA)
-    joint = Free("flight", body)
+    body = g.Body("block", 3.0, (0.4, -0.2, 0.9), INERTIA)
+    joint = g.Free("flight", body)
     kinds = ("x", "y", "z", "yaw", "pitch", "roll")
-    mechanism = Mechanism(
+    mechanism = g.Mechanism(
         "thrown",
         "a body in the air",
         joints=(joint,),
-        forces=(Weight(),),
+        forces=(g.Weight(),),
         coordinates=tuple(joint.coordinate(kind, kind, f"{kind} of the block") for kind in kinds),
     )
-    return Formulation("thrown", "a body in the air", mechanism, independent=(joint,))
+    return g.Formulation("thrown", "a body in the air", mechanism, independent=(joint,))
 
 
-def rig() -> Formulation:
+def rig() -> g.Formulation:
     """Return a box with a limb and a flywheel, and a ball beside it: both move freely."""
-    box = Body("box", 5.0, (0.0, 0.1, 0.8), INERTIA)
-    ball = Body("ball", 0.7, (0.4, 0.8, 0.5), (0.02, 0.03, 0.025))
-    limb = Body("limb", 1.2, (0.5, 0.3, 0.7), tuple(0.3 * value for value in INERTIA))
-    spin_axis = Direction("spin_axis", (0.3, 0.9, -0.2))
-    flywheel = Rotor(
-        "flywheel", 0.8, Point("hub", (-0.2, 0.1, 0.9)), axis=spin_axis, spin=0.05, diametral=0.03
+    box = g.Body("box", 5.0, (0.0, 0.1, 0.8), INERTIA)
+    ball = g.Body("ball", 0.7, (0.4, 0.8, 0.5), (0.02, 0.03, 0.025))
+    limb = g.Body("limb", 1.2, (0.5, 0.3, 0.7), tuple(0.3 * value for value in INERTIA))
+    spin_axis = g.Direction("spin_axis", (0.3, 0.9, -0.2))
+    flywheel = g.Rotor(
+        "flywheel", 0.8, g.Point("hub", (-0.2, 0.1, 0.9)), axis=spin_axis, spin=0.05, diametral=0.03
     )
-    shoulder = Point("shoulder", (0.2, 0.2, 0.8), "shoulder")
+    shoulder = g.Point("shoulder", (0.2, 0.2, 0.8), "shoulder")
     tip, hook, post, eye = (
-        Point("tip", (0.8, 0.5, 0.6)),
-        Point("hook", (-0.1, -0.2, 0.9)),
-        Point("post", (-0.4, 0.3, 1.4)),
-        Point("eye", (0.45, 0.7, 0.55)),
+        g.Point("tip", (0.8, 0.5, 0.6)),
+        g.Point("hook", (-0.1, -0.2, 0.9)),
+        g.Point("post", (-0.4, 0.3, 1.4)),
+        g.Point("eye", (0.45, 0.7, 0.55)),
     )
-    swing = Revolute("swing", box, limb, Line(shoulder, Direction("swing_line", (0.2, -0.5, 0.8))))
-    spinning = Revolute("spinning", box, flywheel, Line(flywheel.center, spin_axis))
-    joints = (Free("box_flight", box), Free("ball_flight", ball), swing, spinning)
-    mechanism = Mechanism(
+    swing = g.Revolute(
+        "swing", box, limb, g.Line(shoulder, g.Direction("swing_line", (0.2, -0.5, 0.8)))
+    )
+    spinning = g.Revolute("spinning", box, flywheel, g.Line(flywheel.center, spin_axis))
+    joints = (g.Free("box_flight", box), g.Free("ball_flight", ball), swing, spinning)
+    mechanism = g.Mechanism(
         "rig",
         "a box with a limb, and a ball",
         joints=joints,
         forces=(
-            Weight(Gravity("gravity", 9.81, "acceleration of gravity")),
+            g.Weight(g.Gravity("gravity", 9.81, "acceleration of gravity")),
             _spring("tether", (WORLD, post), (box, hook), damping=4.0),
             _spring("band", (ball, eye), (limb, tip)),
-            AppliedForce(
+            g.AppliedForce(
                 limb,
                 tip,
-                Direction("pull_line", (0.6, 0.5, -0.7)),
-                Input("pull", "N", "pull at the tip"),
+                g.Direction("pull_line", (0.6, 0.5, -0.7)),
+                g.Input("pull", "N", "pull at the tip"),
             ),
         ),
         coordinates=(
@@ -120,24 +96,24 @@ def rig() -> Formulation:
             spinning.angle("spin_angle", "angle of the flywheel"),
         ),
         outputs=(
-            PositionOf("tip_place", limb, tip, "tip"),
-            VelocityOf("tip_velocity", limb, tip, "tip"),
-            AccelerationOf("tip_acceleration", limb, tip, "tip"),
-            DistanceBetween("gap", (box, hook), (ball, eye), "gap of hook and eye"),
+            g.PositionOf("tip_place", limb, tip, "tip"),
+            g.VelocityOf("tip_velocity", limb, tip, "tip"),
+            g.AccelerationOf("tip_acceleration", limb, tip, "tip"),
+            g.DistanceBetween("gap", (box, hook), (ball, eye), "gap of hook and eye"),
         ),
     )
-    return Formulation("rig", "a box with a limb, and a ball", mechanism, independent=joints)
+    return g.Formulation("rig", "a box with a limb, and a ball", mechanism, independent=joints)
 
 
 def _spring(
-    name: str, first: tuple[Body, Point], second: tuple[Body, Point], damping: float = 0.0
-) -> ForceElement:
-    spring = LinearSpring(
-        SpringRate(f"{name}_stiffness", 90.0, f"rate of the {name}"),
-        free_length=Length(f"{name}_free_length", 0.3, f"length of the {name} without force"),
+    name: str, first: tuple[g.Body, g.Point], second: tuple[g.Body, g.Point], damping: float = 0.0
+) -> g.ForceElement:
+    spring = g.LinearSpring(
+        g.SpringRate(f"{name}_stiffness", 90.0, f"rate of the {name}"),
+        free_length=g.Length(f"{name}_free_length", 0.3, f"length of the {name} without force"),
     )
-    damper = LinearDamper(DamperRate(f"{name}_damping", damping, f"damping of the {name}"))
-    return ForceElement(name, AlongLine(first, second), (spring, damper))
+    damper = g.LinearDamper(g.DamperRate(f"{name}_damping", damping, f"damping of the {name}"))
+    return g.ForceElement(name, g.AlongLine(first, second), (spring, damper))
 
 
 def unit_quaternion(random: np.random.Generator) -> np.ndarray:
@@ -190,16 +166,16 @@ def compared(
         yield state, inputs, motion, built.oracle.reduced(motion, named, given), layout.positions
 
 
-def tethered() -> Formulation:
+def tethered() -> g.Formulation:
     """Return a body in the air that hangs on a spring, with a damper beside it."""
-    block = Body("block", 3.0, (0.4, -0.2, 0.9), INERTIA)
-    hook, post = Point("hook", (0.5, -0.1, 1.1)), Point("post", (0.6, 0.1, 1.6))
-    joint = Free("flight", block)
-    mechanism = Mechanism(
+    block = g.Body("block", 3.0, (0.4, -0.2, 0.9), INERTIA)
+    hook, post = g.Point("hook", (0.5, -0.1, 1.1)), g.Point("post", (0.6, 0.1, 1.6))
+    joint = g.Free("flight", block)
+    mechanism = g.Mechanism(
         "tethered",
         "a body on a spring",
         joints=(joint,),
-        forces=(Weight(), _spring("tether", (WORLD, post), (block, hook))),
-        outputs=(PositionOf("hook_place", block, hook, "hook"),),
+        forces=(g.Weight(), _spring("tether", (WORLD, post), (block, hook))),
+        outputs=(g.PositionOf("hook_place", block, hook, "hook"),),
     )
-    return Formulation("tethered", "a body on a spring", mechanism, independent=(joint,))
+    return g.Formulation("tethered", "a body on a spring", mechanism, independent=(joint,))

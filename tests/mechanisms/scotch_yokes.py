@@ -2,24 +2,13 @@
 
 from __future__ import annotations
 
-from kintrafo.generator import (
-    Body,
-    Direction,
-    Formulation,
-    Ground,
-    Input,
-    JointForce,
-    Mechanism,
-    Prismatic,
-    flat,
-    hinge,
-)
+from kintrafo import generator as g
 
 from mechanisms.every_closed_form import NORMAL, askew, declare, guide, heading, reported
 from mechanisms.every_closed_form import hinge as sketched
 
 
-def yoke(name: str, *, turned: bool = False, carried: bool = False) -> Formulation:
+def yoke(name: str, *, turned: bool = False, carried: bool = False) -> g.Formulation:
     """Return a Scotch yoke in a plane.
 
     Parameters
@@ -30,35 +19,35 @@ def yoke(name: str, *, turned: bool = False, carried: bool = False) -> Formulati
         Whether bearing and guide are on a body that turns on the ground.
     """
     moving = [*(["frame"] if carried else []), "crank", "block", "yoke"]
-    bodies: dict[str, Body] = {"ground": Ground("ground")}
+    bodies: dict[str, g.Body] = {"ground": g.Ground("ground")}
     bearings = {
-        "frame": flat("frame_bearing", (-0.2, 0.1), "bearing of the frame"),
-        "crank": flat("crank_bearing", (0.0, 0.0), "bearing of the crank"),
-        "block": flat("crank_pin", (0.03, 0.04), "pin of the crank"),
+        "frame": g.flat("frame_bearing", (-0.2, 0.1), "bearing of the frame"),
+        "crank": g.flat("crank_bearing", (0.0, 0.0), "bearing of the crank"),
+        "block": g.flat("crank_pin", (0.03, 0.04), "pin of the crank"),
     }
-    centers = {b: flat(f"{b}_com", (0.1 * i, 0.05), b) for i, b in enumerate(moving)}
+    centers = {b: g.flat(f"{b}_com", (0.1 * i, 0.05), b) for i, b in enumerate(moving)}
     for i, body in enumerate(moving, 1):
-        bodies[body] = Body(body, 0.4 * i, centers[body], 2e-3 * i)
+        bodies[body] = g.Body(body, 0.4 * i, centers[body], 2e-3 * i)
     ground, base = bodies["ground"], bodies["frame" if carried else "ground"]
     crank, block, moved = (bodies[b] for b in ("crank", "block", "yoke"))
     slot = (block, moved) if turned else (moved, block)
     guide = (moved, base) if turned else (base, moved)
-    driving = hinge("A", base, crank, bearings["crank"])
+    driving = g.hinge("A", base, crank, bearings["crank"])
     joints = (
-        *([hinge("F", ground, base, bearings["frame"])] if carried else []),
+        *([g.hinge("F", ground, base, bearings["frame"])] if carried else []),
         driving,
-        hinge("B", crank, block, bearings["block"]),
-        Prismatic("slot", *slot, Direction("slot", (0.3, 1.0, 0.0), "the slot")),
-        Prismatic("guide", *guide, Direction("guide", (1.0, 0.2, 0.0), "the guide")),
+        g.hinge("B", crank, block, bearings["block"]),
+        g.Prismatic("slot", *slot, g.Direction("slot", (0.3, 1.0, 0.0), "the slot")),
+        g.Prismatic("guide", *guide, g.Direction("guide", (1.0, 0.2, 0.0), "the guide")),
     )
-    mechanism = Mechanism(
+    mechanism = g.Mechanism(
         name=name,
         title="Scotch yoke",
         joints=joints,
-        forces=(JointForce(driving, Input("torque", "N m", "torque on the crank")),),
+        forces=(g.JointForce(driving, g.Input("torque", "N m", "torque on the crank")),),
         coordinates=reported(joints),
     )
-    return Formulation(name, "Scotch yoke", mechanism, joints[: 2 if carried else 1])
+    return g.Formulation(name, "Scotch yoke", mechanism, joints[: 2 if carried else 1])
 
 
 SCOTCH_YOKE = yoke("scotch_yoke")

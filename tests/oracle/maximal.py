@@ -25,35 +25,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
-from kintrafo.generator import (
-    Actuator,
-    AirForces,
-    AlongGuide,
-    AlongHinge,
-    AlongLine,
-    AlongTelescope,
-    AppliedForce,
-    AppliedMoment,
-    Cylindrical,
-    DamperTable,
-    ForceElement,
-    Free,
-    Friction,
-    JointForce,
-    LinearDamper,
-    LinearSpring,
-    LinearTyre,
-    Prismatic,
-    Revolute,
-    RollingTyre,
-    ShaftTorque,
-    Spherical,
-    SpringTable,
-    Stop,
-    Universal,
-    Weight,
-    Weld,
-)
+from kintrafo import generator as g
 
 from oracle.constraints import Array, perpendiculars, skew, unit
 from oracle.rolling import wrench_of_driving
@@ -300,7 +272,7 @@ class Oracle:
 
     def closure(self, motion: Motion) -> Jet:
         """Return what all joints hold at zero, in m and rad; shape (equations,)."""
-        joints = [joint for joint in self.mechanism.joints if not isinstance(joint, Free)]
+        joints = [joint for joint in self.mechanism.joints if not isinstance(joint, g.Free)]
         held = [jet for joint in joints for jet in self.equations(motion, joint)]
         geared = [self._slip(motion, joint) for joint in joints if joint.gear]
         return stacked([*held, *geared], self.size)
@@ -313,21 +285,21 @@ class Oracle:
 
     def equations(self, motion: Motion, joint: Joint) -> list[Jet]:
         """Return what one joint holds at zero."""
-        if isinstance(joint, Spherical):
+        if isinstance(joint, g.Spherical):
             return [self._gap(motion, joint, joint.at)]
-        if isinstance(joint, Revolute):
+        if isinstance(joint, g.Revolute):
             return [
                 self._gap(motion, joint, joint.axis.through),
                 *self._parallel(motion, joint, self.axis(joint.axis)),
             ]
-        if isinstance(joint, Universal):
+        if isinstance(joint, g.Universal):
             first = self.along(joint.first_axis)
             second = unit(np.cross(first, self.axis(joint.shaft)))
             return [
                 self._gap(motion, joint, joint.at),
                 self._perpendicular(motion, joint, first, second),
             ]
-        if isinstance(joint, Prismatic):
+        if isinstance(joint, g.Prismatic):
             x, y, z = np.eye(3)
             place = self.centers[self.index[joint.second.name]]
             along = self.along(joint.direction)
@@ -335,11 +307,11 @@ class Oracle:
                 *(self._perpendicular(motion, joint, *pair) for pair in ((x, y), (y, z), (z, x))),
                 *self._level(motion, joint, along, place, place),
             ]
-        if isinstance(joint, Weld):
+        if isinstance(joint, g.Weld):
             x, y, z = np.eye(3)
             turns = [self._perpendicular(motion, joint, *pair) for pair in ((x, y), (y, z), (z, x))]
             return [self._gap(motion, joint, joint.second.center), *turns]
-        assert isinstance(joint, Cylindrical)
+        assert isinstance(joint, g.Cylindrical)
         along = self.axis(joint.axis)
         ends = self.place(joint.axis.towards), self.place(joint.axis.through)
         return [*self._parallel(motion, joint, along), *self._level(motion, joint, along, *ends)]
@@ -371,22 +343,22 @@ class Oracle:
 
     def coordinate(self, motion: Motion, joint: Joint, kind: str) -> Jet:
         """Return a relative coordinate as the joint declares it, m or rad (up to whole turns)."""
-        if isinstance(joint, Revolute):
+        if isinstance(joint, g.Revolute):
             return self._hinge_angle(motion, joint)
-        if isinstance(joint, Prismatic):
+        if isinstance(joint, g.Prismatic):
             place = self.centers[self.index[joint.second.name]]
             span = self.point(motion, joint.second.name, place)
             span -= self.point(motion, joint.first.name, place)
             return self.vector(motion, joint.first.name, self.along(joint.direction)).dot(span)
-        if isinstance(joint, Universal):
+        if isinstance(joint, g.Universal):
             return self._shaft_angles(motion, joint)[kind]
-        assert isinstance(joint, Cylindrical)
+        assert isinstance(joint, g.Cylindrical)
         if kind == "slide":
             full = self.parameters[joint.length_at_zero_slide.name]
             return -self.telescope_length(motion, joint) + full
         return self._telescope_angle(motion, joint)
 
-    def _hinge_angle(self, motion: Motion, joint: Revolute) -> Jet:
+    def _hinge_angle(self, motion: Motion, joint: g.Revolute) -> Jet:
         axis = self.axis(joint.axis)
         reference = self.along(joint.angle_from)
         if joint.angle_to is None:
@@ -402,7 +374,7 @@ class Oracle:
         sine = self.vector(motion, joint.first.name, np.cross(axis, start)).dot(marker)
         return angle_of(sine, cosine)
 
-    def _shaft_angles(self, motion: Motion, joint: Universal) -> dict[str, Jet]:
+    def _shaft_angles(self, motion: Motion, joint: g.Universal) -> dict[str, Jet]:
         """Return azimuth and elevation: Rz(azimuth) Rx(elevation) takes y to the shaft."""
         shaft = self.vector(motion, joint.second.name, self.axis(joint.shaft))
         x, y, z = (self.vector(motion, joint.first.name, axis).dot(shaft) for axis in np.eye(3))
@@ -411,14 +383,14 @@ class Oracle:
             "elevation": angle_of(z, stacked([x, y], self.size).norm()),
         }
 
-    def telescope_length(self, motion: Motion, joint: Cylindrical) -> Jet:
+    def telescope_length(self, motion: Motion, joint: g.Cylindrical) -> Jet:
         """Return the distance, along the axis, of the two points that define it."""
         return self.vector(motion, joint.first.name, self.axis(joint.axis)).dot(
             self.point(motion, joint.first.name, self.place(joint.axis.towards))
             - self.point(motion, joint.second.name, self.place(joint.axis.through))
         )
 
-    def _telescope_angle(self, motion: Motion, joint: Cylindrical) -> Jet:
+    def _telescope_angle(self, motion: Motion, joint: g.Cylindrical) -> Jet:
         """Return the turn of the second body about the axis, from the z' axis of the shaft.
 
         Its rate is left out: the z' axis belongs to no body.
@@ -426,7 +398,7 @@ class Oracle:
         holder = next(
             j
             for j in self.mechanism.joints
-            if isinstance(j, Universal) and j.second == joint.first and j.at == joint.axis.towards
+            if isinstance(j, g.Universal) and j.second == joint.first and j.at == joint.axis.towards
         )
         shaft = -self.vector(motion, joint.first.name, self.axis(joint.axis)).value
         up = self.vector(motion, holder.first.name, UP).value
@@ -444,11 +416,11 @@ class Oracle:
         velocity and angular velocity in the body's own axes.
         """
         declared = self.mechanism.joint(joint)
-        if isinstance(declared, Free):
+        if isinstance(declared, g.Free):
             return self._own_speeds(motion, declared)
         return self.coordinate(motion, declared, declared.coordinates[0])
 
-    def _own_speeds(self, motion: Motion, joint: Free) -> Jet:
+    def _own_speeds(self, motion: Motion, joint: g.Free) -> Jet:
         i = self.index[joint.second.name]
         to_body, (velocity, omega) = motion.rotation[i].T, motion.twist[i].reshape(2, 3)
         rows = np.zeros((6, self.size + 1, 6))
@@ -467,24 +439,24 @@ class Oracle:
         return total
 
     def _wrench_of(self, force: Force, motion: Motion, inputs: Mapping[str, float]) -> Array:
-        if isinstance(force, Weight):
+        if isinstance(force, g.Weight):
             pull = np.zeros((self.size, 6))
             weight = self.mass[1:] * self.parameters[force.gravity.name]
             pull[:, :3] = -np.outer(weight, self.along(force.upward))
             return pull.ravel()
-        if isinstance(force, AppliedForce | AppliedMoment):
+        if isinstance(force, g.AppliedForce | g.AppliedMoment):
             return inputs[force.input.name] * self._of_outside(motion, force)
-        if isinstance(force, ForceElement):
+        if isinstance(force, g.ForceElement):
             length = self.length(motion, force)
             push = sum(self._push(force, law, length, inputs) for law in force.laws)
             return push * length.rows[0]
-        if isinstance(force, JointForce):
+        if isinstance(force, g.JointForce):
             independent = force.joint in self.model.independent
             push = inputs[force.input.name] if independent else 0.0
             return push * self.driven(motion, force.joint.name).rows[0]
-        if isinstance(force, RollingTyre | ShaftTorque | AirForces):
+        if isinstance(force, g.RollingTyre | g.ShaftTorque | g.AirForces):
             return wrench_of_driving(self, force, motion, inputs)
-        assert isinstance(force, LinearTyre)
+        assert isinstance(force, g.LinearTyre)
         center = self.point(motion, force.wheel.carrier.name, self.place(force.wheel.center))
         return self._tyre(force, motion, center, inputs) @ center.rows
 
@@ -495,29 +467,29 @@ class Oracle:
         total[i] = [*force, *(moment + np.cross(at - motion.position[i], force))]
         return total[1:].ravel()
 
-    def _of_outside(self, motion: Motion, force: AppliedForce | AppliedMoment) -> Array:
+    def _of_outside(self, motion: Motion, force: g.AppliedForce | g.AppliedMoment) -> Array:
         """Return what acts from outside, for a unit input."""
         line, body = self.along(force.direction), force.body.name
         if force.follows:
             line = self.vector(motion, body, line).value
-        if isinstance(force, AppliedForce):
+        if isinstance(force, g.AppliedForce):
             return line @ self.point(motion, body, self.place(force.point)).rows
         turned = np.zeros((self.size, 6))
         turned[self.index[body] - 1, 3:] = line
         return turned.ravel()
 
-    def length(self, motion: Motion, element: ForceElement) -> Jet:
+    def length(self, motion: Motion, element: g.ForceElement) -> Jet:
         """Return the length of an element's path, or its twist."""
-        if isinstance(element.path, AlongLine):
+        if isinstance(element.path, g.AlongLine):
             first, second = (
                 self.point(motion, body, self.place(point)) for body, point in element.path.ends
             )
             return (second - first).norm()
-        if isinstance(element.path, AlongTelescope):
+        if isinstance(element.path, g.AlongTelescope):
             return self.telescope_length(motion, element.path.joint)
-        if isinstance(element.path, AlongHinge):
+        if isinstance(element.path, g.AlongHinge):
             return self._hinge_angle(motion, element.path.hinge)
-        if isinstance(element.path, AlongGuide):
+        if isinstance(element.path, g.AlongGuide):
             return self.coordinate(motion, element.path.guide, "slide")
         first, second = (
             self._hinge_angle(motion, hinge) for hinge in (element.path.first, element.path.second)
@@ -525,29 +497,29 @@ class Oracle:
         return second - first
 
     def _push(
-        self, element: ForceElement, law: Law, path: Jet, inputs: Mapping[str, float]
+        self, element: g.ForceElement, law: Law, path: Jet, inputs: Mapping[str, float]
     ) -> float:
         """Return the force that pushes the ends of an element apart."""
         given, length, velocity = self.parameters, float(path.value[0]), float(path.rate[0])
-        if isinstance(law, LinearSpring):
+        if isinstance(law, g.LinearSpring):
             return given[law.rate.name] * (self.free_length(element, law) - length)
-        if isinstance(law, LinearDamper):
+        if isinstance(law, g.LinearDamper):
             return -given[law.rate.name] * velocity
-        if isinstance(law, Friction):
+        if isinstance(law, g.Friction):
             return -given[law.level.name] * np.sin(np.arctan2(velocity, given[law.speed.name]))
-        if isinstance(law, Stop):
+        if isinstance(law, g.Stop):
             sense = {"bump": 1.0, "rebound": -1.0}[law.side]
             depth = max(sense * (given[law.length.name] - length), 0.0)
             return sense * np.polyval(
                 [given[law.progression.name], 0.0, given[law.rate.name], 0.0], depth
             )
-        if isinstance(law, DamperTable | SpringTable):
-            of_spring = isinstance(law, SpringTable)
+        if isinstance(law, g.DamperTable | g.SpringTable):
+            of_spring = isinstance(law, g.SpringTable)
             return self._of_table(law, *((-length, -1.0) if of_spring else (-velocity, 1.0)))
-        assert isinstance(law, Actuator)
+        assert isinstance(law, g.Actuator)
         return inputs[law.input.name]
 
-    def free_length(self, element: ForceElement, spring: LinearSpring) -> float:
+    def free_length(self, element: g.ForceElement, spring: g.LinearSpring) -> float:
         """Return the length of a spring without force, m."""
         if spring.free_length is not None:
             return self.parameters[spring.free_length.name]
@@ -555,7 +527,7 @@ class Oracle:
         return full - self.parameters[spring.free_slide.name]
 
     def _of_table(
-        self, table: DamperTable | SpringTable, compression: float, sense: float
+        self, table: g.DamperTable | g.SpringTable, compression: float, sense: float
     ) -> float:
         """Return the force of a curve: segment by segment as far as it is passed."""
 
@@ -574,7 +546,7 @@ class Oracle:
         return force + given("last_slope") * max(compression - knots[-1], 0.0)
 
     def _tyre(
-        self, tyre: LinearTyre, motion: Motion, center: Jet, inputs: Mapping[str, float]
+        self, tyre: g.LinearTyre, motion: Motion, center: Jet, inputs: Mapping[str, float]
     ) -> Array:
         """Return the force of the road on a wheel, at its centre."""
         given = self.parameters
@@ -588,7 +560,7 @@ class Oracle:
         axis = self.vector(motion, tyre.wheel.carrier.name, self.along(tyre.wheel.spin)).value
         return load * (UP - axis * axis[2]) / (1.0 - axis[2] ** 2)
 
-    def _lifts_off(self, tyre: LinearTyre) -> bool:
+    def _lifts_off(self, tyre: g.LinearTyre) -> bool:
         return tyre.lifts_off is not None and bool(self.parameters[tyre.lifts_off.name])
 
     # -- equations of motion ----------------------------------------------------------------------
@@ -654,26 +626,26 @@ class Oracle:
         twist = motion.twist[1:].ravel()
         energy = 0.5 * twist @ mass @ twist
         for force in self.mechanism.forces:
-            if isinstance(force, Weight):
+            if isinstance(force, g.Weight):
                 heights = motion.position[:, 2] * self.mass
                 energy += self.parameters[force.gravity.name] * np.sum(heights)
-            elif isinstance(force, ForceElement):
+            elif isinstance(force, g.ForceElement):
                 length = float(self.length(motion, force).value[0])
                 energy += sum(self._stored(force, law, length) for law in force.laws)
         return float(energy)
 
-    def _stored(self, element: ForceElement, law: Law, length: float) -> float:
+    def _stored(self, element: g.ForceElement, law: Law, length: float) -> float:
         given = self.parameters
-        if isinstance(law, LinearSpring):
+        if isinstance(law, g.LinearSpring):
             return 0.5 * given[law.rate.name] * (self.free_length(element, law) - length) ** 2
-        if isinstance(law, Stop):
+        if isinstance(law, g.Stop):
             sense = {"bump": 1.0, "rebound": -1.0}[law.side]
             depth = max(sense * (given[law.length.name] - length), 0.0)
             return (
                 0.5 * given[law.rate.name] * depth**2
                 + 0.25 * given[law.progression.name] * depth**4
             )
-        if isinstance(law, SpringTable):
+        if isinstance(law, g.SpringTable):
             # from a length that is no spring's, by a rule exact for the cubics of its pieces
             knots = [self.parameters[f"{law.name}_knot_{i}"] for i in range(law.segments + 1)]
             ends = np.unique(np.clip([0.0, *knots, length], 0.0, length))

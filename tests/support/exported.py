@@ -8,18 +8,7 @@ from pathlib import Path
 
 import kintrafo
 import pytest
-from kintrafo.generator import (
-    Body,
-    Direction,
-    Formulation,
-    Ground,
-    JointForce,
-    Mechanism,
-    Motion,
-    Weight,
-    flat,
-    hinge,
-)
+from kintrafo import generator as g
 from kintrafo.generator.mechanisms import four_bar
 from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.targets.fmi import binaries
@@ -50,30 +39,30 @@ def system_named(name: str) -> kintrafo.System:
     return kintrafo.System(importlib.import_module(f"kintrafo.generated.{name}"))
 
 
-def prescribed() -> Formulation:
+def prescribed() -> g.Formulation:
     """Return the four-bar linkage with a prescribed angle of its rocker."""
-    plain = tuple(f for f in four_bar.FOUR_BAR.forces if not isinstance(f, JointForce))
-    given = {four_bar.D: Motion("drive", "rad", "angle of the rocker")}
+    plain = tuple(f for f in four_bar.FOUR_BAR.forces if not isinstance(f, g.JointForce))
+    given = {four_bar.D: g.Motion("drive", "rad", "angle of the rocker")}
     mechanism = replace(four_bar.FOUR_BAR, forces=plain)
-    return Formulation("prescribed", "A four-bar that is turned", mechanism, (), prescribed=given)
+    return g.Formulation("prescribed", "A four-bar that is turned", mechanism, (), prescribed=given)
 
 
-def _pendulum() -> Formulation:
+def _pendulum() -> g.Formulation:
     """Return a pendulum: no guards, no signals, no inputs."""
-    body = Body("body", 2.0, flat("com", (0.3, -0.1)), 0.05)
-    turn = hinge("turn", Ground("ground"), body, flat("pin", (0.0, 0.0)))
-    weight = Weight(upward=Direction("upward", fixed=(0, 1, 0)))
+    body = g.Body("body", 2.0, g.flat("com", (0.3, -0.1)), 0.05)
+    turn = g.hinge("turn", g.Ground("ground"), body, g.flat("pin", (0.0, 0.0)))
+    weight = g.Weight(upward=g.Direction("upward", fixed=(0, 1, 0)))
     angle = turn.angle("angle", "angle of the pendulum")
-    mechanism = Mechanism("pendulum", "A pendulum", (turn,), (weight,), (angle,))
-    return Formulation("pendulum", "A pendulum", mechanism, (turn,))
+    mechanism = g.Mechanism("pendulum", "A pendulum", (turn,), (weight,), (angle,))
+    return g.Formulation("pendulum", "A pendulum", mechanism, (turn,))
 
 
-def _moved() -> Formulation:
+def _moved() -> g.Formulation:
     """Return the pendulum with a prescribed angle: no states, no signals."""
     free = _pendulum()
     mechanism = replace(free.mechanism, forces=())
-    given = {free.independent[0]: Motion("drive", "rad", "angle of the pendulum")}
-    return Formulation("moved", "A pendulum that is turned", mechanism, (), prescribed=given)
+    given = {free.independent[0]: g.Motion("drive", "rad", "angle of the pendulum")}
+    return g.Formulation("moved", "A pendulum that is turned", mechanism, (), prescribed=given)
 
 
 def compiled(folder: Path, *flags: str) -> Path:

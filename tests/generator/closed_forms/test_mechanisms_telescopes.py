@@ -13,20 +13,7 @@ from itertools import permutations, product
 import mpmath
 import numpy as np
 import pytest
-from kintrafo.generator import (
-    Body,
-    Direction,
-    Formulation,
-    Ground,
-    Mechanism,
-    Point,
-    Prismatic,
-    Revolute,
-    Spherical,
-    Universal,
-    flat,
-    hinge,
-)
+from kintrafo import generator as g
 from kintrafo.generator.backends.counting import operations_of
 from kintrafo.generator.closed_forms.prismatic import PrismaticByLength
 from kintrafo.generator.closed_forms.revolute import RevoluteByLength
@@ -49,9 +36,9 @@ BOOM, BASE = (
 
 def crane(driven):
     """Return the crane with the boom's hinge or the bore of the cylinder driven."""
-    ground = Ground("ground")
+    ground = g.Ground("ground")
     foot, low, high = (
-        flat(name, place)
+        g.flat(name, place)
         for name, place in (
             ("foot", (0.0, 0.0)),
             ("barrel_pin", (BASE, 0.0)),
@@ -59,17 +46,17 @@ def crane(driven):
         )
     )
     boom, barrel, piston = (
-        Body(name, 2.0, flat(f"{name}_com", place), 0.3)
+        g.Body(name, 2.0, g.flat(f"{name}_com", place), 0.3)
         for name, place in (("boom", (0.1, 0.9)), ("barrel", (0.8, 0.3)), ("piston", (0.3, 0.9)))
     )
     joints = (
-        hinge("pivot", ground, boom, foot),
-        hinge("low", ground, barrel, low),
-        Prismatic("bore", barrel, piston, Direction("way", tuple(WAY.values()))),
-        hinge("high", piston, boom, high),
+        g.hinge("pivot", ground, boom, foot),
+        g.hinge("low", ground, barrel, low),
+        g.Prismatic("bore", barrel, piston, g.Direction("way", tuple(WAY.values()))),
+        g.hinge("high", piston, boom, high),
     )
     pivot, leaning, bore, _ = joints
-    mechanism = Mechanism(
+    mechanism = g.Mechanism(
         name=f"crane_{driven}",
         title="Crane",
         joints=joints,
@@ -79,7 +66,7 @@ def crane(driven):
             bore.slide("stroke", "stroke"),
         ),
     )
-    return Formulation(mechanism.name, "Crane", mechanism, independent=(mechanism.joint(driven),))
+    return g.Formulation(mechanism.name, "Crane", mechanism, independent=(mechanism.joint(driven),))
 
 
 WAY = {"x": -0.5, "y": 0.7, "z": 0.0}
@@ -347,13 +334,13 @@ def reversed_joint(joint):
 def test_guide_along_the_pins_is_a_guide_that_does_not_miss_them(built):
     """Declared from pin to pin it costs less, and the numbers are those of a direction."""
     mechanism = built.model.mechanism
-    pins = named(mechanism, Point, "barrel_pin"), named(mechanism, Point, "piston_pin")
+    pins = named(mechanism, g.Point, "barrel_pin"), named(mechanism, g.Point, "piston_pin")
     along = {"way_x": -BASE, "way_y": BOOM}
     state = np.array([0.2, 1.3])
     expected = Built.of(built.model, built.module, along)("rhs", state)
     for between in (pins, pins[::-1]):
-        way = named(mechanism, Direction, "way")
-        direct = changed(built.model, (way, Direction("bore", between=between)))
+        way = named(mechanism, g.Direction, "way")
+        direct = changed(built.model, (way, g.Direction("bore", between=between)))
         derived = generate(direct, derivatives=False)
         driven = built.model.independent[0].name
         sign = -1.0 if between != pins and driven == "bore" else 1.0
@@ -375,13 +362,13 @@ def test_known_telescope_in_space_is_refused_by_name():
     """A guide does not say where its line is: in space a telescope is a cylindrical joint."""
     model = crane("bore")
     pivot = model.mechanism.joint("pivot")
-    assert isinstance(pivot, Revolute)
+    assert isinstance(pivot, g.Revolute)
     low, high = (model.mechanism.joint(name) for name in ("low", "high"))
-    at, to = (named(model, Point, name) for name in ("barrel_pin", "piston_pin"))
+    at, to = (named(model, g.Point, name) for name in ("barrel_pin", "piston_pin"))
     shaft = replace(pivot.axis, through=at, towards=to)
     pins = (
-        (low, Universal("low", low.first, low.second, at=at, shaft=shaft)),
-        (high, Spherical("high", high.first, high.second, at=to)),
+        (low, g.Universal("low", low.first, low.second, at=at, shaft=shaft)),
+        (high, g.Spherical("high", high.first, high.second, at=to)),
     )
     coordinates = tuple(c for c in model.mechanism.coordinates if c.joint.name == "bore")
     mechanism = replace(model.mechanism, coordinates=coordinates)

@@ -9,38 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import sympy as sp
-from kintrafo.generator import (
-    Actuator,
-    AlongLine,
-    Angle,
-    AngularSpeed,
-    Body,
-    Copy,
-    DeclarationError,
-    Direction,
-    ForceElement,
-    Formulation,
-    Friction,
-    Ground,
-    Input,
-    JointForce,
-    Length,
-    Line,
-    LinearDamper,
-    LinearSpring,
-    Mechanism,
-    MomentLevel,
-    Point,
-    Revolute,
-    SpringRate,
-    Stop,
-    TorsionDamperRate,
-    TorsionProgression,
-    TorsionRate,
-    TwistOfHinges,
-    Weight,
-    combined,
-)
+from kintrafo import generator as g
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import double_wishbone, four_bar, macpherson, slider_crank
 from kintrafo.generator.mechanisms.suspension import RACK_FORCE
@@ -59,7 +28,7 @@ DECLARED = {
 
 def image_of(model):
     """Return the mirror image of a model, under other names."""
-    image = Copy(model.mechanism, "m_", mirrored=True)
+    image = g.Copy(model.mechanism, "m_", mirrored=True)
     return replace(
         model,
         mechanism=image.mechanism,
@@ -114,8 +83,8 @@ def test_a_mirror_image_moves_as_a_mirror_shows(name):
 
 def test_the_image_of_an_image_is_the_original():
     source = double_wishbone.DOUBLE_WISHBONE
-    once = Copy(source, "a_", mirrored=True).mechanism
-    twice = Copy(once, "b_", mirrored=True).mechanism
+    once = g.Copy(source, "a_", mirrored=True).mechanism
+    twice = g.Copy(once, "b_", mirrored=True).mechanism
     own = [p for p in source.parameters if p.name != "gravity"]  # the weight is that of all
     assert len(twice.derived) == len(own)
     for parameter in own:
@@ -127,7 +96,7 @@ def test_the_image_of_an_image_is_the_original():
 
 def test_fixed_directions_that_are_their_own_image_stay():
     source = macpherson.mechanism()
-    image = Copy(source, "m_", mirrored=True).mechanism
+    image = g.Copy(source, "m_", mirrored=True).mechanism
     assert image.joint("m_C").first_axis is source.joint("C").first_axis
     assert image.joint("m_OA").angle_from is source.joint("OA").angle_from
 
@@ -138,7 +107,7 @@ def test_fixed_directions_that_are_their_own_image_stay():
 def test_copies_read_the_parameters_of_the_declaration():
     source = macpherson.mechanism()
     shared = (macpherson.RACK, RACK_FORCE)
-    left = Copy(source, "left_", mirrored=True, shared=shared).mechanism
+    left = g.Copy(source, "left_", mirrored=True, shared=shared).mechanism
     assert left.parameters == source.parameters
     read = left.derived
     assert read["left_ball_joint_x"] == sp.Symbol("ball_joint_x")
@@ -156,7 +125,7 @@ def test_copies_read_the_parameters_of_the_declaration():
 def test_a_copy_may_have_parameters_of_its_own():
     source = macpherson.mechanism()
     own_ones = (macpherson.SPRING_RATE, macpherson.BALL_JOINT)
-    left = Copy(source, "left_", mirrored=True, own=own_ones).mechanism
+    left = g.Copy(source, "left_", mirrored=True, own=own_ones).mechanism
     own = {p.name: p.default for p in left.parameters if p.name.startswith("left_")}
     ball_joint = {"left_ball_joint_x": 0.005, "left_ball_joint_y": 0.71, "left_ball_joint_z": 0.18}
     assert own == {"left_spring_rate": 25000.0} | ball_joint
@@ -167,89 +136,95 @@ def test_a_copy_may_have_parameters_of_its_own():
 def test_what_parts_have_in_common_is_there_once():
     source = macpherson.mechanism()
     shared = (macpherson.RACK, RACK_FORCE)
-    parts = [Copy(source, p, shared=shared) for p in ("a_", "b_")]
-    whole = combined("pair", "Two on one rack", parts)
+    parts = [g.Copy(source, p, shared=shared) for p in ("a_", "b_")]
+    whole = g.combined("pair", "Two on one rack", parts)
     names = [b.name for b in whole.bodies]
     assert names.count("rack") == names.count("chassis") == 1
     assert len(names) == 2 * len(source.bodies) - 2
     assert list(whole.numbers.values()) == list(range(1, len(names) + 1))
-    assert sum(isinstance(f, Weight) for f in whole.forces) == 1
-    assert sum(isinstance(f, JointForce) for f in whole.forces) == 1
+    assert sum(isinstance(f, g.Weight) for f in whole.forces) == 1
+    assert sum(isinstance(f, g.JointForce) for f in whole.forces) == 1
     assert [c.name for c in whole.coordinates].count("beta9") == 1
     assert len(whole.parameters) == len(source.parameters)
 
 
 @pytest.mark.parametrize(
-    "asked", [{"shared": (Input("track", "m", "track"),)}, {"own": (macpherson.STRUT_LOWER,)}]
+    "asked", [{"shared": (g.Input("track", "m", "track"),)}, {"own": (macpherson.STRUT_LOWER,)}]
 )
 def test_what_a_copy_does_not_know(asked, refused):
-    refused(DeclarationError, lambda: Copy(macpherson.mechanism(), "left_", **asked))
+    refused(g.DeclarationError, lambda: g.Copy(macpherson.mechanism(), "left_", **asked))
 
 
 def test_a_direction_that_the_mirror_would_turn_both_ways():
     source = macpherson.mechanism()
     hinge = source.joint("OA")
-    skew = replace(hinge, axis=Line(hinge.axis.through, macpherson.RACK_AXIS))
-    with pytest.raises(DeclarationError, match="'rack_axis' is an axis of rotation and"):
-        Copy(changed(source, (hinge, skew)), "left_", mirrored=True)
+    skew = replace(hinge, axis=g.Line(hinge.axis.through, macpherson.RACK_AXIS))
+    with pytest.raises(g.DeclarationError, match="'rack_axis' is an axis of rotation and"):
+        g.Copy(changed(source, (hinge, skew)), "left_", mirrored=True)
 
 
 def test_a_prefix_that_makes_the_name_of_a_parameter():
     source = macpherson.mechanism()
     clash = replace(macpherson.TYRE_RATE, name="left_spring_rate")
-    with pytest.raises(DeclarationError, match="'left_spring_rate' is the name of a"):
-        Copy(changed(source, (macpherson.TYRE_RATE, clash)), "left_")
+    with pytest.raises(g.DeclarationError, match="'left_spring_rate' is the name of a"):
+        g.Copy(changed(source, (macpherson.TYRE_RATE, clash)), "left_")
 
 
 # -- twist -----------------------------------------------------------------------------------------
 
-PIVOT = Point("pivot", (0.0, 0.0, 1.0))
-ELBOW = Point("elbow", (0.3, 0.1, 0.9))
-TIP = Point("tip", (0.5, 0.3, 0.6))
-UPPER = Body("upper", 1.5, (0.2, 0.05, 0.95), (0.02, 0.03, 0.01))
-LOWER = Body("lower", 0.8, (0.4, 0.2, 0.7), (0.01, 0.02, 0.015))
+PIVOT = g.Point("pivot", (0.0, 0.0, 1.0))
+ELBOW = g.Point("elbow", (0.3, 0.1, 0.9))
+TIP = g.Point("tip", (0.5, 0.3, 0.6))
+UPPER = g.Body("upper", 1.5, (0.2, 0.05, 0.95), (0.02, 0.03, 0.01))
+LOWER = g.Body("lower", 0.8, (0.4, 0.2, 0.7), (0.01, 0.02, 0.015))
 HINGES = {
-    "shoulder": Revolute(
+    "shoulder": g.Revolute(
         "shoulder",
-        Ground("ground"),
+        g.Ground("ground"),
         UPPER,
-        axis=Line(PIVOT, Direction("shoulder_axis", (0.1, 1.0, 0.2))),
+        axis=g.Line(PIVOT, g.Direction("shoulder_axis", (0.1, 1.0, 0.2))),
         angle_to=ELBOW,
     ),
-    "elbow": Revolute(
-        "elbow", UPPER, LOWER, axis=Line(ELBOW, Direction("elbow_axis", (1.0, 0.2, -0.1)))
+    "elbow": g.Revolute(
+        "elbow", UPPER, LOWER, axis=g.Line(ELBOW, g.Direction("elbow_axis", (1.0, 0.2, -0.1)))
     ),
 }
 LAWS = (
-    LinearSpring(TorsionRate("rate", 30.0, "rate"), free_length=Angle("free", 0.2, "free angle")),
-    LinearDamper(TorsionDamperRate("damper", 0.4, "damping")),
-    Friction(
-        MomentLevel("friction", 0.7, "friction"), AngularSpeed("speed", 0.5, "speed of friction")
+    g.LinearSpring(
+        g.TorsionRate("rate", 30.0, "rate"), free_length=g.Angle("free", 0.2, "free angle")
     ),
-    Stop(
+    g.LinearDamper(g.TorsionDamperRate("damper", 0.4, "damping")),
+    g.Friction(
+        g.MomentLevel("friction", 0.7, "friction"),
+        g.AngularSpeed("speed", 0.5, "speed of friction"),
+    ),
+    g.Stop(
         side="bump",
-        length=Angle("stop", 1.0, "stop"),
-        rate=TorsionRate("stop_rate", 50.0, "rate of the stop"),
-        progression=TorsionProgression("stop_growth", 20.0, "progression of the stop"),
+        length=g.Angle("stop", 1.0, "stop"),
+        rate=g.TorsionRate("stop_rate", 50.0, "rate of the stop"),
+        progression=g.TorsionProgression("stop_growth", 20.0, "progression of the stop"),
     ),
-    Actuator(Input("motor", "N m", "moment of a motor")),
+    g.Actuator(g.Input("motor", "N m", "moment of a motor")),
 )
 
 
 def pendulum(first, second):
     """Return a double pendulum about oblique axes, with everything between its two hinges."""
     shoulder, elbow = HINGES.values()
-    mechanism = Mechanism(
+    mechanism = g.Mechanism(
         name="pendulum",
         title="Double pendulum",
         joints=(shoulder, elbow),
-        forces=(Weight(), ForceElement("bar", TwistOfHinges(HINGES[first], HINGES[second]), LAWS)),
+        forces=(
+            g.Weight(),
+            g.ForceElement("bar", g.TwistOfHinges(HINGES[first], HINGES[second]), LAWS),
+        ),
         coordinates=(
             shoulder.angle("q1", "angle of the shoulder"),
             elbow.angle("q2", "angle of the elbow"),
         ),
     )
-    return Formulation("pendulum", "Double pendulum", mechanism, (shoulder, elbow))
+    return g.Formulation("pendulum", "Double pendulum", mechanism, (shoulder, elbow))
 
 
 @pytest.mark.parametrize("order", [("shoulder", "elbow"), ("elbow", "shoulder")])
@@ -287,20 +262,20 @@ def test_moments_between_hinges_are_those_of_their_angles(order):
 def pair_of_pendulums(*, roped):
     """Return a double pendulum and its mirror image, also with a spring from tip to tip."""
     one = pendulum("shoulder", "elbow")
-    a, b = Copy(one.mechanism, "a_"), Copy(one.mechanism, "b_", mirrored=True)
-    rope = ForceElement(
+    a, b = g.Copy(one.mechanism, "a_"), g.Copy(one.mechanism, "b_", mirrored=True)
+    rope = g.ForceElement(
         "rope",
-        AlongLine((a.of(LOWER), a.of(TIP)), (b.of(LOWER), b.of(TIP))),
+        g.AlongLine((a.of(LOWER), a.of(TIP)), (b.of(LOWER), b.of(TIP))),
         (
-            LinearSpring(
-                SpringRate("rope_rate", 80.0, "rate of the rope"),
-                free_length=Length("rope_length", 0.3, "free length of the rope"),
+            g.LinearSpring(
+                g.SpringRate("rope_rate", 80.0, "rate of the rope"),
+                free_length=g.Length("rope_length", 0.3, "free length of the rope"),
             ),
         ),
     )
-    both = combined("pendulums", "Two pendulums", (a, b), forces=(rope,) if roped else ())
+    both = g.combined("pendulums", "Two pendulums", (a, b), forces=(rope,) if roped else ())
     joints = a.of(one.independent) + b.of(one.independent)
-    return Formulation("pendulums", "Two pendulums", both, joints)
+    return g.Formulation("pendulums", "Two pendulums", both, joints)
 
 
 def test_a_spring_between_parts_is_that_of_the_maximal_coordinates():

@@ -4,18 +4,7 @@ import re
 from dataclasses import replace
 
 import pytest
-from kintrafo.generator import (
-    Actuator,
-    AlongLine,
-    DamperRate,
-    DeclarationError,
-    ForceElement,
-    Input,
-    JointForce,
-    LinearSpring,
-    LinearTyre,
-    Weight,
-)
+from kintrafo import generator as g
 from kintrafo.generator.backends.casadi.dialect import CASADI
 from kintrafo.generator.backends.counting import operations_of
 from kintrafo.generator.backends.jax.dialect import JAX
@@ -32,7 +21,7 @@ from support.symbolic import constants_of, python
 MODEL, FREE, GENERAL = macpherson.MODELS
 MECHANISM = MODEL.mechanism
 STRANGE = four_bar.A
-TORQUE = Input("torque", "N m", "torque")
+TORQUE = g.Input("torque", "N m", "torque")
 
 
 @pytest.mark.parametrize(
@@ -47,44 +36,44 @@ TORQUE = Input("torque", "N m", "torque")
     ],
 )
 def test_models(changes, refused):
-    refused(DeclarationError, lambda: replace(MODEL, **changes))
+    refused(g.DeclarationError, lambda: replace(MODEL, **changes))
 
 
 @pytest.mark.parametrize(
     "changes",
     [
-        {"forces": (*MECHANISM.forces, Weight())},
-        {"forces": (JointForce(STRANGE, TORQUE),)},
+        {"forces": (*MECHANISM.forces, g.Weight())},
+        {"forces": (g.JointForce(STRANGE, TORQUE),)},
         {"coordinates": (STRANGE.angle("q", "q"),)},
     ],
 )
 def test_mechanisms(changes, refused):
-    refused(DeclarationError, lambda: replace(MECHANISM, **changes))
+    refused(g.DeclarationError, lambda: replace(MECHANISM, **changes))
 
 
-(TYRE,) = (force for force in MECHANISM.forces if isinstance(force, LinearTyre))
+(TYRE,) = (force for force in MECHANISM.forces if isinstance(force, g.LinearTyre))
 
 
 def test_a_free_slide_needs_a_telescope():
-    ends = AlongLine(
+    ends = g.AlongLine(
         (macpherson.CHASSIS, macpherson.STRUT_TOP), (macpherson.KNUCKLE, macpherson.BALL_JOINT)
     )
-    with pytest.raises(DeclarationError, match="a free_slide needs a telescope"):
-        ForceElement("strut", ends, (macpherson.SPRING,))
-    with pytest.raises(DeclarationError, match="a free_slide or a free_length"):
+    with pytest.raises(g.DeclarationError, match="a free_slide needs a telescope"):
+        g.ForceElement("strut", ends, (macpherson.SPRING,))
+    with pytest.raises(g.DeclarationError, match="a free_slide or a free_length"):
         replace(macpherson.SPRING, free_slide=None)
 
 
 def test_a_tyre_damps_against_the_rate_of_the_road():
-    damper = DamperRate("tyre_damper", 1.0, "damper")
-    with pytest.raises(DeclarationError, match="give damper and road_velocity, or neither"):
+    damper = g.DamperRate("tyre_damper", 1.0, "damper")
+    with pytest.raises(g.DeclarationError, match="give damper and road_velocity, or neither"):
         replace(TYRE, damper=damper)
-    with pytest.raises(DeclarationError, match="'road_velocity' is not the rate of the road"):
+    with pytest.raises(g.DeclarationError, match="'road_velocity' is not the rate of the road"):
         replace(TYRE, road=RACK_MOTION.inputs[0], damper=damper, road_velocity=ROAD_VELOCITY)
 
 
 def test_all_problems_are_listed():
-    with pytest.raises(DeclarationError) as caught:
+    with pytest.raises(g.DeclarationError) as caught:
         replace(MODEL, independent=(STRANGE, four_bar.D), massive=(four_bar.CRANK,))
     # two strangers, neither of them reported, and a body
     assert len(caught.value.problems) == 5
@@ -122,13 +111,15 @@ def test_a_replaced_body_keeps_its_place():
 def test_several_force_elements_of_a_kind_have_names_of_their_own():
     (strut,) = MECHANISM.elements
     second = replace(strut, name="helper", laws=strut.laws[:2])
-    line = ForceElement(
+    line = g.ForceElement(
         "coil",
-        AlongLine(
+        g.AlongLine(
             (macpherson.CHASSIS, macpherson.STRUT_TOP), (macpherson.ARM, macpherson.BALL_JOINT)
         ),
         (
-            LinearSpring(macpherson.SPRING_RATE, free_length=macpherson.SEATED_SPRING.free_length),
+            g.LinearSpring(
+                macpherson.SPRING_RATE, free_length=macpherson.SEATED_SPRING.free_length
+            ),
             macpherson.DAMPER,
         ),
     )
@@ -158,7 +149,7 @@ def test_several_force_elements_of_a_kind_have_names_of_their_own():
     ],
 )
 def test_names_that_code_cannot_have(old, name, refused):
-    refused(DeclarationError, lambda: changed(MECHANISM, (old, replace(old, name=name))))
+    refused(g.DeclarationError, lambda: changed(MECHANISM, (old, replace(old, name=name))))
 
 
 @pytest.mark.parametrize("dialect", [FORMULA, NUMPY, CASADI, JAX])
@@ -169,7 +160,9 @@ def test_names_in_the_syntax_of_a_language_are_reserved(dialect):
     assert used
     for name in used:
         other = replace(WEIGHT.gravity, name=name)
-        with pytest.raises(DeclarationError, match=f"'{name}' has a name that the generated code"):
+        with pytest.raises(
+            g.DeclarationError, match=f"'{name}' has a name that the generated code"
+        ):
             changed(MECHANISM, (WEIGHT.gravity, other))
 
 
@@ -200,14 +193,14 @@ def defaults(mechanism):
     return {p.name: p.default for p in mechanism.parameters}
 
 
-PULL = Input("pull", "N", "some force")
-IMPULSE = Input("impulse", "N s", "what a force adds up to")
+PULL = g.Input("pull", "N", "some force")
+IMPULSE = g.Input("impulse", "N s", "what a force adds up to")
 
 
 def pulled_by(*inputs):
     """Return the suspension with actuators in its strut, of inputs that all are forces there."""
     (strut,) = MECHANISM.elements
-    pulled = replace(strut, laws=(*strut.laws, *map(Actuator, inputs)))
+    pulled = replace(strut, laws=(*strut.laws, *map(g.Actuator, inputs)))
     return changed(MECHANISM, (strut, pulled))
 
 
@@ -215,15 +208,15 @@ def pulled_by(*inputs):
     "inputs",
     [
         (PULL, replace(PULL, meaning="another force")),
-        tuple(Input(f"rate_{i}", "N", "", derivative_of=IMPULSE) for i in (1, 2)),
+        tuple(g.Input(f"rate_{i}", "N", "", derivative_of=IMPULSE) for i in (1, 2)),
     ],
 )
 def test_an_input_is_the_derivative_of_another_one_once(inputs, refused):
-    refused(DeclarationError, lambda: pulled_by(*inputs))
+    refused(g.DeclarationError, lambda: pulled_by(*inputs))
 
 
 def test_what_an_input_is_the_derivative_of_is_an_input():
-    pulled = pulled_by(Input("pull", "N", "how it changes", derivative_of=IMPULSE))
+    pulled = pulled_by(g.Input("pull", "N", "how it changes", derivative_of=IMPULSE))
     assert {"impulse", "pull"} <= {*pulled.input_names}
 
 
@@ -232,8 +225,8 @@ def test_a_prescribed_motion_has_its_rates():
     assert position.derivative_of is None
     assert velocity.derivative_of == position
     assert acceleration.derivative_of == velocity
-    other = Input("rack_speed", "m/s", "", derivative_of=position)
-    damper = DamperRate("tyre_damper", 1.0, "damper")
+    other = g.Input("rack_speed", "m/s", "", derivative_of=position)
+    damper = g.DamperRate("tyre_damper", 1.0, "damper")
     tyre = replace(TYRE, road=position, damper=damper, road_velocity=other)
-    with pytest.raises(DeclarationError, match="are both the derivative of 'rack_position'"):
+    with pytest.raises(g.DeclarationError, match="are both the derivative of 'rack_position'"):
         replace(MODEL, mechanism=changed(MECHANISM, (TYRE, tyre)))

@@ -4,21 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from kintrafo.generator import (
-    FORWARD,
-    UP,
-    AccelerationOf,
-    AngleBetween,
-    Copy,
-    DeclarationError,
-    Direction,
-    DistanceBetween,
-    ForceOf,
-    Point,
-    PositionOf,
-    VelocityOf,
-    combined,
-)
+from kintrafo import generator as g
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.loader import load
@@ -26,8 +12,8 @@ from mechanisms.every_closed_form import moving_slider_crank
 from support.changes import named
 from support.models import Built
 
-POINT = Point("mark", (0.2, 0.15, 0.25))
-LINE, HINGE = Direction("line", (0.4, -0.3, 0.8)), Direction("about", (0.2, 0.9, 0.3))
+POINT = g.Point("mark", (0.2, 0.15, 0.25))
+LINE, HINGE = g.Direction("line", (0.4, -0.3, 0.8)), g.Direction("about", (0.2, 0.9, 0.3))
 
 
 def declared():
@@ -35,15 +21,15 @@ def declared():
     model = moving_slider_crank("shown_crank", prescribed=True)
     mechanism = model.mechanism
     rod, crank, slider = map(mechanism.body, ("rod", "crank", "slider"))
-    end = named(model, Point, "slider_end")
+    end = named(model, g.Point, "slider_end")
     (spring,) = mechanism.elements
     outputs = (
-        PositionOf("mark", rod, POINT, "mark on the rod"),
-        VelocityOf("mark_velocity", rod, POINT, "mark on the rod"),
-        AccelerationOf("mark_acceleration", rod, POINT, "mark on the rod"),
-        DistanceBetween("reach", (crank, POINT), (slider, end), "from crank to slider"),
-        AngleBetween("bend", (crank, LINE), (slider, FORWARD), HINGE, "bend of the crank"),
-        ForceOf("push", spring, "force of spring and damper"),
+        g.PositionOf("mark", rod, POINT, "mark on the rod"),
+        g.VelocityOf("mark_velocity", rod, POINT, "mark on the rod"),
+        g.AccelerationOf("mark_acceleration", rod, POINT, "mark on the rod"),
+        g.DistanceBetween("reach", (crank, POINT), (slider, end), "from crank to slider"),
+        g.AngleBetween("bend", (crank, LINE), (slider, g.FORWARD), HINGE, "bend of the crank"),
+        g.ForceOf("push", spring, "force of spring and damper"),
     )
     return replace(model, mechanism=replace(mechanism, outputs=outputs))
 
@@ -78,7 +64,7 @@ def vector(signals, name):
 
 def test_points_lengths_and_angles_are_those_of_maximal_coordinates(built):
     oracle, model = built.oracle, built.model
-    place, end = np.array(POINT.place), oracle.place(named(model, Point, "slider_end"))
+    place, end = np.array(POINT.place), oracle.place(named(model, g.Point, "slider_end"))
     for state, inputs in states(built):
         signals, motion = shown(built, state, inputs), built.motion(state, inputs)
         mark = oracle.point(motion, "rod", place)
@@ -146,8 +132,8 @@ def test_signals_have_units_and_meanings(built):
 
 def test_copies_have_the_outputs_of_their_own():
     mechanism = declared().mechanism
-    pair = combined(
-        "pair", "Two", (Copy(mechanism, "a_"), Copy(mechanism, "b_", mirrored=True)), outputs=()
+    pair = g.combined(
+        "pair", "Two", (g.Copy(mechanism, "a_"), g.Copy(mechanism, "b_", mirrored=True)), outputs=()
     )
     assert [o.name for o in pair.outputs][:2] == ["a_mark", "a_mark_velocity"]
     assert pair.derived["b_mark_y"] == -pair.derived["a_mark_y"]
@@ -158,20 +144,20 @@ def test_copies_have_the_outputs_of_their_own():
 def test_mistakes():
     model = declared()
     rod, mechanism = model.mechanism.body("rod"), model.mechanism
-    with pytest.raises(DeclarationError, match="both ends are on 'rod'"):
-        DistanceBetween("d", (rod, POINT), (rod, POINT), "d")
-    with pytest.raises(DeclarationError, match="output 'mark' is declared 2 times"):
+    with pytest.raises(g.DeclarationError, match="both ends are on 'rod'"):
+        g.DistanceBetween("d", (rod, POINT), (rod, POINT), "d")
+    with pytest.raises(g.DeclarationError, match="output 'mark' is declared 2 times"):
         replace(mechanism, outputs=(*mechanism.outputs, mechanism.outputs[0]))
-    clash = replace(mechanism, outputs=(ForceOf("spring_length", mechanism.elements[0], "f"),))
-    with pytest.raises(DeclarationError, match="two signals are named 'spring_length'"):
+    clash = replace(mechanism, outputs=(g.ForceOf("spring_length", mechanism.elements[0], "f"),))
+    with pytest.raises(g.DeclarationError, match="two signals are named 'spring_length'"):
         generate(replace(model, mechanism=clash))
     for name, owner in (
         ("drive_angle_rate", "an element of the state"),
         ("tilt_position", "an input"),
         ("time", "the time"),
     ):
-        clash = replace(mechanism, outputs=(ForceOf(name, mechanism.elements[0], "f"),))
-        with pytest.raises(DeclarationError, match=f"'{name}' is the name of {owner} and of a"):
+        clash = replace(mechanism, outputs=(g.ForceOf(name, mechanism.elements[0], "f"),))
+        with pytest.raises(g.DeclarationError, match=f"'{name}' is the name of {owner} and of a"):
             generate(replace(model, mechanism=clash))
-    with pytest.raises(DeclarationError, match="first"):
-        AngleBetween("a", (rod, POINT), (rod, UP), UP, "a")
+    with pytest.raises(g.DeclarationError, match="first"):
+        g.AngleBetween("a", (rod, POINT), (rod, g.UP), g.UP, "a")

@@ -4,17 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from kintrafo.generator import (
-    Action,
-    AlongLine,
-    Body,
-    Force,
-    ForceElement,
-    ForceLevel,
-    Length,
-    LinearSpring,
-    Point,
-)
+from kintrafo import generator as g
 from kintrafo.generator.declare.declared import declared
 from kintrafo.generator.mechanisms import macpherson
 from oracle.reference import perturbed_parameters
@@ -32,13 +22,13 @@ MOVING = {
 def test_line_spring_along_the_strut_is_the_telescope_spring(seed):
     model = macpherson.MODELS[0]
     parameters = perturbed_parameters(np.random.default_rng(seed))
-    length = Length("coil_free_length", 0.8, "length at which the spring is free")
-    line = ForceElement(
+    length = g.Length("coil_free_length", 0.8, "length at which the spring is free")
+    line = g.ForceElement(
         "coil",
-        AlongLine(
+        g.AlongLine(
             (macpherson.CHASSIS, macpherson.STRUT_TOP), (macpherson.ARM, macpherson.BALL_JOINT)
         ),
-        (LinearSpring(macpherson.SPRING_RATE, free_length=length), macpherson.DAMPER),
+        (g.LinearSpring(macpherson.SPRING_RATE, free_length=length), macpherson.DAMPER),
     )
     (strut,) = model.mechanism.elements
     free_length = parameters["strut_length_max"] - parameters["spring_free_slide"]
@@ -51,12 +41,12 @@ def test_line_spring_along_the_strut_is_the_telescope_spring(seed):
 
 @declared
 @dataclasses.dataclass(frozen=True)
-class Thrust(Force):
+class Thrust(g.Force):
     """A constant force upward at a point of a body: a kind that this project does not have."""
 
-    body: Body
-    point: Point
-    force: ForceLevel
+    body: g.Body
+    point: g.Point
+    force: g.ForceLevel
 
     @property
     def identity(self):
@@ -69,7 +59,7 @@ class Thrust(Force):
             k: self.force.symbol * up.dot(twist.linear + twist.angular.cross(local))
             for k, twist in at.twists(body).items()
         }
-        return Action(forces)
+        return g.Action(forces)
 
 
 def test_a_force_of_one_s_own_applies_itself():
@@ -78,7 +68,7 @@ def test_a_force_of_one_s_own_applies_itself():
     parameters = perturbed_parameters(np.random.default_rng(4))
     lifts = {f"{b.name}_lift": b for b in model.massive}
     forces = {n: parameters["gravity"] * parameters[f"{b.name}_mass"] for n, b in lifts.items()}
-    thrusts = (Thrust(b, b.center, ForceLevel(n, 0.0, "lift")) for n, b in lifts.items())
+    thrusts = (Thrust(b, b.center, g.ForceLevel(n, 0.0, "lift")) for n, b in lifts.items())
     mechanism = dataclasses.replace(model.mechanism, forces=(*model.mechanism.forces, *thrusts))
     lifted = accelerations(
         dataclasses.replace(model, mechanism=mechanism), parameters | forces, MOVING

@@ -6,32 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kintrafo.generator import (
-    UP,
-    Actuator,
-    AlongHinge,
-    Body,
-    DamperRate,
-    DamperTable,
-    DeclarationError,
-    Displacement,
-    ForceElement,
-    ForceLevel,
-    Friction,
-    Ground,
-    Input,
-    Length,
-    Line,
-    LinearDamper,
-    LinearSpring,
-    Point,
-    Progression,
-    Revolute,
-    Speed,
-    SpringRate,
-    SpringTable,
-    Stop,
-)
+from kintrafo import generator as g
 from kintrafo.generator.declare.laws import Stretch
 from kintrafo.generator.program import ConstantStage, Program
 from oracle import laws as oracle
@@ -41,7 +16,7 @@ from support.symbolic import python
 from sympy import Symbol
 
 STATE = {"length": 0.6, "velocity": 0.2, "slide": 0.25}
-TABLE = DamperTable(name="damper_table", segments=10)
+TABLE = g.DamperTable(name="damper_table", segments=10)
 
 calm = settings(deadline=None, max_examples=60)
 velocities = st.floats(-5.0, 5.0)
@@ -72,10 +47,10 @@ def force_of(law, given):
 
 def test_spring_by_slide_and_by_length():
     """Both push when the element is short: the slide grows as the length falls."""
-    rate = SpringRate("k", 2e4, "rate")
-    free_slide, free_length = Displacement("free", 0.05, "slide"), Length("free", 0.8, "length")
-    by_slide = force_of(LinearSpring(rate, free_slide), {"k": 2e4, "free": 0.05})
-    by_length = force_of(LinearSpring(rate, free_length=free_length), {"k": 2e4, "free": 0.8})
+    rate = g.SpringRate("k", 2e4, "rate")
+    free_slide, free_length = g.Displacement("free", 0.05, "slide"), g.Length("free", 0.8, "length")
+    by_slide = force_of(g.LinearSpring(rate, free_slide), {"k": 2e4, "free": 0.05})
+    by_length = force_of(g.LinearSpring(rate, free_length=free_length), {"k": 2e4, "free": 0.8})
     assert by_slide(slide=0.3) == pytest.approx(5000.0, rel=1e-15)
     assert by_length(length=0.55) == pytest.approx(5000.0, rel=1e-15)
     assert by_slide(slide=0.05) == by_length(length=0.8) == 0.0
@@ -84,20 +59,20 @@ def test_spring_by_slide_and_by_length():
 
 
 def test_damper_resists():
-    force = force_of(LinearDamper(DamperRate("c", 1.0, "rate")), {"c": 1500.0})
+    force = force_of(g.LinearDamper(g.DamperRate("c", 1.0, "rate")), {"c": 1500.0})
     assert force(velocity=-2.0) == 3000.0
     assert force(velocity=2.0) == -3000.0
     assert force(velocity=0.0) == 0.0
 
 
 def test_actuator_is_its_input():
-    push = Actuator(Input("push", "N", "push"))
+    push = g.Actuator(g.Input("push", "N", "push"))
     assert force_of(push, {"push": 123.0})() == 123.0
 
 
 # -- friction -------------------------------------------------------------------------------------
 
-FRICTION = Friction(ForceLevel("level", 80.0, "level"), Speed("speed", 0.02, "speed"))
+FRICTION = g.Friction(g.ForceLevel("level", 80.0, "level"), g.Speed("speed", 0.02, "speed"))
 
 
 @given(velocities, st.floats(1e-3, 1.0))
@@ -125,11 +100,11 @@ def test_friction_at_its_speed_and_at_rest():
 # -- stops ----------------------------------------------------------------------------------------
 
 STOPS = {
-    side: Stop(
+    side: g.Stop(
         side=side,
-        length=Length("touch", 0.6, "length"),
-        rate=SpringRate("rate", 3e4, "rate"),
-        progression=Progression("progression", 2e7, "progression"),
+        length=g.Length("touch", 0.6, "length"),
+        rate=g.SpringRate("rate", 3e4, "rate"),
+        progression=g.Progression("progression", 2e7, "progression"),
     )
     for side in ("bump", "rebound")
 }
@@ -160,7 +135,7 @@ def test_names_of_signals():
         "force of the bump stop",
         "force of the rebound stop",
     ]
-    assert TABLE.signal == LinearDamper.signal  # shown as one force
+    assert TABLE.signal == g.LinearDamper.signal  # shown as one force
 
 
 # -- the damper's table ---------------------------------------------------------------------------
@@ -238,7 +213,7 @@ def test_table_without_force():
     assert len(parameters) == 3 + 11 + 4 * 10
 
 
-SPRING = SpringTable(name="spring_table", segments=10)
+SPRING = g.SpringTable(name="spring_table", segments=10)
 
 
 def spring(seed):
@@ -274,19 +249,19 @@ def test_a_spring_of_lengths_without_force():
 
 
 def test_a_twist_has_no_lengths():
-    ground, crank = Ground("ground", 1), Body("crank", 1.0, (0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
-    axis = Line(Point("pivot", (0.0, 0.0, 0.0), "pivot"), UP)
-    hinge = Revolute("hinge", ground, crank, axis=axis)
-    with pytest.raises(DeclarationError, match="are in m, and a twist has none"):
-        ForceElement("coil", AlongHinge(hinge), (SPRING,))
+    ground, crank = g.Ground("ground", 1), g.Body("crank", 1.0, (0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
+    axis = g.Line(g.Point("pivot", (0.0, 0.0, 0.0), "pivot"), g.UP)
+    hinge = g.Revolute("hinge", ground, crank, axis=axis)
+    with pytest.raises(g.DeclarationError, match="are in m, and a twist has none"):
+        g.ForceElement("coil", g.AlongHinge(hinge), (SPRING,))
 
 
 @pytest.mark.parametrize(
     "law",
     [
-        LinearSpring(SpringRate("rate", 3e4, "rate"), Displacement("touch", 0.61, "slide")),
-        LinearSpring(SpringRate("rate", 3e4, "rate"), free_length=STOPS["bump"].length),
-        LinearDamper(DamperRate("rate", 3e4, "rate")),
+        g.LinearSpring(g.SpringRate("rate", 3e4, "rate"), g.Displacement("touch", 0.61, "slide")),
+        g.LinearSpring(g.SpringRate("rate", 3e4, "rate"), free_length=STOPS["bump"].length),
+        g.LinearDamper(g.DamperRate("rate", 3e4, "rate")),
         FRICTION,
         *STOPS.values(),
         TABLE,

@@ -5,25 +5,7 @@ from dataclasses import replace
 import kintrafo
 import numpy as np
 import pytest
-from kintrafo.generator import (
-    AlongLine,
-    Body,
-    Direction,
-    ForceElement,
-    Formulation,
-    Ground,
-    JointForce,
-    Length,
-    Line,
-    LinearSpring,
-    Mechanism,
-    Motion,
-    Point,
-    PositionOf,
-    Prismatic,
-    Revolute,
-    SpringRate,
-)
+from kintrafo import generator as g
 from kintrafo.generator.mechanisms import four_bar
 from kintrafo.systems.compile.compiler import find_compiler
 from mechanisms.every_closed_form import spatial_four_bar
@@ -42,25 +24,26 @@ def swing(time):
 @pytest.fixture(scope="module")
 def lift():
     """An arm on a block on a guide: no loop, both joints prescribed."""
-    ground, block = Ground("ground"), Body("block", 2.0, (0.0, 0.0, 0.3), (0.1, 0.1, 0.1))
-    arm = Body("arm", 1.0, (0.2, 0.0, 0.3), (0.01, 0.02, 0.02))
-    pivot, tip = (Point(name, (x, 0.0, 0.3)) for name, x in (("pivot", 0.0), ("tip", 0.4)))
-    guide = Prismatic("guide", ground, block, Direction("up_there", (0.0, 0.0, 1.0)))
-    across = Direction("across", (0.0, -1.0, 0.0))
-    hinge = Revolute("hinge", block, arm, Line(pivot, across))
-    spring = LinearSpring(
-        SpringRate("rate", 1000.0, "of the spring"), free_length=Length("free", 0.3, "its length")
+    ground, block = g.Ground("ground"), g.Body("block", 2.0, (0.0, 0.0, 0.3), (0.1, 0.1, 0.1))
+    arm = g.Body("arm", 1.0, (0.2, 0.0, 0.3), (0.01, 0.02, 0.02))
+    pivot, tip = (g.Point(name, (x, 0.0, 0.3)) for name, x in (("pivot", 0.0), ("tip", 0.4)))
+    guide = g.Prismatic("guide", ground, block, g.Direction("up_there", (0.0, 0.0, 1.0)))
+    across = g.Direction("across", (0.0, -1.0, 0.0))
+    hinge = g.Revolute("hinge", block, arm, g.Line(pivot, across))
+    spring = g.LinearSpring(
+        g.SpringRate("rate", 1000.0, "of the spring"),
+        free_length=g.Length("free", 0.3, "its length"),
     )
-    seats = AlongLine((ground, Point("base", (0.1, 0.0, 0.0))), (arm, tip))
-    mechanism = Mechanism(
+    seats = g.AlongLine((ground, g.Point("base", (0.1, 0.0, 0.0))), (arm, tip))
+    mechanism = g.Mechanism(
         name="lift",
         title="An arm on a lift",
         joints=(guide, hinge),
-        forces=(ForceElement("spring", seats, (spring,)),),
-        outputs=(PositionOf("tip", arm, tip, "tip"),),
+        forces=(g.ForceElement("spring", seats, (spring,)),),
+        outputs=(g.PositionOf("tip", arm, tip, "tip"),),
     )
-    given = {guide: Motion("lift", "m", "height"), hinge: Motion("swing", "rad", "angle")}
-    formulation = Formulation("lift", "An arm on a lift", mechanism, (), prescribed=given)
+    given = {guide: g.Motion("lift", "m", "height"), hinge: g.Motion("swing", "rad", "angle")}
+    formulation = g.Formulation("lift", "An arm on a lift", mechanism, (), prescribed=given)
     return kintrafo.System(kintrafo.compile(formulation))
 
 
@@ -68,12 +51,12 @@ def lift():
 def driven(request):
     """A four-bar whose rocker is prescribed, and whose crank has dead points."""
     name = request.param
-    given = {four_bar.D: Motion("drive", "rad", "angle of the rocker")}
-    plain = tuple(f for f in four_bar.FOUR_BAR.forces if not isinstance(f, JointForce))
+    given = {four_bar.D: g.Motion("drive", "rad", "angle of the rocker")}
+    plain = tuple(f for f in four_bar.FOUR_BAR.forces if not isinstance(f, g.JointForce))
     mechanism = replace(four_bar.FOUR_BAR, forces=plain)
     if name == "driven_without_signals":
         mechanism = replace(mechanism, forces=(), outputs=())
-    formulation = Formulation(name, "A four-bar", mechanism, (), prescribed=given)
+    formulation = g.Formulation(name, "A four-bar", mechanism, (), prescribed=given)
     return kintrafo.System(kintrafo.compile(formulation))
 
 
@@ -171,9 +154,9 @@ def test_its_linear_equations_are_those_of_the_signals(lift):
 
 def test_a_loop_that_is_driven():
     model = spatial_four_bar("all_given")
-    forces = tuple(f for f in model.mechanism.forces if not isinstance(f, JointForce))
+    forces = tuple(f for f in model.mechanism.forces if not isinstance(f, g.JointForce))
     mechanism = replace(model.mechanism, forces=forces)
-    motion = {mechanism.joint("drive"): Motion("drive", "rad", "angle of the crank")}
+    motion = {mechanism.joint("drive"): g.Motion("drive", "rad", "angle of the crank")}
     given = replace(model, mechanism=mechanism, independent=(), prescribed=motion)
     system = kintrafo.System(kintrafo.compile(given))
     driven = {"drive_position": lambda t: 0.1 * t}

@@ -9,23 +9,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from kintrafo import generator as g
 from kintrafo.equations.errors import ParameterError
-from kintrafo.generator import (
-    FORWARD,
-    UP,
-    Body,
-    DeclarationError,
-    Direction,
-    Formulation,
-    Ground,
-    Line,
-    Mechanism,
-    Point,
-    Revolute,
-    Rotor,
-    Universal,
-    Weight,
-)
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.program.vectors import Vector
 from mechanisms.every_closed_form import (
@@ -102,39 +87,41 @@ def with_joint(model, joint):
 
 def declared(name, joints, points, directions, independent):
     """Return a model of the bodies that some joints connect, each with its centre of mass."""
-    bodies = {"ground": Ground("ground")}
+    bodies = {"ground": g.Ground("ground")}
     for body in (b for joint in joints for b in (joint.first, joint.second)):
         if body not in bodies:
-            bodies[body] = Body(body, 1.0, (0.1, 0.2, 0.1), (0.02, 0.03, 0.04))
+            bodies[body] = g.Body(body, 1.0, (0.1, 0.2, 0.1), (0.02, 0.03, 0.04))
     parts = Parts(
         bodies,
-        {n: Point(n, place) for n, place in points.items()},
-        {n: Direction(n, along) for n, along in directions.items()},
+        {n: g.Point(n, place) for n, place in points.items()},
+        {n: g.Direction(n, along) for n, along in directions.items()},
     )
     built = tuple(sketch.of(parts) for sketch in joints)
-    mechanism = Mechanism(name, name, built, coordinates=reported(built))
-    return Formulation(name, name, mechanism, independent=tuple(map(mechanism.joint, independent)))
+    mechanism = g.Mechanism(name, name, built, coordinates=reported(built))
+    return g.Formulation(
+        name, name, mechanism, independent=tuple(map(mechanism.joint, independent))
+    )
 
 
 def by_directions(model):
     """Give every hinge a direction of its own, every other one the other way round."""
-    return _lines(model, lambda joint, place: Direction(f"{joint.name}_line", place))
+    return _lines(model, lambda joint, place: g.Direction(f"{joint.name}_line", place))
 
 
 def by_points(model):
     """Make every hinge a line through two points, every other one the other way round."""
-    return _lines(model, lambda joint, place: Point(f"{joint.name}_line", place), by_points=True)
+    return _lines(model, lambda joint, place: g.Point(f"{joint.name}_line", place), by_points=True)
 
 
 def _lines(model, towards, *, by_points=False):
     values, normal = numbers(model), np.array(NORMAL)
-    hinges = [j for j in model.mechanism.joints if isinstance(j, Revolute)]
+    hinges = [j for j in model.mechanism.joints if isinstance(j, g.Revolute)]
     for i, joint in enumerate(hinges):
         place = (-1.0) ** i * (0.3 + 0.2 * i) * normal
         if by_points:
             place += vector(values, joint.axis.through.name)
         end = towards(joint, tuple(place.tolist()))
-        model = with_joint(model, replace(joint, axis=Line(joint.axis.through, end)))
+        model = with_joint(model, replace(joint, axis=g.Line(joint.axis.through, end)))
     return model
 
 
@@ -249,7 +236,7 @@ def test_pins_of_a_cylinder_at_different_places_along_their_hinges_are_refused()
 def test_defaults_that_leave_the_plane_are_refused_before_anything_is_compiled(*, reverse):
     model = crane(reverse=reverse)
     beside = moved(numbers(model), "barrel_pin", 0.05 * unit(NORMAL))
-    with pytest.raises(DeclarationError, match="guide bore is not across the hinge"):
+    with pytest.raises(g.DeclarationError, match="guide bore is not across the hinge"):
         generate(with_default(model, **beside))
 
 
@@ -260,12 +247,12 @@ def test_defaults_that_leave_the_plane_are_refused_before_anything_is_compiled(*
 def test_a_shaft_that_is_not_the_line_of_its_rod_is_refused(*, at_rocker):
     model = spatial_four_bar("bent", cross_at_rocker=at_rocker)
     declared_cross = model.mechanism.joint("cross")
-    assert isinstance(declared_cross, Universal)
+    assert isinstance(declared_cross, g.Universal)
     values = numbers(model)
     near, far = ("rocker_end", "crank_end") if at_rocker else ("crank_end", "rocker_end")
     along = vector(values, far) - vector(values, near)
     beyond = tuple((vector(values, near) + 1.3 * along).tolist())
-    bent = replace(declared_cross, shaft=Line(declared_cross.at, Point("knee", beyond)))
+    bent = replace(declared_cross, shaft=g.Line(declared_cross.at, g.Point("knee", beyond)))
     model = with_joint(model, bent)
     modules, values = make(model), numbers(model)  # on the line, if not at the pin: accepted
     across = 0.02 * unit(np.cross(along, (0.3, 0.5, -0.2)))
@@ -285,23 +272,25 @@ def test_a_shaft_that_is_not_the_line_of_its_rod_is_refused(*, at_rocker):
 
 def fan(*, axis=(0.3, 0.9, -0.2), center=(0.1, 0.2, 0.3)):
     """Return a rotor in a bearing on an arm; the axis and the centre of the rotor are free."""
-    foot, bearing = Point("foot", (0.0, 0.0, 0.0)), Point("bearing", (0.1, 0.2, 0.3))
-    arm = Body("arm", 1.0, (0.05, 0.1, 0.1), (0.01, 0.01, 0.01))
-    blades = Rotor(
+    foot, bearing = g.Point("foot", (0.0, 0.0, 0.0)), g.Point("bearing", (0.1, 0.2, 0.3))
+    arm = g.Body("arm", 1.0, (0.05, 0.1, 0.1), (0.01, 0.01, 0.01))
+    blades = g.Rotor(
         "blades",
         1.5,
-        Point("blades_com", center),
-        axis=Direction("blades_axis", axis),
+        g.Point("blades_com", center),
+        axis=g.Direction("blades_axis", axis),
         spin=0.03,
         diametral=0.02,
     )
-    swing_line = Direction("swing_line", (1.0, 0.2, 0.1))
-    spin_line = Direction("spin_line", (0.3, 0.9, -0.2))
-    swing = Revolute("swing", Ground("ground"), arm, Line(foot, swing_line), angle_from=FORWARD)
-    spin = Revolute("spin", arm, blades, Line(bearing, spin_line), angle_from=FORWARD)
+    swing_line = g.Direction("swing_line", (1.0, 0.2, 0.1))
+    spin_line = g.Direction("spin_line", (0.3, 0.9, -0.2))
+    swing = g.Revolute(
+        "swing", g.Ground("ground"), arm, g.Line(foot, swing_line), angle_from=g.FORWARD
+    )
+    spin = g.Revolute("spin", arm, blades, g.Line(bearing, spin_line), angle_from=g.FORWARD)
     joints = (swing, spin)
-    mechanism = Mechanism("fan", "Fan", joints, (Weight(),), reported(joints))
-    return Formulation("fan", "Fan", mechanism, independent=joints)
+    mechanism = g.Mechanism("fan", "Fan", joints, (g.Weight(),), reported(joints))
+    return g.Formulation("fan", "Fan", mechanism, independent=joints)
 
 
 def test_a_rotor_beside_its_bearing_is_refused():
@@ -325,21 +314,21 @@ def test_the_axis_of_a_rotor_may_point_against_its_hinge(sense, tip):
     model = fan(axis=(x, y, z))
     if tip is not None:
         spin = model.mechanism.joint("spin")
-        assert isinstance(spin, Revolute)
-        model = with_joint(model, replace(spin, angle_to=Point("tip", tip)))
+        assert isinstance(spin, g.Revolute)
+        model = with_joint(model, replace(spin, angle_to=g.Point("tip", tip)))
     by_the_oracle(model, own(model, derivatives=False), numbers(model))
 
 
 def test_all_that_is_wrong_with_the_defaults_is_reported_at_once():
     wrong = fan(axis=(0.3, 0.9, 0.0), center=(0.1, 0.2, 0.31))
-    with pytest.raises(DeclarationError) as caught:
+    with pytest.raises(g.DeclarationError) as caught:
         generate(wrong)
     assert len(caught.value.problems) == 2
 
 
 # -- hinges of any direction ----------------------------------------------------------------------
 
-EDGE_AT = Point("edge_at", (0.9, 0.4, 0.1))
+EDGE_AT = g.Point("edge_at", (0.9, 0.4, 0.1))
 
 
 def gate(line, **flap):
@@ -377,8 +366,8 @@ def test_a_hinge_may_have_any_direction_then_and_later():
 @pytest.mark.parametrize("axis", [(1, 0, 0), (0, 1, 0), (0, 0, 1), (-1, 0, 0), (0, 0, -1)])
 def test_a_hinge_along_a_chassis_axis_needs_no_other_direction(axis):
     """Not even as a parameter: the direction that the angle would count from is not read."""
-    fixed = Line(EDGE_AT, Direction("fixed", fixed=Vector.of(*axis)))
-    models = [gate((0.1, 0.2, 1.0), axis=fixed, angle_from=start) for start in (UP, FORWARD)]
+    fixed = g.Line(EDGE_AT, g.Direction("fixed", fixed=Vector.of(*axis)))
+    models = [gate((0.1, 0.2, 1.0), axis=fixed, angle_from=start) for start in (g.UP, g.FORWARD)]
     texts = [str(generate(model, derivatives=False).functions["rhs"]) for model in models]
     assert texts[0] == texts[1]
     for module in make(models[0]):
@@ -386,12 +375,12 @@ def test_a_hinge_along_a_chassis_axis_needs_no_other_direction(axis):
 
 
 def test_an_angle_that_counts_from_along_its_hinge_is_refused_by_name():
-    with pytest.raises(DeclarationError, match="'edge': angle_from, which is up, lies along"):
+    with pytest.raises(g.DeclarationError, match="'edge': angle_from, which is up, lies along"):
         gate(
             (0.0, 0.0, 1.0),
-            axis=Line(EDGE_AT, UP),
-            angle_from=UP,
-            angle_to=Point("flap_tip", (1.2, 0.3, 0.5)),
+            axis=g.Line(EDGE_AT, g.UP),
+            angle_from=g.UP,
+            angle_to=g.Point("flap_tip", (1.2, 0.3, 0.5)),
         )
 
 

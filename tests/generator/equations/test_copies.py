@@ -7,18 +7,7 @@ original, and so they have its accelerations.
 import numpy as np
 import pytest
 import sympy as sp
-from kintrafo.generator import (
-    FORWARD,
-    Body,
-    Copy,
-    Formulation,
-    Ground,
-    Line,
-    Mechanism,
-    Point,
-    Revolute,
-    combined,
-)
+from kintrafo import generator as g
 from kintrafo.generator.closed_forms.catalogue import STEPS
 from kintrafo.generator.closed_forms.free_body import PlaceFree
 from kintrafo.generator.closed_forms.passive_turn import PlacePassive
@@ -74,21 +63,23 @@ def test_a_step_does_not_take_the_name_of_a_parameter_of_a_copy():
 
 
 def test_a_copy_and_its_mirror_image_are_distinguished_where_their_defaults_do_not():
-    ground, arm = Ground("ground"), Body("arm", 1.0, (0.0, 0.0, 1.0), (1.0, 1.0, 1.0))
-    hinge = Revolute("hinge", ground, arm, Line(Point("pivot", (0.0, 0.0, 0.0)), FORWARD))
-    flat = Mechanism("flat", "Flat", (hinge,), coordinates=(hinge.angle("turn", "angle"),))
-    same, image = (Copy(flat, "one_", mirrored=mirrored).mechanism for mirrored in (False, True))
+    ground, arm = g.Ground("ground"), g.Body("arm", 1.0, (0.0, 0.0, 1.0), (1.0, 1.0, 1.0))
+    hinge = g.Revolute("hinge", ground, arm, g.Line(g.Point("pivot", (0.0, 0.0, 0.0)), g.FORWARD))
+    flat = g.Mechanism("flat", "Flat", (hinge,), coordinates=(hinge.angle("turn", "angle"),))
+    same, image = (g.Copy(flat, "one_", mirrored=mirrored).mechanism for mirrored in (False, True))
     assert repr(same) != repr(image)  # what is compiled is kept under it
 
 
 @needs_gcc
 def test_names_that_are_longer_than_a_line_stay_whole():
     """Lines of C end between words, also where a signature leaves no room beside it."""
-    one = Copy(chains.BRICARD.mechanism, "of_a_copy_whose_name_alone_takes_nearly_the_whole_line_")
-    model = Formulation(
+    one = g.Copy(
+        chains.BRICARD.mechanism, "of_a_copy_whose_name_alone_takes_nearly_the_whole_line_"
+    )
+    model = g.Formulation(
         name="long_names",
         title="Bricard's chain with long names",
-        mechanism=combined("long_names", "Long names", (one,)),
+        mechanism=g.combined("long_names", "Long names", (one,)),
         independent=one.of(chains.BRICARD.independent),
         massive=one.of(chains.BRICARD.massive),
         allow_iteration=True,

@@ -5,17 +5,8 @@ from dataclasses import dataclass, replace
 import kintrafo
 import numpy as np
 import pytest
+from kintrafo import generator as g
 from kintrafo.equations.errors import ClosureError
-from kintrafo.generator import (
-    Body,
-    Cylindrical,
-    DeclarationError,
-    Distance,
-    Line,
-    Point,
-    Spherical,
-    Universal,
-)
 from kintrafo.generator.declare.forces.force import Action, Force
 from kintrafo.generator.declare.world import WORLD
 from kintrafo.generator.equations.outputs import generate
@@ -441,26 +432,27 @@ def test_a_strut_from_the_world_is_refused():
     model = thrown()
     (joint,) = model.independent
     barrel, piston = (
-        Body(n, 0.2, at, (0.1, 0.1, 0.1))
+        g.Body(n, 0.2, at, (0.1, 0.1, 0.1))
         for n, at in (("barrel", (0.6, 0.1, 1.5)), ("piston", (0.5, 0.0, 1.2)))
     )
-    post, hook = Point("post", (0.6, 0.1, 1.6)), Point("hook", (0.5, -0.1, 1.1))
+    post, hook = g.Point("post", (0.6, 0.1, 1.6)), g.Point("hook", (0.5, -0.1, 1.1))
     joints = (
         joint,
-        Universal("post_joint", WORLD, barrel, post, shaft=Line(post, hook)),
-        Cylindrical(
+        g.Universal("post_joint", WORLD, barrel, post, shaft=g.Line(post, hook)),
+        g.Cylindrical(
             "stroke",
             barrel,
             piston,
-            Line(hook, post),
-            Distance("strut_length", 0.54, "length of the strut"),
-            angle_to=Point("mark", (0.7, 0.0, 1.2)),
+            g.Line(hook, post),
+            g.Distance("strut_length", 0.54, "length of the strut"),
+            angle_to=g.Point("mark", (0.7, 0.0, 1.2)),
         ),
-        Spherical("hook_joint", piston, joint.second, hook),
+        g.Spherical("hook_joint", piston, joint.second, hook),
     )
     mechanism = replace(model.mechanism, joints=joints)
     with pytest.raises(
-        DeclarationError, match="'barrel', 'piston' hang on several of the bodies 'block', 'world'"
+        g.DeclarationError,
+        match="'barrel', 'piston' hang on several of the bodies 'block', 'world'",
     ):
         generate(replace(model, mechanism=mechanism, massive=(joint.second,)), derivatives=False)
 
@@ -477,7 +469,7 @@ def test_a_force_cannot_act_along_all_its_speeds_at_once(as_stored):
 
     model = thrown()
     pushed = replace(model, mechanism=replace(model.mechanism, forces=(Push(),)))
-    with pytest.raises(DeclarationError) as found:
+    with pytest.raises(g.DeclarationError) as found:
         generate(pushed)
     line = Push.act.__code__.co_firstlineno + 1
     as_stored(str(found.value).replace(f"line {line}:", "line LINE:"))
@@ -487,7 +479,7 @@ def test_names_of_its_states_are_taken():
     model = thrown()
     (joint,) = model.independent
     with pytest.raises(
-        DeclarationError,
+        g.DeclarationError,
         match="'block_x' is the name of a coordinate and of a state of a free body",
     ):
         replace(model.mechanism, coordinates=(joint.coordinate("x", "block_x", "x"),))

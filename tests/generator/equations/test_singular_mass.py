@@ -3,53 +3,44 @@
 import kintrafo
 import numpy as np
 import pytest
-from kintrafo.generator import (
-    Body,
-    Direction,
-    Formulation,
-    Ground,
-    Line,
-    Mechanism,
-    Point,
-    Prismatic,
-    Revolute,
-    Weight,
-)
+from kintrafo import generator as g
 from kintrafo.systems.compile.compiler import find_compiler
 
 pytestmark = pytest.mark.skipif(find_compiler() is None, reason="no C compiler")
 
-ALONG = Direction("along", (0.6, 0.0, 0.8))
+ALONG = g.Direction("along", (0.6, 0.0, 0.8))
 MASSES = np.random.default_rng(0).uniform(0.1, 100.0, 50)  # kg
 
 
 def compiled(name, first, second):
-    told = [j.slide if isinstance(j, Prismatic) else j.angle for j in (first, second)]
+    told = [j.slide if isinstance(j, g.Prismatic) else j.angle for j in (first, second)]
     shown = tuple(tell(j.name, j.name) for tell, j in zip(told, (first, second), strict=True))
-    mechanism = Mechanism(name, "Two bodies in a row", (first, second), (Weight(),), shown)
-    model = Formulation(name, "Two bodies in a row", mechanism, (first, second))
+    mechanism = g.Mechanism(name, "Two bodies in a row", (first, second), (g.Weight(),), shown)
+    model = g.Formulation(name, "Two bodies in a row", mechanism, (first, second))
     return kintrafo.System(kintrafo.compile(model))
 
 
 @pytest.fixture(scope="module")
 def slides():
     """A slide on a slide, on one line: the mass matrix is a constant."""
-    bodies = (Body(n, 1.0, (0.0, 0.0, 0.0), (0.1, 0.1, 0.1)) for n in ("a", "b"))
-    ground, (a, b) = Ground("ground"), bodies
-    return compiled("slides", Prismatic("low", ground, a, ALONG), Prismatic("high", a, b, ALONG))
+    bodies = (g.Body(n, 1.0, (0.0, 0.0, 0.0), (0.1, 0.1, 0.1)) for n in ("a", "b"))
+    ground, (a, b) = g.Ground("ground"), bodies
+    return compiled(
+        "slides", g.Prismatic("low", ground, a, ALONG), g.Prismatic("high", a, b, ALONG)
+    )
 
 
 @pytest.fixture(scope="module")
 def pendulum():
     """A pendulum on a pendulum, which moves the other way when both are in line."""
-    ground, across = Ground("ground"), Direction("across", (0.0, 1.0, 0.0))
-    a = Body("a", 1.0, (0.0, 0.0, -0.3), (0.1, 0.1, 0.1))
-    b = Body("b", 1.0, (0.0, 0.0, -1.0), (0.1, 0.1, 0.1))
-    top, middle = Point("top", (0.0, 0.0, 0.0)), Point("middle", (0.0, 0.0, -0.3))
+    ground, across = g.Ground("ground"), g.Direction("across", (0.0, 1.0, 0.0))
+    a = g.Body("a", 1.0, (0.0, 0.0, -0.3), (0.1, 0.1, 0.1))
+    b = g.Body("b", 1.0, (0.0, 0.0, -1.0), (0.1, 0.1, 0.1))
+    top, middle = g.Point("top", (0.0, 0.0, 0.0)), g.Point("middle", (0.0, 0.0, -0.3))
     return compiled(
         "pendulums",
-        Revolute("upper", ground, a, Line(top, across)),
-        Revolute("lower", a, b, Line(middle, across)),
+        g.Revolute("upper", ground, a, g.Line(top, across)),
+        g.Revolute("lower", a, b, g.Line(middle, across)),
     )
 
 

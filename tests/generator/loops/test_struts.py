@@ -5,24 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from kintrafo import generator as g
 from kintrafo.equations.errors import ClosureError
-from kintrafo.generator import (
-    AlongLine,
-    Body,
-    Cylindrical,
-    DeclarationError,
-    Direction,
-    Distance,
-    Formulation,
-    Ground,
-    Line,
-    Mechanism,
-    Point,
-    Prismatic,
-    Revolute,
-    Spherical,
-    Universal,
-)
 from kintrafo.generator.loops.errors import NoClosedFormError
 from kintrafo.generator.planning.plan import CataloguePlan
 from mechanisms.every_closed_form import spatial_four_bar, turret
@@ -85,15 +69,15 @@ def test_ends_that_meet_are_named():
 def telescope(name, *, ball_at_boom):
     """Return the turret with a telescope that may turn about its axis, from a cross to the boom."""
     model = turret(name, "lift")
-    foot, eye, seat = (named(model, Point, name) for name in ("foot", "eye", "piston_seat"))
+    foot, eye, seat = (named(model, g.Point, name) for name in ("foot", "eye", "piston_seat"))
     mechanism = model.mechanism
     boom, barrel, piston = map(mechanism.body, ("boom", "barrel", "piston"))
-    length = Distance("bore_length", 1.4, "length of the telescope at zero slide")
-    tube = Cylindrical("stroke", barrel, piston, Line(eye, foot), length, angle_to=seat)
+    length = g.Distance("bore_length", 1.4, "length of the telescope at zero slide")
+    tube = g.Cylindrical("stroke", barrel, piston, g.Line(eye, foot), length, angle_to=seat)
     mechanism = changed(mechanism, (mechanism.joint("stroke"), tube))
     if not ball_at_boom:
-        axis = named(model, Direction, "slew_line")
-        pin = Universal("pin", boom, piston, at=eye, shaft=Line(eye, foot), first_axis=axis)
+        axis = named(model, g.Direction, "slew_line")
+        pin = g.Universal("pin", boom, piston, at=eye, shaft=g.Line(eye, foot), first_axis=axis)
         mechanism = changed(mechanism, (mechanism.joint("pin"), pin))
     massive = tuple(b for b in model.massive if b.name not in mechanism.passive_links)
     return replace(model, mechanism=mechanism, massive=massive)
@@ -117,8 +101,8 @@ def test_a_piston_without_mass_may_turn_as_it_likes():
     model = telescope("free_piston", ball_at_boom=True)
     assert [body.name for body in model.massive] == ["turret", "boom", "barrel"]
     (spring,) = model.mechanism.elements
-    eye = model.mechanism.body("boom"), named(model, Point, "eye")
-    seat = replace(spring, path=AlongLine(spring.path.first, eye))
+    eye = model.mechanism.body("boom"), named(model, g.Point, "eye")
+    seat = replace(spring, path=g.AlongLine(spring.path.first, eye))
     built = compiled(changed(model, (spring, seat)))
     for state in np.random.default_rng(0).uniform(-0.4, 0.4, (10, 4)):
         closure = built.oracle.closure(built.motion(state, np.zeros(len(built.module.INPUTS))))
@@ -133,10 +117,10 @@ def on_two_balls(massive):
     """Return a spatial four-bar whose rod has a ball joint in place of its cross."""
     model = spatial_four_bar("two_balls")
     cross = model.mechanism.joint("cross")
-    ball = Spherical("cross", cross.first, cross.second, at=cross.center)
+    ball = g.Spherical("cross", cross.first, cross.second, at=cross.center)
     (spring,) = model.mechanism.elements
-    end = model.mechanism.body("rocker"), named(model, Point, "rocker_end")
-    other = replace(spring, path=AlongLine(spring.path.first, end))
+    end = model.mechanism.body("rocker"), named(model, g.Point, "rocker_end")
+    other = replace(spring, path=g.AlongLine(spring.path.first, end))
     bodies = tuple(map(model.mechanism.body, massive))
     return replace(
         changed(replace(model, massive=bodies[:1]), (cross, ball), (spring, other)), massive=bodies
@@ -170,31 +154,31 @@ def test_a_rod_without_mass_on_two_balls_is_like_one_with_a_cross():
 
 
 def test_a_rod_with_mass_on_two_balls_is_refused():
-    with pytest.raises(DeclarationError, match=r"'rod' may turn about the line"):
+    with pytest.raises(g.DeclarationError, match=r"'rod' may turn about the line"):
         on_two_balls(("crank", "rod", "rocker"))
 
 
 def leg_on_a_plate(along):
     """A plate on a hinge, held by a leg of a Stewart platform: cross, guide and ball joint."""
     inertia = (1e-3, 2e-3, 1.5e-3)
-    ground = Ground("ground")
-    plate = Body("plate", 1.0, Point("plate_com", (0.2, 0.0, 1.0)), inertia)
-    tube = Body("tube", 1.0, Point("tube_com", (0.32, 0.06, 0.3)), inertia)
-    piston = Body("piston", 1.0, Point("piston_com", (0.38, 0.09, 0.8)), inertia)
-    line = Line(Point("bearing", (0.0, 0.0, 1.0)), Direction("side", fixed=(0.0, 1.0, 0.0)))
-    hinge = Revolute("hinge", ground, plate, line)
+    ground = g.Ground("ground")
+    plate = g.Body("plate", 1.0, g.Point("plate_com", (0.2, 0.0, 1.0)), inertia)
+    tube = g.Body("tube", 1.0, g.Point("tube_com", (0.32, 0.06, 0.3)), inertia)
+    piston = g.Body("piston", 1.0, g.Point("piston_com", (0.38, 0.09, 0.8)), inertia)
+    line = g.Line(g.Point("bearing", (0.0, 0.0, 1.0)), g.Direction("side", fixed=(0.0, 1.0, 0.0)))
+    hinge = g.Revolute("hinge", ground, plate, line)
     joints = (
         hinge,
-        Universal("cross", ground, tube, FOOT, Line(FOOT, along)),
-        Prismatic("bore", tube, piston, along),
-        Spherical("ball", plate, piston, HEAD),
+        g.Universal("cross", ground, tube, FOOT, g.Line(FOOT, along)),
+        g.Prismatic("bore", tube, piston, along),
+        g.Spherical("ball", plate, piston, HEAD),
     )
     angle = hinge.angle("tilt", "tilt of the plate")
-    mechanism = Mechanism("plate", "A plate on a leg", joints, (), (angle,))
-    return Formulation("plate", "A plate on a leg", mechanism, (hinge,))
+    mechanism = g.Mechanism("plate", "A plate on a leg", joints, (), (angle,))
+    return g.Formulation("plate", "A plate on a leg", mechanism, (hinge,))
 
 
-FOOT, HEAD = Point("foot", (0.3, 0.05, 0.0)), Point("head", (0.4, 0.1, 1.0))
+FOOT, HEAD = g.Point("foot", (0.3, 0.05, 0.0)), g.Point("head", (0.4, 0.1, 1.0))
 
 
 @pytest.mark.parametrize("numbers", [(0.1, 0.05, 1.0), (-0.1, -0.05, -0.99)])
@@ -202,10 +186,10 @@ def test_a_strut_whose_direction_is_given_as_numbers_must_be_between(numbers):
     """The remedy in the message leads to a closed form."""
     words = re.escape("Direction('leg', between=(foot, head))")
     with pytest.raises(NoClosedFormError, match=words):
-        CataloguePlan.of(leg_on_a_plate(Direction("leg", fixed=numbers)))
+        CataloguePlan.of(leg_on_a_plate(g.Direction("leg", fixed=numbers)))
     with pytest.raises(NoClosedFormError, match=words):
-        CataloguePlan.of(leg_on_a_plate(Direction("leg", along=numbers)))
-    assert CataloguePlan.of(leg_on_a_plate(Direction("leg", between=(FOOT, HEAD)))).transformers
+        CataloguePlan.of(leg_on_a_plate(g.Direction("leg", along=numbers)))
+    assert CataloguePlan.of(leg_on_a_plate(g.Direction("leg", between=(FOOT, HEAD)))).transformers
     with pytest.raises(NoClosedFormError, match=r"has no closed form") as caught:
-        CataloguePlan.of(leg_on_a_plate(Direction("leg", fixed=(0.3, 0.05, 1.0))))
+        CataloguePlan.of(leg_on_a_plate(g.Direction("leg", fixed=(0.3, 0.05, 1.0))))
     assert "between=" not in str(caught.value), "it points elsewhere, and may be meant to"

@@ -8,22 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kintrafo.generator import (
-    FORWARD,
-    Body,
-    Cylindrical,
-    Direction,
-    Distance,
-    Formulation,
-    Ground,
-    Line,
-    Mechanism,
-    Point,
-    Prismatic,
-    Revolute,
-    Spherical,
-    Universal,
-)
+from kintrafo import generator as g
 from kintrafo.generator.closed_forms.prismatic import PrismaticByLength
 from kintrafo.generator.closed_forms.revolute import RevoluteByLength
 from kintrafo.generator.closed_forms.telescope import Telescope
@@ -194,7 +179,7 @@ def test_chain_of_four_bars_has_one_freedom(count):
 
 
 def test_hinges_along_lines_between_points_are_not_taken_for_parallel():
-    cycle = MinimalBasis(JointGraph(loop_of(*[Revolute] * 4).mechanism)).options()[0]
+    cycle = MinimalBasis(JointGraph(loop_of(*[g.Revolute] * 4).mechanism)).options()[0]
     assert not cycle.planar
     planar = MinimalBasis(JointGraph(BY_NAME["four_bar"].mechanism)).options()[0]
     assert planar.planar
@@ -202,30 +187,30 @@ def test_hinges_along_lines_between_points_are_not_taken_for_parallel():
 
 # -- any mechanism --------------------------------------------------------------------------------
 
-P, Q = Point("p", (0.0, 0.0, 0.0)), Point("q", (1.0, 0.0, 0.0))
-BODIES = (Ground("body_0"), *(Body(f"body_{i}", 1.0, (0.0, 0.0, 0.0)) for i in range(1, 8)))
-LENGTH = Distance("length", 1.0, "length")
+P, Q = g.Point("p", (0.0, 0.0, 0.0)), g.Point("q", (1.0, 0.0, 0.0))
+BODIES = (g.Ground("body_0"), *(g.Body(f"body_{i}", 1.0, (0.0, 0.0, 0.0)) for i in range(1, 8)))
+LENGTH = g.Distance("length", 1.0, "length")
 
 
 def joint_between(kind, name, first, second):
     """Return a joint of a kind; topology does not ask where it is."""
     random = np.random.default_rng([*name.encode()])
-    ends = (Point(f"{name}_{i}", tuple(random.normal(size=3).tolist())) for i in (1, 2))
+    ends = (g.Point(f"{name}_{i}", tuple(random.normal(size=3).tolist())) for i in (1, 2))
     geometry = {
-        Revolute: {"axis": Line(*ends)},
-        Prismatic: {"direction": FORWARD},
-        Cylindrical: {"axis": Line(P, Q), "length_at_zero_slide": LENGTH, "angle_to": Q},
-        Universal: {"at": P, "shaft": Line(P, Q)},
-        Spherical: {"at": P},
+        g.Revolute: {"axis": g.Line(*ends)},
+        g.Prismatic: {"direction": g.FORWARD},
+        g.Cylindrical: {"axis": g.Line(P, Q), "length_at_zero_slide": LENGTH, "angle_to": Q},
+        g.Universal: {"at": P, "shaft": g.Line(P, Q)},
+        g.Spherical: {"at": P},
     }
     return kind(name=name, first=first, second=second, **geometry[kind])
 
 
 def mechanism_of(joints):
-    return Mechanism(name="any", title="any", joints=tuple(joints))
+    return g.Mechanism(name="any", title="any", joints=tuple(joints))
 
 
-KINDS = (Revolute, Prismatic, Cylindrical, Universal, Spherical)
+KINDS = (g.Revolute, g.Prismatic, g.Cylindrical, g.Universal, g.Spherical)
 
 
 @st.composite
@@ -289,15 +274,15 @@ def test_sum_of_two_cycles_is_dependent(mechanism):
 
 
 def test_unreachable_body():
-    caliper, piston = (Body(name, 1.0, (0.0, 0.0, 0.0)) for name in ("caliper", "piston"))
-    loose = joint_between(Spherical, "loose", caliper, piston)
+    caliper, piston = (g.Body(name, 1.0, (0.0, 0.0, 0.0)) for name in ("caliper", "piston"))
+    loose = joint_between(g.Spherical, "loose", caliper, piston)
     with pytest.raises(TopologyError, match=r"no joint path.*caliper"):
         JointGraph(replace(SUSPENSION, joints=(*SUSPENSION.joints, loose)))
 
 
 def test_two_joints_between_the_same_bodies():
     bodies = (SUSPENSION.body(name) for name in ("control_arm", "chassis"))
-    second = joint_between(Spherical, "second", *bodies)
+    second = joint_between(g.Spherical, "second", *bodies)
     with pytest.raises(TopologyError, match=r"control_arm.*chassis.*two joints"):
         JointGraph(replace(SUSPENSION, joints=(*SUSPENSION.joints, second)))
 
@@ -311,13 +296,13 @@ def loop_of(*kinds):
     ]
     driven = joints[0]
     mechanism = replace(mechanism_of(joints), coordinates=(driven.angle("q", "drive"),))
-    return Formulation("loop", "loop", mechanism, independent=(driven,), massive=())
+    return g.Formulation("loop", "loop", mechanism, independent=(driven,), massive=())
 
 
 def test_loop_without_closed_form():
     """Two universal joints leave two equations with three revolute joints: none in general."""
     with pytest.raises(NoClosedFormError) as caught:
-        CataloguePlan.of(loop_of(Revolute, Revolute, Universal, Universal, Revolute))
+        CataloguePlan.of(loop_of(g.Revolute, g.Revolute, g.Universal, g.Universal, g.Revolute))
     message = str(caught.value)
     assert "body_0 - body_1 - body_2 - body_3 - body_4" in message
     assert "j0, j1, j2, j3, j4" in message
@@ -327,7 +312,7 @@ def test_loop_without_closed_form():
 def test_loop_of_hinges_has_no_closed_form():
     """The seven hinges of a general loop are a polynomial of degree 16: nothing to cut at."""
     with pytest.raises(NoClosedFormError, match="none, since no two of its joints"):
-        CataloguePlan.of(loop_of(*[Revolute] * 7))
+        CataloguePlan.of(loop_of(*[g.Revolute] * 7))
 
 
 def test_undetermined_body():
@@ -366,16 +351,16 @@ def test_driven_joint_declared_the_wrong_way_round():
 
 def test_directions_and_points_are_values():
     """The same declaration twice is the same geometry, so joints may be declared on other pages."""
-    assert Point("p", (0.0, 0.0, 0.0)) == P
-    assert Direction("d", (1, 2, 3)) == Direction("d", (1.0, 2.0, 3.0))
-    assert Line(P, Q).contains(Q)
-    assert not Line(P, Q).contains(Point("r", (2.0, 0.0, 0.0)))
+    assert g.Point("p", (0.0, 0.0, 0.0)) == P
+    assert g.Direction("d", (1, 2, 3)) == g.Direction("d", (1.0, 2.0, 3.0))
+    assert g.Line(P, Q).contains(Q)
+    assert not g.Line(P, Q).contains(g.Point("r", (2.0, 0.0, 0.0)))
 
 
 @pytest.mark.parametrize("degrees", [0.06, 1e-6])
 def test_a_hinge_that_is_nearly_parallel_is_named(degrees):
     bar = BY_NAME["four_bar"].mechanism
-    line = Direction("off", (np.sin(np.radians(degrees)), 0.0, np.cos(np.radians(degrees))))
+    line = g.Direction("off", (np.sin(np.radians(degrees)), 0.0, np.cos(np.radians(degrees))))
     (c,) = (joint for joint in bar.joints if joint.name == "C")
     other = changed(bar, (c, replace(c, axis=replace(c.axis, towards=line))))
     text = tilted(other)
