@@ -6,26 +6,14 @@ from kintrafo import Suspension
 from kintrafo.vehicle.kinds import KINDS
 
 # What the templates call the points, by kind and our names.
-STRUT = {
-    "arm_front": "lca_front",
-    "arm_rear": "lca_rear",
-    "ball_joint": "lca_outer",
-    "strut_top": "top_mount",
-    "strut_lower": "strut_lwr_mount",
-    "spring_seat": "spring_lwr_seat",
-    "tie_rod_outer": "tierod_outer",
-    "tie_rod_inner": "tierod_inner",
-}
-WISHBONES = {
-    "lower_arm_front": "lca_front",
-    "lower_arm_rear": "lca_rear",
-    "lower_ball_joint": "lca_outer",
-    "upper_arm_front": "uca_front",
-    "upper_arm_rear": "uca_rear",
-    "upper_ball_joint": "uca_outer",
-    "tie_rod_outer": "tierod_outer",
-    "tie_rod_inner": "tierod_inner",
-}
+STRUT = {"arm_front": "lca_front", "arm_rear": "lca_rear", "ball_joint": "lca_outer",
+         "strut_top": "top_mount", "strut_lower": "strut_lwr_mount",
+         "spring_seat": "spring_lwr_seat", "tie_rod_outer": "tierod_outer",
+         "tie_rod_inner": "tierod_inner"}  # fmt: skip
+WISHBONES = {"lower_arm_front": "lca_front", "lower_arm_rear": "lca_rear",
+             "lower_ball_joint": "lca_outer", "upper_arm_front": "uca_front",
+             "upper_arm_rear": "uca_rear", "upper_ball_joint": "uca_outer",
+             "tie_rod_outer": "tierod_outer", "tie_rod_inner": "tierod_inner"}  # fmt: skip
 ROCKER = {
     "rocker_front": "bellcrank_pivot_orient",
     "rocker_rear": "bellcrank_pivot",
@@ -35,21 +23,13 @@ ROCKER = {
 NAMES = {
     "macpherson": STRUT,
     "double_wishbone": {**WISHBONES, "spring_top": "top_mount", "spring_seat": "lwr_strut_mount"},
-    "push_rod": {
-        **WISHBONES,
-        **ROCKER,
-        "push_rod_outer": "prod_outboard",
-        "push_rod_inner": "prod_to_bellcrank",
-    },
-    "pull_rod": {
-        **WISHBONES,
-        **ROCKER,
-        "pull_rod_outer": "prod_outer",
-        "pull_rod_inner": "prod_inboard",
-    },
+    "push_rod": {**WISHBONES, **ROCKER, "push_rod_outer": "prod_outboard",
+                 "push_rod_inner": "prod_to_bellcrank"},
+    "pull_rod": {**WISHBONES, **ROCKER, "pull_rod_outer": "prod_outer",
+                 "pull_rod_inner": "prod_inboard"},
     "multi_link": {"tie_rod_outer": "tierod_outer", "tie_rod_inner": "tierod_inner"},
     "trailing_arm": {},
-}
+}  # fmt: skip
 MILLIMETRES = {"mm": 1.0, "meter": 1000.0, "inch": 25.4, "cm": 10.0}
 
 Row = tuple[str, str, float, float, float]

@@ -367,101 +367,65 @@ def oblique_four_bar() -> g.Formulation:
     """
     return declare(
         "oblique_four_bar",
-        {
-            "base": (0.15, -0.3, 0.2),
-            "crank": askew(0.02, 0.06, 0.04),
-            "coupler": askew(0.14, 0.2, -0.03),
-            "rocker": askew(0.27, 0.13, 0.02),
-            "wheel": askew(0.1, 0.25, 0.08),
-        },
-        (
-            hinge("swing", "ground", "base", "base_bearing", "base_line"),
-            hinge("drive", "base", "crank", "crank_bearing", "normal"),
-            hinge("knee", "crank", "coupler", "crank_pin", "normal"),
-            hinge("knuckle", "rocker", "coupler", "rocker_pin", "normal"),
-            hinge("pivot", "rocker", "base", "rocker_bearing", "normal"),
-            hinge("spinning", "coupler", "wheel", "wheel_com", "spin"),
-        ),
-        {
-            "base_bearing": (0.0, -0.1, 0.1),
-            "crank_bearing": askew(0.0, 0.0, 0.05),
-            "crank_pin": askew(0.0, 0.1, -0.02),
-            "rocker_pin": askew(0.24, 0.26, 0.03),
-            "rocker_bearing": askew(0.3, 0.0, -0.04),
-            "ground_seat": (0.5, 0.2, 0.4),
-            "coupler_seat": askew(0.2, 0.15, 0.06),
-        },
+        {"base": (0.15, -0.3, 0.2), "crank": askew(0.02, 0.06, 0.04),
+         "coupler": askew(0.14, 0.2, -0.03), "rocker": askew(0.27, 0.13, 0.02),
+         "wheel": askew(0.1, 0.25, 0.08)},
+        (hinge("swing", "ground", "base", "base_bearing", "base_line"),
+         hinge("drive", "base", "crank", "crank_bearing", "normal"),
+         hinge("knee", "crank", "coupler", "crank_pin", "normal"),
+         hinge("knuckle", "rocker", "coupler", "rocker_pin", "normal"),
+         hinge("pivot", "rocker", "base", "rocker_bearing", "normal"),
+         hinge("spinning", "coupler", "wheel", "wheel_com", "spin")),
+        {"base_bearing": (0.0, -0.1, 0.1), "crank_bearing": askew(0.0, 0.0, 0.05),
+         "crank_pin": askew(0.0, 0.1, -0.02), "rocker_pin": askew(0.24, 0.26, 0.03),
+         "rocker_bearing": askew(0.3, 0.0, -0.04), "ground_seat": (0.5, 0.2, 0.4),
+         "coupler_seat": askew(0.2, 0.15, 0.06)},
         {"base_line": (0.3, -0.5, 0.9), "normal": NORMAL},
         ("swing", "drive", "spinning"),
         spring=("ground_seat", "coupler_seat"),
         wheel=("wheel", (0.4, 0.7, -0.3)),
-    )
+    )  # fmt: skip
 
 
 def oblique_slider_crank(name: str, *, driven: str) -> g.Formulation:
     """Return a planar slider-crank on a base that turns; the crank or the piston is driven."""
     return declare(
         name,
-        {
-            "base": (0.15, -0.3, 0.2),
-            "crank": askew(0.02, 0.06, 0.04),
-            "rod": askew(0.14, 0.1, -0.03),
-            "piston": askew(0.33, 0.04, 0.02),
-        },
-        (
-            hinge("swing", "ground", "base", "base_bearing", "base_line"),
-            hinge("drive", "base", "crank", "crank_bearing", "normal"),
-            hinge("knee", "crank", "rod", "crank_pin", "normal"),
-            hinge("wrist", "piston", "rod", "piston_pin", "normal"),
-            guide("way", "base", "piston", "way_axis"),
-        ),
-        {
-            "base_bearing": (0.0, -0.1, 0.1),
-            "crank_bearing": askew(0.0, 0.0, 0.05),
-            "crank_pin": askew(0.0, 0.1, -0.02),
-            "piston_pin": askew(0.3, 0.02, 0.03),
-            "ground_seat": (0.5, 0.2, 0.4),
-            "rod_seat": askew(0.2, 0.15, 0.06),
-        },
+        {"base": (0.15, -0.3, 0.2), "crank": askew(0.02, 0.06, 0.04),
+         "rod": askew(0.14, 0.1, -0.03), "piston": askew(0.33, 0.04, 0.02)},
+        (hinge("swing", "ground", "base", "base_bearing", "base_line"),
+         hinge("drive", "base", "crank", "crank_bearing", "normal"),
+         hinge("knee", "crank", "rod", "crank_pin", "normal"),
+         hinge("wrist", "piston", "rod", "piston_pin", "normal"),
+         guide("way", "base", "piston", "way_axis")),
+        {"base_bearing": (0.0, -0.1, 0.1), "crank_bearing": askew(0.0, 0.0, 0.05),
+         "crank_pin": askew(0.0, 0.1, -0.02), "piston_pin": askew(0.3, 0.02, 0.03),
+         "ground_seat": (0.5, 0.2, 0.4), "rod_seat": askew(0.2, 0.15, 0.06)},
         {"base_line": (0.3, -0.5, 0.9), "normal": NORMAL, "way_axis": heading(0.2)},
         ("swing", driven),
         spring=("ground_seat", "rod_seat"),
-    )
+    )  # fmt: skip
 
 
 def oblique_trammel() -> g.Formulation:
     """Return two sliders on guides of one base, joined by a rod: Archimedes' trammel."""
     return declare(
         "oblique_trammel",
-        {
-            "base": (0.15, -0.3, 0.2),
-            "ram": askew(0.02, 0.06, 0.04),
-            "rod": askew(0.14, 0.1, -0.03),
-            "piston": askew(0.33, 0.04, 0.02),
-        },
-        (
-            hinge("swing", "ground", "base", "base_bearing", "base_line"),
-            guide("drive", "base", "ram", "drive_axis"),
-            hinge("knee", "ram", "rod", "ram_pin", "normal"),
-            hinge("wrist", "piston", "rod", "piston_pin", "normal"),
-            guide("way", "base", "piston", "way_axis"),
-        ),
-        {
-            "base_bearing": (0.0, -0.1, 0.1),
-            "ram_pin": askew(0.0, 0.15, -0.02),
-            "piston_pin": askew(0.3, 0.02, 0.03),
-            "ground_seat": (0.5, 0.2, 0.4),
-            "rod_seat": askew(0.2, 0.15, 0.06),
-        },
-        {
-            "base_line": (0.3, -0.5, 0.9),
-            "normal": NORMAL,
-            "drive_axis": heading(1.4),
-            "way_axis": heading(0.2),
-        },
+        {"base": (0.15, -0.3, 0.2), "ram": askew(0.02, 0.06, 0.04), "rod": askew(0.14, 0.1, -0.03),
+         "piston": askew(0.33, 0.04, 0.02)},
+        (hinge("swing", "ground", "base", "base_bearing", "base_line"),
+         guide("drive", "base", "ram", "drive_axis"),
+         hinge("knee", "ram", "rod", "ram_pin", "normal"),
+         hinge("wrist", "piston", "rod", "piston_pin", "normal"),
+         guide("way", "base", "piston", "way_axis")),
+        {"base_bearing": (0.0, -0.1, 0.1), "ram_pin": askew(0.0, 0.15, -0.02),
+         "piston_pin": askew(0.3, 0.02, 0.03), "ground_seat": (0.5, 0.2, 0.4),
+         "rod_seat": askew(0.2, 0.15, 0.06)},
+        {"base_line": (0.3, -0.5, 0.9), "normal": NORMAL, "drive_axis": heading(1.4),
+         "way_axis": heading(0.2)},
         ("swing", "drive"),
         spring=("ground_seat", "rod_seat"),
-    )
+    )  # fmt: skip
 
 
 # -- telescopes in an oblique plane, on a base that turns ------------------------------------------
@@ -471,12 +435,8 @@ def given_telescope() -> g.Formulation:
     """Return a boom held by a cylinder of given stroke, whose guide passes beside both pins."""
     return declare(
         "given_telescope",
-        {
-            "base": (0.15, -0.3, 0.2),
-            "boom": askew(0.1, 0.2, 0.04),
-            "barrel": askew(0.24, 0.05, -0.03),
-            "piston": askew(0.2, 0.15, 0.02),
-        },
+        {"base": (0.15, -0.3, 0.2), "boom": askew(0.1, 0.2, 0.04),
+         "barrel": askew(0.24, 0.05, -0.03), "piston": askew(0.2, 0.15, 0.02)},
         (
             hinge("swing", "ground", "base", "base_bearing", "base_line"),
             hinge("foot", "base", "barrel", "barrel_pin", "normal"),
@@ -484,19 +444,14 @@ def given_telescope() -> g.Formulation:
             hinge("head", "piston", "boom", "piston_pin", "normal"),
             hinge("pivot", "base", "boom", "boom_bearing", "normal", to="boom_seat"),
         ),
-        {
-            "base_bearing": (0.0, -0.1, 0.1),
-            "boom_bearing": askew(0.0, 0.0, 0.05),
-            "barrel_pin": askew(0.3, -0.05, -0.02),
-            "piston_pin": askew(0.12, 0.25, 0.03),
-            "ground_seat": (0.5, 0.2, 0.4),
-            "boom_seat": askew(0.1, 0.4, 0.06),
-        },
+        {"base_bearing": (0.0, -0.1, 0.1), "boom_bearing": askew(0.0, 0.0, 0.05),
+         "barrel_pin": askew(0.3, -0.05, -0.02), "piston_pin": askew(0.12, 0.25, 0.03),
+         "ground_seat": (0.5, 0.2, 0.4), "boom_seat": askew(0.1, 0.4, 0.06)},
         {"base_line": (0.3, -0.5, 0.9), "normal": NORMAL, "bore_axis": heading(2.4)},
         ("swing",),
         spring=("ground_seat", "boom_seat"),
         prescribed={"bore": "bore"},
-    )
+    )  # fmt: skip
 
 
 def inverted_slider_crank() -> g.Formulation:
@@ -506,12 +461,8 @@ def inverted_slider_crank() -> g.Formulation:
     """
     return declare(
         "inverted_crank",
-        {
-            "base": (0.15, -0.3, 0.2),
-            "crank": askew(0.02, 0.06, 0.04),
-            "block": askew(0.05, 0.12, -0.03),
-            "rocker": askew(0.2, 0.15, 0.02),
-        },
+        {"base": (0.15, -0.3, 0.2), "crank": askew(0.02, 0.06, 0.04),
+         "block": askew(0.05, 0.12, -0.03), "rocker": askew(0.2, 0.15, 0.02)},
         (
             hinge("swing", "ground", "base", "base_bearing", "base_line"),
             hinge("pivot", "rocker", "base", "rocker_bearing", "normal", to="ground_seat"),
@@ -519,45 +470,31 @@ def inverted_slider_crank() -> g.Formulation:
             hinge("pin", "block", "crank", "crank_pin", "normal"),
             hinge("drive", "base", "crank", "crank_bearing", "normal", to="crank_pin"),
         ),
-        {
-            "base_bearing": (0.0, -0.1, 0.1),
-            "crank_bearing": askew(0.0, 0.0, 0.05),
-            "crank_pin": askew(0.0, 0.1, -0.02),
-            "rocker_bearing": askew(0.4, 0.05, 0.03),
-            "ground_seat": (0.5, 0.2, 0.4),
-            "rocker_seat": askew(0.2, 0.15, 0.06),
-        },
+        {"base_bearing": (0.0, -0.1, 0.1), "crank_bearing": askew(0.0, 0.0, 0.05),
+         "crank_pin": askew(0.0, 0.1, -0.02), "rocker_bearing": askew(0.4, 0.05, 0.03),
+         "ground_seat": (0.5, 0.2, 0.4), "rocker_seat": askew(0.2, 0.15, 0.06)},
         {"base_line": (0.3, -0.5, 0.9), "normal": NORMAL, "way_axis": heading(0.1)},
         ("swing", "drive"),
         spring=("ground_seat", "rocker_seat"),
-    )
+    )  # fmt: skip
 
 
 def pushed_slider() -> g.Formulation:
     """Return a slider on a guide, pushed by a cylinder whose stroke is driven."""
     return declare(
         "pushed_slider",
-        {
-            "barrel": askew(0.06, 0.1, 0.04),
-            "piston": askew(0.2, 0.06, -0.03),
-            "slider": askew(0.33, 0.04, 0.02),
-        },
-        (
-            hinge("foot", "ground", "barrel", "barrel_pin", "normal"),
-            guide("bore", "barrel", "piston", "bore_axis"),
-            hinge("wrist", "slider", "piston", "slider_pin", "normal"),
-            guide("way", "slider", "ground", "way_axis"),
-        ),
-        {
-            "barrel_pin": askew(0.0, 0.12, 0.05),
-            "slider_pin": askew(0.3, 0.02, 0.03),
-            "ground_seat": (0.5, 0.2, 0.4),
-            "slider_seat": askew(0.36, 0.1, 0.06),
-        },
+        {"barrel": askew(0.06, 0.1, 0.04), "piston": askew(0.2, 0.06, -0.03),
+         "slider": askew(0.33, 0.04, 0.02)},
+        (hinge("foot", "ground", "barrel", "barrel_pin", "normal"),
+         guide("bore", "barrel", "piston", "bore_axis"),
+         hinge("wrist", "slider", "piston", "slider_pin", "normal"),
+         guide("way", "slider", "ground", "way_axis")),
+        {"barrel_pin": askew(0.0, 0.12, 0.05), "slider_pin": askew(0.3, 0.02, 0.03),
+         "ground_seat": (0.5, 0.2, 0.4), "slider_seat": askew(0.36, 0.1, 0.06)},
         {"normal": NORMAL, "bore_axis": heading(-0.5), "way_axis": heading(0.2)},
         ("bore",),
         spring=("ground_seat", "slider_seat"),
-    )
+    )  # fmt: skip
 
 
 # -- one loop after another ------------------------------------------------------------------------
@@ -567,49 +504,30 @@ def chain() -> g.Formulation:
     """Return a planar four-bar whose rocker drives a spatial one, which drives a slider."""
     return declare(
         "chain",
-        {
-            "crank": askew(0.02, 0.06, 0.04),
-            "coupler": askew(0.14, 0.2, -0.03),
-            "rocker": askew(0.27, 0.13, 0.02),
-            "link": (0.4, 0.15, 0.5),
-            "lever": (0.6, 0.1, 0.45),
-            "rod": (0.75, 0.2, 0.5),
-            "slider": (0.95, 0.2, 0.4),
-        },
-        (
-            hinge("drive", "ground", "crank", "crank_bearing", "normal"),
-            hinge("knee", "crank", "coupler", "crank_pin", "normal"),
-            hinge("knuckle", "coupler", "rocker", "rocker_pin", "normal"),
-            hinge("pivot", "ground", "rocker", "rocker_bearing", "normal"),
-            cross("link_cross", "rocker", "link", "rocker_horn", "lever_end", "cross_axis"),
-            ball("link_pin", "link", "lever", "lever_end"),
-            hinge("bell", "ground", "lever", "lever_bearing", "lever_line"),
-            cross("rod_cross", "lever", "rod", "lever_horn", "slider_end", "cross_axis"),
-            ball("rod_pin", "rod", "slider", "slider_end"),
-            guide("way", "ground", "slider", "way_axis"),
-        ),
-        {
-            "crank_bearing": askew(0.0, 0.0, 0.05),
-            "crank_pin": askew(0.0, 0.06, -0.02),
-            "rocker_pin": askew(0.24, 0.26, 0.03),
-            "rocker_bearing": askew(0.3, 0.0, -0.04),
-            "rocker_horn": askew(0.33, 0.14, 0.1),
-            "lever_bearing": (0.62, 0.0, 0.4),
-            "lever_end": (0.55, 0.15, 0.55),
-            "lever_horn": (0.66, 0.18, 0.47),
-            "slider_end": (0.93, 0.22, 0.45),
-            "ground_seat": (0.8, -0.1, 0.7),
-            "rod_seat": (0.78, 0.21, 0.52),
-        },
-        {
-            "normal": NORMAL,
-            "cross_axis": (0.1, 0.3, 1.0),
-            "lever_line": (0.8, -0.1, 0.5),
-            "way_axis": (1.0, 0.25, -0.2),
-        },
+        {"crank": askew(0.02, 0.06, 0.04), "coupler": askew(0.14, 0.2, -0.03),
+         "rocker": askew(0.27, 0.13, 0.02), "link": (0.4, 0.15, 0.5), "lever": (0.6, 0.1, 0.45),
+         "rod": (0.75, 0.2, 0.5), "slider": (0.95, 0.2, 0.4)},
+        (hinge("drive", "ground", "crank", "crank_bearing", "normal"),
+         hinge("knee", "crank", "coupler", "crank_pin", "normal"),
+         hinge("knuckle", "coupler", "rocker", "rocker_pin", "normal"),
+         hinge("pivot", "ground", "rocker", "rocker_bearing", "normal"),
+         cross("link_cross", "rocker", "link", "rocker_horn", "lever_end", "cross_axis"),
+         ball("link_pin", "link", "lever", "lever_end"),
+         hinge("bell", "ground", "lever", "lever_bearing", "lever_line"),
+         cross("rod_cross", "lever", "rod", "lever_horn", "slider_end", "cross_axis"),
+         ball("rod_pin", "rod", "slider", "slider_end"),
+         guide("way", "ground", "slider", "way_axis")),
+        {"crank_bearing": askew(0.0, 0.0, 0.05), "crank_pin": askew(0.0, 0.06, -0.02),
+         "rocker_pin": askew(0.24, 0.26, 0.03), "rocker_bearing": askew(0.3, 0.0, -0.04),
+         "rocker_horn": askew(0.33, 0.14, 0.1), "lever_bearing": (0.62, 0.0, 0.4),
+         "lever_end": (0.55, 0.15, 0.55), "lever_horn": (0.66, 0.18, 0.47),
+         "slider_end": (0.93, 0.22, 0.45), "ground_seat": (0.8, -0.1, 0.7),
+         "rod_seat": (0.78, 0.21, 0.52)},
+        {"normal": NORMAL, "cross_axis": (0.1, 0.3, 1.0), "lever_line": (0.8, -0.1, 0.5),
+         "way_axis": (1.0, 0.25, -0.2)},
         ("drive",),
         spring=("ground_seat", "rod_seat"),
-    )
+    )  # fmt: skip
 
 
 # -- a boom on a turret, held by a cylinder in space -----------------------------------------------
@@ -636,37 +554,20 @@ def turret(
         lift = hinge("lift", "turret", "boom", "boom_bearing", "boom_line")
     return declare(
         name,
-        {
-            "turret": (0.05, -0.1, 0.2),
-            "boom": (0.6, 0.05, 0.4),
-            "barrel": (0.7, 0.25, 0.1),
-            "piston": (1.1, 0.15, 0.6),
-        },
-        (
-            hinge("slew", "ground", "turret", "turret_bearing", "slew_line"),
-            lift,
-            cross("cross", "turret", "barrel", "foot", "eye", "cross_axis"),
-            stroke,
-            ball("pin", "boom", "piston", "eye"),
-        ),
-        {
-            "turret_bearing": (0.0, 0.0, 0.0),
-            "boom_bearing": (0.1, 0.0, 0.3),
-            "foot": (0.5, 0.3, -0.2),
-            "eye": (1.3, 0.1, 0.9),
-            "ground_seat": (0.3, 0.4, 1.0),
-            "piston_seat": (1.0, 0.2, 0.5),
-        },
-        {
-            "slew_line": (0.1, -0.2, 1.0),
-            "boom_line": (0.3, 1.1, -0.5),
-            "lift_line": (0.4, 0.2, 1.0),
-            "cross_axis": (0.9, -0.2, 0.3),
-        },
+        {"turret": (0.05, -0.1, 0.2), "boom": (0.6, 0.05, 0.4), "barrel": (0.7, 0.25, 0.1),
+         "piston": (1.1, 0.15, 0.6)},
+        (hinge("slew", "ground", "turret", "turret_bearing", "slew_line"), lift,
+         cross("cross", "turret", "barrel", "foot", "eye", "cross_axis"), stroke,
+         ball("pin", "boom", "piston", "eye")),
+        {"turret_bearing": (0.0, 0.0, 0.0), "boom_bearing": (0.1, 0.0, 0.3),
+         "foot": (0.5, 0.3, -0.2), "eye": (1.3, 0.1, 0.9), "ground_seat": (0.3, 0.4, 1.0),
+         "piston_seat": (1.0, 0.2, 0.5)},
+        {"slew_line": (0.1, -0.2, 1.0), "boom_line": (0.3, 1.1, -0.5), "lift_line": (0.4, 0.2, 1.0),
+         "cross_axis": (0.9, -0.2, 0.3)},
         ("slew", driven),
         spring=("ground_seat", "piston_seat"),
         crosses=True,
-    )
+    )  # fmt: skip
 
 
 # -- a steering column whose shaft telescopes between two crosses ----------------------------------
@@ -742,31 +643,19 @@ MODELS = (
     oblique_four_bar(),
     oblique_slider_crank("oblique_crank", driven="drive"),
     oblique_slider_crank("oblique_piston", driven="way"),
-    oblique_trammel(),
-    given_telescope(),
-    inverted_slider_crank(),
-    pushed_slider(),
-    turret("lifted_turret", "lift"),
-    turret("pushed_turret", "stroke"),
+    oblique_trammel(), given_telescope(), inverted_slider_crank(), pushed_slider(),
+    turret("lifted_turret", "lift"), turret("pushed_turret", "stroke"),
     turret("pulled_carriage", "stroke", carriage=True, reverse=True),
-    chain(),
-    steering_shaft("steering_shaft"),
+    chain(), steering_shaft("steering_shaft"),
     steering_shaft("turned_shaft", turned=True),
     welded(geared(steering_shaft("shaft"), "shake", "tilt", -1.7), "box"),
     geared(given_telescope(), "bore", "swing", 0.13),
-)
+)  # fmt: skip
 """All of them, each as one model."""
 
-DIFFERENTIATED = (
-    "spatial_four_bar",
-    "oblique_trammel",
-    "inverted_crank",
-    "pushed_slider",
-    "lifted_turret",
-    "pulled_carriage",
-    "shaft_shake_behind_tilt_with_a_burden",
-    "given_telescope_bore_behind_swing",
-)
+DIFFERENTIATED = ("spatial_four_bar", "oblique_trammel", "inverted_crank", "pushed_slider",
+                  "lifted_turret", "pulled_carriage", "shaft_shake_behind_tilt_with_a_burden",
+                  "given_telescope_bore_behind_swing")  # fmt: skip
 """Those whose derivatives are looked at; no other such model has what they have of the catalogue.
 
 The rest is derived without, in a third of the time.

@@ -169,30 +169,18 @@ def plate(name: str, last: str) -> Formulation:
     joints[last] = joints.pop(last)
     model = declare(
         name,
-        {
-            "crank": askew(0.05, 0.02),
-            "bar": askew(0.15, 0.15, 0.03),
-            "block": askew(0.5, 0.02),
-            "plate": askew(0.3, 0.3, 0.02),
-            "rod": askew(0.35, 0.41),
-            "wheel": askew(0.12, 0.16, 0.05),
-        },
+        {"crank": askew(0.05, 0.02), "bar": askew(0.15, 0.15, 0.03), "block": askew(0.5, 0.02),
+         "plate": askew(0.3, 0.3, 0.02), "rod": askew(0.35, 0.41),
+         "wheel": askew(0.12, 0.16, 0.05)},
         tuple(joints.values()),
-        {
-            "crank_pivot": askew(0.0, 0.0),
-            "bar_start": askew(0.1, 0.05),
-            "bar_end": askew(0.2, 0.25),
-            "block_pivot": askew(0.5, 0.0),
-            "rod_start": askew(0.45, 0.5),
-            "rod_end": askew(0.3, 0.38),
-            "ground_top": askew(0.2, 0.6),
-            "plate_seat": askew(0.25, 0.3),
-        },
+        {"crank_pivot": askew(0.0, 0.0), "bar_start": askew(0.1, 0.05), "bar_end": askew(0.2, 0.25),
+         "block_pivot": askew(0.5, 0.0), "rod_start": askew(0.45, 0.5), "rod_end": askew(0.3, 0.38),
+         "ground_top": askew(0.2, 0.6), "plate_seat": askew(0.25, 0.3)},
         {"normal": NORMAL, "slot_direction": heading(2.2)},
         ("crank_hinge", "bearing"),
         spring=("ground_top", "plate_seat"),
         wheel=("wheel", NORMAL),
-    )
+    )  # fmt: skip
     return replace(model, allow_iteration=True)
 
 
@@ -211,15 +199,9 @@ def _rod(name: str, first: str, second: str, axis: str) -> tuple[Sketch, Sketch]
 ROCKERS = replace(
     declare(
         "rockers",
-        {
-            "crank": (0.05, 0.05, 0.0),
-            "arm": (0.2, 0.1, 0.1),
-            "hand": (0.35, 0.2, 0.15),
-            "rocker": (0.5, -0.1, 0.0),
-            "stay": (0.3, 0.35, 0.05),
-            "link": (0.35, 0.0, 0.05),
-            "tie": (0.45, 0.05, 0.1),
-        },
+        {"crank": (0.05, 0.05, 0.0), "arm": (0.2, 0.1, 0.1), "hand": (0.35, 0.2, 0.15),
+         "rocker": (0.5, -0.1, 0.0), "stay": (0.3, 0.35, 0.05), "link": (0.35, 0.0, 0.05),
+         "tie": (0.45, 0.05, 0.1)},
         (
             hinge("crank_hinge", "ground", "crank", "crank_pivot", "axis_0"),
             hinge("arm_hinge", "crank", "arm", "arm_pivot", "axis_1"),
@@ -229,26 +211,18 @@ ROCKERS = replace(
             *_rod("link", "rocker", "arm", "axis_1"),
             *_rod("tie", "rocker", "hand", "axis_2"),
         ),
-        {
-            "crank_pivot": (0.0, 0.0, 0.0),
-            "arm_pivot": (0.1, 0.1, 0.0),
-            "hand_pivot": (0.3, 0.1, 0.2),
-            "rocker_pivot": (0.5, -0.2, -0.1),
-            "stay_start": (0.25, 0.45, 0.0),
-            "stay_end": (0.35, 0.25, 0.12),
-            "link_start": (0.48, -0.08, 0.02),
-            "link_end": (0.2, 0.08, 0.1),
-            "tie_start": (0.52, -0.05, 0.05),
-            "tie_end": (0.42, 0.2, 0.2),
-            "ground_top": (0.3, 0.1, 0.6),
-            "hand_seat": (0.38, 0.2, 0.2),
-        },
+        {"crank_pivot": (0.0, 0.0, 0.0), "arm_pivot": (0.1, 0.1, 0.0),
+         "hand_pivot": (0.3, 0.1, 0.2), "rocker_pivot": (0.5, -0.2, -0.1),
+         "stay_start": (0.25, 0.45, 0.0), "stay_end": (0.35, 0.25, 0.12),
+         "link_start": (0.48, -0.08, 0.02), "link_end": (0.2, 0.08, 0.1),
+         "tie_start": (0.52, -0.05, 0.05), "tie_end": (0.42, 0.2, 0.2),
+         "ground_top": (0.3, 0.1, 0.6), "hand_seat": (0.38, 0.2, 0.2)},
         {"axis_0": AXES[0], "axis_1": AXES[4], "axis_2": AXES[5], "axis_3": AXES[3]},
         ("crank_hinge",),
         spring=("ground_top", "hand_seat"),
     ),
     allow_iteration=True,
-)
+)  # fmt: skip
 """Three rods close three loops of a chain of two bodies and a rocker; two join unknown bodies."""
 
 

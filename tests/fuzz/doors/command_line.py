@@ -32,33 +32,13 @@ ENDINGS = (
     ".svg", ".xlsx", ".py", "", ".",
 )  # fmt: skip
 PLACES = ("", "", "", "", "sub/", "missing/", "file/", "link/", "circle/", "/proc/", "../")
-NUMBERS = (
-    "0",
-    "1",
-    "-1",
-    "20",
-    "60",
-    "1e-9",
-    "1e9",
-    "1e400",
-    "nan",
-    "inf",
-    "x",
-    "",
-    "0.001",
-    "7,5",
-)
+NUMBERS = ("0", "1", "-1", "20", "60", "1e-9", "1e9", "1e400", "nan", "inf", "x", "", "0.001",
+           "7,5")  # fmt: skip
 FLAGS = ("--json", "--force", "--force")
 COARSE = ("--step", "40")
 FEW = {"tolerance": ("--cars", "2"), "pareto": ("--population", "4", "--generations", "2")}
-VALUES = (
-    "wheel.toe_deg=0,1",
-    "wheel.toe_deg=0:1:2",
-    "wheel.toe_deg=0:1:1e9",
-    "x=1",
-    "=",
-    "wheel=1",
-)
+VALUES = ("wheel.toe_deg=0,1", "wheel.toe_deg=0:1:2", "wheel.toe_deg=0:1:1e9", "x=1", "=",
+          "wheel=1")  # fmt: skip
 OPTIONS = {
     "new": ("--suspension", "--template", "--axle"),
     "import": ("--side", "--from", "--from", "--from", "--name", "--kind", "--tire",
@@ -104,23 +84,15 @@ WORDS = {
     "--wheels": ("left", "both", "x"),
     "--place": ("wheel", "hardpoints.tie_rod_inner.z", "vehicle", "rack.axis", "*", "x", ""),
     "--of": ("toe", "toe,camber", "ackermann", "toe_by_lateral", "x", ""),
-    "--keep": (
-        "toe:max",
-        "tyre_force:above:1",
-        "toe",
-        "toe:above",
-        "toe:percentile:90",
-        "toe:psd",
-        "x:max",
-        "",
-    ),
+    "--keep": ("toe:max", "tyre_force:above:1", "toe", "toe:above", "toe:percentile:90", "toe:psd",
+               "x:max", ""),
     "--case": ("static", "brake", "x", ""),
     "--part": ("knuckle", "chassis", "x", ""),
     "--held": ("height", "spring", "x"),
     "--under": ("lateral", "aligning", "x"),
     "--method": ("BDF", "Adams", "Verner", "Radau", "RK45", "x", ""),
     "--model": ("four_bar", "x"),
-}
+}  # fmt: skip
 PATHS = (
     "-o", "--plot", "--member-file", "--cases", "--data", "--tire", "--measured", "--title",
     "--goals", "--bushes",
@@ -259,14 +231,8 @@ def _arguments(random, names):
     return arguments
 
 
-_COSTLY = {
-    "report": 0.02,
-    "paper": 0.01,
-    "mechanism derivation": 0.01,
-    "mechanism generate": 0.03,
-    "compare": 0.05,
-    "characteristics": 0.05,
-}
+_COSTLY = {"report": 0.02, "paper": 0.01, "mechanism derivation": 0.01, "mechanism generate": 0.03,
+           "compare": 0.05, "characteristics": 0.05}  # fmt: skip
 _WEIGHTS = [
     _COSTLY.get(name, (1.0 - sum(_COSTLY.values())) / (len(OPTIONS) - len(_COSTLY)))
     for name in OPTIONS
