@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from cars.axles import AXLE, BENT, placed
-from kintrafo import Axle, AxleModel, System, equilibrium, loads, roads, simulate
+from kintrafo import Axle, AxleModel, System, loads
 from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.vehicle.assembly.axle_kinematics import AxleKinematics
 from kintrafo.vehicle.models.points import carried
@@ -75,19 +75,6 @@ def test_a_bar_bends_where_one_wheel_is_held():
     assert float(found["wheel_load"].sel(wheel="right")[0]) > float(alone["wheel_load"][0]) + 100.0
 
 
-def test_rest_is_that_of_the_whole_axle():
-    """A bar that is bent at rest lifts one wheel's load: without cases in newtons."""
-    if find_compiler() is None:
-        pytest.skip("no C compiler")
-    found = loads.static(BENT, {"a": {"contact_g": [0.0, 0.0, 1.0]}})
-    model = AxleModel(BENT)
-    rest = equilibrium(model)
-    for side in SIDES:
-        force = float(model.signal(f"{side}_rear_tyre_force", rest))
-        # the tyre pushes in the plane of the wheel, at most 2 deg from upright
-        assert float(found["wheel_load"].sel(wheel=side)[0]) == pytest.approx(force, rel=1e-3)
-
-
 @pytest.mark.parametrize("axle", [AXLE, BENT], ids=["reference", "bent"])
 def test_the_axle_rests_in_the_position_of_the_equations(axle):
     """Forces of the compiled equations of the whole, by the work of vertical ones at the wheels."""
@@ -109,23 +96,6 @@ def test_the_axle_rests_in_the_position_of_the_equations(axle):
         left = forces[:, model.state_names.index(f"{side}_{corner.names.arm}")] + push[side] * rise
         # 1e-12 m of travel by 1e5 N/m and a lever of 0.4 m
         np.testing.assert_allclose(left, 0.0, atol=1e-5)
-
-
-def test_a_motion_needs_nothing_else():
-    """The equations of the whole axle and the balance of its parts agree, bar and all."""
-    if find_compiler() is None:
-        pytest.skip("no C compiler")
-    model = AxleModel(AXLE)
-    road = {"left_road_height": roads.step(0.03, at=0.05, end=0.3)}
-    motion = simulate(model, (0.0, 0.3), equilibrium(model), inputs=road)
-    found = loads.along(model, motion)
-    largest = float(abs(found["force"]).max())
-    for side in SIDES:
-        assert float(abs(found["holding_force"].sel(wheel=side)).max()) < 1e-9 * largest
-    assert float(found["residual"].max()) < 1e-9 * largest
-    moment = motion.signals["bar_spring_moment"]
-    np.testing.assert_allclose(found["bar_torque"], -moment, atol=1e-8)
-    assert float(abs(found["bar_torque"]).max()) > 10.0
 
 
 def test_a_search_that_leads_out_of_reach_ends_no_other_case():

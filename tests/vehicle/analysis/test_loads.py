@@ -7,18 +7,24 @@ from contextlib import suppress
 
 import numpy as np
 import pytest
+from cars.axles import AXLE, BENT
 from cars.instants import Instant
+from cars.rigid_axles import AXLES as RIGID
 from kintrafo import (
+    Axle,
     InputError,
     Model,
     PositionError,
     Suspension,
     arm_angles,
     equilibrium,
+    load,
     loads,
+    model_of,
     roads,
     simulate,
 )
+from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.vehicle.analysis.loads.along import in_motion
 from kintrafo.vehicle.assembly.corner import CornerAssembly
 from kintrafo.vehicle.models.positions import design_height
@@ -192,43 +198,80 @@ def test_joints_do_no_work(car):
         assert abs(power).max() < 1e-8, pair
 
 
-@pytest.mark.parametrize(
-    ("car", "free"),
-    [(CAR, False), (WISHBONES, False), (PUSHED, False), (STOPPED, False), (heavy(CAR), True)],
-)
-def test_motions_need_no_other_force(car, free):
+MOVING = {
+    "strut": Model(CAR), "wishbones": Model(WISHBONES), "push rod": Model(PUSHED),
+    "stops": Model(STOPPED), "heavy steering": Model(heavy(CAR), free_rack=True), "axle": AXLE,
+    "rigid axle": RIGID["lopsided"].with_changes({"damper.friction_N": 60.0}),
+    "twist beam": load("twist_beam"), "steered rigid axle": load("steered_rigid_axle"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("subject", MOVING.values(), ids=MOVING)
+def test_motions_need_no_other_force(subject):
     """The compiled equations and the balance of every part agree: nothing is left to hold."""
-    model = Model(car, free_rack=free)
+    alone = isinstance(subject, Model)
+    if not alone and find_compiler() is None:
+        pytest.skip("no C compiler")
+    model = subject if alone else model_of(subject)
+    bump = roads.step(0.05 if alone else 0.03, at=0.02, end=0.3)
     rest = equilibrium(model, spin_rate=50.0)
-    bump = {"road_height": roads.step(0.05, at=0.02, end=0.3)}
-    motion = simulate(model, (0.0, 0.3), rest, inputs=bump)
+    road = {"road_height" if alone else "left_road_height": bump}
+    motion = simulate(model, (0.0, 0.3 if alone else 0.1), rest, inputs=road)
     found = loads.along(model, motion)
     assert found.sizes["time"] == motion.t.size
-    largest = abs(found["force"].values).max()
+    largest = float(abs(found["force"]).max())
     assert largest > 5e3
     # rates of velocities by differences are right to some 1e-11
-    assert abs(found["holding_force"].values).max() < 1e-9 * largest
-    assert found["residual"].values.max() < 1e-9 * largest
-    # without a brake the bearing of the wheel carries nothing about its axis
-    bearing = found.sel(load="wheel at wheel_center by knuckle")
-    axis = model.suspension.wheel.spin_axis(model.suspension.vehicle.sign)
-    assert abs(bearing["moment_in_part"].values @ axis).max() < 1e-9 * largest
+    for name in ("holding_force", "residual", "residual_moment"):
+        assert float(abs(found[name]).max()) < 1e-9 * largest, name
+    # without a brake the bearing of a wheel carries nothing about its axis
+    bearing = re.compile(r"wheel\w* at wheel_center\w* by (?!road)")
+    bearings = [name for name in map(str, found["load"].values) if bearing.match(name)]
+    assert len(bearings) == (1 if alone else 2)
+    for name in bearings:
+        side = "left" if name.startswith("wheel_left") else "right"
+        file = model.suspension if alone else subject
+        part = file.sides[side] if isinstance(file, Axle) else file
+        axis = part.wheel.spin_axis(1.0 if side == "left" else -1.0)
+        moment = found["moment_in_part"].sel(load=name).values
+        assert np.abs(moment @ axis).max() < 1e-9 * largest, name
+    # that of a beam is about its coordinate, the turn of one half
+    if "bar_spring_moment" in motion.signals:
+        moment = motion.signals["bar_spring_moment"]
+        np.testing.assert_allclose(found["bar_torque"], -moment, atol=1e-8)
+        assert float(abs(found["bar_torque"]).max()) > 10.0
 
 
 # -- load cases ---------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("car", EVERY, ids=lambda car: car.TITLE)
-def test_at_rest_positions_are_those_of_the_equations(car):
-    model = Model(car)
-    rest = equilibrium(model)
-    found = loads.static(model, STILL).sel(case="static")
-    height = float(model.signal("wheel_center_z", rest, model.inputs()))
-    travel = height - design_height(model)
-    # the road's force is at the contact, and that of the tyre at the centre: the same but for the
-    # camber and toe of the wheel
-    assert float(found["travel"]) == pytest.approx(travel, abs=1e-3)
-    assert abs(float(found["holding_force"])) < 1e-8
+RESTING = {
+    **{car.TITLE: (Model(car), 1e-3, 1e-3) for car in EVERY},
+    "bent axle": (BENT, None, 1e-3),
+    # inclined by the rounding of its file, some 2e-5
+    "rigid axle": (load("rigid_axle"), 1e-5, 1e-9),
+}
+
+
+@pytest.mark.parametrize(("subject", "far", "apart"), RESTING.values(), ids=RESTING)
+def test_at_rest_positions_and_loads_are_those_of_the_equations(subject, far, apart):
+    """The tyre pushes in the plane of the wheel, which is inclined by camber and toe."""
+    alone = isinstance(subject, Model)
+    if not alone and find_compiler() is None:
+        pytest.skip("no C compiler")
+    model = subject if alone else model_of(subject)
+    found, rest = loads.static(subject, STILL).sel(case="static"), equilibrium(model)
+    for side in ("right",) if alone else ("left", "right"):
+        here = found if alone else found.sel(wheel=side)
+        name = "" if alone else f"{side}_{getattr(subject, 'end', 'axle')}_"
+        name = name if f"{name}tyre_force" in model.signal_names else f"{side}_axle_"
+        force = float(model.signal(f"{name}tyre_force", rest))
+        assert float(here["wheel_load"]) == pytest.approx(force, rel=apart)
+        if far:
+            height = float(model.signal(f"{name}wheel_center_z", rest))
+            design = design_height(model) if alone else subject.center[2]
+            assert float(here["travel"]) == pytest.approx(height - design, abs=far)
+        assert abs(float(here["holding_force"])) < 1e-8
     assert float(found["residual"].max()) < 1e-8
 
 
