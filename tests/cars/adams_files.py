@@ -1,8 +1,5 @@
 """Subsystems of Adams/Car, written from suspensions of kintrafo: its axes, units and names."""
 
-from collections.abc import Callable, Iterable
-
-from kintrafo import Suspension
 from kintrafo.vehicle.kinds import KINDS
 
 # What the templates call the points, by kind and our names.
@@ -32,16 +29,12 @@ NAMES = {
 }  # fmt: skip
 MILLIMETRES = {"mm": 1.0, "meter": 1000.0, "inch": 25.4, "cm": 10.0}
 
-Row = tuple[str, str, float, float, float]
 
-
-def kind_of(car: Suspension) -> str:
+def kind_of(car):
     return next(name for name, kind in KINDS.items() if type(car) is kind)
 
 
-def rows_of(
-    car: Suspension, unit: str = "mm", symmetry: Callable[[str], str] | None = None
-) -> list[Row]:
+def rows_of(car, unit="mm", symmetry=None):
     """Return the rows of a car's hardpoints; those for both sides are of the left one."""
     named = NAMES[kind_of(car)]
     rows = []
@@ -53,7 +46,7 @@ def rows_of(
     return rows
 
 
-def table(rows: Iterable[Row]) -> str:
+def table(rows):
     return "".join(
         f" '{name:<24}'  '{sides:<10}'  {x!r}  {y!r}  {z!r}\n"
         for name, sides, x, y, z in ((n, s, float(x), float(y), float(z)) for n, s, x, y, z in rows)
@@ -77,9 +70,7 @@ $---------------------------------------------------------------SUBSYSTEM_HEADER
 """
 
 
-def subsystem(
-    car: Suspension, *, unit: str = "mm", rows: list[Row] | None = None, more: str = ""
-) -> str:
+def subsystem(car, *, unit="mm", rows=None, more=""):
     """Return the text of a subsystem with the hardpoints, camber and toe of a car."""
     wheel = car.wheel
     return f"""\

@@ -1,15 +1,13 @@
 """Axles that tests share."""
 
-from typing import Any
-
 import numpy as np
-from kintrafo import Axle, AxleModel, Suspension
+from kintrafo import Axle, Suspension
 from kintrafo.vehicle.models.positions import arm_angles, design_height
 
 AXLE = Axle.load("reference_axle")
 WISHBONES = Suspension.load("double_wishbone_car")
 # A rear axle whose sides differ, with stops that act, and a bar that is bent at design.
-LOPSIDED: dict[str, Any] = {
+LOPSIDED = {
     "axle": "rear",
     "right": WISHBONES.with_changes({"bump_stop": {"clearance_mm": 5.0, "rate_N_per_m": 1e5}}),
     "left": WISHBONES.mirrored().with_changes(
@@ -35,7 +33,7 @@ LOPSIDED: dict[str, Any] = {
 BENT = Axle.from_dict(LOPSIDED)
 
 
-def placed(model: AxleModel, travels: dict[str, np.ndarray], racks: np.ndarray) -> Any:
+def placed(model, travels, racks):
     """Return states and inputs of a whole axle at rest."""
     states = np.tile(model.design_state, (racks.size, 1))
     inputs = np.zeros((racks.size, len(model.input_names)))

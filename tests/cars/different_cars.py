@@ -1,9 +1,6 @@
 """Cars that differ, of which some fail, and results that must be the same bits."""
 
-from typing import Any
-
 import numpy as np
-import xarray as xr
 from kintrafo import Model, Samples
 
 SPAN = (0.0, 0.5)
@@ -15,7 +12,7 @@ BUMP = (np.linspace(0.0, 0.5, 26), 0.01 * np.sin(np.linspace(0.0, 9.0, 26)) ** 2
 RACK = Samples(np.linspace(0.0, 0.5, 6), [0.0, 0.001, 0.01, 0.02, 0.015, 0.0], between="spline")
 
 
-def some_cars(count: int, seed: int = 0) -> dict[str, np.ndarray]:
+def some_cars(count, seed=0):
     """Return cars whose hardpoints, rates, masses and starts differ."""
     rng = np.random.default_rng(seed)
     reference = Model("reference_car").parameters
@@ -24,7 +21,7 @@ def some_cars(count: int, seed: int = 0) -> dict[str, np.ndarray]:
     return found | {"beta1_rate": 0.2 * rng.standard_normal(count)}
 
 
-def of_all_kinds(car: Model) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
+def of_all_kinds(car):
     """Return systems of which some fail, in every way in which they can."""
     cars = some_cars(60)
     rng = np.random.default_rng(7)
@@ -54,7 +51,7 @@ def of_all_kinds(car: Model) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
     return cars, options
 
 
-def same(one: xr.Dataset, other: xr.Dataset) -> None:
+def same(one, other):
     """Demand the same bits in all results."""
     assert set(one.data_vars) == set(other.data_vars)
     for name, found in one.data_vars.items():

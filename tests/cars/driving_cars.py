@@ -3,10 +3,6 @@
 One drives, on struts, trailing arms and linear tyres; one heaves, pitches and rolls on arms alone.
 """
 
-from __future__ import annotations
-
-from typing import Any
-
 import kintrafo
 from kintrafo.vehicle.models.car import Car
 
@@ -23,7 +19,7 @@ TYRE = {
 }
 LINES = ("front_left_strut", "front_right_strut", "rear_left_spring", "rear_right_spring")
 """Lines of the springs and dampers of the packaged car that drives."""
-FILE: dict[str, Any] = {
+FILE = {
     "car": "full",
     "front": {"axle": "front", "side": "reference_car", "drive": {"share": 1.0}},
     "rear": {"axle": "rear", "side": "trailing_arm_car"},
@@ -42,12 +38,12 @@ FILE: dict[str, Any] = {
 }
 
 
-def light_car(**changes: Any) -> Car:
+def light_car(**changes):
     """Return the car that drives, with changes of values in its file."""
     return Car.from_dict(FILE).with_changes({"body.mass_kg": 1300.0, **changes})
 
 
-def car_on_arms() -> Car:
+def car_on_arms():
     """Return a car on four trailing arms, with the shortest equations."""
     arm = kintrafo.load("trailing_arm_car")
     axles = {

@@ -9,11 +9,10 @@ from types import ModuleType
 
 import numpy as np
 from kintrafo.generated import macpherson, macpherson_free_rack, macpherson_general
-from oracle.constraints import BODIES, Array, Pose
-from oracle.multipliers import Solution, solve_free, solve_prescribed
-from oracle.newton import Mechanism, solve_pose
+from oracle.constraints import BODIES, Array
+from oracle.multipliers import solve_free, solve_prescribed
+from oracle.newton import solve_pose
 from oracle.reference import (
-    Parameters,
     completed,
     general_parameters,
     perturbed_parameters,
@@ -41,19 +40,19 @@ class Instant:
     strut_force: float = 0.0
     rack_force: float = 0.0
 
-    def state(self, model: ModuleType) -> Array:
+    def state(self, model):
         """Return the state array of a compiled model."""
         return np.array([self._named()[name] for name in model.STATE])
 
-    def inputs(self, model: ModuleType) -> Array:
+    def inputs(self, model):
         """Return the input array of a compiled model."""
         return np.array([self._named()[name] for name in model.INPUTS])
 
-    def arrays(self, model: ModuleType) -> tuple[Array, Array]:
+    def arrays(self, model):
         """Return state and inputs of a compiled model."""
         return self.state(model), self.inputs(model)
 
-    def _named(self) -> dict[str, float]:
+    def _named(self):
         return vars(self) | {
             "beta5": self.spin,
             "beta9": self.rack,
@@ -63,11 +62,11 @@ class Instant:
             "rack_velocity": self.rack_rate,
         }
 
-    def pose(self, car: Mechanism, start: Pose | None = None) -> Pose:
+    def pose(self, car, start=None):
         """Solve the joints with the oracle."""
         return solve_pose(car, self.beta1, self.rack, self.spin, start)
 
-    def solution(self, model: ModuleType, car: Mechanism) -> Solution:
+    def solution(self, model, car):
         """Solve the dynamics of a model's kind with the oracle."""
         rates = self.beta1_rate, self.spin_rate, self.rack_rate
         pose, inputs = self.pose(car), self.road_and_strut()
@@ -76,7 +75,7 @@ class Instant:
             return solve_prescribed(car, pose, *rates, **inputs)
         return solve_free(car, pose, *rates, rack_force=self.rack_force, **inputs)
 
-    def road_and_strut(self) -> dict[str, float]:
+    def road_and_strut(self):
         """Return the inputs that all models share, in the words of the oracle."""
         return {name: vars(self)[name] for name in ("road_height", "road_velocity", "strut_force")}
 
@@ -90,26 +89,26 @@ class At:
     constants: Array
 
     @property
-    def state(self) -> Array:
+    def state(self):
         """State array."""
         return self.instant.state(self.model)
 
     @property
-    def inputs(self) -> Array:
+    def inputs(self):
         """Input array."""
         return self.instant.inputs(self.model)
 
     @property
-    def size(self) -> int:
+    def size(self):
         """Number of independent coordinates."""
         return len(self.model.STATE) // 2
 
-    def __call__(self, function: str) -> Array:
+    def __call__(self, function):
         """Evaluate a function of the model."""
         return getattr(self.model, function)(self.state, self.inputs, self.constants)
 
 
-def random_instants(rng: np.random.Generator, car: Mechanism, count: int) -> list[Instant]:
+def random_instants(rng, car, count):
     """Return instants within most of the travel, at the rates and forces of a rough road."""
     return [
         Instant(
@@ -129,12 +128,12 @@ def random_instants(rng: np.random.Generator, car: Mechanism, count: int) -> lis
     ]
 
 
-def is_prescribed(model: ModuleType) -> bool:
+def is_prescribed(model):
     """Return whether the rack of a model follows its inputs."""
     return "rack_position" in model.INPUTS
 
 
-def car_parameters(seed: int, model: ModuleType = macpherson) -> Parameters:
+def car_parameters(seed, model=macpherson):
     """Return the reference car for seed 0, a general car near it for every other seed.
 
     For the general model those have all that it describes; with every third of them the tyre
@@ -149,13 +148,13 @@ def car_parameters(seed: int, model: ModuleType = macpherson) -> Parameters:
     return of_model(model, parameters | {"tyre_lifts_off": float(seed % 3 != 0)})
 
 
-def of_model(model: ModuleType, parameters: Parameters) -> Parameters:
+def of_model(model, parameters):
     """Return exactly the parameters that a model takes; those that are absent have no effect."""
     complete = completed(parameters)
     return {name: complete[name] for name in model.PARAMETERS}
 
 
-def counted_by(model: ModuleType, parameters: Parameters) -> Parameters:
+def counted_by(model, parameters):
     """Return the parameters of what a model describes: bodies that it leaves out have no mass."""
     counted = dict(parameters)
     for body in BODIES:

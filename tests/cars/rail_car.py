@@ -4,8 +4,6 @@ It has the names of states, inputs and signals of a car that drives. Wheels do n
 they travel, except that a rack turns both front wheels by one angle.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from kintrafo import generator as g
@@ -32,7 +30,7 @@ RACK_MOTION = g.Motion("rack", "m", "displacement of the rack")
 GRAVITY = g.Gravity("gravity", 9.81, "acceleration of gravity")
 
 
-def _corner(wheel: str):
+def _corner(wheel):
     x = FRONT if wheel.startswith("front") else REAR
     y = HALF_TRACK if wheel.endswith("left") else -HALF_TRACK
     end = wheel.partition("_")[0]
@@ -85,7 +83,7 @@ def _corner(wheel: str):
     return joints, driven, forces, coordinates, (slide, wheel_body)
 
 
-def declared(*, column: bool = False) -> g.Formulation:
+def declared(*, column=False):
     """Return its declaration, also with a steering column."""
     free = g.Free("body_free", BODY)
     corners = [_corner(wheel) for wheel in WHEELS]

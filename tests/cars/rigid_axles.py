@@ -1,7 +1,6 @@
 """Rigid axles that tests share, and where a root finder puts their beams."""
 
 import math
-from typing import Any
 
 import numpy as np
 import pytest
@@ -9,7 +8,6 @@ from kintrafo import RigidAxle, RigidAxleModel
 from scipy.optimize import fsolve
 from scipy.spatial.transform import Rotation
 
-Array = np.ndarray
 AXLE = RigidAxle.load("rigid_axle")
 MODEL = RigidAxleModel(AXLE)
 LEFT = np.array([0.0, 1.0, 0.0])
@@ -58,20 +56,20 @@ each_axle = pytest.mark.parametrize("axle", AXLES.values(), ids=AXLES)
 class Found:
     """Poses of the beam by a root finder: six equations in its displacement and rotation."""
 
-    def __init__(self, axle: RigidAxle) -> None:
+    def __init__(self, axle):
         self.axle, self.center, self.half = axle, axle.center, axle.half_track
         self.inner, self.outer = (
             np.array(ends) for ends in zip(*axle.ends().values(), strict=True)
         )
         self.lengths = np.linalg.norm(self.outer - self.inner, axis=1)
 
-    def pose(self, heave: float, roll: float) -> tuple[Array, Rotation]:
+    def pose(self, heave, roll):
         """Return the middle of the axle and its turn, at one height and inclination."""
 
-        def moved(x: Array) -> tuple[Array, Rotation]:
+        def moved(x):
             return self.center + x[:3], Rotation.from_rotvec(x[3:])
 
-        def misfit(x: Array) -> Array:
+        def misfit(x):
             middle, turn = moved(x)
             ends = middle + turn.apply(self.outer - self.center)
             off = np.linalg.norm(ends - self.inner, axis=1) - self.lengths
@@ -83,12 +81,12 @@ class Found:
         assert np.abs(misfit(x)).max() < 1e-13, words
         return moved(x)
 
-    def place(self, point: Array, heave: float, roll: float) -> Array:
+    def place(self, point, heave, roll):
         """Return where a point of the beam is."""
         middle, turn = self.pose(heave, roll)
         return np.asarray(middle + turn.apply(point - self.center))
 
-    def energy(self, heave: float, roll: float) -> float:
+    def energy(self, heave, roll):
         """Return the energy of springs, bar and weight; no stops, no tyres."""
         axle, bodies = self.axle, self.axle.bodies
         weight = axle.gravity.acceleration_m_per_s2
@@ -106,7 +104,7 @@ class Found:
         return float(energy + 0.5 * math.degrees(axle.anti_roll_bar.rate_Nm_per_deg) * roll**2)
 
 
-def slopes(function: Any, at: tuple[float, float], step: float = 1e-3) -> Array:
+def slopes(function, at, step=1e-3):
     """Return the derivatives by heave and roll, by differences of fourth order."""
     weights = {-2: 1.0, -1: -8.0, 1: 8.0, 2: -1.0}
     return np.stack(

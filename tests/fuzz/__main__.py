@@ -1,7 +1,5 @@
 """``python -m fuzz``: try the doors for long, print a table, write it into a page."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from pathlib import Path
@@ -9,17 +7,17 @@ from pathlib import Path
 from benchmarks.report import fill_page
 
 from .attempts import names, short
-from .campaign import Campaign, campaign, table
+from .campaign import campaign, table
 
 
-def _progress(found: Campaign) -> None:
+def _progress(found):
     done = found.counts.total()
     if done % 20 == 0 and sys.stderr.isatty():
         sys.stderr.write(f"\r{found.name}: {done}, {len(found.defects)} defects ")
         sys.stderr.flush()
 
 
-def main() -> int:
+def main():
     """Run the command."""
     parser = argparse.ArgumentParser(prog="fuzz", description=__doc__)
     parser.add_argument("doors", nargs="*", default=names(), help="all by default")

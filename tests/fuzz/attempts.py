@@ -23,15 +23,11 @@ import importlib
 import pkgutil
 from dataclasses import dataclass
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from kintrafo.core.errors import KintrafoError
 
 from . import doors
-
-if TYPE_CHECKING:
-    from types import ModuleType
 
 OUTCOMES = ("clean", "unjudged", "clear", "wrong", "raw", "hung")
 """Outcomes of an attempt; the last three are defects."""
@@ -70,23 +66,23 @@ class Tried:
     text: str = ""
 
 
-def names() -> list[str]:
+def names():
     """Return the names of all doors; one that begins with an underscore is none."""
     found = (module.name for module in pkgutil.iter_modules(doors.__path__))
     return sorted(name for name in found if not name.startswith("_"))
 
 
-def door(name: str) -> ModuleType:
+def door(name):
     """Return a door by its name."""
     return importlib.import_module(f"{doors.__name__}.{name}")
 
 
-def what_is_tried(name: str) -> str:
+def what_is_tried(name):
     """Return the first line of the docstring of a door."""
     return (ast.get_docstring(_text_of(name)) or "").partition("\n")[0].rstrip(".")
 
 
-def short(name: str) -> int:
+def short(name):
     """Return the number of attempts in a test run."""
     found = 40
     for line in _text_of(name).body:
@@ -95,7 +91,7 @@ def short(name: str) -> int:
     return found
 
 
-def _text_of(name: str) -> ast.Module:
+def _text_of(name):
     """Return a door as it is written: to import it is for the processes that try it."""
     found = find_spec(f"{doors.__name__}.{name}")
     if found is None or found.loader is None:
@@ -103,13 +99,13 @@ def _text_of(name: str) -> ast.Module:
     return ast.parse(found.loader.get_source(found.name))
 
 
-def setting(module: ModuleType, name: str) -> Any:
+def setting(module, name):
     """Return a setting of a door, or its default."""
     defaults = {"SECONDS": 20.0, "CLEAR": ()}
     return getattr(module, name, defaults[name])
 
 
-def tried(module: ModuleType, seed: int) -> Tried:
+def tried(module, seed):
     """Try a door once; an attempt that does not come back is for the caller to end."""
     clear = (KintrafoError, *setting(module, "CLEAR"))
     try:

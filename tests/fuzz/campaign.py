@@ -8,16 +8,12 @@ from collections import Counter
 from contextlib import suppress
 from dataclasses import dataclass, field
 from tempfile import NamedTemporaryFile
-from typing import TYPE_CHECKING
 
 from benchmarks.report import count as count_of
 from benchmarks.report import markdown_table
 
 from . import worker
 from .attempts import DEFECTS, OUTCOMES, Tried, what_is_tried
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
 
 _PROCESSES = multiprocessing.get_context("forkserver")
 # what doors have in common is imported once, for all processes
@@ -55,16 +51,14 @@ class Campaign:
     counts: Counter[str] = field(default_factory=Counter)
     defects: list[Tried] = field(default_factory=list)
 
-    def note(self, found: Tried) -> None:
+    def note(self, found):
         """Count an attempt."""
         self.counts[found.outcome] += 1
         if found.outcome in DEFECTS:
             self.defects.append(found)
 
 
-def campaign(
-    name: str, count: int, *, first: int = 0, progress: Callable[[Campaign], None] | None = None
-) -> Campaign:
+def campaign(name, count, *, first=0, progress=None):
     """Try a door with so many seeds.
 
     Parameters
@@ -89,7 +83,7 @@ def campaign(
     return found
 
 
-def _worked(name: str, first: int, count: int) -> Iterator[Tried]:
+def _worked(name, first, count):
     """Yield the results of one process, and at its end that of the seed that ended it."""
     seed = first
     receiver, sender = _PROCESSES.Pipe(duplex=False)
@@ -114,7 +108,7 @@ def _worked(name: str, first: int, count: int) -> Iterator[Tried]:
         )
 
 
-def table(campaigns: list[Campaign]) -> str:
+def table(campaigns):
     """Return a table in Markdown: a row for each door."""
     rows = [
         [

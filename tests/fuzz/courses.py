@@ -22,14 +22,14 @@ class Sine:
     size: float
     pace: float
 
-    def __call__(self, time: float) -> float:
+    def __call__(self, time):
         return float(self.size * np.sin(self.pace * time))
 
-    def rate(self, time: float) -> float:
+    def rate(self, time):
         """Return the slope over time [m/s]."""
         return float(self.size * self.pace * np.cos(self.pace * time))
 
-    def second_rate(self, time: float) -> float:
+    def second_rate(self, time):
         """Return the curvature over time [m/s^2]."""
         return -(self.pace**2) * self(time)
 

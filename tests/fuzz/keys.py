@@ -1,19 +1,9 @@
 """Keys of files as people misspell them, and nested data with one key more or another."""
 
-from __future__ import annotations
-
 from copy import deepcopy
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from numpy.random import Generator
-
-Place = tuple[str, ...]
 
 
-def places(data: dict[str, Any], above: Place = ()) -> Iterator[Place]:
+def places(data, above=()):
     """Yield the places of all keys, of parts too."""
     for key, value in data.items():
         yield (*above, key)
@@ -21,7 +11,7 @@ def places(data: dict[str, Any], above: Place = ()) -> Iterator[Place]:
             yield from places(value, (*above, key))
 
 
-def respelt(random: Generator, key: str) -> str:
+def respelt(random, key):
     """Return another spelling of a key: in capitals or not, a letter less or more, a mark."""
     at = int(random.integers(len(key)))
     other = {
@@ -36,13 +26,13 @@ def respelt(random: Generator, key: str) -> str:
     return found if found != key else f"{key}:"
 
 
-def without(data: dict[str, Any], place: Place) -> tuple[dict[str, Any], Any]:
+def without(data, place):
     """Return data without a key, and the value that it had."""
     found = deepcopy(data)
     return found, holder_of(found, place).pop(place[-1])
 
 
-def holder_of(data: dict[str, Any], place: Place) -> dict[str, Any]:
+def holder_of(data, place):
     """Return the part that a key stands in."""
     for key in place[:-1]:
         data = data[key]

@@ -1,12 +1,6 @@
 """Small damage to bytes, texts and nested data, as slips of the hand and broken disks do it."""
 
-from __future__ import annotations
-
 from copy import deepcopy
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from numpy.random import Generator
 
 NUMBERS = (
     0, -1, 1, 1e-300, 1e300, -1e300, float("nan"), float("inf"), 10**30, 10**400, True, 5e-324,
@@ -20,7 +14,7 @@ PIECES = (
 )  # fmt: skip
 
 
-def bytes_of(random: Generator, content: bytes) -> bytes:
+def bytes_of(random, content):
     """Return bytes with one to three changes: cut, lost, doubled, changed, put in."""
     for _ in range(random.integers(1, 4)):
         start, end = sorted(random.integers(0, len(content) + 1, 2).tolist())
@@ -38,11 +32,11 @@ def bytes_of(random: Generator, content: bytes) -> bytes:
     return content
 
 
-def nested(random: Generator, data: dict[str, Any], extra: tuple[Any, ...] = ()) -> dict[str, Any]:
+def nested(random, data, extra=()):
     """Return nested data with one to three changes: values, keys that are lost, new or misspelt."""
     changed = deepcopy(data)
     for _ in range(random.integers(1, 4)):
-        holder: Any = changed
+        holder = changed
         while True:
             keys = list(holder) if isinstance(holder, dict) else list(range(len(holder)))
             if not keys:
@@ -57,7 +51,7 @@ def nested(random: Generator, data: dict[str, Any], extra: tuple[Any, ...] = ())
     return changed
 
 
-def _change(random: Generator, holder: Any, key: Any, values: tuple[Any, ...]) -> None:
+def _change(random, holder, key, values):
     """Change one entry of a table or a list."""
     value = holder[key]
     number = isinstance(value, int | float) and not isinstance(value, bool)

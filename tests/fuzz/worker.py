@@ -5,20 +5,14 @@ sent result. Time is that of the processor, which a busy machine does not make l
 what waits for something is given ten times as much on the clock.
 """
 
-from __future__ import annotations
-
 import faulthandler
 import os
 import signal
-from typing import TYPE_CHECKING
 
 from .attempts import door, setting, tried
 
-if TYPE_CHECKING:
-    from multiprocessing.connection import Connection
 
-
-def main(name: str, first: int, count: int, sender: Connection, complaints: str) -> None:
+def main(name, first, count, sender, complaints):
     """Try the seeds from `first` on.
 
     Parameters
@@ -46,7 +40,7 @@ def main(name: str, first: int, count: int, sender: Connection, complaints: str)
         sender.send(found)
 
 
-def _lead(path: str, stream: int) -> None:
+def _lead(path, stream):
     """Let what is written to a standard stream go to a file."""
     file = os.open(path, os.O_WRONLY)
     os.dup2(file, stream)

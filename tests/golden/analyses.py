@@ -4,17 +4,13 @@ Only this file knows what the functions are called and which arguments they take
 it changes with them; the names of analyses and the stored values stay.
 """
 
-from __future__ import annotations
-
 from dataclasses import asdict
 from functools import partial
-from typing import TYPE_CHECKING, Any
 
 import kintrafo
 import numpy as np
 import xarray as xr
 from kintrafo import (
-    Axle,
     AxleModel,
     Model,
     Suspension,
@@ -31,13 +27,6 @@ from kintrafo.vehicle.assembly.by_wheel import flat
 
 from .subjects import AXLES, BUSHES, CORNERS, WHOLE_AXLES
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from kintrafo.vehicle.models.whole_axle import WholeAxle
-
-    Analyses = dict[str, Callable[[], xr.Dataset]]
-
 TRAVEL = np.array([-0.05, -0.02, 0.0, 0.03, 0.06])
 RACK = np.array([-0.02, 0.0, 0.015])
 ROLL = np.radians([-3.0, 0.0, 2.0])
@@ -47,7 +36,7 @@ SHIPPED = "reference_axle"
 """The axle whose equations need no compiler."""
 
 
-def analyses(subject: str) -> Analyses:
+def analyses(subject):
     """Return the analyses of a subject."""
     bushes = BUSHES[subject]
     if subject in CORNERS:
@@ -59,10 +48,10 @@ def analyses(subject: str) -> Analyses:
     return _of_whole_axle(WHOLE_AXLES[subject](), bushes)
 
 
-def _of_corner(suspension: Suspension, bushes: Any) -> Analyses:
+def _of_corner(suspension, bushes):
     model = Model(suspension)
     steered = suspension.steered()
-    found: Analyses = {
+    found = {
         "check": lambda: _facts(checkup.as_dict(checkup.checkup(model))),
         "travel": _flat(characteristics.over, model, "travel", TRAVEL),
         "positions": partial(sweep.positions, model, TRAVEL, RACK if steered else None),
@@ -93,10 +82,10 @@ def _of_corner(suspension: Suspension, bushes: Any) -> Analyses:
     return found
 
 
-def _of_axle(axle: Axle, bushes: Any) -> Analyses:
+def _of_axle(axle, bushes):
     # the stored values have the case "drive" also for axles without a drive
     driven = axle if axle.drive else axle.with_changes({"drive": {"share": 1.0}})
-    found: Analyses = {
+    found = {
         "check": lambda: _looked(checkup.checkup(axle)),
         "bump": _flat(characteristics.over, axle, "bump", TRAVEL),
         "roll": _flat(characteristics.over, axle, "roll", ROLL),
@@ -114,8 +103,8 @@ def _of_axle(axle: Axle, bushes: Any) -> Analyses:
     return found | _compliance(axle, bushes)
 
 
-def _of_axle_in_motion(model: AxleModel) -> Analyses:
-    def run() -> tuple[Any, xr.Dataset]:
+def _of_axle_in_motion(model):
+    def run():
         return scenario.run(model, _step(), wheels="left", method="DormandPrince")
 
     return {
@@ -125,10 +114,10 @@ def _of_axle_in_motion(model: AxleModel) -> Analyses:
     }
 
 
-def _of_whole_axle(axle: WholeAxle, bushes: Any) -> Analyses:
+def _of_whole_axle(axle, bushes):
     model = kintrafo.model_of(axle)
 
-    def run() -> tuple[Any, xr.Dataset]:
+    def run():
         return scenario.run(model, _step(), wheels="left", method="DormandPrince")
 
     return {
@@ -149,9 +138,9 @@ def _of_whole_axle(axle: WholeAxle, bushes: Any) -> Analyses:
     } | _compliance(axle, bushes)
 
 
-def _compliance(axle: Axle | WholeAxle, bushes: Any) -> Analyses:
+def _compliance(axle, bushes):
     """Return compliance and deflection of an axle of two corners, or of a rigid one."""
-    found: Analyses = {
+    found = {
         f"compliance, {held}": partial(compliance.linear, axle, bushes, TRAVEL[1:4], held=held)
         for held in HELD
     }
@@ -163,12 +152,12 @@ def _compliance(axle: Axle | WholeAxle, bushes: Any) -> Analyses:
     return found
 
 
-def _flat(analysis: Callable[..., xr.Dataset], *args: Any, **options: Any) -> Any:
+def _flat(analysis, *args, **options):
     """Return an analysis whose result has no dimension of the wheels."""
     return lambda: flat(analysis(*args, **options))
 
 
-def _tolerance(suspension: Suspension) -> xr.Dataset:
+def _tolerance(suspension):
     """Return bands, without ratios of two deviations that may both be rounding errors."""
     found = variation.tolerance(
         suspension, {"hardpoints.wheel_center.z": 1.0}, count=20, positions=TRAVEL
@@ -176,25 +165,25 @@ def _tolerance(suspension: Suspension) -> xr.Dataset:
     return found.drop_vars([name for name in found if str(name).endswith("_first_order")])
 
 
-def _step() -> scenario.Scenario:
+def _step():
     """Return a road that rises by 10 mm."""
     road = kintrafo.roads.step(0.01, at=0.02, end=0.2)
     return scenario.Scenario(duration=0.2, output_step=0.02, inputs={"road_height": road})
 
 
-def _linearised(model: Any, state: Any) -> xr.Dataset:
+def _linearised(model, state):
     """Return the matrices of the linear equations about a state."""
     found = kintrafo.linearise(model, state)
     return xr.Dataset({name: ([f"{name}_0", f"{name}_1"], getattr(found, name)) for name in "ABCD"})
 
 
-def _looked(found: checkup.Checkup) -> xr.Dataset:
+def _looked(found):
     """Return the numbers of a first look at an axle."""
     sides = {one.side: asdict(one) for one in found.wheels}
     return _facts({"sides": sides, "values": found.axle.values if found.axle else {}})
 
 
-def _facts(facts: Any, name: str = "fact") -> xr.Dataset:
+def _facts(facts, name="fact"):
     """Return the numbers in nested facts as variables, by the path to each."""
     if isinstance(facts, bool | str) or facts is None:
         return xr.Dataset()

@@ -4,14 +4,11 @@ Commands refuse, too: what an axle or a rigid axle does not have today stands he
 code, so that a hole that closes is seen.
 """
 
-from __future__ import annotations
-
 import contextlib
 import io
 import json
 import sys
 from pathlib import Path
-from typing import Any
 
 from kintrafo.vehicle import cli
 
@@ -24,7 +21,7 @@ BUSHED = {
 }
 SOFT = ("--bushes", "BUSHES")
 GRID = ("--bump", "20", "--rebound", "20")
-LINES: tuple[tuple[str, ...], ...] = (
+LINES = (
     ("characteristics", "FILE", *GRID),
     ("characteristics", "FILE", *GRID, "--over", "roll"),
     ("characteristics", "FILE", *GRID, "--over", "steer"),
@@ -55,7 +52,7 @@ LINES: tuple[tuple[str, ...], ...] = (
 )
 
 
-def observed(folder: Path) -> dict[str, Any]:
+def observed(folder):
     """Return what each command does with each file: exit code, columns, keys.
 
     Parameters
@@ -76,7 +73,7 @@ def observed(folder: Path) -> dict[str, Any]:
     return found
 
 
-def _observed(arguments: list[str], out: Path) -> dict[str, Any]:
+def _observed(arguments, out):
     writes = [] if arguments[0] in {"check", "mechanism"} else ["--out", str(out)]
     code, printed = _run([*arguments, "--json", *writes])
     return {
@@ -89,7 +86,7 @@ def _observed(arguments: list[str], out: Path) -> dict[str, Any]:
     }
 
 
-def _run(arguments: list[str]) -> tuple[int, str]:
+def _run(arguments):
     """Return exit code and standard output of a command line."""
     before, out = sys.argv, io.StringIO()
     sys.argv = ["kintrafo", *arguments]
@@ -103,7 +100,7 @@ def _run(arguments: list[str]) -> tuple[int, str]:
     return 0, out.getvalue()
 
 
-def _keys(value: Any, depth: int = 2) -> Any:
+def _keys(value, depth=2):
     """Return the keys of JSON without its values, to a depth."""
     if isinstance(value, dict) and depth:
         return {key: _keys(item, depth - 1) for key, item in value.items()}

@@ -4,12 +4,9 @@ One file holds a subject, or the commands: a line for each variable of each anal
 dimensions, unit and values. Numbers are stored with 14 digits.
 """
 
-from __future__ import annotations
-
 import json
 import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from kintrafo.vehicle.assembly.by_wheel import flat
@@ -18,15 +15,12 @@ from .analyses import analyses
 from .commands import observed
 from .subjects import AXLES, CORNERS, WHOLE_AXLES
 
-if TYPE_CHECKING:
-    import xarray as xr
-
 VALUES = Path(__file__).parent / "values"
 COMMANDS = "commands"
 SUBJECTS = (*CORNERS, *AXLES, *WHOLE_AXLES)
 
 
-def computed(name: str) -> dict[str, Any]:
+def computed(name):
     """Return what all analyses of a subject give today, or what all commands do.
 
     Returns
@@ -45,7 +39,7 @@ def computed(name: str) -> dict[str, Any]:
     }
 
 
-def _plain(array: xr.DataArray) -> dict[str, Any]:
+def _plain(array):
     values = np.asarray(array)
     numbers = values.dtype.kind in "fiub"
     return {
@@ -55,7 +49,7 @@ def _plain(array: xr.DataArray) -> dict[str, Any]:
     }
 
 
-def store(name: str) -> None:
+def store(name):
     """Write what is computed today into the file of a subject, or of the commands."""
     VALUES.mkdir(exist_ok=True)
     lines = [f"{json.dumps(key)}: {json.dumps(found)}" for key, found in computed(name).items()]
@@ -63,7 +57,7 @@ def store(name: str) -> None:
     (VALUES / f"{name}.json").write_text(text, encoding="utf-8")
 
 
-def differences(name: str, tolerance: float) -> list[str]:
+def differences(name, tolerance):
     """Return a line for each variable, or command, that is not as it is stored.
 
     Parameters
@@ -94,9 +88,9 @@ def differences(name: str, tolerance: float) -> list[str]:
     return lines
 
 
-def _sizes(stored: dict[str, Any]) -> dict[str, float]:
+def _sizes(stored):
     """Return the largest finite value of each unit, where it is not zero."""
-    sizes: dict[str, float] = {}
+    sizes = {}
     for variable in stored.values():
         numbers = [abs(x) for x in variable.get("values", []) if not isinstance(x, str)]
         largest = max((x for x in numbers if np.isfinite(x)), default=0.0)
@@ -105,7 +99,7 @@ def _sizes(stored: dict[str, Any]) -> dict[str, float]:
     return sizes
 
 
-def _difference(stored: list[Any], today: list[Any]) -> float:
+def _difference(stored, today):
     """Return the largest difference; infinity where other values are not numbers."""
     if stored == today:
         return 0.0

@@ -1,11 +1,8 @@
 """The subjects of the golden set: what files describe, with everything that they may hold."""
 
-from __future__ import annotations
-
 import tomllib
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import kintrafo
 from kintrafo import Axle, Suspension
@@ -14,7 +11,7 @@ from kintrafo.vehicle.data.starter import whole_axles
 ARM = {"axial_N_per_mm": 400.0, "radial_N_per_mm": 1200.0}
 ROD = {"axial_N_per_mm": 5000.0}
 WISHBONES = {"lower_arm_front": ARM, "lower_arm_rear": ARM, "upper_arm_rear": ARM}
-BUSHES: dict[str, dict[str, dict[str, float]]] = {
+BUSHES = {
     "chrono_generic": {"arm_rear": ARM},
     "double_wishbone_car": WISHBONES,
     "lopsided_axle": WISHBONES,
@@ -36,7 +33,7 @@ BUSHES |= {
 """Bushes of each subject, one set for both sides; of further axles without sides a file each."""
 
 STEERING = {"angle_deg": [-90.0, 0.0, 90.0], "rack_mm": [11.0, 0.0, -12.0]}
-BAR: dict[str, Any] = {
+BAR = {
     "unit": "mm",
     "bush": [-250.0, -380.0, 260.0],
     "link_top": [-60.0, -600.0, 300.0],
@@ -59,7 +56,7 @@ CORNERS = (
 )
 
 
-def lopsided() -> Axle:
+def lopsided():
     """Return a rear axle whose sides differ, with stops and a bar that is twisted at design."""
     side = Suspension.load("double_wishbone_car")
     stop = {"clearance_mm": 8.0, "rate_N_per_m": 1e5}

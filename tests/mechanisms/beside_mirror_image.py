@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import mpmath
 import numpy as np
 import sympy as sp
-from kintrafo.generator import Copy, Formulation, Mechanism, Revolute, combined
+from kintrafo.generator import Copy, Formulation, Revolute, combined
 from kintrafo.generator.equations.design import _angle, design_coordinates
 from kintrafo.generator.equations.dynamics import Dynamics
 from kintrafo.generator.equations.in_motion import InMotion
@@ -26,11 +25,6 @@ from mechanisms import (
     scotch_yokes,
     steering_shafts,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-
-    from kintrafo.generator.program.newton import IterationBlock
 
 DIGITS = 40
 COPIES = "a_", "b_"
@@ -72,7 +66,7 @@ class Moving:
     accelerations: Function
 
     @classmethod
-    def of(cls, model: Formulation) -> Moving:
+    def of(cls, model):
         """Derive them."""
         mechanism, plan = model.mechanism, CataloguePlan.of(model)
         driven = [c.name for c in mechanism.coordinates if c.joint in model.independent]
@@ -94,14 +88,14 @@ class Moving:
             _function([steps[s] for s in steps if s in needed], results, stage.blocks.values()),
         )
 
-    def design(self) -> list[mpmath.mpf]:
+    def design(self):
         """Return the coordinates at the design position."""
         steps = design_coordinates(self.model)
         every = [Step(*step, "") for own in steps.values() for step in own]
         values = [sp.Symbol(k) if k in steps else sp.Integer(0) for k in self.coordinates]
         return list(map(mpmath.mpf, python(_function(every, values))(self._given())))
 
-    def given_angles(self) -> dict[str, mpmath.mpf]:
+    def given_angles(self):
         """Return the positions at design of prescribed hinges that measure their angle."""
         found = {}
         for joint, motion in self.model.prescribed.items():
@@ -112,21 +106,18 @@ class Moving:
                 found[f"{given}_position"] = mpmath.mpf(angle)
         return found
 
-    def __call__(self, values: Mapping[str, float]) -> list[mpmath.mpf]:
+    def __call__(self, values):
         """Return the accelerations at some state and inputs, with the default parameters."""
-        found: list[mpmath.mpf] = python(self.accelerations)(self._given() | dict(values))
-        return found
+        return python(self.accelerations)(self._given() | dict(values))
 
-    def _given(self) -> dict[str, mpmath.mpf]:
+    def _given(self):
         given = {p.name: mpmath.mpf(p.default) for p in self.model.mechanism.parameters}
         names = [step.symbol for step in self.constants]
         found = python(_function(self.constants, names))(given)
         return given | dict(zip(map(str, names), found, strict=True))
 
 
-def _function(
-    steps: Iterable[Step], results: Iterable[sp.Expr], blocks: Iterable[IterationBlock] = ()
-) -> Function:
+def _function(steps, results, blocks=()):
     results = tuple(results)
     labels = tuple(map(str, range(len(results))))
     return Function(
@@ -134,12 +125,12 @@ def _function(
     )
 
 
-def _derived(mechanism: Mechanism) -> tuple[Step, ...]:
+def _derived(mechanism):
     """Return what the names of a copy stand for."""
     return tuple(Step(sp.Symbol(n), e, "") for n, e in mechanism.derived.items())
 
 
-def in_company(model: Formulation) -> Formulation:
+def in_company(model):
     """Return a copy of a model beside its mirror image."""
     one, two = (
         Copy(model.mechanism, prefix, mirrored=mirrored and model.name not in NOT_MIRRORED)
@@ -156,7 +147,7 @@ def in_company(model: Formulation) -> Formulation:
     )
 
 
-def check_in_company(model: Formulation, random: np.random.Generator) -> None:
+def check_in_company(model, random):
     """See that a copy of a model and its image have the accelerations of the original."""
     one, two = Moving.of(model), Moving.of(in_company(model))
     with mpmath.workdps(DIGITS):

@@ -1,20 +1,9 @@
 """Wheels that a rod joins, as on a locomotive."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 from mechanisms.every_closed_form import NORMAL, askew, declare, guide, hinge
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
-    from kintrafo.generator import Formulation
-
-
-def locomotive(
-    name: str = "locomotive", bearings: tuple[float, ...] = (0.0, 0.9, 1.7)
-) -> Formulation:
+def locomotive(name="locomotive", bearings=(0.0, 0.9, 1.7)):
     """Return a frame that swings, with wheels on it whose pins a rod joins."""
     level = [0.0, 0.25, -0.1, 0.0]  # the bearings are not on a line
     places = {f"bearing_{i}": askew(x, level[i]) for i, x in enumerate(bearings)}
@@ -49,14 +38,7 @@ PINS = ((0.1, 0.2), (0.05, 0.1), (0.0, 0.25))
 """Of links on a crank whose bearing is at the origin."""
 
 
-def double_crank(
-    name: str,
-    pins: Sequence[tuple[float, float]] = PINS,
-    *,
-    lean: float = 0.0,
-    way: float = 0.4,
-    driven: tuple[str, ...] = ("swing", "crank_bearing"),
-) -> Formulation:
+def double_crank(name, pins=PINS, *, lean=0.0, way=0.4, driven=("swing", "crank_bearing")):
     """Return a frame that swings, with a crank and a rocker on it that several links join.
 
     Parameters
@@ -97,7 +79,7 @@ def double_crank(
     )
 
 
-def table_on_links(name: str) -> Formulation:
+def table_on_links(name):
     """Return a table on a guide, and a saddle on one across it that pulls the table by links."""
     count = range(len(PINS))
     along, across = (

@@ -4,21 +4,12 @@ None of them ships. Axes are oblique, points lie in no common plane, and what ca
 or slides itself, so that no term of a velocity or of a bias is zero by accident.
 """
 
-from __future__ import annotations
-
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 from kintrafo import generator as g
 from support.changes import changed
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
-    from kintrafo.generator import Joint
-
-Place = tuple[float, float, float]
 
 INERTIA = (0.021, 0.034, 0.029, 0.004, -0.003, 0.005)
 """Of every body, kg m^2: xx, yy, zz, xy, xz, yz; those of a body differ by its number."""
@@ -45,7 +36,7 @@ class Sketch:
         A direction, or two points between which it is.
     """
 
-    kind: type[Joint]
+    kind: type[g.Joint]
     name: str
     first: str
     second: str
@@ -53,7 +44,7 @@ class Sketch:
     along: str | tuple[str, str] = ""
     to: str | None = None
 
-    def of(self, parts: Parts) -> Joint:
+    def of(self, parts):
         """Return the joint between bodies of a mechanism."""
         named = self.name, parts.bodies[self.first], parts.bodies[self.second]
         at = parts.points.get(self.at)
@@ -67,14 +58,14 @@ class Sketch:
             return g.Universal(*named, at, shaft=g.Line(at, to), first_axis=along)
         return g.Revolute(*named, g.Line(at, along), angle_from=g.FORWARD, angle_to=to)
 
-    def _direction(self, parts: Parts) -> g.Direction:
+    def _direction(self, parts):
         if isinstance(self.along, str):
             return parts.directions[self.along]
         start, end = (parts.points[name] for name in self.along)
         return g.Direction("_".join(self.along), between=(start, end))
 
 
-def hinge(name: str, first: str, second: str, at: str, along: str, to: str | None = None) -> Sketch:
+def hinge(name, first, second, at, along, to=None):
     """Return a hinge through a point along a direction, both of them parameters.
 
     Its angle counts from the design position, or from forward to a point.
@@ -82,22 +73,22 @@ def hinge(name: str, first: str, second: str, at: str, along: str, to: str | Non
     return Sketch(g.Revolute, name, first, second, at, along, to)
 
 
-def guide(name: str, first: str, second: str, along: str | tuple[str, str]) -> Sketch:
+def guide(name, first, second, along):
     """Return a guide along a direction."""
     return Sketch(g.Prismatic, name, first, second, along=along)
 
 
-def ball(name: str, first: str, second: str, at: str) -> Sketch:
+def ball(name, first, second, at):
     """Return a ball joint at a point."""
     return Sketch(g.Spherical, name, first, second, at)
 
 
-def cross(name: str, first: str, rod: str, at: str, to: str, axis: str) -> Sketch:
+def cross(name, first, rod, at, to, axis):
     """Return a universal joint that holds a rod at a point; the rod runs to another point."""
     return Sketch(g.Universal, name, first, rod, at, axis, to)
 
 
-def reported(joints: Sequence[Joint]) -> tuple:
+def reported(joints):
     """Return the angles and slides of hinges and guides, named after their joints."""
     return tuple(
         (j.angle if isinstance(j, g.Revolute) else j.slide)(
@@ -108,7 +99,7 @@ def reported(joints: Sequence[Joint]) -> tuple:
     )
 
 
-def shaft_angles(joints: Sequence[Joint]) -> tuple:
+def shaft_angles(joints):
     """Return the angles of the shafts at crosses, named after their joints."""
     crosses = [joint for joint in joints if isinstance(joint, g.Universal)]
     return tuple(
@@ -118,25 +109,25 @@ def shaft_angles(joints: Sequence[Joint]) -> tuple:
     )
 
 
-def motion_of(joint: Joint, name: str) -> g.Motion:
+def motion_of(joint, name):
     """Return a prescribed motion of a joint."""
     return g.Motion(name, "m" if isinstance(joint, g.Prismatic) else "rad", f"position of {name}")
 
 
 def declare(
-    name: str,
-    bodies: Mapping[str, Place],
-    joints: Sequence[Sketch],
-    points: Mapping[str, Place],
-    directions: Mapping[str, Place],
-    independent: tuple[str, ...],
+    name,
+    bodies,
+    joints,
+    points,
+    directions,
+    independent,
     *,
-    spring: tuple[str, str],
-    prescribed: Mapping[str, str] | None = None,
-    wheel: tuple[str, Place] | None = None,
-    crosses: bool = False,
-    **more: object,
-) -> g.Formulation:
+    spring,
+    prescribed=None,
+    wheel=None,
+    crosses=False,
+    **more,
+):
     """Return a model with weight, a spring with a damper, and a force on every coordinate.
 
     Parameters
@@ -193,7 +184,7 @@ def declare(
     )
 
 
-def geared(model: g.Formulation, follower: str, followed: str, ratio: float) -> g.Formulation:
+def geared(model, follower, followed, ratio):
     """Return a model in which one of the driven joints follows another through a gear."""
     behind, before = map(model.mechanism.joint, (follower, followed))
     units = ["m" if isinstance(joint, g.Prismatic) else "rad" for joint in (behind, before)]
@@ -213,7 +204,7 @@ def geared(model: g.Formulation, follower: str, followed: str, ratio: float) -> 
     return changed(alone, (behind, replace(behind, follows=gear)))
 
 
-def welded(model: g.Formulation, body: str) -> g.Formulation:
+def welded(model, body):
     """Return a model with a burden on one of its bodies."""
     center = g.Point("burden_com", (0.5, 0.15, 0.2))
     burden = g.Body("burden", 1.3, center, tuple(0.4 * value for value in INERTIA))
@@ -226,17 +217,12 @@ def welded(model: g.Formulation, body: str) -> g.Formulation:
     )
 
 
-def _parts(
-    bodies: Mapping[str, Place],
-    points: Mapping[str, Place],
-    directions: Mapping[str, Place],
-    wheel: tuple[str, Place] | None,
-) -> Parts:
+def _parts(bodies, points, directions, wheel):
     centers = {f"{body}_com": place for body, place in bodies.items()}
     places = {n: g.Point(n, place) for n, place in {**points, **centers}.items()}
     along = dict(directions) | ({"spin": wheel[1]} if wheel else {})
     ways = {n: g.Direction(n, way) for n, way in along.items()}
-    built: dict[str, g.Body] = {"ground": g.Ground("ground")}
+    built = {"ground": g.Ground("ground")}
     for number, body in enumerate(bodies, 1):
         center, scale = places[f"{body}_com"], 1.0 + 0.3 * number
         if wheel and body == wheel[0]:
@@ -255,23 +241,23 @@ _UPWARD = np.cross(_NORMAL, _ACROSS)
 _CORNER = np.array([0.1, -0.2, 0.3])
 
 
-def askew(x: float, y: float, off: float = 0.0) -> Place:
+def askew(x, y, off=0.0):
     """Return a place of the oblique plane, or off it."""
     return tuple((_CORNER + x * _ACROSS + y * _UPWARD + off * _NORMAL).tolist())
 
 
-def heading(angle: float) -> Place:
+def heading(angle):
     """Return a direction in the oblique plane, not of unit length."""
     return tuple((1.7 * (np.cos(angle) * _ACROSS + np.sin(angle) * _UPWARD)).tolist())
 
 
-NORMAL: Place = tuple((2.0 * _NORMAL).tolist())
+NORMAL = tuple((2.0 * _NORMAL).tolist())
 
 
 # -- a spatial four-bar: hinge, rod with a cross and a ball joint, hinge on a skew axis ------------
 
 
-def spatial_four_bar(name: str, *, cross_at_rocker: bool = False) -> g.Formulation:
+def spatial_four_bar(name, *, cross_at_rocker=False):
     """Return hinge - rod - hinge on skew axes; the rod's cross at either of its ends."""
     if cross_at_rocker:
         rod = (
@@ -313,7 +299,7 @@ def spatial_four_bar(name: str, *, cross_at_rocker: bool = False) -> g.Formulati
 # -- a spatial slider-crank between two bodies that both turn --------------------------------------
 
 
-def moving_slider_crank(name: str, *, prescribed: bool = False) -> g.Formulation:
+def moving_slider_crank(name, *, prescribed=False):
     """Return crank, rod and slider; the crank's bearing and the slider's guide move by themselves.
 
     The guide is declared from the slider to its table: the slide counts the other way round.
@@ -360,7 +346,7 @@ def moving_slider_crank(name: str, *, prescribed: bool = False) -> g.Formulation
 # -- planar loops in an oblique plane, on a base that turns ----------------------------------------
 
 
-def oblique_four_bar() -> g.Formulation:
+def oblique_four_bar():
     """Return a planar four-bar on a base that turns, with a rotor on its coupler.
 
     Its hinges' points lie at different heights over the plane, as in a real mechanism.
@@ -387,7 +373,7 @@ def oblique_four_bar() -> g.Formulation:
     )  # fmt: skip
 
 
-def oblique_slider_crank(name: str, *, driven: str) -> g.Formulation:
+def oblique_slider_crank(name, *, driven):
     """Return a planar slider-crank on a base that turns; the crank or the piston is driven."""
     return declare(
         name,
@@ -407,7 +393,7 @@ def oblique_slider_crank(name: str, *, driven: str) -> g.Formulation:
     )  # fmt: skip
 
 
-def oblique_trammel() -> g.Formulation:
+def oblique_trammel():
     """Return two sliders on guides of one base, joined by a rod: Archimedes' trammel."""
     return declare(
         "oblique_trammel",
@@ -431,7 +417,7 @@ def oblique_trammel() -> g.Formulation:
 # -- telescopes in an oblique plane, on a base that turns ------------------------------------------
 
 
-def given_telescope() -> g.Formulation:
+def given_telescope():
     """Return a boom held by a cylinder of given stroke, whose guide passes beside both pins."""
     return declare(
         "given_telescope",
@@ -454,7 +440,7 @@ def given_telescope() -> g.Formulation:
     )  # fmt: skip
 
 
-def inverted_slider_crank() -> g.Formulation:
+def inverted_slider_crank():
     """Return a crank whose pin carries a block that slides along a rocker.
 
     All joints but the driven ones are declared from the far body to the near one.
@@ -479,7 +465,7 @@ def inverted_slider_crank() -> g.Formulation:
     )  # fmt: skip
 
 
-def pushed_slider() -> g.Formulation:
+def pushed_slider():
     """Return a slider on a guide, pushed by a cylinder whose stroke is driven."""
     return declare(
         "pushed_slider",
@@ -500,7 +486,7 @@ def pushed_slider() -> g.Formulation:
 # -- one loop after another ------------------------------------------------------------------------
 
 
-def chain() -> g.Formulation:
+def chain():
     """Return a planar four-bar whose rocker drives a spatial one, which drives a slider."""
     return declare(
         "chain",
@@ -533,9 +519,7 @@ def chain() -> g.Formulation:
 # -- a boom on a turret, held by a cylinder in space -----------------------------------------------
 
 
-def turret(
-    name: str, driven: str, *, carriage: bool = False, reverse: bool = False
-) -> g.Formulation:
+def turret(name, driven, *, carriage=False, reverse=False):
     """Return turret, boom and cylinder: guide between a cross and a ball joint.
 
     Parameters
@@ -573,7 +557,7 @@ def turret(
 # -- a steering column whose shaft telescopes between two crosses ----------------------------------
 
 
-def steering_shaft(name: str, *, turned: bool = False) -> g.Formulation:
+def steering_shaft(name, *, turned=False):
     """Return column, shaft of two links and pinion; the bearings of both ends move by themselves.
 
     The crosses have axes that are oblique to their bearings, and the column's is beside its own.

@@ -1,24 +1,18 @@
 """Mechanisms on which everything acts that can act on a single joint, point or body."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from kintrafo import generator as g
 from support.changes import named
 
 from mechanisms.every_closed_form import moving_slider_crank, oblique_four_bar
 
-if TYPE_CHECKING:
-    from kintrafo.generator import Prismatic, Revolute
-
 WORLD_LINE = g.Direction("world_line", fixed=(0, 3, 4))
 OWN_LINE = g.Direction("own_line", (0.3, -0.7, 0.4))
 OWN_AXIS = g.Direction("own_axis", (-0.2, 0.5, 0.6))
 
 
-def on_hinge(name: str, hinge: Revolute) -> g.ForceElement:
+def on_hinge(name, hinge):
     """Return a torsion spring, a rotary damper, a stop and a motor."""
     return g.ForceElement(
         name,
@@ -40,7 +34,7 @@ def on_hinge(name: str, hinge: Revolute) -> g.ForceElement:
     )
 
 
-def on_guide(name: str, guide: Prismatic) -> g.ForceElement:
+def on_guide(name, guide):
     """Return a spring, a damper, friction, a stop and a linear motor."""
     return g.ForceElement(
         name,
@@ -66,11 +60,11 @@ def on_guide(name: str, guide: Prismatic) -> g.ForceElement:
     )
 
 
-def pushed(model: g.Formulation, body: str, point: g.Point) -> tuple[g.Force, ...]:
+def pushed(model, body, point):
     """Return forces and moments on a body, in directions of the world and of its own."""
     on = model.mechanism.body(body)
 
-    def given(what: str, unit: str) -> g.Input:
+    def given(what, unit):
         return g.Input(f"{body}_{what}", unit, what)
 
     return (
@@ -81,12 +75,12 @@ def pushed(model: g.Formulation, body: str, point: g.Point) -> tuple[g.Force, ..
     )
 
 
-def _loaded(model: g.Formulation, name: str, *forces: g.Force) -> g.Formulation:
+def _loaded(model, name, *forces):
     mechanism = replace(model.mechanism, name=name, forces=(*model.mechanism.forces, *forces))
     return replace(model, name=name, mechanism=mechanism)
 
 
-def loaded_crank(name: str = "loaded_crank") -> g.Formulation:
+def loaded_crank(name="loaded_crank"):
     """Return the slider-crank of which all moves: a driven hinge and a guide that follows."""
     model = moving_slider_crank(name)
     drive, way = map(model.mechanism.joint, ("drive", "way"))
@@ -96,7 +90,7 @@ def loaded_crank(name: str = "loaded_crank") -> g.Formulation:
     )
 
 
-def loaded_bar(name: str = "loaded_bar") -> g.Formulation:
+def loaded_bar(name="loaded_bar"):
     """Return the four-bar in an oblique plane, a hinge that follows under load."""
     model = oblique_four_bar()
     pivot, point = model.mechanism.joint("pivot"), named(model, g.Point, "coupler_com")

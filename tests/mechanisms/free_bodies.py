@@ -1,25 +1,16 @@
 """Bodies that move freely in the world, with bodies and forces on them."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 from kintrafo import generator as g
 from kintrafo.generator.declare.world import WORLD
 from support.changes import changed
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from oracle.maximal import Motion, Reduced
-    from support.models import Built
-
 INERTIA = (0.11, 0.23, 0.31, 0.02, -0.03, 0.01)
 
 
-def freed(model: g.Formulation) -> g.Formulation:
+def freed(model):
     """Return a model whose ground is a body that moves freely in the world."""
     mechanism = model.mechanism
     ground = next(body for body in mechanism.bodies if isinstance(body, g.Ground))
@@ -40,7 +31,7 @@ def freed(model: g.Formulation) -> g.Formulation:
     )
 
 
-def thrown() -> g.Formulation:
+def thrown():
     """Return a body in the air."""
     body = g.Body("block", 3.0, (0.4, -0.2, 0.9), INERTIA)
     joint = g.Free("flight", body)
@@ -55,7 +46,7 @@ def thrown() -> g.Formulation:
     return g.Formulation("thrown", "a body in the air", mechanism, independent=(joint,))
 
 
-def rig() -> g.Formulation:
+def rig():
     """Return a box with a limb and a flywheel, and a ball beside it: both move freely."""
     box = g.Body("box", 5.0, (0.0, 0.1, 0.8), INERTIA)
     ball = g.Body("ball", 0.7, (0.4, 0.8, 0.5), (0.02, 0.03, 0.025))
@@ -105,9 +96,7 @@ def rig() -> g.Formulation:
     return g.Formulation("rig", "a box with a limb, and a ball", mechanism, independent=joints)
 
 
-def _spring(
-    name: str, first: tuple[g.Body, g.Point], second: tuple[g.Body, g.Point], damping: float = 0.0
-) -> g.ForceElement:
+def _spring(name, first, second, damping=0.0):
     spring = g.LinearSpring(
         g.SpringRate(f"{name}_stiffness", 90.0, f"rate of the {name}"),
         free_length=g.Length(f"{name}_free_length", 0.3, f"length of the {name} without force"),
@@ -116,28 +105,26 @@ def _spring(
     return g.ForceElement(name, g.AlongLine(first, second), (spring, damper))
 
 
-def unit_quaternion(random: np.random.Generator) -> np.ndarray:
+def unit_quaternion(random):
     """Return a random rotation with a uniform distribution."""
     q = random.normal(size=4)
     return q / np.linalg.norm(q)
 
 
-def product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+def product(a, b):
     """Return the product of two quaternions, scalar first."""
     scalar = a[0] * b[0] - a[1:] @ b[1:]
     return np.array([scalar, *(a[0] * b[1:] + b[0] * a[1:] + np.cross(a[1:], b[1:]))])
 
 
-def rotation(q: np.ndarray) -> np.ndarray:
+def rotation(q):
     """Return the matrix of a unit quaternion, by its products with the axes."""
     back = q * [1.0, -1.0, -1.0, -1.0]
     columns = [product(product(q, np.array([0.0, *axis])), back)[1:] for axis in np.eye(3)]
     return np.array(columns).T
 
 
-def state_near(
-    built, random: np.random.Generator, reach: float = 0.05, speed: float = 2.0
-) -> np.ndarray:
+def state_near(built, random, reach=0.05, speed=2.0):
     """Return a state of a compiled model with free bodies anywhere, and joints near design."""
     layout, state = built.module.LAYOUT, built.module.design_state(built.parameters)
     for place in layout.joints:
@@ -149,9 +136,7 @@ def state_near(
     return state
 
 
-def compared(
-    built: Built, count: int, reach: float = 0.05
-) -> Iterator[tuple[np.ndarray, np.ndarray, Motion, Reduced, int]]:
+def compared(built, count, reach=0.05):
     """Yield random states and inputs, the motion there, and its accelerations by the oracle.
 
     The last element is the number of positions, which come before the speeds in a state.
@@ -166,7 +151,7 @@ def compared(
         yield state, inputs, motion, built.oracle.reduced(motion, named, given), layout.positions
 
 
-def tethered() -> g.Formulation:
+def tethered():
     """Return a body in the air that hangs on a spring, with a damper beside it."""
     block = g.Body("block", 3.0, (0.4, -0.2, 0.9), INERTIA)
     hook, post = g.Point("hook", (0.5, -0.1, 1.1)), g.Point("post", (0.6, 0.1, 1.6))

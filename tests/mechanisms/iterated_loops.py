@@ -3,35 +3,17 @@
 None of them ships. Every kind of joint closes a loop in one of them, and every kind carries.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 from kintrafo.generator.mechanisms.chains import AXES, PLACES
 
-from mechanisms.every_closed_form import (
-    NORMAL,
-    Place,
-    askew,
-    ball,
-    cross,
-    declare,
-    guide,
-    heading,
-    hinge,
-)
-
-if TYPE_CHECKING:
-    from kintrafo.generator import Formulation
-
-    from mechanisms.every_closed_form import Sketch
+from mechanisms.every_closed_form import NORMAL, askew, ball, cross, declare, guide, heading, hinge
 
 BODIES = ["ground", "one", "two", "three", "four", "five", "six"]
 
 
-def in_a_ring(count: int) -> tuple[Sketch, ...]:
+def in_a_ring(count):
     """Return hinges ``hinge_i`` between one body and the next, the last one at the ground again."""
     return tuple(
         hinge(f"hinge_{i}", BODIES[i], BODIES[(i + 1) % count], f"place_{i}", f"axis_{i}")
@@ -39,13 +21,7 @@ def in_a_ring(count: int) -> tuple[Sketch, ...]:
     )
 
 
-def ring(
-    name: str,
-    joints: tuple[Sketch, ...],
-    places: list[Place],
-    axes: list[Place],
-    driven: str | None = None,
-) -> Formulation:
+def ring(name, joints, places, axes, driven=None):
     """Return a closed chain with a spring to its second body; some joint drives: the first."""
     bodies = BODIES[1 : len(joints)]
     middles = {
@@ -103,7 +79,7 @@ BALL_RING = ring(
 # -- chains that move although they should not ----------------------------------------------------
 
 
-def bennett(length: float, twist: float, other: float, angle: float) -> Formulation:
+def bennett(length, twist, other, angle):
     """Return Bennett's chain of four hinges: one freedom, where Grübler counts -2.
 
     Parameters
@@ -134,7 +110,7 @@ def bennett(length: float, twist: float, other: float, angle: float) -> Formulat
     return ring("bennett", in_a_ring(4), places, along)
 
 
-def bennett_ratio(twist: float, other: float) -> float:
+def bennett_ratio(twist, other):
     """Return the product of the tangents of half the angles at two neighbouring hinges."""
     return float(np.sin((other + twist) / 2) / np.sin((other - twist) / 2))
 
@@ -145,7 +121,7 @@ BENNETT = bennett(0.3, 0.6, 1.3, 1.0)
 # -- loops that hold each other -------------------------------------------------------------------
 
 
-def plate(name: str, last: str) -> Formulation:
+def plate(name, last):
     """Return a plate in an oblique plane that a rod, a bar with a wheel and a slotted block hold.
 
     Parameters
@@ -188,7 +164,7 @@ PLATE_ON_A_SLOT = plate("plate_on_a_slot", "slot")
 PLATE_ON_A_PIN = plate("plate_on_a_pin", "plate_pin")
 
 
-def _rod(name: str, first: str, second: str, axis: str) -> tuple[Sketch, Sketch]:
+def _rod(name, first, second, axis):
     """Return the joints of a rod: a cross and a ball joint."""
     return (
         cross(f"{name}_cross", first, name, f"{name}_start", f"{name}_end", axis),
@@ -281,7 +257,7 @@ DRIVEN_GUIDE = ring(
 # -- all axes through a point -------------------------------------------------------------------
 
 
-def around_a_point(name: str, axes: list[Place]) -> Formulation:
+def around_a_point(name, axes):
     """Return a ring of hinges whose axes meet in a point: five equations, two unknowns for four."""
     places = [tuple((0.2 * np.array(a) / np.linalg.norm(a)).tolist()) for a in axes]
     return ring(name, in_a_ring(len(axes)), places, axes)
@@ -290,7 +266,7 @@ def around_a_point(name: str, axes: list[Place]) -> Formulation:
 BEND = 0.9
 
 
-def hooke_axes(bend: float) -> list[Place]:
+def hooke_axes(bend):
     """Return the axes of a Hooke joint between two shafts: input, both of the cross, output."""
     return [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (np.cos(bend), np.sin(bend), 0.0)]
 
@@ -298,7 +274,7 @@ def hooke_axes(bend: float) -> list[Place]:
 HOOKE = around_a_point("hooke", hooke_axes(BEND))
 """A Hooke joint between two shafts, declared of hinges."""
 
-SPHERICAL_AXES: list[Place] = [(1.0, 0.0, 0.0), (0.8, 0.6, 0.1), (0.1, 0.7, 1.0), (0.2, -0.5, 1.1)]
+SPHERICAL_AXES = [(1.0, 0.0, 0.0), (0.8, 0.6, 0.1), (0.1, 0.7, 1.0), (0.2, -0.5, 1.1)]
 SPHERICAL = around_a_point("spherical", SPHERICAL_AXES)
 """A spherical four-bar linkage."""
 
@@ -306,12 +282,7 @@ SPHERICAL = around_a_point("spherical", SPHERICAL_AXES)
 # -- planar linkages, driven where no closed form begins -------------------------------------------
 
 
-def planar(
-    name: str,
-    hinges: list[tuple[str, str, str, tuple[float, float]]],
-    driven: tuple[str, ...],
-    seat: tuple[str, tuple[float, float]],
-) -> Formulation:
+def planar(name, hinges, driven, seat):
     """Return a linkage of pins in an oblique plane.
 
     Parameters
@@ -323,7 +294,7 @@ def planar(
     seat
         A body, and where a spring from the ground ends on it.
     """
-    places: dict[str, list[tuple[float, float]]] = {}
+    places = {}
     for _, first, second, at in hinges:
         for body in (first, second):
             places.setdefault(body, []).append(at)

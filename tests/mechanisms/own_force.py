@@ -1,15 +1,11 @@
 """A force with the law of a function, on an arm and a rod."""
 
-from __future__ import annotations
-
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from kintrafo import generator as g
 from kintrafo.generator.declare.forces.force import Force
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 GROUND = g.Ground("ground")
 ARM = g.Body("arm", 1.0, g.flat("com", (0.0, 0.0)), 1.0)
@@ -35,10 +31,10 @@ class Own(Force):
     parts: tuple[Any, ...] = ()
 
     @property
-    def identity(self) -> tuple[str, str]:
+    def identity(self):
         return "Own", "force"
 
-    def act(self, at: Any) -> Any:
+    def act(self, at):
         return self.does(at)
 
 
@@ -46,12 +42,12 @@ class Own(Force):
 class Showing(Own):
     """One that has signals, too."""
 
-    def signals(self, at: Any, action: Any) -> Any:
+    def signals(self, at, action):
         assert self.shows is not None
         yield from self.shows(at, action)
 
 
-def mechanism(force: Force, *joints: Any) -> g.Mechanism:
+def mechanism(force, *joints):
     joints = joints or (A,)
     reported = tuple(j.angle(f"q_{j.name}", "angle") for j in joints if j.kind == "revolute")
     return g.Mechanism(
@@ -59,7 +55,7 @@ def mechanism(force: Force, *joints: Any) -> g.Mechanism:
     )
 
 
-def model(force: Force, *joints: Any) -> g.Formulation:
+def model(force, *joints):
     whole = mechanism(force, *joints)
     return g.Formulation(
         name="own_force",

@@ -5,13 +5,11 @@ equations and corrected by Newton's method (`Follower`). Only the declaration is
 singular value of those equations measures how regular a path is.
 """
 
-from __future__ import annotations
-
+from collections.abc import Callable
 from dataclasses import astuple, dataclass
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from kintrafo.generator import Prismatic, Revolute, Universal
+from kintrafo.generator import Formulation, Prismatic, Revolute, Universal
 from kintrafo.generator.mechanisms.chains import AXES, PLACES, SEVEN_HINGES
 from kintrafo.generator.mechanisms.held_by_rods import MODELS
 from oracle.constraints import perpendiculars, skew
@@ -22,15 +20,6 @@ from support.placements import Placements
 
 from mechanisms import iterated_loops
 from mechanisms.every_closed_form import askew
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
-
-    from kintrafo.generator import Formulation
-    from kintrafo.generator.declare.joints import Joint
-    from oracle.constraints import Array
-
-    Random = np.random.Generator
 
 STEP = 0.05
 """Longest step of a coordinate, rad or m."""
@@ -59,16 +48,16 @@ class Follower:
         The least singular value of the equations so far, of the greatest.
     """
 
-    def __init__(self, model: Formulation, parameters: Mapping[str, float]) -> None:
+    def __init__(self, model, parameters):
         self._oracle = oracle = Oracle(model, parameters)
         self._centers = oracle.centers
         count = len(oracle.bodies)
         upright = np.broadcast_to(np.eye(3), (count, 3, 3))
         self.motion = Motion(oracle.centers.copy(), upright.copy(), np.zeros((count, 6)))
         self.least = np.inf
-        self._points: list[tuple[int, int, Array]] = []
-        self._squares: list[tuple[int, int, Array, Array]] = []
-        self._planes: list[tuple[int, int, Array, Array]] = []
+        self._points = []
+        self._squares = []
+        self._planes = []
         for joint in model.mechanism.joints:
             self._add(joint)
         self._driven = list(model.driven)
@@ -78,7 +67,7 @@ class Follower:
             self._drive(joint)
         self._size = np.sqrt(np.mean(np.sum((self._centers - self._centers[0]) ** 2, axis=1)))
 
-    def _add(self, joint: Joint) -> None:
+    def _add(self, joint):
         """Add what a joint holds."""
         oracle = self._oracle
         i, j = (oracle.index[body] for body in joint.bodies)
@@ -97,7 +86,7 @@ class Follower:
             first = oracle.along(joint.first_axis)
             self._squares.append((i, j, first, np.cross(first, oracle.axis(joint.shaft))))
 
-    def _drive(self, joint: Joint) -> None:
+    def _drive(self, joint):
         """Add the equation of a driven joint, behind all others of its kind."""
         i, j = (self._oracle.index[body] for body in joint.bodies)
         if isinstance(joint, Prismatic):
@@ -107,7 +96,7 @@ class Follower:
             start, _ = perpendiculars(self._axis(joint))
             self._squares.append((i, j, np.cross(self._axis(joint), start), start))
 
-    def _axis(self, joint: Joint) -> Array:
+    def _axis(self, joint):
         """Return the axis of a driven hinge, in the sense in which its angle counts."""
         axis = self._oracle.axis(joint.axis)
         if joint.angle_to is None:
@@ -116,7 +105,7 @@ class Follower:
         arm = self._oracle.place(joint.angle_to) - self._oracle.place(joint.axis.through)
         return axis * np.sign(axis @ np.cross(reference, arm))
 
-    def go(self, to: Array) -> bool:
+    def go(self, to):
         """Go straight to other coordinates; return whether the whole way is regular."""
         start, part = self.coordinates, 0.0
         most = STEP / max(np.abs(to - start).max(), STEP)
@@ -135,7 +124,7 @@ class Follower:
                 return False
         return True
 
-    def _step(self, coordinates: Array) -> Motion | None:
+    def _step(self, coordinates):
         """Return the position of other coordinates nearby, None where that is not near."""
         motion, first = self.motion, 0.0
         misfit, rows = self._equations(motion, coordinates)
@@ -154,10 +143,10 @@ class Follower:
                 return motion if np.abs(misfit).max() < 1e-11 else None
         return None
 
-    def _misfits(self, motion: Motion, coordinates: Array) -> Array:
+    def _misfits(self, motion, coordinates):
         return self._equations(motion, coordinates)[0]
 
-    def _equations(self, motion: Motion, coordinates: Array) -> tuple[Array, Array]:
+    def _equations(self, motion, coordinates):
         """Return what a position leaves of the equations, and how that changes.
 
         Lengths are in units of the mechanism's.
@@ -176,7 +165,7 @@ class Follower:
                 squares[place] = i, j, turn.apply(across), mark
         values, rows = [], []
 
-        def row(i: int, j: int, *parts: Array) -> None:
+        def row(i, j, *parts):
             line = np.zeros((len(x), 6))
             line[i, :3], line[i, 3:], line[j, :3], line[j, 3:] = parts
             rows.append(line[1:].ravel())
@@ -201,7 +190,7 @@ class Follower:
             row(i, j, -n, turning, n, _cross(two, n) / size)
         return np.array(values), np.array(rows)
 
-    def _moved(self, motion: Motion, twists: Array) -> Motion:
+    def _moved(self, motion, twists):
         """Return a position after small motions of all bodies but the ground."""
         moved = twists.reshape(-1, 6)
         position, rotation = motion.position.copy(), motion.rotation.copy()
@@ -210,7 +199,7 @@ class Follower:
         return Motion(position, rotation, motion.twist)
 
 
-def _cross(a: Array, b: Array) -> Array:
+def _cross(a, b):
     """Return the vector product of two vectors; NumPy's takes ten times as long."""
     return np.array(
         [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
@@ -238,37 +227,37 @@ class Family:
 
     title: str
     model: Formulation
-    vary: Callable[[Random], dict[str, float]]
+    vary: Callable[[np.random.Generator], dict[str, float]]
     reach: tuple[float, ...]
     quick: bool = True
 
-    def parameters(self, random: Random) -> dict[str, float]:
+    def parameters(self, random):
         """Draw all parameters."""
         return {p.name: p.default for p in self.model.mechanism.parameters} | self.vary(random)
 
-    def target(self, random: Random) -> Array:
+    def target(self, random):
         """Draw how far the driven coordinates go."""
         return np.array(self.reach) * random.uniform(-1.0, 1.0, len(self.reach))
 
 
-def named(places: Mapping[str, Any]) -> dict[str, float]:
+def named(places):
     """Return the components of points or directions as parameters."""
     return {
         f"{n}_{a}": float(c) for n, at in places.items() for a, c in zip("xyz", at, strict=True)
     }
 
 
-def _plane(names: list[str], size: float) -> Callable[[Random], dict[str, float]]:
+def _plane(names, size):
     """Draw pins anywhere in a square of the plane."""
     return lambda random: named({f"{n}_at": askew(*random.uniform(0.0, size, 2)) for n in names})
 
 
-def _near(model: Formulation, spread: float) -> Callable[[Random], dict[str, float]]:
+def _near(model, spread):
     """Draw pins of a planar mechanism not far from the declared ones, in the plane."""
     defaults = {p.name: p.default for p in model.mechanism.parameters}
     x, y = (np.array(askew(*e)) - askew(0.0, 0.0) for e in ((1.0, 0.0), (0.0, 1.0)))
 
-    def vary(random: Random) -> dict[str, float]:
+    def vary(random):
         declared = {n: [defaults[f"{n}_at_{a}"] for a in "xyz"] for n in _pins(model)}
         moved = {
             f"{n}_at": at + np.array([x, y]).T @ random.uniform(-spread, spread, 2)
@@ -279,14 +268,14 @@ def _near(model: Formulation, spread: float) -> Callable[[Random], dict[str, flo
     return vary
 
 
-def _pins(model: Formulation) -> list[str]:
+def _pins(model):
     return [joint.name for joint in model.mechanism.joints]
 
 
-def _ring(count: int, spread: float) -> Callable[[Random], dict[str, float]]:
+def _ring(count, spread):
     """Draw a ring of hinges not far from the declared one."""
 
-    def vary(random: Random) -> dict[str, float]:
+    def vary(random):
         places = np.array(PLACES[:count]) + spread * random.uniform(-0.2, 0.2, (count, 3))
         axes = np.array(AXES[:count]) + spread * random.normal(size=(count, 3))
         return named({f"place_{i}": p for i, p in enumerate(places)}) | named(
@@ -296,28 +285,28 @@ def _ring(count: int, spread: float) -> Callable[[Random], dict[str, float]]:
     return vary
 
 
-def _meeting(random: Random) -> dict[str, float]:
+def _meeting(random):
     axes = random.normal(size=(4, 3))
     return named({f"axis_{i}": a for i, a in enumerate(axes)}) | named(
         {f"place_{i}": 0.2 * a / np.linalg.norm(a) for i, a in enumerate(axes)}
     )
 
 
-def _bent(random: Random) -> dict[str, float]:
+def _bent(random):
     axes = iterated_loops.hooke_axes(random.uniform(-1.3, 1.3))
     return named({f"axis_{i}": a for i, a in enumerate(axes)}) | named(
         {f"place_{i}": 0.2 * np.array(a) for i, a in enumerate(axes)}
     )
 
 
-def _bennett(random: Random) -> dict[str, float]:
+def _bennett(random):
     twist, other = random.uniform(0.3, 1.5, 2)
     model = iterated_loops.bennett(0.3, twist, other, random.uniform(0.5, 2.5))
     wanted = ("place", "axis")
     return {p.name: p.default for p in model.mechanism.parameters if p.name.startswith(wanted)}
 
 
-def _links(random: Random) -> dict[str, float]:
+def _links(random):
     """Draw the hardpoints of a suspension, each within 30 mm."""
     defaults = {p.name: p.default for p in MODELS[0].mechanism.parameters}
     ends = ("_inner", "_outer", "_rear", "_front", "_joint")
@@ -381,12 +370,12 @@ class Trial:
     """
 
     parameters: dict[str, float]
-    coordinates: Array
+    coordinates: np.ndarray
     motion: Motion
     least: float
 
 
-def trials(family: Family, random: Random, along: int = 4) -> Iterator[Trial]:
+def trials(family, random, along=4):
     """Yield positions on a straight path of a mechanism, as far as it is regular.
 
     Parameters
@@ -423,11 +412,11 @@ class Judged:
     answered: int = 0
     wrong: int = 0
 
-    def __add__(self, other: Judged) -> Judged:
+    def __add__(self, other):
         return Judged(*(a + b for a, b in zip(astuple(self), astuple(other), strict=True)))
 
 
-def judged(family: Family, random: Random) -> Judged:
+def judged(family, random):
     """Ask the emitted code for the positions on one path of one mechanism."""
     found = list(trials(family, random))
     if not found:

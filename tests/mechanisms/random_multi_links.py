@@ -4,25 +4,15 @@ The knuckle hangs on its five links and on the rod of the height sensor, whose l
 swings: six rods, and the way goes from the design position by the rack, and then by the lever.
 """
 
-from __future__ import annotations
-
 from dataclasses import astuple, dataclass, field
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from kintrafo import Model, PositionError, Suspension, travel_range
 from kintrafo.core.errors import InputError
 from kintrafo.vehicle.models.model_batch import ModelBatch
-from kintrafo.vehicle.models.positions import arm_angles, arm_angles_of_batch
+from kintrafo.vehicle.models.positions import AngleRange, arm_angles, arm_angles_of_batch
 from kintrafo.vehicle.models.reach import at_rest
 from oracle.continuation import Followed, Poses, Rods
-
-if TYPE_CHECKING:
-    from kintrafo.vehicle.models.positions import AngleRange
-    from numpy.typing import NDArray
-    from oracle.continuation import Array, Indices
-
-    Random = np.random.Generator
 
 CAR = Suspension.load("multi_link_car")
 LINKS = ("front_upper_link", "rear_upper_link", "front_lower_link", "rear_lower_link", "tie_rod")
@@ -58,14 +48,14 @@ class Judged:
     short: list[str] = field(default_factory=list)
     in_batches: int = 0
 
-    def __add__(self, other: Judged) -> Judged:
+    def __add__(self, other):
         return Judged(*(a + b for a, b in zip(astuple(self), astuple(other), strict=True)))
 
 
-def some_cars(random: Random, count: int) -> list[Suspension]:
+def some_cars(random, count):
     """Return suspensions whose hardpoints are off, by a few millimetres or by a hand's width."""
     names = CAR.hardpoints.given()
-    found: list[Suspension] = []
+    found = []
     while len(found) < count:
         size = 10.0 ** random.uniform(0.5, 2.0)
         moved = [name for name in names if random.random() < 0.6]
@@ -89,11 +79,11 @@ class Asked:
 
     model: Model
     reach: AngleRange
-    angles: Array
+    angles: np.ndarray
     wrong: list[str]
 
 
-def judged(cars: list[Suspension], rack: float, random: Random) -> Judged:
+def judged(cars, rack, random):
     """Hold the positions of suspensions with the rack displaced against their continuation."""
     asked = [found for car in cars if (found := _asked(Model(car), rack, random)) is not None]
     if not asked:
@@ -107,7 +97,7 @@ def judged(cars: list[Suspension], rack: float, random: Random) -> Judged:
     return found + _in_a_batch([one.model for one in asked], ways, rack, random)
 
 
-def _asked(model: Model, rack: float, random: Random) -> Asked | None:
+def _asked(model, rack, random):
     """Ask for heights within the range, and for some beyond, which are to be refused."""
     try:
         reach = travel_range(model, rack)
@@ -126,7 +116,7 @@ def _asked(model: Model, rack: float, random: Random) -> Asked | None:
     return Asked(model, reach, angles, wrong)
 
 
-def _in_a_batch(models: list[Model], ways: Ways, rack: float, random: Random) -> Judged:
+def _in_a_batch(models, ways, rack, random):
     """Hold the positions of all as one batch against the continuation."""
     values = {
         f"hardpoints.{name}.{axis}": np.array(
@@ -156,7 +146,7 @@ class Ways:
         [m]
     """
 
-    def __init__(self, cars: list[Suspension], rack: float) -> None:
+    def __init__(self, cars, rack):
         count = len(cars)
         points = [car.hardpoints for car in cars]
         center = np.array([p.metres("wheel_center") for p in points])
@@ -170,8 +160,8 @@ class Ways:
         axis /= np.linalg.norm(axis, axis=1)[:, None]
         length = np.linalg.norm(outer + center[:, None] - inner, axis=-1)
 
-        def rods(rack_at: Any, angle_at: Any) -> Rods:
-            def ends(some: Indices, at: Array) -> Array:
+        def rods(rack_at, angle_at):
+            def ends(some, at):
                 found = inner[some].copy()
                 found[:, 4] += rack_at(at)[:, None] * axis[some]
                 angle = angle_at(at)
@@ -185,14 +175,14 @@ class Ways:
         start = Poses(center, np.broadcast_to(np.eye(3), (count, 3, 3)))
         everyone, whole = np.arange(count), np.full(count, rack)
         by_rack = Followed(rods(lambda at: at, lambda at: 0.0 * at), start, whole)
-        self.arrived: NDArray[np.bool_] = by_rack.reached == rack
+        self.arrived = by_rack.reached == rack
         begin = by_rack.at(everyone, by_rack.reached)
         swinging = rods(lambda at: 0.0 * at + rack, lambda at: at)
         ends = np.where(self.arrived, 0.5 * np.pi, 0.0)
         self._ways = {s: Followed(swinging, begin, s * ends) for s in (1.0, -1.0)}
         self._rack = rack
 
-    def compared(self, k: int, model: Model, angles: Array) -> Judged:
+    def compared(self, k, model, angles):
         """Hold positions of a suspension at arm angles against its ways."""
         found = Judged(positions=len(angles))
         if not self.arrived[k]:
@@ -215,7 +205,7 @@ class Ways:
                 found.wrong.append(f"{k}: at {angle:.6g} rad the knuckle is turned by {off:.3g}")
         return found
 
-    def longer(self, k: int, model: Model, reach: AngleRange) -> list[str]:
+    def longer(self, k, model, reach):
         """Return how much farther than a range the ways go, if the links limit the range."""
         found = []
         limits = (reach.lower_limit, 1.0), (reach.upper_limit, -1.0)
@@ -225,7 +215,7 @@ class Ways:
                 found.append(f"{k}: {swung:.4f} rad and not {farther:.4f}: {limit[:80]}")
         return found
 
-    def monotone(self, k: int, sense: float) -> float:
+    def monotone(self, k, sense):
         """Return how far the arm swings until the wheel turns back, or the way ends [rad]."""
         places, heights = self._ways[sense].heights(k, np.zeros(3))
         places, first = np.unique(np.abs(places), return_index=True)
@@ -233,5 +223,5 @@ class Ways:
         return float(places[against[0]] if against.size else places[-1])
 
 
-def _ends(points: Any, which: str) -> Array:
+def _ends(points, which):
     return np.array([[p.metres(f"{link}_{which}") for link in LINKS] for p in points])

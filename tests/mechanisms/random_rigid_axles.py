@@ -4,20 +4,12 @@ The beam hangs on its four rods, and its wheel centres are at given heights; a w
 from the design position in the travels of the wheels.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
 from kintrafo import RigidAxle, RigidAxleModel
 from kintrafo.core.errors import InputError
 from oracle.continuation import Followed, Poses, Rods
-
-if TYPE_CHECKING:
-    from oracle.continuation import Array, Indices
-
-    Random = np.random.Generator
 
 AXLE = RigidAxle.load("rigid_axle")
 # As for corners (`swinging`): poses, and parts of a way that are not judged.
@@ -36,9 +28,9 @@ class Judged:
     short: list[str] = field(default_factory=list)
 
 
-def some_axles(random: Random, count: int) -> list[RigidAxle]:
+def some_axles(random, count):
     """Return axles whose rods end a few millimetres, or a hand's width, from where they did."""
-    found: list[RigidAxle] = []
+    found = []
     while len(found) < count:
         size = 10.0 ** random.uniform(0.5, 2.0)
         changes = {
@@ -58,7 +50,7 @@ def some_axles(random: Random, count: int) -> list[RigidAxle]:
     return found
 
 
-def judged(axles: list[RigidAxle], random: Random) -> Judged:
+def judged(axles, random):
     """Hold one random way of each axle against its continuation."""
     models = [RigidAxleModel(axle) for axle in axles]
     travels = random.uniform(-1.0, 1.0, (len(axles), 2))
@@ -89,7 +81,7 @@ def judged(axles: list[RigidAxle], random: Random) -> Judged:
     return found
 
 
-def _followed(axles: list[RigidAxle], travels: Array) -> Followed:
+def _followed(axles, travels):
     """Follow the beams by their ways, which the parameter has from zero to one."""
     count = len(axles)
     center = np.array([axle.center for axle in axles])
@@ -100,9 +92,8 @@ def _followed(axles: list[RigidAxle], travels: Array) -> Followed:
         [[axle.points(side)["wheel_center"] for side in ("left", "right")] for axle in axles]
     )
 
-    def heights(some: Indices, at: Array) -> Array:
-        found: Array = wheels[some, :, 2] + at[:, None] * travels[some]
-        return found
+    def heights(some, at):
+        return wheels[some, :, 2] + at[:, None] * travels[some]
 
     rods = Rods(
         outer - center[:, None],

@@ -1,14 +1,12 @@
 """Scotch yokes: a crank moves a body on a guide by a pin in a slot."""
 
-from __future__ import annotations
-
 from kintrafo import generator as g
 
 from mechanisms.every_closed_form import NORMAL, askew, declare, guide, heading, reported
 from mechanisms.every_closed_form import hinge as sketched
 
 
-def yoke(name: str, *, turned: bool = False, carried: bool = False) -> g.Formulation:
+def yoke(name, *, turned=False, carried=False):
     """Return a Scotch yoke in a plane.
 
     Parameters
@@ -19,7 +17,7 @@ def yoke(name: str, *, turned: bool = False, carried: bool = False) -> g.Formula
         Whether bearing and guide are on a body that turns on the ground.
     """
     moving = [*(["frame"] if carried else []), "crank", "block", "yoke"]
-    bodies: dict[str, g.Body] = {"ground": g.Ground("ground")}
+    bodies = {"ground": g.Ground("ground")}
     bearings = {
         "frame": g.flat("frame_bearing", (-0.2, 0.1), "bearing of the frame"),
         "crank": g.flat("crank_bearing", (0.0, 0.0), "bearing of the crank"),

@@ -1,31 +1,13 @@
 """Steering shafts in a plane: column, shaft of two links between two crosses, and pinion."""
 
-from __future__ import annotations
-
 from math import atan2, cos, sin
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mechanisms.every_closed_form import cross, declare, guide, hinge
 
-if TYPE_CHECKING:
-    from kintrafo.generator import Formulation
 
-    from mechanisms.every_closed_form import Place
-
-
-def column(
-    name: str,
-    first: float,
-    second: float,
-    phase: float,
-    *,
-    along: Place | None = None,
-    beside: float = 0.0,
-    swinging: bool = False,
-    links: str = "",
-) -> Formulation:
+def column(name, first, second, phase, *, along=None, beside=0.0, swinging=False, links=""):
     """Return a column whose shaft lies along x, with both bearings in the plane y = 0.
 
     Parameters
@@ -111,7 +93,7 @@ LINES = {
 }
 
 
-def crosses_in_a_row() -> Formulation:
+def crosses_in_a_row():
     """Return three shafts with two crosses between them, on a bracket and a lever that move.
 
     A last shaft has a bearing in a body that turns independently about the centre of its cross.

@@ -3,8 +3,6 @@
 An oracle for compliance: it shares no code with what it is held against.
 """
 
-from typing import Any
-
 import numpy as np
 from kintrafo import Axle, Model, Suspension, arm_angles
 from kintrafo.vehicle.models.positions import design_height
@@ -36,7 +34,7 @@ TRAILING = Suspension.load("trailing_arm_car").with_changes(
     FREE | {"spring.free_length_mm": None, "spring.force_at_design_N": 0.0}
 )
 LINKS = ("front_upper_link", "rear_upper_link", "front_lower_link", "rear_lower_link")
-BUSHES: dict[str, dict[str, Any]] = {
+BUSHES = {
     "arm_front": {"axial_N_per_mm": 1500.0, "radial_N_per_mm": [8000.0, 5000.0]},
     "arm_rear": {"axial_N_per_mm": 400.0, "radial_N_per_mm": [1200.0, 2500.0],
                  "axis": [1.0, 0.2, 0.1], "radial_axis": [0.0, 1.0, 1.0]},
@@ -87,9 +85,7 @@ X, Z = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
 class Stiffness:
     """A suspension as bodies on springs, held where its joints do not deflect."""
 
-    def __init__(
-        self, car: Suspension, travel: float, rack: float, like: Suspension | None = None
-    ) -> None:
+    def __init__(self, car, travel, rack, like=None):
         self.car, self.model, self.like = car, Model(car), like or car
         state = at_rest(
             self.model, arm_angles(self.model, design_height(self.model) + travel, rack), rack
@@ -112,29 +108,29 @@ class Stiffness:
         self.centres = np.array([np.zeros(3), *centers])
         self.size = 6 * len(self.bodies[1:])
 
-    def index(self, body: str | int) -> int:
+    def index(self, body):
         return body if isinstance(body, int) else self.bodies.index(body)
 
-    def rows(self, build: Any) -> np.ndarray:
+    def rows(self, build):
         """Return the rows of equations that are written down by some code."""
         assembler = Assembler(self.centres)
         build(assembler)
         _, rows = assembler.equations().evaluate(self.pose)
         return rows
 
-    def point(self, name: str, first: str | int, second: str) -> np.ndarray:
+    def point(self, name, first, second):
         """Return the displacement of a joint's second part against the first, (3, size)."""
         bodies = self.index(first), self.index(second)
         return -self.rows(lambda a: a.spherical(*bodies, self.at[name]))
 
-    def placed(self, name: str, body: str | int) -> np.ndarray:
+    def placed(self, name, body):
         which = self.index(body)
         if which == 0:
             return self.at[name]
         center, turned = self.pose.position[which - 1], self.pose.rotation[which - 1]
         return center + turned @ (self.at[name] - self.centres[which])
 
-    def along(self, first: str | int, start: str, second: str, end: str) -> np.ndarray:
+    def along(self, first, start, second, end):
         """Return how a distance grows, (size,)."""
         away = self.placed(end, second) - self.placed(start, first)
         away /= np.linalg.norm(away)
@@ -147,7 +143,7 @@ class Stiffness:
             )
         return row[1:].ravel()
 
-    def flexibility(self, bushes: dict[str, Any], held: str) -> np.ndarray:
+    def flexibility(self, bushes, held):
         """Return displacement and rotation of the contact by force and moment there."""
         stiff = np.zeros((self.size, self.size))
         joints, rigid, spring, stop = self.parts(bushes)
@@ -177,11 +173,11 @@ class Stiffness:
             stiff += self.car.tyre.rate_N_per_m * np.outer(moved[2], moved[2])
         return moved @ minimum(stiff, np.vstack(rigid), moved.T)
 
-    def turned(self, body: str | int) -> np.ndarray:
-        rotation: np.ndarray = self.pose.rotation[self.index(body) - 1]
+    def turned(self, body):
+        rotation = self.pose.rotation[self.index(body) - 1]
         return np.eye(3) if body in (0, "rack") else rotation
 
-    def tilting(self, about: Any = Z) -> np.ndarray:
+    def tilting(self, about=Z):
         """Return how the wheel tilts about a direction across its axis, and another, (2, size)."""
         knuckle, wheel, spin, *_ = self.bearing()
         other = np.cross(spin, about)
@@ -190,12 +186,12 @@ class Stiffness:
         ways = (other, np.cross(other, spin))
         return self.rows(lambda a: [a.perpendicular(knuckle, wheel, spin, v) for v in ways])
 
-    def bearing(self) -> tuple[int, int, np.ndarray, np.ndarray, np.ndarray]:
+    def bearing(self):
         spin = self.car.wheel.spin_axis(self.car.vehicle.sign)
         across, other = np.linalg.svd(spin[None])[2][1:]
         return self.index(self.carrier), self.index("wheel"), spin, across, other
 
-    def parts(self, bushes: dict[str, Any]) -> tuple[list[Any], list[np.ndarray], Any, Any]:
+    def parts(self, bushes):
         """Return rigid and elastic points, other constraints, and the ends of the lines."""
         rigid = []
         knuckle, wheel, _, across, other = self.bearing()
@@ -228,13 +224,13 @@ class Stiffness:
             rigid.append(self.tilting())
         return joints, rigid, spring, stop
 
-    def cross(self, first: str | int, rod: str) -> np.ndarray:
+    def cross(self, first, rod):
         """Return how a rod turns about itself in the cross at its inner end, (1, size)."""
         shaft = self.at[f"{rod}_outer"] - self.at[f"{rod}_inner"]
         bodies = self.index(first), self.index(rod)
         return self.rows(lambda a: a.perpendicular(*bodies, Z, np.cross(Z, shaft)))
 
-    def moved(self) -> np.ndarray:
+    def moved(self):
         """Return displacement and rotation of the contact by those of the bodies, (6, size)."""
         wheel = 6 * self.index("wheel") - 6
         rows = np.zeros((6, self.size))
@@ -243,14 +239,14 @@ class Stiffness:
         rows[:3, wheel + 3 : wheel + 6] = np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])
         return rows
 
-    def matrix(self, name: str, bush: dict[str, Any]) -> np.ndarray:
+    def matrix(self, name, bush):
         """Return a bush's stiffness in chassis axes at design, (3, 3) [N/m]."""
         rows = self.axes_of(name, bush)
         radial = np.broadcast_to(bush["radial_N_per_mm"], 2)
         rates = 1e3 * np.array([bush["axial_N_per_mm"], *radial])
         return rows.T @ np.diag(rates) @ rows
 
-    def axes_of(self, name: str, bush: dict[str, Any]) -> np.ndarray:
+    def axes_of(self, name, bush):
         """Return the axes of a bush, and the two across it, as rows in chassis axes at design."""
         ends = {"strut_top": ("strut_lower", "strut_top"),
                 "tie_rod_inner": ("tie_rod_inner", "tie_rod_outer")}  # fmt: skip
@@ -271,7 +267,7 @@ class Stiffness:
         first /= np.linalg.norm(first)
         return np.stack([axis, first, np.cross(axis, first)])
 
-    def contact(self) -> np.ndarray:
+    def contact(self):
         spin = self.car.wheel.spin_axis(self.car.vehicle.sign)
         axis = self.pose.rotation[self.index("wheel") - 1] @ spin
         upward = Z - axis[2] * axis
@@ -280,7 +276,7 @@ class Stiffness:
         return self.placed("wheel_center", "wheel") - radius * upward / np.linalg.norm(upward)
 
 
-def minimum(stiff: np.ndarray, held: np.ndarray, loads: np.ndarray) -> np.ndarray:
+def minimum(stiff, held, loads):
     """Return the displacements of least energy under loads, some of them zero."""
     # so that stiffnesses of 1e6 N/m and constraints of 1 are of a size
     held = 1e5 * held
@@ -320,17 +316,17 @@ BY_CURVE = CubicHermiteSpline(1e-3 * PRESSED, PUSHING, 1e3 * _SLOPES)
 class Energy(Stiffness):
     """The potential of a suspension whose parts are anywhere."""
 
-    def __init__(self, car: Suspension, bushes: Any, like: Suspension | None = None) -> None:
+    def __init__(self, car, bushes, like=None):
         super().__init__(car, 0.0, 0.0, like)
         self.bushes = bushes
         self.soft, _, *self.lines = self.parts(bushes)
         self.free = [self.length(line) for line in self.lines]
 
-    def length(self, line: Any) -> float:
+    def length(self, line):
         first, start, second, end = line
         return float(np.linalg.norm(self.placed(end, second) - self.placed(start, first)))
 
-    def stored(self) -> float:
+    def stored(self):
         total = 0.0
         for name, first, second in self.soft:
             if name in self.bushes:
@@ -345,7 +341,7 @@ class Energy(Stiffness):
         total += 0.5 * 5e4 * pressed**2 + 0.25 * 0.05e9 * pressed**4
         return float(total + self.of_spring(spring))
 
-    def of_tilt(self, name: str, first: Any, second: Any) -> float:
+    def of_tilt(self, name, first, second):
         """Return what a bush has stored whose axis has left that of the other part."""
         rates = np.degrees(self.bushes[name].get("tilt_Nm_per_deg", [0.0, 0.0]))
         axis, *across = self.axes_of(name, self.bushes[name])
@@ -353,7 +349,7 @@ class Energy(Stiffness):
         # the axis goes along the one as it turns about the other
         return 0.5 * float(rates[0] * (across[1] @ away) ** 2 + rates[1] * (across[0] @ away) ** 2)
 
-    def of_spring(self, stretch: float) -> float:
+    def of_spring(self, stretch):
         """Return what the spring has stored by how much longer than at design it is."""
         car = self.car
         if self.like is not STRUT and car.spring.by_curve:
@@ -361,7 +357,7 @@ class Energy(Stiffness):
         rate = car.strut.spring_rate_N_per_m if self.like is STRUT else car.spring.rate_N_per_m
         return 0.5 * float(rate) * stretch**2
 
-    def slopes(self, force: np.ndarray, road: float) -> np.ndarray:
+    def slopes(self, force, road):
         """Return the derivatives of the potential by all displacements and rotations."""
         at, found = self.pose, np.zeros(self.size)
         for which in range(self.size):
@@ -385,7 +381,7 @@ class Energy(Stiffness):
 SIDES = ("left", "right")
 STIFFNESS_OF_RACK = 2.5e5  # N/m: a tenth of what is usual
 RACK = {"rack": {"axial_N_per_mm": 1e-3 * STIFFNESS_OF_RACK}}
-BAR_OF: dict[Suspension, dict[str, Any]] = {
+BAR_OF = {
     STRUT: {
         "unit": "mm", "bush": [240.0, -400.0, 320.0], "link_top": [30.0, -580.0, 330.0],
         "link_foot": [30.0, -580.0, 200.0], "link_on": "control_arm", "rate_Nm_per_deg": 17.5,
@@ -398,6 +394,6 @@ BAR_OF: dict[Suspension, dict[str, Any]] = {
 }  # fmt: skip
 
 
-def axle_of(car: Suspension, **bar: Any) -> Axle:
+def axle_of(car, **bar):
     """Return a car and its image with an anti-roll bar."""
     return Axle.from_dict({"axle": "front", "side": car, "anti_roll_bar": BAR_OF[car] | bar})

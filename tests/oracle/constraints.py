@@ -78,7 +78,7 @@ class Equations:
     plane_normals: Array
     plane_offsets: Array
 
-    def evaluate(self, pose: Pose) -> tuple[Array, Array]:
+    def evaluate(self, pose):
         """Return residual and Jacobian.
 
         Parameters
@@ -137,7 +137,7 @@ class Equations:
         )
         return residual, jacobian[:, 1:].reshape(self.size, -1)
 
-    def convective(self, pose: Pose, twist: Array) -> Array:
+    def convective(self, pose, twist):
         """Return the second time derivative of the residual at zero accelerations.
 
         Parameters
@@ -190,7 +190,7 @@ class Equations:
         return np.concatenate((points, angles, planes))
 
     @cached_property
-    def size(self) -> int:
+    def size(self):
         """Number of scalar equations n."""
         return 3 * len(self.point_bodies) + len(self.angle_bodies) + len(self.plane_bodies)
 
@@ -207,59 +207,56 @@ class Assembler:
         Centres of mass at design, the chassis's origin first, m.
     """
 
-    def __init__(self, centres: Array) -> None:
+    def __init__(self, centres):
         self._centres = centres  # (1 + bodies, 3), the chassis's is the origin
-        self._points: list[tuple[tuple[int, int], tuple[Array, Array]]] = []
-        self._angles: list[tuple[tuple[int, int], tuple[Array, Array]]] = []
-        self._planes: list[tuple[tuple[int, int], tuple[Array, Array], Array, float]] = []
+        self._points = []
+        self._angles = []
+        self._planes = []
 
-    def _arm(self, body: int, point: Array) -> Array:
-        arm: Array = point - self._centres[body]
-        return arm
+    def _arm(self, body, point):
+        return point - self._centres[body]
 
-    def spherical(self, i: int, j: int, point: Array) -> None:
+    def spherical(self, i, j, point):
         """Hold a point of both bodies together: three equations."""
         self._points.append(((i, j), (self._arm(i, point), self._arm(j, point))))
 
-    def perpendicular(self, i: int, j: int, a: Array, b: Array) -> None:
+    def perpendicular(self, i, j, a, b):
         """Keep vector a of body i perpendicular to vector b of body j: one equation."""
         self._angles.append(((i, j), (unit(a), unit(b))))
 
-    def in_plane(
-        self, i: int, j: int, normal: Array, points: tuple[Array, Array], offset: float = 0.0
-    ) -> None:
+    def in_plane(self, i, j, normal, points, offset=0.0):
         """Keep a point of j at an offset (m) from a plane of i through a point: one equation."""
         arms = (self._arm(i, points[0]), self._arm(j, points[1]))
         self._planes.append(((i, j), arms, unit(normal), offset))
 
-    def parallel(self, i: int, j: int, axis: Array) -> None:
+    def parallel(self, i, j, axis):
         """Keep a common axis parallel: two equations."""
         for across in perpendiculars(axis):
             self.perpendicular(i, j, axis, across)
 
-    def revolute(self, i: int, j: int, point: Array, axis: Array) -> None:
+    def revolute(self, i, j, point, axis):
         """Let the bodies turn about an axis through a point: five equations."""
         self.spherical(i, j, point)
         self.parallel(i, j, axis)
 
-    def universal(self, i: int, j: int, point: Array, axis_i: Array, axis_j: Array) -> None:
+    def universal(self, i, j, point, axis_i, axis_j):
         """Hold a point together and an axis of each body perpendicular: four equations."""
         self.spherical(i, j, point)
         self.perpendicular(i, j, axis_i, axis_j)
 
-    def cylindrical(self, i: int, j: int, axis: Array, points: tuple[Array, Array]) -> None:
+    def cylindrical(self, i, j, axis, points):
         """Let the bodies turn about and slide along an axis: four equations."""
         self.parallel(i, j, axis)
         for across in perpendiculars(axis):
             self.in_plane(i, j, across, points)
 
-    def prismatic(self, i: int, j: int, axis: Array, point: Array) -> None:
+    def prismatic(self, i, j, axis, point):
         """Let the bodies slide along an axis: five equations."""
         first, second = perpendiculars(axis)
         self.cylindrical(i, j, axis, (point, point))
         self.perpendicular(i, j, first, second)
 
-    def equations(self) -> Equations:
+    def equations(self):
         """Return the equations collected so far."""
         return Equations(
             np.array([bodies for bodies, _ in self._points], dtype=np.intp).reshape(-1, 2),
@@ -273,7 +270,7 @@ class Assembler:
         )
 
 
-def with_chassis(pose: Pose) -> tuple[Array, Array]:
+def with_chassis(pose):
     """Return positions (1 + bodies, 3) and rotations with the chassis's first."""
     return (
         np.concatenate((np.zeros((1, 3)), pose.position)),
@@ -281,13 +278,12 @@ def with_chassis(pose: Pose) -> tuple[Array, Array]:
     )
 
 
-def _turn(rotation: Array, vectors: Array) -> Array:
+def _turn(rotation, vectors):
     """Multiply matrices (..., 3, 3) and vectors (..., 3)."""
-    turned: Array = (rotation @ vectors[..., None])[..., 0]
-    return turned
+    return (rotation @ vectors[..., None])[..., 0]
 
 
-def skew(vectors: Array) -> Array:
+def skew(vectors):
     """Return the matrices S with S u = v x u for vectors v, shape (..., 3)."""
     matrix = np.zeros((*vectors.shape[:-1], 3, 3))
     matrix[..., 0, 1], matrix[..., 1, 0] = -vectors[..., 2], vectors[..., 2]
@@ -296,13 +292,12 @@ def skew(vectors: Array) -> Array:
     return matrix
 
 
-def unit(v: Array) -> Array:
+def unit(v):
     """Return v / |v|."""
-    normalised: Array = v / np.linalg.norm(v)
-    return normalised
+    return v / np.linalg.norm(v)
 
 
-def perpendiculars(axis: Array) -> tuple[Array, Array]:
+def perpendiculars(axis):
     """Return two unit vectors that complete unit(axis) to a right-handed triad axis, u, v."""
     along = unit(axis)
     first = unit(np.cross(along, np.eye(3)[np.argmin(np.abs(along))]))

@@ -9,22 +9,12 @@ and the Jacobian keeps nine tenths of what it was; otherwise it is tried shorter
 SI units, chassis axes (z up).
 """
 
-from __future__ import annotations
-
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.spatial.transform import Rotation
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    import numpy.typing as npt
-
-    Array = npt.NDArray[np.float64]
-    Indices = npt.NDArray[np.intp]
 
 # Rotations count by this length [m].
 SIZE = 0.3
@@ -40,18 +30,18 @@ ITERATIONS, ROUNDED = 6, 1e-12
 class Poses:
     """Poses of bodies: their reference points [m], and rotations from design."""
 
-    center: Array
-    rotation: Array
+    center: np.ndarray
+    rotation: np.ndarray
 
-    def of(self, some: Indices) -> Poses:
+    def of(self, some):
         """Return those of some bodies."""
         return Poses(self.center[some], self.rotation[some])
 
-    def put(self, some: Indices, others: Poses) -> None:
+    def put(self, some, others):
         """Replace those of some bodies."""
         self.center[some], self.rotation[some] = others.center, others.rotation
 
-    def moved(self, twist: Array) -> Poses:
+    def moved(self, twist):
         """Return the poses after small motions: translations, and turns times `SIZE`."""
         turn = Rotation.from_rotvec(twist[:, 3:] / SIZE).as_matrix()
         return Poses(self.center + twist[:, :3], turn @ self.rotation)
@@ -76,13 +66,13 @@ class Rods:
         Given indices and parameters, returns their heights, shape (some, points) [m].
     """
 
-    outer: Array
-    length: Array
-    inner: Callable[[Indices, Array], Array]
-    points: Array
-    heights: Callable[[Indices, Array], Array]
+    outer: np.ndarray
+    length: np.ndarray
+    inner: Callable[[np.ndarray, np.ndarray], np.ndarray]
+    points: np.ndarray
+    heights: Callable[[np.ndarray, np.ndarray], np.ndarray]
 
-    def equations(self, some: Indices, at: Array, poses: Poses) -> tuple[Array, Array]:
+    def equations(self, some, at, poses):
         """Return what is left of the equations [m], and their derivatives by `Poses.moved`."""
         turned = np.swapaxes(poses.rotation, -1, -2)
         arms = self.outer[some] @ turned
@@ -102,7 +92,7 @@ class Rods:
         arms = np.concatenate([arms, offsets], axis=1)
         return left, np.concatenate([ways, _cross(arms, ways) / SIZE], axis=-1)
 
-    def solved(self, some: Indices, at: Array, poses: Poses) -> tuple[Poses, Array, Array]:
+    def solved(self, some, at, poses):
         """Return poses near given ones, their Jacobians, and which of them are found."""
         before = np.full(some.size, TURN * SIZE)
         fine = np.ones(some.size, dtype=bool)
@@ -117,7 +107,7 @@ class Rods:
         _, rows = self.equations(some, at, poses)
         return poses, rows, fine & (before <= 10.0 * ROUNDED)
 
-    def tangent(self, some: Indices, at: Array, poses: Poses, rows: Array) -> Array:
+    def tangent(self, some, at, poses, rows):
         """Return how poses move with the parameter."""
         small = 1e-6
         ahead, _ = self.equations(some, at + small, poses)
@@ -125,13 +115,13 @@ class Rods:
         return _solve(rows, (behind - ahead) / (2.0 * small))
 
 
-def _cross(one: Array, two: Array) -> Array:
+def _cross(one, two):
     """Return vector products; NumPy's takes five times as long."""
     (a, b, c), (x, y, z) = (np.moveaxis(v, -1, 0) for v in (one, two))
     return np.stack([b * z - c * y, c * x - a * z, a * y - b * x], axis=-1)
 
 
-def _solve(rows: Array, right: Array) -> Array:
+def _solve(rows, right):
     """Return solutions of many systems, NaN of those that are singular."""
     try:
         return np.asarray(np.linalg.solve(rows, right[..., None])[..., 0])
@@ -150,17 +140,15 @@ class Followed:
         How far each way is regular.
     """
 
-    def __init__(
-        self, rods: Rods, start: Poses, ends: Array, *, first: Array | None = None
-    ) -> None:
+    def __init__(self, rods, start, ends, *, first=None):
         count = len(ends)
         self._rods = rods
         self.reached = np.zeros(count) if first is None else first.copy()
-        self._places: list[Array] = [np.full(count, np.nan)]
-        self._poses: list[Poses] = [start]
+        self._places = [np.full(count, np.nan)]
+        self._poses = [start]
         self._go(start, ends)
 
-    def _go(self, start: Poses, ends: Array) -> None:
+    def _go(self, start, ends):
         now = Poses(start.center.copy(), start.rotation.copy())
         everyone = np.arange(len(ends))
         whole = ends - self.reached
@@ -196,7 +184,7 @@ class Followed:
             nothing = np.abs(step[going]) < NOTHING * np.abs(whole[going])
             going = going[~(fine & last) & ~nothing]
 
-    def at(self, some: Indices, places: Array) -> Poses:
+    def at(self, some, places):
         """Return the poses of bodies at parameters up to which they are followed."""
         table = np.array(self._places)[:, some]
         nearest = np.abs(table - places).argmin(axis=0)
@@ -211,7 +199,7 @@ class Followed:
         message = f"bodies {some} are not found at {places}"
         raise AssertionError(message)
 
-    def _along(self, some: Indices, ways: Array, poses: Poses) -> tuple[Poses, bool]:
+    def _along(self, some, ways, poses):
         """Return poses at the end of some places, and whether they are found at each."""
         fine = np.ones(some.size, dtype=bool)
         for at, to in pairwise(ways):
@@ -221,7 +209,7 @@ class Followed:
             fine &= found
         return poses, bool(fine.all())
 
-    def heights(self, some: int, point: Array) -> tuple[Array, Array]:
+    def heights(self, some, point):
         """Return where a body has been followed to, and the heights of a point of it there [m]."""
         places = np.array([place[some] for place in self._places])
         heights = np.array(

@@ -4,16 +4,15 @@ Every force of the strut is positive when it pushes knuckle and chassis apart, i
 how fast they approach, in m/s, positive in bump.
 """
 
-from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
 from scipy.interpolate import PPoly
 
-from oracle.reference import DAMPER_SEGMENTS, Parameters
+from oracle.reference import DAMPER_SEGMENTS
 
 
-def damper_curve(parameters: Parameters) -> Callable[[float], float]:
+def damper_curve(parameters):
     """Return force over compression velocity, from the coefficients of a flat parameter dict.
 
     Parameters
@@ -29,18 +28,18 @@ def damper_curve(parameters: Parameters) -> Callable[[float], float]:
     return _curve(parameters, "damper_table", 1.0)
 
 
-def spring_force(parameters: Parameters, length: float) -> float:
+def spring_force(parameters, length):
     """Return the force of the spring at a length (m), by its rate and its curve together."""
     return _spring(parameters)(length)
 
 
-def _spring(parameters: Parameters) -> Callable[[float], float]:
+def _spring(parameters):
     rate, free = parameters["spring_rate"], parameters["spring_free_length"]
     curve = _curve(parameters, "spring_table", -1.0)
     return lambda length: rate * (free - length) + curve(-length)
 
 
-def _curve(parameters: Parameters, name: str, sense: float) -> Callable[[float], float]:
+def _curve(parameters, name, sense):
     """Return force over what presses; a table has its knots with a sign."""
     return _curve_of(tuple(parameters[f"{name}_{key}"] for key in _KEYS), sense)
 
@@ -53,7 +52,7 @@ _KEYS = (
 
 
 @lru_cache(maxsize=64)  # an integration asks for one curve again and again
-def _curve_of(values: tuple[float, ...], sense: float) -> Callable[[float], float]:
+def _curve_of(values, sense):
     table = dict(zip(_KEYS, values, strict=True))
     knots = sense * np.array([table[f"knot_{i}"] for i in range(DAMPER_SEGMENTS + 1)])
     used = np.flatnonzero(np.diff(knots) > 0.0)
@@ -70,7 +69,7 @@ def _curve_of(values: tuple[float, ...], sense: float) -> Callable[[float], floa
     end = knots[used[-1] + 1]
     inside = PPoly(np.array(columns).T, np.append(knots[used], end))
 
-    def curve(v: float) -> float:
+    def curve(v):
         if v < origin:
             return float(table["first_force"] + first * (v - origin))
         if v > end:
@@ -80,19 +79,19 @@ def _curve_of(values: tuple[float, ...], sense: float) -> Callable[[float], floa
     return curve
 
 
-def damper_force(parameters: Parameters, slide_rate: float) -> float:
+def damper_force(parameters, slide_rate):
     """Return the force of the damper, its constant rate and its curve together."""
     curve = damper_curve(parameters)
     return parameters["damper_rate"] * slide_rate + curve(slide_rate)
 
 
-def friction_force(parameters: Parameters, slide_rate: float) -> float:
+def friction_force(parameters, slide_rate):
     """Return the friction of the strut: the sine of the angle whose tangent is v / speed."""
     angle = np.arctan2(slide_rate, parameters["strut_friction_speed"])
     return float(parameters["strut_friction"] * np.sin(angle))
 
 
-def stop_force(parameters: Parameters, side: str, length: float) -> float:
+def stop_force(parameters, side, length):
     """Return the force of the ``bump`` or ``rebound`` stop at a length of the strut, m."""
     depth, sense = _depth(parameters, side, length)
     if depth < 0.0:
@@ -101,13 +100,13 @@ def stop_force(parameters: Parameters, side: str, length: float) -> float:
     return float(sense * np.polyval([cubic, 0.0, rate, 0.0], depth))
 
 
-def _depth(parameters: Parameters, side: str, length: float) -> tuple[float, float]:
+def _depth(parameters, side, length):
     """Return how far a stop is pressed in, m, and the sign of its force."""
     sense = {"bump": 1.0, "rebound": -1.0}[side]
     return sense * (parameters[f"{side}_stop_length"] - length), sense
 
 
-def tyre_load(parameters: Parameters, deflection: float, deflection_rate: float) -> float:
+def tyre_load(parameters, deflection, deflection_rate):
     """Return the vertical force of the road on the tyre, N.
 
     Parameters

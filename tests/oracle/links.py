@@ -48,11 +48,11 @@ class Carrier:
         Direction in which the rack moves the inner end of the tie rod.
     """
 
-    def __init__(self, points: dict[str, Array], rack_axis: Array) -> None:
+    def __init__(self, points, rack_axis):
         self.points = points
         self.rack_axis = rack_axis / np.linalg.norm(rack_axis)
 
-    def at(self, travel: float, rack: float) -> Pose:
+    def at(self, travel, rack):
         """Return the pose with the wheel centre so far above design, followed from there."""
         parts = max(1, int(np.ceil(max(abs(travel), abs(rack)) / STEP)))
         pose = Pose(self.points["wheel_center"], np.eye(3))
@@ -60,15 +60,15 @@ class Carrier:
             pose = self._solved(pose, travel * part / parts, rack * part / parts)
         return pose
 
-    def inner(self, rack: float) -> Array:
+    def inner(self, rack):
         """Return the inner end of the tie rod [m]."""
         return self.points["tie_rod_inner"] + rack * self.rack_axis
 
-    def point(self, pose: Pose, name: str) -> Array:
+    def point(self, pose, name):
         """Return a point of the carrier [m]."""
         return pose.center + pose.rotation @ (self.points[name] - self.points["wheel_center"])
 
-    def on_arm(self, pose: Pose, arm: str, place: Array) -> Array:
+    def on_arm(self, pose, arm, place):
         """Return where a point of the "lower" or "upper" arm is, given its place at design [m]."""
         names = (f"{arm}_arm_rear", f"{arm}_arm_front")
         rear, front = (self.points[name] for name in names)
@@ -77,7 +77,7 @@ class Carrier:
         after = _frame(rear, front, self.point(pose, ball))
         return rear + after @ before.T @ (place - rear)
 
-    def _solved(self, pose: Pose, travel: float, rack: float) -> Pose:
+    def _solved(self, pose, travel, rack):
         height = self.points["wheel_center"][2] + travel
         fixed = self.points | {"tie_rod_inner": self.inner(rack)}
         for _ in range(STEPS):
@@ -97,7 +97,7 @@ class Carrier:
         return pose
 
 
-def _frame(origin: Array, ahead: Array, beside: Array) -> Array:
+def _frame(origin, ahead, beside):
     """Return the matrix of axes along the first two points and, in their plane, to the third."""
     x = (ahead - origin) / np.linalg.norm(ahead - origin)
     z = np.cross(x, beside - origin)

@@ -1,25 +1,14 @@
 """Load cards, read by their columns and commas: written from the manuals, not from our writer."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-if TYPE_CHECKING:
-    from pathlib import Path
 
-    import xarray as xr
-
-Array = np.ndarray
-
-
-def nastran(path: Path) -> tuple[dict[int, Array], dict[str, list[tuple[int, Array, Array]]]]:
+def nastran(path):
     """Return nodes, and by the number of a case the node, force and moment of each load.
 
     Wide fields: eight columns, four of sixteen, and eight of which nothing is used.
     """
-    cards: list[list[str]] = []
+    cards = []
     for line in path.read_bytes().decode("ascii").splitlines():
         if line.startswith("$"):
             continue
@@ -30,8 +19,8 @@ def nastran(path: Path) -> tuple[dict[int, Array], dict[str, list[tuple[int, Arr
         else:
             assert line[:8].strip().endswith("*")
             cards.append([line[:8].strip(" *"), *fields])
-    nodes: dict[int, Array] = {}
-    loads: dict[str, list[tuple[int, Array, Array]]] = {}
+    nodes = {}
+    loads = {}
     for name, *fields in cards:
         if name == "CORD2R":
             system, onto, *points = fields
@@ -51,7 +40,7 @@ def nastran(path: Path) -> tuple[dict[int, Array], dict[str, list[tuple[int, Arr
     return nodes, loads
 
 
-def abaqus(path: Path) -> tuple[dict[int, Array], dict[str, list[tuple[int, Array, Array]]]]:
+def abaqus(path):
     """Return the same of keywords, by the names of the steps."""
     nodes, sets, loads = {}, {}, {}
     step = keyword = label = ""
@@ -83,7 +72,7 @@ def abaqus(path: Path) -> tuple[dict[int, Array], dict[str, list[tuple[int, Arra
 READERS = {".bdf": nastran, ".inp": abaqus}
 
 
-def wrenches(path: Path) -> dict[str, Array]:
+def wrenches(path):
     """Return the sum of forces, and of moments about the origin, by cases, (6,)."""
     nodes, loads = READERS[path.suffix](path)
     return {
@@ -98,7 +87,7 @@ def wrenches(path: Path) -> dict[str, Array]:
     }
 
 
-def wrench(chosen: xr.Dataset) -> np.ndarray:
+def wrench(chosen):
     """Return the sums of forces, and of moments about the origin, of some loads: (..., 6)."""
     force, moment, at = (chosen[name].values for name in ("force", "moment", "at"))
     return np.concatenate([force.sum(-2), (moment + np.cross(at, force)).sum(-2)], axis=-1)

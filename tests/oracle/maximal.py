@@ -22,21 +22,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 from kintrafo import generator as g
 
 from oracle.constraints import Array, perpendiculars, skew, unit
 from oracle.rolling import wrench_of_driving
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from kintrafo.generator import Body, Direction, Formulation, Line, Point
-    from kintrafo.generator.declare.forces import Force
-    from kintrafo.generator.declare.joints import Joint
-    from kintrafo.generator.declare.laws import Law
 
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -62,25 +53,25 @@ class Jet:
     rate: Array
     convective: Array
 
-    def __add__(self, other: Jet | float) -> Jet:
+    def __add__(self, other):
         if not isinstance(other, Jet):
             return Jet(self.value + other, self.rows, self.rate, self.convective)
         return Jet(*(a + b for a, b in zip(self.parts, other.parts, strict=True)))
 
-    def __mul__(self, factor: float) -> Jet:
+    def __mul__(self, factor):
         return Jet(*(part * factor for part in self.parts))
 
-    def __neg__(self) -> Jet:
+    def __neg__(self):
         return self * -1.0
 
-    def __sub__(self, other: Jet) -> Jet:
+    def __sub__(self, other):
         return self + -other
 
     @property
-    def parts(self) -> tuple[Array, Array, Array, Array]:
+    def parts(self):
         return self.value, self.rows, self.rate, self.convective
 
-    def dot(self, other: Jet) -> Jet:
+    def dot(self, other):
         """Return the scalar product of two vectors."""
         return Jet(
             np.array([self.value @ other.value]),
@@ -95,7 +86,7 @@ class Jet:
             ),
         )
 
-    def norm(self) -> Jet:
+    def norm(self):
         """Return the length of a vector."""
         square, length = self.dot(self), np.linalg.norm(self.value)
         rate = square.rate / (2.0 * length)
@@ -103,7 +94,7 @@ class Jet:
         return Jet(np.array([length]), square.rows / (2.0 * length), rate, convective)
 
 
-def angle_of(sine: Jet, cosine: Jet) -> Jet:
+def angle_of(sine, cosine):
     """Return the angle of a vector in a plane, whatever its length."""
     s, c = sine.value, cosine.value
     square = s * s + c * c
@@ -117,7 +108,7 @@ def angle_of(sine: Jet, cosine: Jet) -> Jet:
     )
 
 
-def stacked(jets: list[Jet], size: int) -> Jet:
+def stacked(jets, size):
     """Return several jets as one; of none, a jet of no numbers over some bodies."""
     none = Jet(np.zeros(0), np.zeros((0, 6 * size)), np.zeros(0), np.zeros(0))
     parts = zip(*(jet.parts for jet in [none, *jets]), strict=True)
@@ -180,7 +171,7 @@ class Oracle:
         Value of every parameter by name, SI units.
     """
 
-    def __init__(self, model: Formulation, parameters: Mapping[str, float]) -> None:
+    def __init__(self, model, parameters):
         self.model = model
         self.mechanism = model.mechanism
         self.parameters = dict(parameters) | {
@@ -198,7 +189,7 @@ class Oracle:
 
     # -- declaration ------------------------------------------------------------------------------
 
-    def place(self, point: Point) -> Array:
+    def place(self, point):
         """Return the design position of a point."""
         return np.array(
             [
@@ -207,7 +198,7 @@ class Oracle:
             ]
         )
 
-    def along(self, direction: Direction) -> Array:
+    def along(self, direction):
         """Return the unit vector of a direction at design."""
         if direction.fixed is not None:
             return unit(np.array([float(c) for c in direction.fixed]))
@@ -216,16 +207,16 @@ class Oracle:
             return unit(end - start)
         return unit(np.array([self.parameters[f"{direction.name}_{axis}"] for axis in "xyz"]))
 
-    def axis(self, line: Line) -> Array:
+    def axis(self, line):
         """Return the unit vector along a line at design."""
         if hasattr(line.towards, "flat"):  # a point
             return unit(self.place(line.towards) - self.place(line.through))
         return self.along(line.towards)
 
-    def _mass(self, body: Body) -> float:
+    def _mass(self, body):
         return self.parameters[f"{body.name}_mass"] if self.model.has_mass(body.name) else 0.0
 
-    def _inertia(self, body: Body) -> Array:
+    def _inertia(self, body):
         """Return the tensor about the centre of mass at design; planar bodies declare a part."""
         if not self.model.has_mass(body.name):
             return np.zeros((3, 3))
@@ -244,7 +235,7 @@ class Oracle:
 
     # -- jets of points and directions ------------------------------------------------------------
 
-    def _carried(self, motion: Motion, body: str, arm: Array, *, free: bool) -> Jet:
+    def _carried(self, motion, body, arm, *, free):
         """Return a vector fixed in a body, from its centre of mass if it is not free."""
         i = self.index[body]
         spin, turned = skew(motion.twist[i, 3:]), motion.rotation[i] @ arm
@@ -259,31 +250,31 @@ class Oracle:
             spin @ (spin @ turned),  # a tenth of the time of numpy.cross
         )
 
-    def point(self, motion: Motion, body: str, place: Array) -> Jet:
+    def point(self, motion, body, place):
         """Return the motion of a point that a body carries, by its design position."""
         arm = place - self.centers[self.index[body]]
         return self._carried(motion, body, arm, free=False)
 
-    def vector(self, motion: Motion, body: str, design: Array) -> Jet:
+    def vector(self, motion, body, design):
         """Return the motion of a direction that a body carries."""
         return self._carried(motion, body, design, free=True)
 
     # -- joints -----------------------------------------------------------------------------------
 
-    def closure(self, motion: Motion) -> Jet:
+    def closure(self, motion):
         """Return what all joints hold at zero, in m and rad; shape (equations,)."""
         joints = [joint for joint in self.mechanism.joints if not isinstance(joint, g.Free)]
         held = [jet for joint in joints for jet in self.equations(motion, joint)]
         geared = [self._slip(motion, joint) for joint in joints if joint.gear]
         return stacked([*held, *geared], self.size)
 
-    def _slip(self, motion: Motion, joint: Joint) -> Jet:
+    def _slip(self, motion, joint):
         """Return by how much a joint is ahead of what it follows through a gear."""
         followed = self.driven(motion, joint.gear.joint.name)
         ratio = self.parameters[joint.gear.ratio.name]
         return self.driven(motion, joint.name) - followed * ratio
 
-    def equations(self, motion: Motion, joint: Joint) -> list[Jet]:
+    def equations(self, motion, joint):
         """Return what one joint holds at zero."""
         if isinstance(joint, g.Spherical):
             return [self._gap(motion, joint, joint.at)]
@@ -316,24 +307,22 @@ class Oracle:
         ends = self.place(joint.axis.towards), self.place(joint.axis.through)
         return [*self._parallel(motion, joint, along), *self._level(motion, joint, along, *ends)]
 
-    def _gap(self, motion: Motion, joint: Joint, at: Point) -> Jet:
+    def _gap(self, motion, joint, at):
         place = self.place(at)
         return self.point(motion, joint.second.name, place) - self.point(
             motion, joint.first.name, place
         )
 
-    def _perpendicular(self, motion: Motion, joint: Joint, first: Array, second: Array) -> Jet:
+    def _perpendicular(self, motion, joint, first, second):
         return self.vector(motion, joint.first.name, first).dot(
             self.vector(motion, joint.second.name, second)
         )
 
-    def _parallel(self, motion: Motion, joint: Joint, axis: Array) -> list[Jet]:
+    def _parallel(self, motion, joint, axis):
         """Return the two equations of a common direction."""
         return [self._perpendicular(motion, joint, v, axis) for v in perpendiculars(axis)]
 
-    def _level(
-        self, motion: Motion, joint: Joint, axis: Array, on_first: Array, on_second: Array
-    ) -> list[Jet]:
+    def _level(self, motion, joint, axis, on_first, on_second):
         """Return the two equations of points that do not leave a line along the axis."""
         span = self.point(motion, joint.second.name, on_second)
         span -= self.point(motion, joint.first.name, on_first)
@@ -341,7 +330,7 @@ class Oracle:
 
     # -- coordinates ------------------------------------------------------------------------------
 
-    def coordinate(self, motion: Motion, joint: Joint, kind: str) -> Jet:
+    def coordinate(self, motion, joint, kind):
         """Return a relative coordinate as the joint declares it, m or rad (up to whole turns)."""
         if isinstance(joint, g.Revolute):
             return self._hinge_angle(motion, joint)
@@ -358,7 +347,7 @@ class Oracle:
             return -self.telescope_length(motion, joint) + full
         return self._telescope_angle(motion, joint)
 
-    def _hinge_angle(self, motion: Motion, joint: g.Revolute) -> Jet:
+    def _hinge_angle(self, motion, joint):
         axis = self.axis(joint.axis)
         reference = self.along(joint.angle_from)
         if joint.angle_to is None:
@@ -374,7 +363,7 @@ class Oracle:
         sine = self.vector(motion, joint.first.name, np.cross(axis, start)).dot(marker)
         return angle_of(sine, cosine)
 
-    def _shaft_angles(self, motion: Motion, joint: g.Universal) -> dict[str, Jet]:
+    def _shaft_angles(self, motion, joint):
         """Return azimuth and elevation: Rz(azimuth) Rx(elevation) takes y to the shaft."""
         shaft = self.vector(motion, joint.second.name, self.axis(joint.shaft))
         x, y, z = (self.vector(motion, joint.first.name, axis).dot(shaft) for axis in np.eye(3))
@@ -383,14 +372,14 @@ class Oracle:
             "elevation": angle_of(z, stacked([x, y], self.size).norm()),
         }
 
-    def telescope_length(self, motion: Motion, joint: g.Cylindrical) -> Jet:
+    def telescope_length(self, motion, joint):
         """Return the distance, along the axis, of the two points that define it."""
         return self.vector(motion, joint.first.name, self.axis(joint.axis)).dot(
             self.point(motion, joint.first.name, self.place(joint.axis.towards))
             - self.point(motion, joint.second.name, self.place(joint.axis.through))
         )
 
-    def _telescope_angle(self, motion: Motion, joint: g.Cylindrical) -> Jet:
+    def _telescope_angle(self, motion, joint):
         """Return the turn of the second body about the axis, from the z' axis of the shaft.
 
         Its rate is left out: the z' axis belongs to no body.
@@ -409,7 +398,7 @@ class Oracle:
         nothing = np.full(1, np.nan)
         return Jet(angle, np.full((1, 6 * self.size), np.nan), nothing, nothing)
 
-    def driven(self, motion: Motion, joint: str) -> Jet:
+    def driven(self, motion, joint):
         """Return the coordinate of an independent or prescribed joint.
 
         Of a free one it is six that nobody integrates: only their rates mean anything, which are
@@ -420,7 +409,7 @@ class Oracle:
             return self._own_speeds(motion, declared)
         return self.coordinate(motion, declared, declared.coordinates[0])
 
-    def _own_speeds(self, motion: Motion, joint: g.Free) -> Jet:
+    def _own_speeds(self, motion, joint):
         i = self.index[joint.second.name]
         to_body, (velocity, omega) = motion.rotation[i].T, motion.twist[i].reshape(2, 3)
         rows = np.zeros((6, self.size + 1, 6))
@@ -431,14 +420,14 @@ class Oracle:
 
     # -- forces -----------------------------------------------------------------------------------
 
-    def wrench(self, motion: Motion, inputs: Mapping[str, float]) -> Array:
+    def wrench(self, motion, inputs):
         """Return the applied forces and moments, flattened like the twists of moving bodies."""
         total = np.zeros(6 * self.size)
         for force in self.mechanism.forces:
             total += self._wrench_of(force, motion, inputs)
         return total
 
-    def _wrench_of(self, force: Force, motion: Motion, inputs: Mapping[str, float]) -> Array:
+    def _wrench_of(self, force, motion, inputs):
         if isinstance(force, g.Weight):
             pull = np.zeros((self.size, 6))
             weight = self.mass[1:] * self.parameters[force.gravity.name]
@@ -460,14 +449,14 @@ class Oracle:
         center = self.point(motion, force.wheel.carrier.name, self.place(force.wheel.center))
         return self._tyre(force, motion, center, inputs) @ center.rows
 
-    def wrench_on(self, motion: Motion, body: str, at: Array, force: Array, moment: Array) -> Array:
+    def wrench_on(self, motion, body, at, force, moment):
         """Return a force on a body at a place in the world, with a moment about that place."""
         i = self.index[body]
         total = np.zeros((self.size + 1, 6))
         total[i] = [*force, *(moment + np.cross(at - motion.position[i], force))]
         return total[1:].ravel()
 
-    def _of_outside(self, motion: Motion, force: g.AppliedForce | g.AppliedMoment) -> Array:
+    def _of_outside(self, motion, force):
         """Return what acts from outside, for a unit input."""
         line, body = self.along(force.direction), force.body.name
         if force.follows:
@@ -478,7 +467,7 @@ class Oracle:
         turned[self.index[body] - 1, 3:] = line
         return turned.ravel()
 
-    def length(self, motion: Motion, element: g.ForceElement) -> Jet:
+    def length(self, motion, element):
         """Return the length of an element's path, or its twist."""
         if isinstance(element.path, g.AlongLine):
             first, second = (
@@ -496,9 +485,7 @@ class Oracle:
         )
         return second - first
 
-    def _push(
-        self, element: g.ForceElement, law: Law, path: Jet, inputs: Mapping[str, float]
-    ) -> float:
+    def _push(self, element, law, path, inputs):
         """Return the force that pushes the ends of an element apart."""
         given, length, velocity = self.parameters, float(path.value[0]), float(path.rate[0])
         if isinstance(law, g.LinearSpring):
@@ -519,19 +506,17 @@ class Oracle:
         assert isinstance(law, g.Actuator)
         return inputs[law.input.name]
 
-    def free_length(self, element: g.ForceElement, spring: g.LinearSpring) -> float:
+    def free_length(self, element, spring):
         """Return the length of a spring without force, m."""
         if spring.free_length is not None:
             return self.parameters[spring.free_length.name]
         full = self.parameters[element.path.joint.length_at_zero_slide.name]
         return full - self.parameters[spring.free_slide.name]
 
-    def _of_table(
-        self, table: g.DamperTable | g.SpringTable, compression: float, sense: float
-    ) -> float:
+    def _of_table(self, table, compression, sense):
         """Return the force of a curve: segment by segment as far as it is passed."""
 
-        def given(what: str) -> float:
+        def given(what):
             return self.parameters[f"{table.name}_{what}"]
 
         knots = sense * np.array([given(f"knot_{i}") for i in range(table.segments + 1)])
@@ -545,9 +530,7 @@ class Oracle:
                 force += np.polyval([*powers, 0.0], part)
         return force + given("last_slope") * max(compression - knots[-1], 0.0)
 
-    def _tyre(
-        self, tyre: g.LinearTyre, motion: Motion, center: Jet, inputs: Mapping[str, float]
-    ) -> Array:
+    def _tyre(self, tyre, motion, center, inputs):
         """Return the force of the road on a wheel, at its centre."""
         given = self.parameters
         deflection = given[tyre.free_height.name] + inputs[tyre.road.name] - center.value[2]
@@ -560,14 +543,12 @@ class Oracle:
         axis = self.vector(motion, tyre.wheel.carrier.name, self.along(tyre.wheel.spin)).value
         return load * (UP - axis * axis[2]) / (1.0 - axis[2] ** 2)
 
-    def _lifts_off(self, tyre: g.LinearTyre) -> bool:
+    def _lifts_off(self, tyre):
         return tyre.lifts_off is not None and bool(self.parameters[tyre.lifts_off.name])
 
     # -- equations of motion ----------------------------------------------------------------------
 
-    def reduced(
-        self, motion: Motion, inputs: Mapping[str, float], given: Mapping[str, float]
-    ) -> Reduced:
+    def reduced(self, motion, inputs, given):
         """Solve the equations of motion.
 
         Parameters
@@ -606,7 +587,7 @@ class Oracle:
             accelerations,
         )
 
-    def _momentum_balance(self, motion: Motion) -> tuple[Array, Array]:
+    def _momentum_balance(self, motion):
         """Return the mass matrix of all moving bodies and their gyroscopic moments."""
         mass = np.zeros((self.size, 6, self.size, 6))
         gyroscopic = np.zeros((self.size, 6))
@@ -620,7 +601,7 @@ class Oracle:
 
     # -- energy -----------------------------------------------------------------------------------
 
-    def energy(self, motion: Motion) -> float:
+    def energy(self, motion):
         """Return kinetic energy and that of weight, springs and stops, J."""
         mass, _ = self._momentum_balance(motion)
         twist = motion.twist[1:].ravel()
@@ -634,7 +615,7 @@ class Oracle:
                 energy += sum(self._stored(force, law, length) for law in force.laws)
         return float(energy)
 
-    def _stored(self, element: g.ForceElement, law: Law, length: float) -> float:
+    def _stored(self, element, law, length):
         given = self.parameters
         if isinstance(law, g.LinearSpring):
             return 0.5 * given[law.rate.name] * (self.free_length(element, law) - length) ** 2
@@ -660,7 +641,7 @@ class Oracle:
         return 0.0
 
 
-def _least_squares(rows: Array, target: Array) -> Array:
+def _least_squares(rows, target):
     """Solve equations of which some follow from others; those must agree with them."""
     solution, _, rank, _ = np.linalg.lstsq(rows, target, rcond=1e-9)
     assert rank == rows.shape[1], "the coordinates do not determine the motion"

@@ -15,14 +15,13 @@ along the unit rack axis). Units are SI, world axes are the chassis axes. Twists
 (velocity of the centre of mass, angular velocity) and (force, moment about the centre of mass).
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
-from oracle.constraints import ARM, KNUCKLE, RACK, UPPER_STRUT, WHEEL, Array, Pose
+from oracle.constraints import ARM, KNUCKLE, RACK, UPPER_STRUT, WHEEL, Array
 from oracle.laws import damper_force, friction_force, spring_force, stop_force, tyre_load
-from oracle.newton import Z_AXIS, Mechanism, observe
+from oracle.newton import Z_AXIS, observe
 
 CAUSES = (
     "gravity",
@@ -63,17 +62,17 @@ class Solution:
     strut_slide_rate: float
 
     @property
-    def beta1_acceleration(self) -> float:
+    def beta1_acceleration(self):
         """Second derivative of the arm angle, rad/s²."""
         return float(self.coordinate_accelerations[0])
 
     @property
-    def spin_acceleration(self) -> float:
+    def spin_acceleration(self):
         """Second derivative of the wheel's angle relative to the knuckle, rad/s²."""
         return float(self.coordinate_accelerations[1])
 
     @property
-    def rack_acceleration(self) -> float:
+    def rack_acceleration(self):
         """Second derivative of the rack displacement, m/s²."""
         return float(self.coordinate_accelerations[2])
 
@@ -100,7 +99,7 @@ class ReducedEquations:
     jacobian: Array
 
 
-def rate_rows(mechanism: Mechanism, pose: Pose) -> Array:
+def rate_rows(mechanism, pose):
     """Return what, times the twists, gives the rates of beta1, spin and rack, shape (3, 36)."""
     rows = np.zeros((3, 6, 6))
     axis = pose.rotation[KNUCKLE - 1] @ mechanism.spin_axis
@@ -111,25 +110,15 @@ def rate_rows(mechanism: Mechanism, pose: Pose) -> Array:
     return rows.reshape(3, 36)
 
 
-def solve_twist(
-    mechanism: Mechanism, pose: Pose, beta1_rate: float, spin_rate: float, rack_rate: float = 0.0
-) -> Array:
+def solve_twist(mechanism, pose, beta1_rate, spin_rate, rack_rate=0.0):
     """Return the twists of the bodies, (6, 6), for rates of the coordinates: rad/s, rad/s, m/s."""
     rates = np.array([beta1_rate, spin_rate, rack_rate])
-    twist: Array = (_jacobian(mechanism, pose) @ rates).reshape(6, 6)
-    return twist
+    return (_jacobian(mechanism, pose) @ rates).reshape(6, 6)
 
 
 def solve_prescribed(
-    mechanism: Mechanism,
-    pose: Pose,
-    beta1_rate: float,
-    spin_rate: float,
-    rack_velocity: float = 0.0,
-    *,
-    rack_acceleration: float = 0.0,
-    **inputs: float,
-) -> Solution:
+    mechanism, pose, beta1_rate, spin_rate, rack_velocity=0.0, *, rack_acceleration=0.0, **inputs
+):
     """Solve the dynamics with the rack's motion prescribed (its displacement is the pose's).
 
     Rates are in rad/s, velocity and acceleration of the rack along its unit axis in m/s and m/s²,
@@ -139,29 +128,15 @@ def solve_prescribed(
     return _solve(mechanism, pose, twist, inputs, rack_acceleration)
 
 
-def solve_free(
-    mechanism: Mechanism,
-    pose: Pose,
-    beta1_rate: float,
-    spin_rate: float,
-    rack_rate: float = 0.0,
-    **inputs: float,
-) -> Solution:
+def solve_free(mechanism, pose, beta1_rate, spin_rate, rack_rate=0.0, **inputs):
     """Solve the dynamics with the rack free to slide; rates and inputs as `solve_prescribed`."""
     twist = solve_twist(mechanism, pose, beta1_rate, spin_rate, rack_rate)
     return _solve(mechanism, pose, twist, inputs, None)
 
 
 def applied_wrenches(
-    mechanism: Mechanism,
-    pose: Pose,
-    twist: Array,
-    *,
-    road_height: float = 0.0,
-    road_velocity: float = 0.0,
-    strut_force: float = 0.0,
-    rack_force: float = 0.0,
-) -> dict[str, Array]:
+    mechanism, pose, twist, *, road_height=0.0, road_velocity=0.0, strut_force=0.0, rack_force=0.0
+):
     """Return the applied forces by their cause.
 
     Parameters
@@ -216,19 +191,12 @@ def applied_wrenches(
     return wrenches
 
 
-def _wrench(pose: Pose, body: int, place: Array, force: Array) -> Array:
+def _wrench(pose, body, place, force):
     """Return the force and its moment about the body's centre of mass, shape (6,)."""
     return np.concatenate((force, np.cross(place - pose.position[body - 1], force)))
 
 
-def reduced_equations(
-    mechanism: Mechanism,
-    pose: Pose,
-    beta1_rate: float,
-    spin_rate: float,
-    rack_rate: float = 0.0,
-    **inputs: float,
-) -> ReducedEquations:
+def reduced_equations(mechanism, pose, beta1_rate, spin_rate, rack_rate=0.0, **inputs):
     """Project the equations of Newton and Euler onto the coordinates; arguments as `solve_free`."""
     jacobian = _jacobian(mechanism, pose)
     twist = (jacobian @ np.array([beta1_rate, spin_rate, rack_rate])).reshape(6, 6)
@@ -246,18 +214,18 @@ def reduced_equations(
     )
 
 
-def _square(mechanism: Mechanism, pose: Pose) -> Array:
+def _square(mechanism, pose):
     """Return the joints' Jacobian with the rate rows below it, shape (36, 36)."""
     _, constraint = mechanism.joints.evaluate(pose)
     return np.vstack((constraint, rate_rows(mechanism, pose)))
 
 
-def _jacobian(mechanism: Mechanism, pose: Pose) -> Array:
+def _jacobian(mechanism, pose):
     """Return the twists for unit rates of the independent coordinates, shape (36, 3)."""
     return _solve_refined(_square(mechanism, pose), np.eye(36)[:, 33:])
 
 
-def _inertia(mechanism: Mechanism, pose: Pose, twist: Array) -> tuple[Array, Array]:
+def _inertia(mechanism, pose, twist):
     """Return the mass matrix (36, 36) and the gyroscopic wrenches w x I w, (36,)."""
     matrix = np.zeros((36, 36))
     gyroscopic = np.zeros(36)
@@ -272,7 +240,7 @@ def _inertia(mechanism: Mechanism, pose: Pose, twist: Array) -> tuple[Array, Arr
     return matrix, gyroscopic
 
 
-def _slide_rate(mechanism: Mechanism, pose: Pose, twist: Array) -> float:
+def _slide_rate(mechanism, pose, twist):
     """Return the rate of beta2, m/s: how fast knuckle and chassis approach along the strut."""
     arm = mechanism.point(pose, "strut_lower", KNUCKLE) - pose.position[KNUCKLE - 1]
     speed = twist[KNUCKLE - 1, :3] + np.cross(twist[KNUCKLE - 1, 3:], arm)
@@ -280,13 +248,7 @@ def _slide_rate(mechanism: Mechanism, pose: Pose, twist: Array) -> float:
     return float(-(span @ speed) / np.linalg.norm(span))
 
 
-def _solve(
-    mechanism: Mechanism,
-    pose: Pose,
-    twist: Array,
-    inputs: Mapping[str, float],
-    rack_acceleration: float | None,
-) -> Solution:
+def _solve(mechanism, pose, twist, inputs, rack_acceleration):
     """Solve the accelerations and multipliers; the rack is free if its acceleration is None."""
     wrenches = applied_wrenches(mechanism, pose, twist, **inputs)
     _, constraint = mechanism.joints.evaluate(pose)
@@ -317,7 +279,7 @@ def _solve(
     )
 
 
-def _solve_refined(matrix: Array, right: Array) -> Array:
+def _solve_refined(matrix, right):
     """Solve a square system, with refinement by residuals in extended precision.
 
     Massless bodies leave the mass matrix singular, but the matrix of the equations of motion is
@@ -328,7 +290,7 @@ def _solve_refined(matrix: Array, right: Array) -> Array:
         inverse = np.linalg.inv(matrix)
     except np.linalg.LinAlgError:
         return np.asarray(np.linalg.lstsq(matrix, right, rcond=None)[0], dtype=float)
-    solution: Array = inverse @ right
+    solution = inverse @ right
     for _ in range(2):
         residual = right - matrix.astype(np.longdouble) @ solution.astype(np.longdouble)
         solution = solution + inverse @ residual.astype(float)

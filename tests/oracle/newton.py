@@ -29,7 +29,7 @@ from oracle.constraints import (
     skew,
     unit,
 )
-from oracle.reference import HARDPOINTS, STAND_INS, Parameters, completed, inertia, vector
+from oracle.reference import HARDPOINTS, STAND_INS, completed, inertia, vector
 
 X_AXIS = np.array([1.0, 0.0, 0.0])
 Z_AXIS = np.array([0.0, 0.0, 1.0])
@@ -95,11 +95,9 @@ class Mechanism:
         Sign of the driven equations' determinant at design, by the driving coordinate.
     """
 
-    def __init__(self, parameters: Parameters) -> None:
+    def __init__(self, parameters):
         self.parameters = parameters = completed(parameters)
-        self.points: dict[str, Array] = {
-            name: vector(parameters, name) for name in (*HARDPOINTS, *STAND_INS)
-        }
+        self.points = {name: vector(parameters, name) for name in (*HARDPOINTS, *STAND_INS)}
         point = self.points
         self.centres = np.array(
             [
@@ -137,7 +135,7 @@ class Mechanism:
                 raise AssertionError("the design position does not satisfy the joints")
             self.orientation[coordinate] = float(np.linalg.slogdet(jacobian)[0])
 
-    def _joints(self) -> Equations:
+    def _joints(self):
         point = self.points
         strut = point["strut_top"] - point["strut_lower"]
         rod = point["tie_rod_outer"] - point["tie_rod_inner"]
@@ -153,7 +151,7 @@ class Mechanism:
         joints.revolute(KNUCKLE, WHEEL, point["wheel_center"], self.spin_axis)
         return joints.equations()
 
-    def drive(self, coordinate: str, value: float, rack: float, spin: float) -> Equations:
+    def drive(self, coordinate, value, rack, spin):
         """Return all equations: the joints' 33 and three that fix the independent coordinates.
 
         Parameters
@@ -199,22 +197,21 @@ class Mechanism:
             )
         )
 
-    def point(self, pose: Pose, name: str, body: int) -> Array:
+    def point(self, pose, name, body):
         """Return where the design point `name`, carried by a body such as `KNUCKLE`, is now [m]."""
         arm = self.points[name] - self.centres[body]
-        place: Array = pose.position[body - 1] + pose.rotation[body - 1] @ arm
-        return place
+        return pose.position[body - 1] + pose.rotation[body - 1] @ arm
 
-    def beta1(self, pose: Pose) -> float:
+    def beta1(self, pose):
         """Return the arm angle, rad."""
         lever = self.point(pose, "ball_joint", ARM) - self.hinge_foot
         return float(np.arctan2(lever @ self.hinge[1], lever @ self.hinge[2]))
 
-    def rack(self, pose: Pose) -> float:
+    def rack(self, pose):
         """Return the rack displacement, m."""
         return float(self.rack_axis @ (pose.position[RACK - 1] - self.centres[RACK]))
 
-    def spin(self, pose: Pose) -> float:
+    def spin(self, pose):
         """Return the rotation of the wheel relative to the knuckle, rad in (-pi, pi]."""
         relative = pose.rotation[KNUCKLE - 1].T @ pose.rotation[WHEEL - 1]
         first, second = perpendiculars(self.spin_axis)
@@ -262,12 +259,12 @@ class Observables:
     spring_length: float
 
 
-def observe(mechanism: Mechanism, pose: Pose) -> Observables:
+def observe(mechanism, pose):
     """Measure a pose; signs and units are those of `Observables`."""
     strut = mechanism.point(pose, "strut_lower", KNUCKLE) - mechanism.points["strut_top"]
     spring = mechanism.point(pose, "spring_seat", KNUCKLE) - mechanism.points["spring_top"]
     length = float(np.linalg.norm(strut))
-    axis: Array = pose.rotation[WHEEL - 1] @ mechanism.spin_axis
+    axis = pose.rotation[WHEEL - 1] @ mechanism.spin_axis
     side = mechanism.side
     outboard = axis * side * np.sign(mechanism.spin_axis[1])
     return Observables(
@@ -286,13 +283,7 @@ def observe(mechanism: Mechanism, pose: Pose) -> Observables:
     )
 
 
-def solve_pose(
-    mechanism: Mechanism,
-    beta1: float,
-    rack: float = 0.0,
-    spin: float = 0.0,
-    start: Pose | None = None,
-) -> Pose:
+def solve_pose(mechanism, beta1, rack=0.0, spin=0.0, start=None):
     """Solve the joints, to round-off, on the branch of the design position.
 
     Parameters
@@ -316,39 +307,30 @@ def solve_pose(
     return _continue(mechanism, start or mechanism.design, "beta1", beta1, rack=rack, spin=spin)
 
 
-def solve_pose_at_height(
-    mechanism: Mechanism,
-    height: float,
-    rack: float = 0.0,
-    spin: float = 0.0,
-    start: Pose | None = None,
-) -> Pose:
+def solve_pose_at_height(mechanism, height, rack=0.0, spin=0.0, start=None):
     """Solve the joints as `solve_pose` for a given height of the wheel centre, m."""
     return _continue(
         mechanism, start or mechanism.design, "wheel_height", height, rack=rack, spin=spin
     )
 
 
-def residual_norm(mechanism: Mechanism, pose: Pose) -> float:
+def residual_norm(mechanism, pose):
     """Return the largest absolute residual of the joints' equations and of R^T R = 1."""
     residual, _ = mechanism.joints.evaluate(pose)
     gram = pose.rotation.swapaxes(1, 2) @ pose.rotation
     return float(max(np.abs(residual).max(), np.abs(gram - np.eye(3)).max()))
 
 
-def rotation_matrix(turn: Array) -> Array:
+def rotation_matrix(turn):
     """Return the matrices (..., 3, 3) of rotation vectors (..., 3), by way of Euler parameters."""
     half = 0.5 * np.linalg.norm(turn, axis=-1, keepdims=True)
     scalar = np.cos(half)
     imaginary = 0.5 * np.sinc(half / np.pi) * turn
     cross = skew(imaginary)
-    matrix: Array = np.eye(3) + 2.0 * (scalar[..., None] * cross + cross @ cross)
-    return matrix
+    return np.eye(3) + 2.0 * (scalar[..., None] * cross + cross @ cross)
 
 
-def _continue(
-    mechanism: Mechanism, start: Pose, coordinate: str, goal: float, *, rack: float, spin: float
-) -> Pose:
+def _continue(mechanism, start, coordinate, goal, *, rack, spin):
     """Follow the straight path in the independent coordinates from `start` to the goal."""
     # The wheel turns freely, so the starting pose can be given the final spin exactly.
     pose = _spun(mechanism, start, spin)
@@ -379,7 +361,7 @@ def _continue(
     return _polish(equations, pose)
 
 
-def _newton(equations: Equations, start: Pose, orientation: float) -> Pose | None:
+def _newton(equations, start, orientation):
     """Take Newton steps to convergence; None if they fail or end on another branch."""
     pose = start
     for _ in range(10):
@@ -399,7 +381,7 @@ def _newton(equations: Equations, start: Pose, orientation: float) -> Pose | Non
     return None
 
 
-def _polish(equations: Equations, pose: Pose) -> Pose:
+def _polish(equations, pose):
     """Take Newton steps until the residual stalls; the rotations are kept orthonormal."""
     best, smallest = pose, np.inf
     for _ in range(8):
@@ -415,7 +397,7 @@ def _polish(equations: Equations, pose: Pose) -> Pose:
     return best
 
 
-def _spun(mechanism: Mechanism, pose: Pose, spin: float) -> Pose:
+def _spun(mechanism, pose, spin):
     """Return the pose with the wheel's rotation about its spin axis set to `spin`."""
     rotation = pose.rotation.copy()
     turn = np.remainder(spin + np.pi, 2.0 * np.pi) - np.pi
@@ -423,14 +405,13 @@ def _spun(mechanism: Mechanism, pose: Pose, spin: float) -> Pose:
     return Pose(pose.position, rotation)
 
 
-def _moved(pose: Pose, change: Array) -> Pose:
+def _moved(pose, change):
     """Apply displacements and world rotation vectors, shape (36,)."""
     each = change.reshape(6, 6)
     return Pose(pose.position + each[:, :3], rotation_matrix(each[:, 3:]) @ pose.rotation)
 
 
-def _orthonormal(rotation: Array) -> Array:
+def _orthonormal(rotation):
     """Return the nearest rotation matrices to almost orthonormal ones, shape (6, 3, 3)."""
     gram = rotation.swapaxes(1, 2) @ rotation
-    result: Array = rotation - 0.5 * rotation @ (gram - np.eye(3))
-    return result
+    return rotation - 0.5 * rotation @ (gram - np.eye(3))

@@ -1,9 +1,6 @@
 """Compare a model with the oracle in maximal coordinates, over random states."""
 
-from __future__ import annotations
-
 from itertools import count as counted
-from typing import TYPE_CHECKING
 
 import numpy as np
 from kintrafo.generator.backends.counting import operations_of
@@ -12,22 +9,10 @@ from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.loader import load
 from support.models import Built
 
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from kintrafo.generator import Formulation
-
 _numbers = counted()
 
 
-def check_with_the_oracle(
-    model: Formulation,
-    folder: Path,
-    reach: float,
-    count: int = 10,
-    *,
-    operations: int | None = None,
-) -> Built:
+def check_with_the_oracle(model, folder, reach, count=10, *, operations=None):
     """See that loops close, that rates keep them closed, and that accelerations are the oracle's.
 
     Parameters

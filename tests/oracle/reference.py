@@ -11,14 +11,12 @@ the diagonal are those of the tensor, thus minus the products of inertia).
 """
 
 import numpy as np
-import numpy.typing as npt
-from scipy.interpolate import PchipInterpolator, PPoly
+from scipy.interpolate import PchipInterpolator
 from support.folders import DATA
 
-Array = npt.NDArray[np.float64]
 Parameters = dict[str, float]
 
-HARDPOINTS: dict[str, tuple[float, float, float]] = {
+HARDPOINTS = {
     "arm_front": (0.17, -0.35, 0.205),
     "arm_rear": (-0.15, -0.35, 0.205),
     "ball_joint": (0.005, -0.71, 0.18),
@@ -53,7 +51,7 @@ The other two, of the spin angle and the spin rate, are zero.
 """
 
 
-def _table(name: str) -> tuple[tuple[str, ...], Array]:
+def _table(name):
     """Return columns and rows of a table of expected values."""
     head, *rows = (DATA / f"reference_{name}.csv").read_text(encoding="utf-8").split()
     return (*head.split(","),), np.array([[float(x) for x in row.split(",")] for row in rows])
@@ -72,18 +70,18 @@ The states are good to about 1e-10, the last column (a central difference) to ab
 """
 
 
-def vector(parameters: Parameters, name: str) -> Array:
+def vector(parameters, name):
     """Return the three-vector `name` of a flat parameter dict, shape (3,)."""
     return np.array([parameters[f"{name}_{axis}"] for axis in "xyz"])
 
 
-def set_vector(parameters: Parameters, name: str, value: npt.ArrayLike) -> None:
+def set_vector(parameters, name, value):
     """Store the three-vector `value`, shape (3,), under `name` in a flat parameter dict."""
     for axis, element in zip("xyz", np.asarray(value, dtype=float), strict=True):
         parameters[f"{name}_{axis}"] = float(element)
 
 
-def inertia(parameters: Parameters, body: str) -> Array:
+def inertia(parameters, body):
     """Return a body's inertia tensor about its centre of mass, chassis axes at design [kg m²].
 
     It is one of `GENERAL_BODIES`, or ``wheel``.
@@ -98,7 +96,7 @@ def inertia(parameters: Parameters, body: str) -> Array:
     return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
 
 
-def set_inertia(parameters: Parameters, body: str, tensor: npt.ArrayLike) -> None:
+def set_inertia(parameters, body, tensor):
     """Store a symmetric inertia tensor, shape (3, 3) in kg m², in a flat parameter dict."""
     elements = np.asarray(tensor, dtype=float)
     for element in INERTIA_ELEMENTS:
@@ -106,14 +104,14 @@ def set_inertia(parameters: Parameters, body: str, tensor: npt.ArrayLike) -> Non
         parameters[f"{body}_inertia_{element}"] = float(elements[row, column])
 
 
-def reference_parameters() -> Parameters:
+def reference_parameters():
     """Return a fresh flat parameter dict of the reference car.
 
     Tie rod, rack and upper strut are massless; their centres of mass are then only reference
     points: the middle of the rod, `tie_rod_inner` and `strut_top`.
     """
     point = {name: np.array(value) for name, value in HARDPOINTS.items()}
-    parameters: Parameters = {}
+    parameters = {}
     for name, value in point.items():
         set_vector(parameters, name, value)
     set_vector(parameters, "rack_axis", (0.0, 1.0, 0.0))
@@ -130,7 +128,7 @@ def reference_parameters() -> Parameters:
 
     strut = point["strut_top"] - point["ball_joint"]
     hinge_and_ball = point["arm_front"] + point["arm_rear"] + point["ball_joint"]
-    bodies: dict[str, tuple[float, Array, tuple[float, float, float]]] = {
+    bodies = {
         "control_arm": (5.0, hinge_and_ball / 3.0, (0.06, 0.04, 0.09)),
         "knuckle": (
             15.0,
@@ -149,7 +147,7 @@ def reference_parameters() -> Parameters:
     return parameters
 
 
-def perturbed_parameters(rng: np.random.Generator, scale: float = 0.02) -> Parameters:
+def perturbed_parameters(rng, scale=0.02):
     """Return a general car near the reference: nothing aligned, symmetric or massless.
 
     Hardpoints and centres of mass are off by `scale` [m], a standard deviation; the directions of
@@ -183,14 +181,14 @@ def perturbed_parameters(rng: np.random.Generator, scale: float = 0.02) -> Param
     return parameters
 
 
-def completed(parameters: Parameters) -> Parameters:
+def completed(parameters):
     """Return parameters with everything that a suspension can have, absent parts without effect.
 
     All that goes beyond the paper's suspension may be missing: the points of `STAND_INS`,
     ``spring_free_length``, ``spring_table_*``, ``damper_table_*``, ``strut_friction*``,
     ``bump_stop_*``, ``rebound_stop_*``, ``tyre_damper_rate`` and ``tyre_lifts_off``.
     """
-    absent: Parameters = {
+    absent = {
         "strut_friction": 0.0,
         "strut_friction_speed": 0.01,
         "tyre_damper_rate": 0.0,
@@ -212,7 +210,7 @@ def completed(parameters: Parameters) -> Parameters:
     return absent | parameters
 
 
-def set_damper_curve(parameters: Parameters, curve: PchipInterpolator) -> None:
+def set_damper_curve(parameters, curve):
     """Store a curve of force (N) over compression velocity (m/s), of up to ten segments.
 
     With x the part of a segment that is passed, its force is that of its first knot plus x times
@@ -221,14 +219,12 @@ def set_damper_curve(parameters: Parameters, curve: PchipInterpolator) -> None:
     _set_curve(parameters, "damper_table", curve, curve.x)
 
 
-def set_spring_curve(
-    parameters: Parameters, curve: PPoly, longest: float, prefix: str = ""
-) -> None:
+def set_spring_curve(parameters, curve, longest, prefix=""):
     """Store a curve of force (N) over compression (m) from a length (m), of up to ten segments."""
     _set_curve(parameters, f"{prefix}spring_table", curve, longest - curve.x)
 
 
-def _set_curve(parameters: Parameters, table: str, curve: PPoly, knots: Array) -> None:
+def _set_curve(parameters, table, curve, knots):
     widths, slope = np.diff(curve.x), curve.derivative()
     first, last = curve.x[[0, -1]]
     parameters[f"{table}_first_force"] = float(curve(first))
@@ -244,7 +240,7 @@ def _set_curve(parameters: Parameters, table: str, curve: PPoly, knots: Array) -
             parameters[f"{table}_{name}_{i}"] = float(coefficient)
 
 
-def spring_parameters(rng: np.random.Generator, length: float, prefix: str = "") -> Parameters:
+def spring_parameters(rng, length, prefix=""):
     """Return a random curve of a spring that reaches 60 mm to both sides of a length [m].
 
     `rng` goes on as if none had been drawn; `prefix` begins the names of the parameters.
@@ -252,13 +248,13 @@ def spring_parameters(rng: np.random.Generator, length: float, prefix: str = "")
     (own,) = rng.spawn(1)
     at = np.sort(own.uniform(0.005, 0.115, SPRING_SEGMENTS - 1))
     forces = np.cumsum(own.uniform(50.0, 700.0, SPRING_SEGMENTS + 1)) - 1000.0
-    parameters: Parameters = {}
+    parameters = {}
     curve = PchipInterpolator(np.concatenate(([0.0], at, [0.12])), forces)
     set_spring_curve(parameters, curve, length + 0.06, prefix)
     return parameters
 
 
-def general_parameters(rng: np.random.Generator, offset: float = 0.06) -> Parameters:
+def general_parameters(rng, offset=0.06):
     """Return a general car with an offset strut, spring seats, damper curve, stops, friction.
 
     Its tyre damps and lifts off. Stops and knots are where motions over most of the travel, at up
@@ -281,12 +277,12 @@ def general_parameters(rng: np.random.Generator, offset: float = 0.06) -> Parame
     return completed(parameters | further_parameters(rng, "strut", length))
 
 
-def further_parameters(rng: np.random.Generator, damper: str, length: float) -> Parameters:
+def further_parameters(rng, damper, length):
     """Return what cars have beyond plain springs: friction, stops, damper curve, a lifting tyre.
 
     `damper` is what the damper is called, and `length` [m] its length at the design position.
     """
-    parameters: Parameters = {
+    parameters = {
         f"{damper}_friction": rng.uniform(30.0, 90.0),
         f"{damper}_friction_speed": rng.uniform(0.02, 0.08),
         "tyre_damper_rate": rng.uniform(1000.0, 3000.0),
@@ -306,7 +302,7 @@ def further_parameters(rng: np.random.Generator, damper: str, length: float) -> 
     return parameters
 
 
-def offset_from_ball_joint(ball: Array, top: Array, offset: float, angle: float) -> Array:
+def offset_from_ball_joint(ball, top, offset, angle):
     """Return how the foot of the ball joint on the strut's axis lies from the ball joint [m].
 
     It is `offset` long, perpendicular to the axis through `top`, and at `angle` [rad] around the
@@ -320,11 +316,10 @@ def offset_from_ball_joint(ball: Array, top: Array, offset: float, angle: float)
     across = np.cos(angle) * first + np.sin(angle) * np.cross(n, first)
     # Thales: the foot is on the sphere over the line from ball joint to strut top.
     sine = offset / distance
-    foot: Array = offset * (np.sqrt(1.0 - sine**2) * across + sine * n)
-    return foot
+    return offset * (np.sqrt(1.0 - sine**2) * across + sine * n)
 
 
-def mirrored_parameters(parameters: Parameters) -> Parameters:
+def mirrored_parameters(parameters):
     """Return the mirror image in the x-z plane: the suspension of the vehicle's other side.
 
     Points and the rack axis are mirrored as vectors, the spin axis as the direction of a

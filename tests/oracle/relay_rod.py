@@ -7,12 +7,10 @@ joint at the Pitman arm stay at right angles. The idler arm occurs nowhere, noth
 SI units, chassis axes (x forward, y left, z up).
 """
 
-from typing import Any
-
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from oracle.links import ROUNDED, STEP, STEPS, Array, Carrier, Pose
+from oracle.links import ROUNDED, STEP, STEPS, Carrier, Pose
 
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -28,17 +26,16 @@ class Linkage:
         Of both arms.
     """
 
-    def __init__(self, points: dict[str, Array], axis: Array, idler_axis: Array) -> None:
+    def __init__(self, points, axis, idler_axis):
         self.points = points
         self.axis, self.idler_axis = (a / np.linalg.norm(a) for a in (axis, idler_axis))
         self.length = float(np.linalg.norm(np.cross(self.axis, points["ball"] - points["pivot"])))
 
-    def arm(self, way: float) -> Array:
+    def arm(self, way):
         """Return the rotation of the Pitman arm whose ball has gone so far along its circle."""
-        turned: Array = Rotation.from_rotvec(way / self.length * self.axis).as_matrix()
-        return turned
+        return Rotation.from_rotvec(way / self.length * self.axis).as_matrix()
 
-    def at(self, way: float) -> Pose:
+    def at(self, way):
         """Return the pose of the relay rod about its end at the Pitman arm, from design on."""
         parts = max(1, int(np.ceil(abs(way) / STEP)))
         pose = Pose(self.points["ball"], np.eye(3))
@@ -46,12 +43,12 @@ class Linkage:
             pose = self._solved(pose, way * part / parts)
         return pose
 
-    def carried(self, way: float, place: Array) -> Array:
+    def carried(self, way, place):
         """Return where a point of the relay rod is, given its place at design [m]."""
         pose = self.at(way)
         return pose.center + pose.rotation @ (place - self.points["ball"])
 
-    def _solved(self, pose: Pose, way: float) -> Pose:
+    def _solved(self, pose, way):
         turned = self.arm(way)
         end = self.points["pivot"] + turned @ (self.points["ball"] - self.points["pivot"])
         rod = self.points["idler_ball"] - self.points["ball"]
@@ -86,16 +83,16 @@ class OnRelayRod(Carrier):
     linkage : Linkage
     """
 
-    def __init__(self, points: dict[str, Array], linkage: Linkage) -> None:
+    def __init__(self, points, linkage):
         super().__init__(points, UP)
         self.linkage = linkage
 
-    def inner(self, rack: float) -> Array:
+    def inner(self, rack):
         """Return the inner end of the tie rod [m]."""
         return self.linkage.carried(rack, self.points["tie_rod_inner"])
 
 
-def linkage_of(arm: Any) -> Linkage:
+def linkage_of(arm):
     """Return the linkage of a file's section, without what it leaves out."""
     names = ("pivot", "ball", "idler_pivot", "idler_ball")
     points = {name: np.array(getattr(arm, f"{name}_mm")) / 1e3 for name in names}

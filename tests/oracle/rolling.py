@@ -5,28 +5,13 @@ torque acts on the wheel and, reversed, on what has the reaction. A tyre is the 
 once more; its deflections are among the inputs, by their names.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
-from kintrafo.generator import AirForces, RollingTyre, ShaftTorque
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from oracle.constraints import Array
-    from oracle.maximal import Motion, Oracle
+from kintrafo.generator import RollingTyre, ShaftTorque
 
 UP = np.array([0.0, 0.0, 1.0])
 
 
-def wrench_of_driving(
-    oracle: Oracle,
-    force: RollingTyre | ShaftTorque | AirForces,
-    motion: Motion,
-    inputs: Mapping[str, float],
-) -> Array:
+def wrench_of_driving(oracle, force, motion, inputs):
     """Return what one of these forces does, flattened like the twists of moving bodies."""
     if isinstance(force, RollingTyre):
         return _of_tyre(oracle, force, motion, inputs)
@@ -35,9 +20,7 @@ def wrench_of_driving(
     return _of_air(oracle, force, motion)
 
 
-def _of_tyre(
-    oracle: Oracle, tyre: RollingTyre, motion: Motion, inputs: Mapping[str, float]
-) -> Array:
+def _of_tyre(oracle, tyre, motion, inputs):
     """Return what the road does to the wheel of a linear tyre."""
     p = {k: oracle.parameters[f"{tyre.law.name}_{k}"] for k in _LINEAR}
     carrier, wheel = (oracle.index[b.name] for b in (tyre.bearing.first, tyre.bearing.second))
@@ -85,9 +68,7 @@ _LINEAR = ("unloaded_radius", "effective_radius", "vertical_stiffness", "vxlow",
            "friction", "rolling_resistance")  # fmt: skip
 
 
-def _of_shaft(
-    oracle: Oracle, shaft: ShaftTorque, motion: Motion, inputs: Mapping[str, float]
-) -> Array:
+def _of_shaft(oracle, shaft, motion, inputs):
     """Return a torque on a wheel and its reaction."""
     carrier, wheel, other = (
         oracle.index[b.name] for b in (shaft.bearing.first, shaft.bearing.second, shaft.reaction)
@@ -105,7 +86,7 @@ def _of_shaft(
     return total[1:].ravel()
 
 
-def _of_air(oracle: Oracle, air: AirForces, motion: Motion) -> Array:
+def _of_air(oracle, air, motion):
     """Return drag, lift and moment of the air."""
     density, drag, lift, pitching = (
         oracle.parameters[one.name] for one in (air.density, air.drag, air.lift, air.pitching)

@@ -5,7 +5,6 @@ No printer of the project is used: only the text of the file counts.
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator
 from functools import cache
 from importlib import import_module
 from pathlib import Path
@@ -50,40 +49,40 @@ _CALLED = {
 
 
 @cache
-def header(model: str) -> str:
+def header(model):
     """Return the text of a model's header."""
     return (FOLDER / f"{model}.h").read_text(encoding="utf-8")
 
 
-def sources(model: str) -> list[Path]:
+def sources(model):
     """Return a model's C files, in the order in which they are documented."""
     return [FOLDER / f"{model}.c", FOLDER / f"{model}_derivatives.c"]
 
 
 @cache
-def functions(model: str) -> dict[str, list[str]]:
+def functions(model):
     """Return the tokens of every function's body, by name without the model's prefix."""
     return functions_of(model, (path.read_text(encoding="utf-8") for path in sources(model)))
 
 
-def functions_of(model: str, texts: Iterable[str]) -> dict[str, list[str]]:
+def functions_of(model, texts):
     """Return the same of C text that lies in no file."""
     return {name: body for text in texts for name, body in _bodies(model, text).items()}
 
 
-def whole_of(path: Path) -> list[str]:
+def whole_of(path):
     """Return the tokens of what all functions of a file compute."""
     return _functions_in(path.read_text(encoding="utf-8"))["compute"]
 
 
-def _bodies(model: str, text: str) -> dict[str, list[str]]:
+def _bodies(model, text):
     """Return the bodies of the functions that others may call, each with all that it computes."""
     bodies = _functions_in(text)
     whole = bodies.pop("compute", [])
     return {n.removeprefix(f"{model}_"): _inlined(body, whole) for n, body in bodies.items()}
 
 
-def _functions_in(text: str) -> dict[str, list[str]]:
+def _functions_in(text):
     text = _LAYOUT.sub("", text)
     starts = [*_SIGNATURE.finditer(text)]
     ends = [*(match.start() for match in starts[1:]), len(text)]
@@ -93,7 +92,7 @@ def _functions_in(text: str) -> dict[str, list[str]]:
     }
 
 
-def _inlined(body: list[str], whole: list[str]) -> list[str]:
+def _inlined(body, whole):
     """Return what a function computes that calls the one with all steps, as a compiler does.
 
     These are the results behind ``if (wanted == NAME)``, and the steps that they need.
@@ -112,7 +111,7 @@ def _inlined(body: list[str], whole: list[str]) -> list[str]:
     return [*(token for step in reversed(steps) for token in step), *own]
 
 
-def _steps(body: list[str]) -> Iterator[tuple[str, list[str]]]:
+def _steps(body):
     """Return the declarations of a straight-line body one by one, each with its name."""
     for statement in statements(body):
         start, kind, depth = 0, [], 0
@@ -127,7 +126,7 @@ def _steps(body: list[str]) -> Iterator[tuple[str, list[str]]]:
                     yield part[place], part
 
 
-def tokens(text: str) -> list[str]:
+def tokens(text):
     """Split C text into tokens; anything unknown is an error."""
     found, position = [], 0
     text = text.rstrip()
@@ -139,7 +138,7 @@ def tokens(text: str) -> list[str]:
     return found
 
 
-def statements(body: list[str]) -> Iterator[list[str]]:
+def statements(body):
     """Return the statements of a straight-line body."""
     start = 0
     for index, token in enumerate(body):
@@ -148,11 +147,11 @@ def statements(body: list[str]) -> Iterator[list[str]]:
             start = index + 1
 
 
-def definitions(body: list[str]) -> dict[str, list[str]]:
+def definitions(body):
     """Return what each name, and each result, is computed from: the tokens behind its sign."""
-    found: dict[str, list[str]] = {}
+    found = {}
     for statement in statements(body):
-        part: list[str] = []
+        part = []
         depth = 0
         for token in [*statement, ","]:
             depth += (token in "([") - (token in ")]")
@@ -169,7 +168,7 @@ def definitions(body: list[str]) -> dict[str, list[str]]:
     return found
 
 
-def sources_of(body: list[str], results: Iterable[str]) -> set[str]:
+def sources_of(body, results):
     """Return the tokens on which some results depend, through all that is computed before."""
     known, waiting, seen = definitions(body), list(results), set()
     while waiting:
@@ -184,13 +183,13 @@ def sources_of(body: list[str], results: Iterable[str]) -> set[str]:
     return seen
 
 
-def count(body: list[str]) -> Counter[str]:
+def count(body):
     """Count the operations of all assignments; comparisons and the status are none.
 
     A sign counts as an addition. Numbers count nothing: neither the sign of one that stands by
     itself nor the line of a fraction, which the compiler divides.
     """
-    total: Counter[str] = Counter()
+    total = Counter()
     for statement in statements(body):
         pointer = "void" in statement  # to the constants: the star is none of a product
         if "=" in statement and statement[0] in ("const", "out", "state", "c") and not pointer:
@@ -198,7 +197,7 @@ def count(body: list[str]) -> Counter[str]:
     return total
 
 
-def _operations(expression: list[str]) -> Iterator[str]:
+def _operations(expression):
     padded = ["(", *expression, ")", ")"]
     for i, token in enumerate(expression):
         before, after, behind = padded[i], padded[i + 2], padded[i + 3]

@@ -1,23 +1,17 @@
 """The same declaration with something else in the place of one of its objects."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import fields, is_dataclass, replace
-from typing import Any, TypeVar
 
 from kintrafo.generator.declare.parameters import Image
 
-Thing = TypeVar("Thing")
 
-
-def changed(thing: Thing, *pairs: tuple[Any, Any]) -> Thing:
+def changed(thing, *pairs):
     """Return a mechanism, a model or a part of one with new objects for old ones, everywhere."""
-    found: Thing = _changed(thing, pairs)
-    return found
+    return _changed(thing, pairs)
 
 
-def with_default(thing: Thing, **values: float) -> Thing:
+def with_default(thing, **values):
     """Return a mechanism or a model with other defaults of parameters, given by their names."""
     mechanism = getattr(thing, "mechanism", thing)
     unknown = {*values} - {p.name for p in mechanism.parameters}
@@ -30,7 +24,7 @@ def with_default(thing: Thing, **values: float) -> Thing:
     return changed(thing, *pairs)
 
 
-def _with_defaults(owner: Any, defaults: list[float]) -> Any:
+def _with_defaults(owner, defaults):
     if hasattr(owner, "default"):
         return replace(owner, default=defaults[0])
     if hasattr(owner, "place"):
@@ -41,7 +35,7 @@ def _with_defaults(owner: Any, defaults: list[float]) -> Any:
     return replace(owner, given=tuple((e, value, what) for (e, _, what), value in given))
 
 
-def _changed(thing: Any, pairs: tuple[tuple[Any, Any], ...]) -> Any:
+def _changed(thing, pairs):
     for old, new in pairs:
         if type(thing) is type(old) and thing == old:
             return new
@@ -58,7 +52,7 @@ def _changed(thing: Any, pairs: tuple[tuple[Any, Any], ...]) -> Any:
     return replace(thing, **different) if different else thing
 
 
-def named(thing: Any, kind: type[Thing], name: str) -> Thing:
+def named(thing, kind, name):
     """Return a point, a direction or another object of a mechanism or a model by its name."""
     mechanism = getattr(thing, "mechanism", thing)
     return next(part for part in mechanism.every(kind) if part.name == name)

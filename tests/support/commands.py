@@ -1,12 +1,9 @@
 """Modules run as by ``python -m``, but in this process: the imports of another take a second."""
 
-from __future__ import annotations
-
 import runpy
 import sys
 import warnings
 from contextlib import chdir
-from typing import TYPE_CHECKING
 from unittest.mock import patch
 
 import pytest
@@ -14,13 +11,8 @@ from rich.text import Text
 
 from support.folders import ROOT
 
-if TYPE_CHECKING:
-    from collections.abc import Iterable
 
-    from rich.table import Table
-
-
-def run_module(name: str, *arguments: object) -> None:
+def run_module(name, *arguments):
     """Run a module in the folder of the repository, and assert that its exit code is zero.
 
     Parameters
@@ -38,7 +30,7 @@ def run_module(name: str, *arguments: object) -> None:
     assert not end.value.code
 
 
-def lines_of(tables: Iterable[Table]) -> list[list[str]]:
+def lines_of(tables):
     """Return the cells of tables, line by line, as they are printed."""
     return [
         [Text.from_markup(str(cell)).plain for cell in line]

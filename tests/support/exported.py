@@ -4,7 +4,6 @@ import importlib
 import subprocess
 from dataclasses import replace
 from functools import cache
-from pathlib import Path
 
 import kintrafo
 import pytest
@@ -24,7 +23,7 @@ needs_library = pytest.mark.skipif(
 
 
 @cache
-def system_named(name: str) -> kintrafo.System:
+def system_named(name):
     """Return a small mechanism, without states, guards or signals, a suspension or a car."""
     if name == "reference_car":
         return kintrafo.Model("reference_car")
@@ -39,7 +38,7 @@ def system_named(name: str) -> kintrafo.System:
     return kintrafo.System(importlib.import_module(f"kintrafo.generated.{name}"))
 
 
-def prescribed() -> g.Formulation:
+def prescribed():
     """Return the four-bar linkage with a prescribed angle of its rocker."""
     plain = tuple(f for f in four_bar.FOUR_BAR.forces if not isinstance(f, g.JointForce))
     given = {four_bar.D: g.Motion("drive", "rad", "angle of the rocker")}
@@ -47,7 +46,7 @@ def prescribed() -> g.Formulation:
     return g.Formulation("prescribed", "A four-bar that is turned", mechanism, (), prescribed=given)
 
 
-def _pendulum() -> g.Formulation:
+def _pendulum():
     """Return a pendulum: no guards, no signals, no inputs."""
     body = g.Body("body", 2.0, g.flat("com", (0.3, -0.1)), 0.05)
     turn = g.hinge("turn", g.Ground("ground"), body, g.flat("pin", (0.0, 0.0)))
@@ -57,7 +56,7 @@ def _pendulum() -> g.Formulation:
     return g.Formulation("pendulum", "A pendulum", mechanism, (turn,))
 
 
-def _moved() -> g.Formulation:
+def _moved():
     """Return the pendulum with a prescribed angle: no states, no signals."""
     free = _pendulum()
     mechanism = replace(free.mechanism, forces=())
@@ -65,7 +64,7 @@ def _moved() -> g.Formulation:
     return g.Formulation("moved", "A pendulum that is turned", mechanism, (), prescribed=given)
 
 
-def compiled(folder: Path, *flags: str) -> Path:
+def compiled(folder, *flags):
     """Compile all C files of a folder that need no other library into a program."""
     program = folder.with_suffix(".exe")
     others = ("_ffi", "_lanes")

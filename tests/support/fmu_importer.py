@@ -3,15 +3,9 @@
 It is written from the standard, and uses nothing of what exports.
 """
 
-from __future__ import annotations
-
 import ctypes as ct
 import xml.etree.ElementTree as ET
 import zipfile
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 OK, WARNING, DISCARD, ERROR = range(4)
 
@@ -40,18 +34,18 @@ class _EventInfo(ct.Structure):
     )
 
 
-def _doubles(values: Any) -> Any:
+def _doubles(values):
     return (ct.c_double * len(values))(*map(float, values))
 
 
-def _references(values: Any) -> Any:
+def _references(values):
     return (ct.c_uint32 * len(values))(*values)
 
 
 class Fmu:
     """An unpacked functional mock-up unit."""
 
-    def __init__(self, path: Path, folder: Path) -> None:
+    def __init__(self, path, folder):
         with zipfile.ZipFile(path) as archive:
             archive.extractall(folder)
         self.folder = folder
@@ -65,13 +59,13 @@ class Fmu:
         self.references = {v.attrib["name"]: int(v.attrib["valueReference"]) for v in variables}
         self.variables = {v.attrib["name"]: v for v in variables}
 
-    def attribute(self, name: str, key: str) -> str | None:
+    def attribute(self, name, key):
         """Return an attribute of a variable, wherever the version has it."""
         variable = self.variables[name]
         inner = variable[0] if self.version == 2 else variable
         return {**variable.attrib, **inner.attrib}.get(key)
 
-    def instance(self, kind: str = "CoSimulation", **options: Any) -> Instance:
+    def instance(self, kind="CoSimulation", **options):
         """Return an instance."""
         return Instance(self, kind, **options)
 
@@ -79,15 +73,13 @@ class Fmu:
 class Instance:
     """An instance with its messages."""
 
-    def __init__(
-        self, fmu: Fmu, kind: str, *, token: str | None = None, logging: bool = False
-    ) -> None:
+    def __init__(self, fmu, kind, *, token=None, logging=False):
         self.fmu, self.messages = fmu, list[str]()
         self.kind = kind
         self._two = fmu.version == 2
         named = (b"one", (fmu.token if token is None else token).encode())
         if self._two:
-            self._log: Any = _LOG2(lambda _, __, ___, ____, text: self._note(text))
+            self._log = _LOG2(lambda _, __, ___, ____, text: self._note(text))
             self._callbacks = _Callbacks(self._log, None, None, None, None)
             make = fmu.library.fmi2Instantiate
             make.restype = ct.c_void_p
@@ -97,36 +89,33 @@ class Instance:
             self._log = _LOG3(lambda _, __, ___, text: self._note(text))
             make = getattr(fmu.library, f"fmi3Instantiate{kind}")
             make.restype = ct.c_void_p
-            flags: list[Any] = [ct.c_bool(False), ct.c_bool(logging)]
+            flags = [ct.c_bool(False), ct.c_bool(logging)]
             if kind == "CoSimulation":
                 flags += [ct.c_bool(False), ct.c_bool(False), None, ct.c_size_t(0)]
             made = make(*named, None, *flags, None, self._log, None)
         self.handle = None if made is None else ct.c_void_p(made)
 
-    def _note(self, text: bytes) -> None:
+    def _note(self, text):
         message = text.decode()
         self.messages.append(message.replace("%%", "%") if self._two else message)
 
     @property
-    def message(self) -> str:
+    def message(self):
         """Return the last message."""
         return self.messages[-1] if self.messages else ""
 
-    def call(self, two: str, three: str | None = None, *arguments: Any) -> int:
+    def call(self, two, three=None, *arguments):
         """Call a function by what it is called in each version."""
         name = f"fmi2{two}" if self._two else f"fmi3{two if three is None else three}"
-        status: int = getattr(self.fmu.library, name)(self.handle, *arguments)
-        return status
+        return getattr(self.fmu.library, name)(self.handle, *arguments)
 
-    def free(self) -> None:
+    def free(self):
         """Free it."""
         self.call("FreeInstance")
 
     # -- life -----------------------------------------------------------------------------------
 
-    def initialise(
-        self, tolerance: float | None = None, start: float = 0.0, **values: float
-    ) -> int:
+    def initialise(self, tolerance=None, start=0.0, **values):
         """Go through initialization mode, with values that are set before; return the worst."""
         known = {name: value for name, value in values.items() if value is not None}
         status = self.set(known) if known else OK
@@ -141,27 +130,25 @@ class Instance:
 
     # -- values ---------------------------------------------------------------------------------
 
-    def _of(self, names: Any) -> Any:
+    def _of(self, names):
         return _references([self.fmu.references.get(n, n) for n in names])
 
-    def get(self, *names: Any) -> list[float]:
+    def get(self, *names):
         """Return values by name."""
         values = _doubles([0.0] * len(names))
         self.status = self._values("Get", names, values)
         return list(values)
 
-    def set(self, named: Any) -> int:
+    def set(self, named):
         """Set values by name."""
         return self._values("Set", list(named), _doubles(list(named.values())))
 
-    def _values(self, way: str, names: Any, values: Any) -> int:
+    def _values(self, way, names, values):
         count = ct.c_size_t(len(names))
         more = () if self._two else (count,)
         return self.call(f"{way}Real", f"{way}Float64", self._of(names), count, values, *more)
 
-    def derivative(
-        self, unknowns: Any, knowns: Any, seed: Any, *, adjoint: bool = False
-    ) -> list[float]:
+    def derivative(self, unknowns, knowns, seed, *, adjoint=False):
         """Return a directional or an adjoint derivative."""
         found = _doubles([0.0] * len(knowns if adjoint else unknowns))
         rows, columns = ct.c_size_t(len(unknowns)), ct.c_size_t(len(knowns))
@@ -176,7 +163,7 @@ class Instance:
 
     # -- Co-Simulation --------------------------------------------------------------------------
 
-    def step(self, time: float, length: float) -> int:
+    def step(self, time, length):
         """Take a step; the time that was reached is `reached`."""
         at = ct.c_double(time), ct.c_double(length)
         self.reached = ct.c_double(0.0)
@@ -188,7 +175,7 @@ class Instance:
         results = (*map(ct.byref, flags), ct.byref(self.reached))
         return self.call("DoStep", None, *at, ct.c_bool(True), *results)
 
-    def slopes(self, orders: Any, values: Any) -> int:
+    def slopes(self, orders, values):
         """Set derivatives of inputs, by name."""
         given = (ct.c_int * len(orders))(*orders.values())
         count = ct.c_size_t(len(orders))
@@ -198,26 +185,26 @@ class Instance:
 
     # -- Model Exchange -------------------------------------------------------------------------
 
-    def array(self, two: str, three: str | None, count: int) -> list[float]:
+    def array(self, two, three, count):
         """Return what a function puts into an array."""
         found = _doubles([0.0] * count)
         self.status = self.call(two, three, found, ct.c_size_t(count))
         return list(found)
 
-    def place(self, time: float, states: Any) -> int:
+    def place(self, time, states):
         """Set time and states."""
         status = self.call("SetTime", None, ct.c_double(time))
         given = _doubles(states)
         return max(status, self.call("SetContinuousStates", None, given, ct.c_size_t(len(states))))
 
-    def completed(self) -> bool:
+    def completed(self):
         """Complete a step of the integrator; return whether the simulation is to end."""
-        kind: Any = ct.c_int if self._two else ct.c_bool
+        kind = ct.c_int if self._two else ct.c_bool
         flags = [kind(), kind()]
         self.status = self.call("CompletedIntegratorStep", None, kind(1), *map(ct.byref, flags))
         return bool(flags[1].value)
 
-    def update(self) -> bool:
+    def update(self):
         """Update discrete states; return whether the simulation is to end."""
         if self._two:
             info = _EventInfo()
@@ -230,17 +217,17 @@ class Instance:
 
     # -- saved ----------------------------------------------------------------------------------
 
-    def save(self) -> Any:
+    def save(self):
         """Return a saved state."""
         saved = ct.c_void_p()
         assert self.call("GetFMUstate", "GetFMUState", ct.byref(saved)) == OK
         return saved
 
-    def restore(self, saved: Any) -> int:
+    def restore(self, saved):
         """Go back to a saved state."""
         return self.call("SetFMUstate", "SetFMUState", saved)
 
-    def bytes_of(self, saved: Any) -> bytes:
+    def bytes_of(self, saved):
         """Return a saved state as bytes."""
         size = ct.c_size_t()
         self.call("SerializedFMUstateSize", "SerializedFMUStateSize", saved, ct.byref(size))
@@ -248,7 +235,7 @@ class Instance:
         assert self.call("SerializeFMUstate", "SerializeFMUState", saved, content, size) == OK
         return content.raw
 
-    def from_bytes(self, content: bytes) -> Any:
+    def from_bytes(self, content):
         """Return a saved state that bytes are of; None where they are of none."""
         saved, size = ct.c_void_p(), ct.c_size_t(len(content))
         given = ct.create_string_buffer(content, len(content))

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 from kintrafo.simulation.lanes.options import OF_WIDTH
-from numpy.typing import NDArray
 
 from support.folders import ROOT
 
@@ -17,10 +16,8 @@ EMITTED = ROOT / "generated/c"
 # as setup.py has them, but for speed
 FLAGS = ["-O1", "-fno-math-errno", "-ffp-contract=off", "-fPIC"]
 
-Array = NDArray[np.float64]
 
-
-def vectors(rows: Array) -> Array:
+def vectors(rows):
     """Return numbers at an address that is one of vectors; the last dimension is that of lanes."""
     memory = np.zeros(rows.size + 8)
     start = (-memory.ctypes.data % 64) // 8
@@ -29,7 +26,7 @@ def vectors(rows: Array) -> Array:
     return aligned
 
 
-def compiled(folder: Path, source: Path | str, *flags: str, name: str) -> ctypes.CDLL:
+def compiled(folder, source, *flags, name):
     """Compile C into a library, and load it."""
     library = folder / f"{name}.so"
     folders = [f"-I{HEADERS}", f"-I{EMITTED}"]
@@ -38,7 +35,7 @@ def compiled(folder: Path, source: Path | str, *flags: str, name: str) -> ctypes
     return ctypes.CDLL(str(library))
 
 
-def driver(folder: Path, width: int) -> ctypes.CDLL:
+def driver(folder, width):
     """Return the driver for a width."""
     source = Path(__file__).parent / "lanes_driver.c"
     flags = [f"-DWIDTH={width}", *OF_WIDTH[width]]
@@ -50,7 +47,7 @@ def driver(folder: Path, width: int) -> ctypes.CDLL:
     return library
 
 
-def address(library: ctypes.CDLL, function: str) -> int:
+def address(library, function):
     """Return the address of a function."""
     found = ctypes.cast(getattr(library, function), ctypes.c_void_p).value
     assert found is not None
@@ -58,7 +55,7 @@ def address(library: ctypes.CDLL, function: str) -> int:
 
 
 @cache
-def in_lanes(model: str) -> ctypes.CDLL:
+def in_lanes(model):
     """Return a model's library in lanes."""
     spec = find_spec(f"kintrafo.generated._{model}_lanes")
     assert spec is not None
@@ -66,9 +63,7 @@ def in_lanes(model: str) -> ctypes.CDLL:
     return ctypes.CDLL(spec.origin)
 
 
-def call(
-    library: ctypes.CDLL, function: object, *arguments: Array, size: int
-) -> tuple[Array, NDArray[np.int64]]:
+def call(library, function, *arguments, size):
     """Call a function in lanes; returns its results and the status words."""
     width = arguments[0].shape[1]
     out, status = vectors(np.zeros((size, width))), vectors(np.zeros((1, width)))

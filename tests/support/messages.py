@@ -4,27 +4,20 @@ A test's name describes the mistake; its messages are in `golden/messages.json` 
 ``pytest --update-messages`` stores the present messages: a person reads the difference.
 """
 
-from __future__ import annotations
-
 import json
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    import pytest
 
 FILE = Path(__file__).parents[1] / "golden/messages.json"
 
 
 @cache
-def stored() -> dict[str, str | list[str]]:
+def stored():
     """Return all messages by test."""
-    found: dict[str, str | list[str]] = json.loads(FILE.read_text(encoding="utf-8"))
-    return found
+    return json.loads(FILE.read_text(encoding="utf-8"))
 
 
-def key_of(item: pytest.Item) -> str:
+def key_of(item):
     """Return the key of a test among the stored messages: its file and its name."""
     return f"{item.path.stem}{item.nodeid.partition('.py')[2]}"
 
@@ -40,20 +33,20 @@ class StoredMessages:
         Whether its messages are stored instead.
     """
 
-    def __init__(self, item: pytest.Item, *, update: bool) -> None:
+    def __init__(self, item, *, update):
         self.key, self.update = key_of(item), update
         known = stored().get(self.key, [])
         self.known = [known] if isinstance(known, str) else known
-        self.shown: list[str] = []
+        self.shown = []
 
-    def hear(self, text: str) -> None:
+    def hear(self, text):
         """Compare one more message."""
         self.shown.append(text)
         if not self.update:
             so_far = self.known[: len(self.shown)]
             assert self.shown == so_far, "if on purpose: pytest --update-messages"
 
-    def end(self) -> None:
+    def end(self):
         """Store the messages with ``--update-messages``."""
         if self.update and self.shown:
             stored()[self.key] = self.shown[0] if len(self.shown) == 1 else self.shown

@@ -6,22 +6,22 @@ runs, under a name that depends on declaration, generator, compiler and its opti
 `kintrafo.systems.compile.cache`.
 """
 
-from __future__ import annotations
-
 import fcntl
 import importlib
 import pickle
 import shutil
 import subprocess
 import sys
+from collections.abc import Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache, cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo.generator.equations.outputs import Derivation, generate
+from kintrafo.generator import Formulation
+from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.cache import appearing, damage, fingerprint
@@ -32,14 +32,6 @@ from oracle.maximal import Motion, Oracle
 
 from support.kept import KEPT, UNOPTIMISED
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-    from pathlib import Path
-    from types import ModuleType
-
-    from kintrafo.generator import Formulation
-    from oracle.constraints import Array
-
 # Emitted code gives no warning.
 STRICT = ("-Wall", "-Wextra", "-Wpedantic", "-Werror")
 COMPILER = Compiler(("gcc", *FLAGS, *UNOPTIMISED, *STRICT), "of the tests")
@@ -47,20 +39,20 @@ COMPILER = Compiler(("gcc", *FLAGS, *UNOPTIMISED, *STRICT), "of the tests")
 has_gcc = shutil.which("gcc") is not None
 needs_gcc = pytest.mark.skipif(not has_gcc, reason="no gcc")
 
-_derived: dict[tuple[str, bool], Derivation] = {}
+_derived = {}
 
 
-def shipped(model: Formulation) -> ModuleType:
+def shipped(model):
     """Return the compiled module of a model that comes with the project."""
     return importlib.import_module(f"kintrafo.generated.{model.name}")
 
 
-def identity_of(model: Formulation) -> str:
+def identity_of(model):
     """Return the identity of a model, by which caches know it."""
     return identity(model) or identity_of_derived(generate(model))
 
 
-def derive(model: Formulation, *, derivatives: bool = True) -> Derivation:
+def derive(model, *, derivatives=True):
     """Derive a model, once for all processes; what has derivatives serves who needs none, too.
 
     Parameters
@@ -79,13 +71,12 @@ def derive(model: Formulation, *, derivatives: bool = True) -> Derivation:
     return found
 
 
-def _kept_or_derived(model: Formulation, *, derivatives: bool) -> Derivation:
+def _kept_or_derived(model, *, derivatives):
     whole, wanted = (_file_of(model, derivatives=with_them) for with_them in (True, derivatives))
     with _one_at_a_time(wanted.parent.name):
         for file in (whole, wanted):
             if file.exists():
-                kept: Derivation = pickle.loads(file.read_bytes())
-                return kept
+                return pickle.loads(file.read_bytes())
         made = generate(model, derivatives=derivatives)
         wanted.parent.mkdir(exist_ok=True)
         temporary = wanted.with_suffix(".new")  # a process that is stopped leaves no half
@@ -94,14 +85,14 @@ def _kept_or_derived(model: Formulation, *, derivatives: bool) -> Derivation:
         return made
 
 
-def _file_of(model: Formulation, *, derivatives: bool) -> Path:
+def _file_of(model, *, derivatives):
     """Return where a derived model is kept."""
     built_by = f"{sys.version} derived" + ("" if derivatives else " without derivatives")
     key = fingerprint(identity_of(model), built_by=built_by)
     return KEPT / f"{model.name}-{key}" / "derived.pickle"
 
 
-def own(model: Formulation, *, arrays: bool = not has_gcc, derivatives: bool = True) -> ModuleType:
+def own(model, *, arrays=not has_gcc, derivatives=True):
     """Return the module of any declared model, compiled once for all processes.
 
     What has derivatives serves who needs none, too.
@@ -132,7 +123,7 @@ def own(model: Formulation, *, arrays: bool = not has_gcc, derivatives: bool = T
     return load(target)
 
 
-def _folder_of(model: Formulation, *, arrays: bool, derivatives: bool) -> Path:
+def _folder_of(model, *, arrays, derivatives):
     """Return where a compiled model is kept."""
     built_by = "numpy" if arrays else " ".join((*COMPILER.command, _version()))
     built_by += "" if derivatives else " without derivatives"
@@ -140,13 +131,13 @@ def _folder_of(model: Formulation, *, arrays: bool, derivatives: bool) -> Path:
 
 
 @cache
-def _version() -> str:
+def _version():
     found = subprocess.run(["gcc", "--version"], capture_output=True, text=True, check=True)
     return found.stdout.partition("\n")[0]
 
 
 @contextmanager
-def _one_at_a_time(name: str) -> Iterator[None]:
+def _one_at_a_time(name):
     """Let other processes wait, rather than derive the same model as well."""
     KEPT.mkdir(parents=True, exist_ok=True)
     with (KEPT / f"{name}.lock").open("w") as lock:  # its date is that of the last use
@@ -173,56 +164,51 @@ class Built:
     parameters: Mapping[str, float]
 
     @classmethod
-    def of(
-        cls, model: Formulation, module: Any, changes: Mapping[str, float] | None = None
-    ) -> Built:
+    def of(cls, model, module, changes=None):
         """Take the default parameters but for some."""
         defaults = {p.name: p.default for p in model.mechanism.parameters}
         return cls(model, module, defaults | dict(changes or {}))
 
     @cached_property
-    def constants(self) -> Array:
-        constants: Array = self.module.prepare(self.parameters)
-        return constants
+    def constants(self):
+        return self.module.prepare(self.parameters)
 
     @cached_property
-    def oracle(self) -> Oracle:
+    def oracle(self):
         """The same mechanism in maximal coordinates."""
         return Oracle(self.model, self.parameters)
 
     @cached_property
-    def at_design(self) -> Motion:
+    def at_design(self):
         """All bodies at rest where they were declared."""
         count = len(self.oracle.bodies)
         axes = np.broadcast_to(np.eye(3), (count, 3, 3))
         return Motion(self.oracle.centers, axes, np.zeros((count, 6)))
 
     @cached_property
-    def design(self) -> Array:
+    def design(self):
         """The independent coordinates of the design position, as the joints declare them."""
         names = [joint.name for joint in self.model.independent]
         return np.array([self.oracle.driven(self.at_design, j).value[0] for j in names])
 
     @property
-    def size(self) -> int:
+    def size(self):
         """Number of independent coordinates."""
         return len(self.model.independent)
 
-    def __call__(self, function: str, state: Array, inputs: Array | None = None) -> Array:
+    def __call__(self, function, state, inputs=None):
         """Evaluate a function of the model."""
-        found: Array = getattr(self.module, function)(state, inputs, self.constants)
-        return found
+        return getattr(self.module, function)(state, inputs, self.constants)
 
-    def residuals(self, given: Array, state: Array, inputs: Array) -> Array:
+    def residuals(self, given, state, inputs):
         """Return the closure residuals of given relative coordinates."""
-        found: Array = self.module.residuals(given, state, inputs, self.constants)
-        return found
+        return self.module.residuals(given, state, inputs, self.constants)
 
-    def named(self, inputs: Array) -> dict[str, float]:
+    def named(self, inputs):
         """Return inputs by name."""
         return dict(zip(self.module.INPUTS, map(float, inputs), strict=True))
 
-    def motion(self, state: Array, inputs: Array | None) -> Motion:
+    def motion(self, state, inputs):
         """Return poses and twists of all bodies as the model computes them, the ground first."""
         velocities = self("velocities", state, inputs)
         return Motion(

@@ -1,13 +1,12 @@
 """Only the positions of the bodies of a model: over NumPy arrays, and quickly derived."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import sympy as sp
 from kintrafo.equations.following import follow_turns
+from kintrafo.generator import Formulation
 from kintrafo.generator.backends import arrays
 from kintrafo.generator.backends.numpy.dialect import NUMPY
 from kintrafo.generator.backends.words import blocks_of
@@ -15,13 +14,6 @@ from kintrafo.generator.equations.in_motion import InMotion
 from kintrafo.generator.planning.plan import CataloguePlan
 from kintrafo.generator.program import ConstantStage, Program
 from kintrafo.generator.program.vectors import UNIT_X, UNIT_Y, UNIT_Z, from_axes, to_axes
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from kintrafo.generator import Formulation
-    from kintrafo.generator.program import Function
-    from oracle.constraints import Array
 
 
 @dataclass(frozen=True)
@@ -41,20 +33,20 @@ class Placements:
     _constants: tuple[str, ...]
 
     @classmethod
-    def of(cls, model: Formulation) -> Placements:
+    def of(cls, model):
         """Derive them; those of a name once."""
         if model.name not in _DERIVED:
             _DERIVED[model.name] = cls._derived(model)
         return _DERIVED[model.name]
 
     @classmethod
-    def _derived(cls, model: Formulation) -> Placements:
+    def _derived(cls, model):
         plan = CataloguePlan.of(model)
         symbols = tuple(sp.Symbol(p.name) for p in model.mechanism.parameters)
         constants = ConstantStage(symbols)
         program = Program(constants)
         kin = InMotion.of(program, plan)
-        places: dict[str, sp.Expr] = {}
+        places = {}
         for body in model.mechanism.bodies[1:]:
             placed = kin.placed[body.name]
             part = kin.part_of[body.name]
@@ -70,11 +62,11 @@ class Placements:
         prepare = constants.function([function])
         names = tuple(str(kin.coordinates.symbols[kin.coordinates.of(j)]) for j in model.driven)
         source = _printed(function, prepare, [str(s) for s in symbols], list(names))
-        found: dict[str, Any] = {"follow_turns": follow_turns}
+        found = {"follow_turns": follow_turns}
         exec(source, found)
         return cls(model, names, found["prepare"], found["places"], prepare.labels)
 
-    def at(self, parameters: Mapping[str, float], coordinates: Array) -> tuple[Array, Array, Array]:
+    def at(self, parameters, coordinates):
         """Return whether positions are answered, and places and orientations of all bodies.
 
         Parameters
@@ -98,10 +90,10 @@ class Placements:
         return answered, poses[..., :3], rotations
 
 
-_DERIVED: dict[str, Placements] = {}
+_DERIVED = {}
 
 
-def _printed(function: Function, prepare: Function, parameters: list[str], names: list[str]) -> str:
+def _printed(function, prepare, parameters, names):
     """Return the text of both functions and of the iterations that they call."""
     read = {s.name for s in function.free_symbols}
     loads = [f"{n} = constants[{i}]" for i, n in enumerate(prepare.labels) if n in read]

@@ -1,20 +1,13 @@
 """Expressions by chance, like those of a program."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import sympy as sp
 from kintrafo.generator.program.functions import Guarded
-
-if TYPE_CHECKING:
-    import random
 
 SYMBOLS = sp.symbols("a b c x y z")
 NUMBERS = (-2, -1, 1, 2, sp.Rational(-1, 2), sp.Float("0.3"), sp.sqrt(2), -sp.pi)
 
 
-def random_expression(random_: random.Random, depth: int) -> sp.Expr:
+def random_expression(random_, depth):
     """Return some expression, with signs and shared factors as those of a program."""
     if depth == 0:
         return random_.choice((*SYMBOLS, *SYMBOLS, *NUMBERS))

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING, Any
 
 import mpmath
 import numpy as np
@@ -19,14 +18,6 @@ from kintrafo.generator.planning.plan import CataloguePlan
 from kintrafo.generator.program import ConstantStage, Program
 from sympy import Symbol
 from sympy.printing.pycode import MpmathPrinter
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-
-    from kintrafo.generator import Formulation
-    from kintrafo.generator.equations.outputs import Derivation
-    from kintrafo.generator.program import Function
-    from kintrafo.generator.program.newton import IterationBlock
 
 UNIT = mpmath.mpf(2) ** -53
 """Relative error of one operation in double precision."""
@@ -47,25 +38,25 @@ class Rounded:
     error: mpmath.mpf = mpmath.mpf()  # noqa: RUF009 (immutable)
 
     @staticmethod
-    def of(number: Any) -> Rounded:
+    def of(number):
         """Take a number as exact."""
         return number if isinstance(number, Rounded) else Rounded(mpmath.mpf(number))
 
-    def __add__(self, other: Any) -> Rounded:
+    def __add__(self, other):
         other = Rounded.of(other)
         return _rounded(self.value + other.value, self.error + other.error)
 
-    def __mul__(self, other: Any) -> Rounded:
+    def __mul__(self, other):
         other = Rounded.of(other)
         error = abs(self.value) * other.error + abs(other.value) * self.error
         return _rounded(self.value * other.value, error)
 
-    def __truediv__(self, other: Any) -> Rounded:
+    def __truediv__(self, other):
         other = Rounded.of(other)
         ratio = self.value / other.value
         return _rounded(ratio, (self.error + abs(ratio) * other.error) / abs(other.value))
 
-    def __pow__(self, exponent: int) -> Rounded:
+    def __pow__(self, exponent):
         if exponent < 0:
             return 1 / self**-exponent
         product = self
@@ -73,59 +64,59 @@ class Rounded:
             product = product * self
         return product
 
-    def __neg__(self) -> Rounded:
+    def __neg__(self):
         return Rounded(-self.value, self.error)
 
-    def __sub__(self, other: Any) -> Rounded:
+    def __sub__(self, other):
         return self + -Rounded.of(other)
 
-    def __rsub__(self, other: Any) -> Rounded:
+    def __rsub__(self, other):
         return Rounded.of(other) - self
 
-    def __rtruediv__(self, other: Any) -> Rounded:
+    def __rtruediv__(self, other):
         return Rounded.of(other) / self
 
     __radd__ = __add__
     __rmul__ = __mul__
 
 
-def _rounded(value: mpmath.mpf, error: mpmath.mpf, unit: mpmath.mpf = UNIT) -> Rounded:
+def _rounded(value, error, unit=UNIT):
     return Rounded(value, error + unit * abs(value))
 
 
-def _root(x: Any) -> Any:
+def _root(x):
     if isinstance(x, Rounded):
         root = mpmath.sqrt(x.value)
         return _rounded(root, x.error / (2 * root))
     return mpmath.sqrt(x)
 
 
-def _sine(x: Any) -> Any:
+def _sine(x):
     if isinstance(x, Rounded):
         return _rounded(mpmath.sin(x.value), x.error * abs(mpmath.cos(x.value)), SINE_UNIT)
     return mpmath.sin(x)
 
 
-def _cosine(x: Any) -> Any:
+def _cosine(x):
     if isinstance(x, Rounded):
         return _rounded(mpmath.cos(x.value), x.error * abs(mpmath.sin(x.value)), SINE_UNIT)
     return mpmath.cos(x)
 
 
-def _exponential(x: Any) -> Any:
+def _exponential(x):
     if isinstance(x, Rounded):
         found = mpmath.exp(x.value)
         return _rounded(found, x.error * found, SINE_UNIT)
     return mpmath.exp(x)
 
 
-def _logarithm(x: Any) -> Any:
+def _logarithm(x):
     if isinstance(x, Rounded):
         return _rounded(mpmath.log(x.value), x.error / abs(x.value), SINE_UNIT)
     return mpmath.log(x)
 
 
-def _angle(y: Any, x: Any) -> Any:
+def _angle(y, x):
     if isinstance(y, Rounded) or isinstance(x, Rounded):
         y, x = Rounded.of(y), Rounded.of(x)
         error = abs(x.value) * y.error + abs(y.value) * x.error
@@ -134,21 +125,21 @@ def _angle(y: Any, x: Any) -> Any:
     return mpmath.atan2(y, x)
 
 
-def _guarded(x: Any) -> Any:
+def _guarded(x):
     """Return the quantity itself: the states of the tests are admissible."""
     assert Rounded.of(x).value > 0
     return x
 
 
-def _sign(x: Any) -> int:
+def _sign(x):
     return 1 if Rounded.of(x).value >= 0 else -1
 
 
-def _positive(x: Any) -> Any:
+def _positive(x):
     return x if Rounded.of(x).value > 0 else 0 * x
 
 
-def _is_positive(x: Any) -> int:
+def _is_positive(x):
     """Return on which side of a kink an exact number is, or one that no rounding takes across."""
     x = Rounded.of(x)
     assert x.error == 0 or abs(x.value) > x.error
@@ -158,29 +149,29 @@ def _is_positive(x: Any) -> int:
 class _Printer(MpmathPrinter):
     """SymPy's printer, with the project's functions."""
 
-    def _print_Guarded(self, call: Any) -> str:
+    def _print_Guarded(self, call):
         return f"guarded({self._print(call.args[0])})"
 
-    def _print_SignOf(self, call: Any) -> str:
+    def _print_SignOf(self, call):
         return f"sign({self._print(call.args[0])})"
 
-    def _print_Positive(self, call: Any) -> str:
+    def _print_Positive(self, call):
         return f"positive({self._print(call.args[0])})"
 
-    def _print_IsPositive(self, call: Any) -> str:
+    def _print_IsPositive(self, call):
         return f"is_positive({self._print(call.args[0])})"
 
-    def _print_Frozen(self, call: Any) -> str:
+    def _print_Frozen(self, call):
         return f"({self._print(call.args[0])})"
 
-    def _print_Iterated(self, call: Any) -> str:
+    def _print_Iterated(self, call):
         return f"{call.args[0].name}({', '.join(map(self._print, call.args[1:]))})"
 
-    def _print_Component(self, call: Any) -> str:
+    def _print_Component(self, call):
         return f"{call.args[0].name}[{int(call.args[1])}]"
 
 
-def _solved(block: IterationBlock) -> Any:
+def _solved(block):
     """Return a function that finds the results of a block to mpmath's precision.
 
     The path is that of the emitted code, straight from the design position, but its stages are all
@@ -193,7 +184,7 @@ def _solved(block: IterationBlock) -> Any:
     held = [s for line in block.estimate.held for s in line]
     zeros = {str(s): mpmath.mpf(0) for s in (*held, *(d.way for d in block.driven))}
 
-    def run(*given: Any) -> Any:
+    def run(*given):
         count = len(block.constants)
         values = dict(zip(map(str, block.constants), given[:count], strict=True)) | zeros
         along = [given[i : i + 3] for i in range(count, len(given), 3)]
@@ -222,7 +213,7 @@ def _solved(block: IterationBlock) -> Any:
 
 
 @cache
-def python(function: Function) -> Any:
+def python(function):
     """Return a Python function of the values by name: the program of an emitted function."""
     printer = _Printer({"fully_qualified_modules": False})
     lines = ["def run(values):"]
@@ -248,9 +239,7 @@ def python(function: Function) -> Any:
     return names["run"]
 
 
-def derivatives_of(
-    function: Function, values: Mapping[str, mpmath.mpf], names: Iterable[str]
-) -> np.ndarray:
+def derivatives_of(function, values, names):
     """Return the derivatives of the results of a function, a column for each name.
 
     Differences in 50 digits, forward ones: as the step is 1e-22, so is their error, and so is that
@@ -264,15 +253,13 @@ def derivatives_of(
     return np.transpose(columns)
 
 
-def constants_of(model: Derivation, parameters: Mapping[str, float]) -> dict[str, mpmath.mpf]:
+def constants_of(model, parameters):
     """Return the constants of a parameter set by name, in mpmath's precision."""
     values = {name: mpmath.mpf(value) for name, value in parameters.items()}
     return dict(zip(model.prepare.labels, python(model.prepare)(values), strict=True))
 
 
-def accelerations(
-    model: Formulation, parameters: Mapping[str, float], moving: Mapping[str, float]
-) -> list[float]:
+def accelerations(model, parameters, moving):
     """Derive the accelerations of a model alone, and evaluate them in mpmath's precision.
 
     Parameters

@@ -5,12 +5,11 @@ import signal
 from pathlib import Path
 
 from kintrafo.ensembles.chunks import queue
-from kintrafo.ensembles.chunks.chunk import Chunk, ChunkResult, Common
 
 DO = queue._do
 
 
-def lost_once(flag: str, common: Common, chunk: Chunk) -> ChunkResult:
+def lost_once(flag, common, chunk):
     """Simulate a chunk; kill the first worker that begins it."""
     try:
         Path(flag).touch(exist_ok=False)
@@ -20,12 +19,12 @@ def lost_once(flag: str, common: Common, chunk: Chunk) -> ChunkResult:
     raise AssertionError
 
 
-def noted(folder: str, common: Common, chunk: Chunk) -> ChunkResult:
+def noted(folder, common, chunk):
     """Simulate a chunk, and note that it was begun."""
     (Path(folder) / str(chunk.first)).touch()
     return DO(common, chunk)
 
 
-def use_cache(folder: str) -> None:
+def use_cache(folder):
     """Let what is compiled be looked for, and kept, in a folder."""
     os.environ["KINTRAFO_CACHE"] = folder
