@@ -133,9 +133,11 @@ class Strut(Bench):
     def center(self, place):
         return self.pose(place)[1].wheel_center
 
+    def joint(self, name, place):
+        return self.mechanism.point(self.pose(place)[0], name, KNUCKLE)
+
     def steering_axis(self, place):
-        ball = self.mechanism.point(self.pose(place)[0], "ball_joint", KNUCKLE)
-        return ball, self.mechanism.points["strut_top"]
+        return self.joint("ball_joint", place), self.mechanism.points["strut_top"]
 
     def guided(self, place):
         """The ball joint moves across the arm's plane, and the strut along itself."""

@@ -19,6 +19,7 @@ from kintrafo.vehicle.assembly import wheel
 from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.assembly.corner_kinematics import corner
 from kintrafo.vehicle.assembly.measures import ackermann as axle
+from kintrafo.vehicle.models.points import hardpoints
 from oracle.corners import SKEWED, UP, Strut, Wishbones, difference, second_difference
 from support.folders import DATA, ROOT
 
@@ -182,6 +183,29 @@ def test_angles_and_places(bench, found, place):
     expected["scrub_radius"] = np.linalg.norm(ground)
     for name, value in expected.items():
         assert float(values[name]) == pytest.approx(value, rel=0.0, abs=POSE), name
+
+
+@pytest.mark.parametrize("place", PLACES, ids=str)
+def test_hardpoints_are_where_the_oracle_puts_them(bench, place):
+    model, (travel, rack) = Model(bench.suspension), place
+    height = bench.points["wheel_center"][2] + travel
+    state = kintrafo.state_at_height(model, height, rack_position=rack)
+    at = hardpoints(model, state, model.inputs({"rack_position": rack}))
+    expected = {
+        name: bench.joint(name, place)
+        for name in at
+        if name.endswith("ball_joint") or name in ("tie_rod_outer", "wheel_center")
+    }
+    if isinstance(bench, Wishbones):
+        expected["spring_seat"] = bench.seat(place)
+    axis = np.array(bench.suspension.rack.axis)
+    moved = rack * axis / np.linalg.norm(axis)
+    expected["tie_rod_inner"] = bench.points["tie_rod_inner"] + moved
+    for name, point in expected.items():
+        assert at[name] == pytest.approx(point, rel=0.0, abs=POSE), name
+    assert len(expected) == (6 if isinstance(bench, Wishbones) else 4)
+    for name in {*bench.points} - {*expected}:
+        assert np.array_equal(at[name], bench.points[name])
 
 
 @pytest.mark.parametrize("place", PLACES, ids=str)
@@ -563,6 +587,11 @@ def test_coordinates_are_what_was_asked_for():
     assert float(b["wheel_travel"]) == -0.01
     for dataset, name in ((a, "wheel_travel"), (b, "rack_position")):
         assert all(variable.dims == (name,) for variable in dataset.data_vars.values())
+
+
+def test_a_double_wishbone_has_every_characteristic_of_a_strut():
+    for strut, motion in zip(both(), ("travel", "rack"), strict=True):
+        assert {*characteristics.over(Model(RODS), motion, [0.01])} == {*strut}
 
 
 def test_default_ranges():

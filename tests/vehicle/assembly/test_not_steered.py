@@ -2,8 +2,20 @@
 
 import kintrafo
 import pytest
-from kintrafo import Axle, InputError, characteristics, compliance, equilibrium, loads, sweep
+from kintrafo import (
+    Axle,
+    InputError,
+    Model,
+    characteristics,
+    compliance,
+    equilibrium,
+    loads,
+    sweep,
+    travel_range,
+)
+from kintrafo.vehicle.analysis.compare import compare
 from kintrafo.vehicle.analysis.scenario import Scenario, run
+from kintrafo.vehicle.assembly.usual import usual_rack
 from kintrafo.vehicle.studies import sensitivity
 
 SUBJECTS = {
@@ -17,6 +29,7 @@ SUBJECTS = {
 CASE = {"a": {"contact_N": [0.0, 0.0, 3e3], "rack_mm": 5.0}}
 ANALYSES = {
     "characteristics": lambda subject: characteristics.over(subject, "rack"),
+    "a position of the rack": lambda subject: characteristics.over(subject, "rack", [0.0]),
     "held rack": lambda subject: characteristics.over(subject, None, rack_position=0.005),
     "elastokinematics": lambda subject: compliance.elastokinematics(subject, {}, "steer"),
     "sensitivity": lambda subject: sensitivity(subject, ["wheel.camber_deg"], over="rack"),
@@ -35,6 +48,25 @@ def test_every_analysis_refuses_steering_by_one_message(name, analysis):
     with pytest.raises(InputError, match="its wheels are not steered") as error:
         ANALYSES[analysis](SUBJECTS[name]())
     assert len(error.value.problems) == 1
+
+
+ARM = kintrafo.load("trailing_arm_car")
+OF_CORNERS = {
+    "usual positions": usual_rack,
+    "rest": lambda model: equilibrium(model, rack_position=-0.001),
+    "reach": lambda model: travel_range(model, 0.01),
+    "comparison": lambda model: compare({"a": model, "b": Model("multi_link_car")}, over="rack"),
+    **{
+        name: lambda _, name=name: sensitivity(ARM, ["hardpoints.arm_inner.z"], names=[name])
+        for name in ("caster", "scrub_radius", "steering_ratio")
+    },
+}
+
+
+@pytest.mark.parametrize("ask", OF_CORNERS.values(), ids=OF_CORNERS)
+def test_what_moves_a_rack_of_a_corner_is_refused(ask):
+    with pytest.raises(InputError, match="its wheels are not steered"):
+        ask(Model(ARM))
 
 
 @pytest.mark.parametrize("axle", ["rear_axle", "steered_rigid_axle"])

@@ -10,7 +10,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo import InputError, Model, Suspension
 from kintrafo.vehicle import data
-from kintrafo.vehicle.files.schema import page_text
 from scipy.interpolate import PchipInterpolator
 
 CAR = Suspension.load("reference_car")
@@ -80,38 +79,6 @@ def test_damper_curve_is_the_monotone_cubic(curve, at):
         assert damper_force(model, velocity) == pytest.approx(expected, rel=1e-12, abs=1e-9)
 
 
-@pytest.mark.parametrize("name", ["reference_car", "double_wishbone_car", "trailing_arm_car"])
-def test_straight_lines_between_the_points_of_a_damper(name):
-    """As NumPy's interpolation, and on as the last lines go; the page has both of its figures."""
-    data = Suspension.load(name).to_dict()
-    if "strut" in data:
-        del data["strut"]["damper_rate_N_s_per_m"]
-    curve = {"velocity_m_per_s": list(VELOCITIES), "force_N": list(FORCES)}
-    models = {
-        way: Model(Suspension.from_dict(data | {"damper": curve | {"interpolation": way}}))
-        for way in ("linear", "cubic")
-    }
-
-    def force_of(way, velocity):
-        model = models[way]
-        element = "strut" if "strut" in data else model.suspension.STOPPED
-        by_state = model.evaluate("signals_jacobian", model.design_state)
-        slope = by_state[list(model.signal_names).index(f"{element}_velocity"), 2]
-        state = model.state(**{f"{model.names.arm}_rate": -velocity / slope})
-        return float(model.signal("damper_force", state))
-
-    for velocity in np.linspace(-0.99, 0.99, 23):
-        expected = np.interp(velocity, VELOCITIES, FORCES)
-        assert force_of("linear", velocity) == pytest.approx(expected, rel=1e-12, abs=1e-9)
-    for velocity, force, slope in ((1.5, 1100.0, 500.0 / 0.7), (-1.5, -2500.0, 1200.0 / 0.7)):
-        beyond = force + slope * (abs(velocity) - 1.0) * np.sign(velocity)
-        assert force_of("linear", velocity) == pytest.approx(beyond, rel=1e-12)
-    printed = [f"{force_of(way, -0.7):.0f} N" for way in ("cubic", "linear")]
-    assert printed == ["-2177 N", "-1986 N"]
-    page = re.sub(r"\s+", " ", page_text({}))
-    assert "has {} at -0.7 m/s, straight lines have {} there".format(*printed) in page
-
-
 def test_damping_at_rest_is_the_slope_of_the_curve():
     """Rest is a knot of nearly every table: the derivative there must not fall between segments."""
     model = Model(with_damper(VELOCITIES, FORCES))
@@ -163,19 +130,6 @@ def test_damping_of_the_tyre_follows_the_road():
     assert rising - still == pytest.approx(300.0, rel=1e-12)  # no camber at design
     with pytest.raises(InputError, match="follows from 'road_height'"):
         kintrafo.simulate(model, (0.0, 0.1), model.design_state, inputs={"road_velocity": 1.0})
-
-
-def test_what_the_paper_has_is_solved_by_the_paper_s_equations():
-    assert Model(CAR).equations.NAME == "macpherson"
-    general = changed(hardpoints={"strut_lower": [5.0, -710.0, 180.0]})
-    assert Model(general).equations.NAME == "macpherson_general"
-    state, inputs = [1.6, 0.2, 1.5, 80.0], [0.01, 0.2, -1.0, 30.0, 0.004]
-    paper = Model(CAR)
-    named = dict(zip(paper.input_names, inputs, strict=True))
-    ours = Model(general)
-    found = ours.evaluate("rhs", state, ours.inputs(named))
-    # the same mechanism by a longer way: some hundred roundings of an ill-conditioned difference
-    assert found == pytest.approx(paper.evaluate("rhs", state, inputs), rel=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -3,18 +3,23 @@
 The equations are compared with maximal coordinates in `test_mechanisms`.
 """
 
+import re
+
 import kintrafo
 import numpy as np
 import pytest
 from kintrafo import Model, Suspension
+from kintrafo.generated import double_wishbone, double_wishbone_general
+from kintrafo.vehicle.files.schema import page_text
 from kintrafo.vehicle.models.positions import design_height
 from scipy.interpolate import PchipInterpolator
 
-# A damper in the strut, one at the arm with its spring, one behind a rocker, and one by itself.
+# A damper in the strut, one at the arm with its spring, one behind a rocker, and two by themselves.
 CARS = {
     name: Suspension.load(name)
-    for name in ("reference_car", "double_wishbone_car", "push_rod_car", "multi_link_car")
-}
+    for name in ("reference_car", "double_wishbone_car", "push_rod_car", "multi_link_car",
+                 "trailing_arm_car")
+}  # fmt: skip
 VELOCITIES = (-1.0, -0.3, -0.05, 0.0, 0.05, 0.3, 1.0)
 FORCES = (-2500.0, -1300.0, -400.0, 0.0, 250.0, 600.0, 1100.0)
 STOPS = {
@@ -25,9 +30,9 @@ STOPS = {
 each_car = pytest.mark.parametrize("car", CARS.values(), ids=CARS)
 
 
-def with_curve(car):
+def with_curve(car, **more):
     """Return a car whose damper has a curve."""
-    curve = {"velocity_m_per_s": list(VELOCITIES), "force_N": list(FORCES)}
+    curve = {"velocity_m_per_s": list(VELOCITIES), "force_N": list(FORCES)} | more
     if car.STOPPED == "strut":
         return car.with_changes({"strut.damper_rate_N_s_per_m": None, "damper": curve})
     given = {f"damper.{key}": values for key, values in curve.items()}
@@ -60,6 +65,27 @@ def test_damper_curve_is_the_monotone_cubic(car):
 
 
 @each_car
+def test_straight_lines_between_the_points_of_a_damper(car):
+    """As NumPy's interpolation, and on as the last lines go; the page has both of its figures."""
+    models = {way: Model(with_curve(car, interpolation=way)) for way in ("linear", "cubic")}
+
+    def force_of(way, velocity):
+        model = models[way]
+        return float(model.signal("damper_force", at_damper_velocity(model, velocity)))
+
+    for velocity in np.linspace(-0.99, 0.99, 23):
+        expected = np.interp(velocity, VELOCITIES, FORCES)
+        assert force_of("linear", velocity) == pytest.approx(expected, rel=1e-12, abs=1e-9)
+    for velocity, force, slope in ((1.5, 1100.0, 500.0 / 0.7), (-1.5, -2500.0, 1200.0 / 0.7)):
+        beyond = force + slope * (abs(velocity) - 1.0) * np.sign(velocity)
+        assert force_of("linear", velocity) == pytest.approx(beyond, rel=1e-12)
+    printed = [f"{force_of(way, -0.7):.0f} N" for way in ("cubic", "linear")]
+    assert printed == ["-2177 N", "-1986 N"]
+    page = re.sub(r"\s+", " ", page_text({}))
+    assert "has {} at -0.7 m/s, straight lines have {} there".format(*printed) in page
+
+
+@each_car
 def test_stops_begin_at_their_clearance(car):
     model, element = Model(car.with_changes(STOPS)), f"{car.STOPPED}_length"
     design = float(model.signal(element, model.design_state))
@@ -74,6 +100,20 @@ def test_stops_begin_at_their_clearance(car):
         seen.append(closed)
     assert max(seen) > 0.025  # both were touched
     assert min(seen) < -0.03
+
+
+@each_car
+def test_events_of_the_stops(car):
+    model, element = Model(car.with_changes(STOPS)), car.STOPPED
+    start = kintrafo.state_at_height(model, design_height(model) - 0.1)
+    events = [f"{element}_reaches_{side}_stop" for side in ("bump", "rebound")]
+    result = kintrafo.simulate(model, (0.0, 0.5), start, events=events)
+    design = float(model.signal(f"{element}_length", model.design_state))
+    for states, reached in zip(result.y_events, (design - 0.015, design + 0.02), strict=True):
+        for state in states:
+            length = float(model.signal(f"{element}_length", state))
+            assert length == pytest.approx(reached, abs=1e-7)
+    assert len(result.t_events[0]) >= 1  # let go in rebound, it is thrown up to the other stop
 
 
 @each_car
@@ -134,3 +174,44 @@ def test_mirror_image_moves_alike(car):
     rates = {right.state_names[2]: 1.0, right.state_names[3]: 80.0}
     found, image = (m.evaluate("rhs", m.state(**rates)) for m in (right, left))
     assert image == pytest.approx(found, rel=1e-11)
+
+
+# -- plain and general equations ----------------------------------------------------------------
+
+WISHBONES, STRUT = CARS["double_wishbone_car"], CARS["reference_car"]
+# With equations for more, all of it switched off.
+OFF = {
+    "strut": (STRUT, {"hardpoints.strut_lower": [5.0, -710.0, 180.0]}),
+    "wishbones": (WISHBONES, {"bump_stop": {"clearance_mm": 20.0, "rate_N_per_m": 0.0}}),
+}
+MORE = [
+    {"damper": {"velocity_m_per_s": list(VELOCITIES), "force_N": list(FORCES)}},
+    {"damper.friction_N": 10.0},
+    {"tyre.lifts_off": True},
+    {"tyre.damper_rate_N_s_per_m": 5.0},
+]
+
+
+@pytest.mark.parametrize("changes", MORE, ids=lambda changes: next(iter(changes)))
+def test_only_what_has_more_is_solved_by_longer_equations(changes):
+    assert Model(WISHBONES).equations is double_wishbone
+    model = Model(WISHBONES.with_changes(changes))
+    assert model.equations is double_wishbone_general
+    assert set(model.suspension.parameters()) == set(double_wishbone_general.PARAMETERS)
+    assert len(model.suspension.beyond_the_plain()) == 1
+
+
+@pytest.mark.parametrize(("car", "changes"), OFF.values(), ids=OFF)
+def test_with_all_of_it_switched_off_the_numbers_are_those_of_the_plain_one(car, changes):
+    plain, model = Model(car), Model(car.with_changes(changes))
+    name = f"{plain.equations.NAME}_general"
+    assert name == model.equations.NAME
+    random = np.random.default_rng(3)
+    for _ in range(20):
+        state = plain.design_state + random.normal(size=4) * [0.1, 3.0, 2.0, 50.0]
+        values = random.normal(size=5) * [0.02, 0.3, 5.0, 300.0, 0.01]
+        given = dict(zip(plain.input_names, values, strict=True))
+        found = model.evaluate("rhs", state, model.inputs(given))
+        expected = plain.evaluate("rhs", state, plain.inputs(given))
+        # a longer sum of the same forces, of which accelerations are small differences
+        assert found == pytest.approx(expected, rel=1e-11, abs=1e-9)

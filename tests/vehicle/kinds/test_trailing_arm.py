@@ -13,7 +13,6 @@ from kintrafo import (
     PositionError,
     Suspension,
     characteristics,
-    equilibrium,
     loads,
     state_at_height,
     travel_range,
@@ -21,8 +20,6 @@ from kintrafo import (
 from kintrafo.vehicle.analysis.compare import compare
 from kintrafo.vehicle.analysis.sweep import positions
 from kintrafo.vehicle.assembly.by_wheel import flat
-from kintrafo.vehicle.assembly.usual import usual_rack
-from kintrafo.vehicle.studies import sensitivity
 
 CAR = Suspension.load("trailing_arm_car")
 ACROSS = CAR.with_changes(
@@ -132,32 +129,6 @@ def test_what_belongs_to_steering_is_not_there():
         assert word not in words.replace("bracket", "").replace("half_track", ""), word
 
 
-@pytest.mark.parametrize(
-    "ask",
-    [
-        lambda model: characteristics.over(model, "rack"),
-        lambda model: characteristics.over(model, "rack", [0.0]),
-        lambda model: characteristics.over(model, "travel", TRAVELS, rack_position=0.005),
-        lambda model: positions(model, [0.0], [0.0, 0.01]),
-        usual_rack,
-        lambda model: equilibrium(model, rack_position=-0.001),
-        lambda model: travel_range(model, 0.01),
-        lambda _: sensitivity(CAR, ["hardpoints.arm_inner.z"], over="rack"),
-        lambda model: compare({"one": model, "other": Model("multi_link_car")}, over="rack"),
-        lambda model: loads.static(model, {"a": {"contact_N": [0, 0, 3e3], "rack_mm": 5.0}}),
-    ],
-)
-def test_what_moves_a_rack_is_refused(ask):
-    with pytest.raises(InputError, match="not steered"):
-        ask(Model(CAR))
-
-
-@pytest.mark.parametrize("name", sorted(OF_STEERING & {"caster", "scrub_radius", "steering_ratio"}))
-def test_characteristics_of_steering_are_refused_by_name(name):
-    with pytest.raises(InputError, match=f"{name}: its wheels are not steered"):
-        sensitivity(CAR, ["hardpoints.arm_inner.z"], names=[name])
-
-
 def test_free_rack_a_section_and_a_bush_of_it_are_refused():
     with pytest.raises(InputError, match="is not steered"):
         Model(CAR, free_rack=True)
@@ -208,8 +179,6 @@ def test_axle_has_no_rack_between_its_sides():
     one = characteristics.over(Model(CAR), "travel", TRAVELS)
     np.testing.assert_allclose(found["camber_left"], one["camber"], rtol=0.0, atol=1e-13)
     assert "rack_position" not in found.coords
-    with pytest.raises(InputError, match="'steer': its wheels are not steered"):
-        characteristics.over(axle, "steer")
     with pytest.raises(InputError, match="not steered"):
         Axle.from_dict(REAR | {"steering": {"angle_deg": [-90.0, 90.0], "rack_mm": [-9.0, 9.0]}})
     held = loads.static(axle, {"corner": {"contact_g": [0.0, 0.5, 1.0]}}, static_load=3400.0)
