@@ -340,6 +340,17 @@ def test_left_suspension_is_the_mirror_image(data):
         assert mirrored == pytest.approx(np.array(point["design"]), abs=1e-15), name
 
 
+@pytest.mark.usefixtures("coarse_report")
+def test_the_page_of_a_double_wishbone_says_what_it_is():
+    page = render(Model("double_wishbone_car"))
+    assert "<h1>Double wishbone suspension, front right</h1>" in page
+    assert payload(page)["suspension"] == "double_wishbone"
+    assert "control arms</li>" in page
+    assert ">strut</li>" not in page
+    for key in ("force_at_design_N", "rate_N_s_per_m", "upper_ball_joint", "suspension"):
+        assert f"<code>{key}</code>" in page
+
+
 def test_every_key_of_the_input_file_is_shown(page):
     shown = {
         (table.name, key) for table in input_tables(MODEL.suspension) for key, *_ in table.rows

@@ -61,9 +61,9 @@ def watched(shared):
     return watched
 
 
-def compiled_wheel_center(travel, rack):
-    state = state_at_height(MODEL, DESIGN_HEIGHT + travel, rack_position=rack)
-    return hardpoints(MODEL, state, MODEL.inputs({"rack_position": rack}))["wheel_center"]
+def compiled_wheel_center(travel, rack, model=MODEL):
+    state = state_at_height(model, DESIGN_HEIGHT + travel, rack_position=rack)
+    return hardpoints(model, state, model.inputs({"rack_position": rack}))["wheel_center"]
 
 
 def test_loads_alone_and_without_complaint(watch, report):
@@ -426,3 +426,21 @@ def test_what_is_for_paper_is_not_on_the_screen(watched):
     page.emulate_media(media="print")
     assert for_paper.evaluate_all(shown) == for_paper.count()
     assert for_screen.evaluate_all(shown) == 0
+
+
+@pytest.mark.parametrize("side", ["right", "left"])
+def test_the_scene_of_wishbones_moves_without_complaint(browser, tmp_path, side):
+    model = Model("double_wishbone_car")
+    model = model if side == "right" else Model(model.suspension.mirrored())
+    watched = Watched(browser, kintrafo.report.write(model, tmp_path / "report.html"))
+    canvas = watched.page.locator("#view canvas")
+    at_design = canvas.screenshot()
+    for travel, rack in [(37.5, 0.0), (-62.0, 41.5), (100.0, -60.0)]:
+        slide(watched.page, "#travel", travel)
+        slide(watched.page, "#rack", rack)
+        expected = compiled_wheel_center(1e-3 * travel, 1e-3 * rack, model)
+        # of the interpolation
+        assert watched.state()["wheelCenter"] == pytest.approx(expected, abs=1e-6)
+    assert canvas.screenshot() != at_design
+    assert watched.complaints == []
+    watched.context.close()
