@@ -6,9 +6,7 @@ import numpy as np
 import pytest
 from kintrafo import Axle, InputError, Model, PositionError, compliance
 from kintrafo.core.validator import Validator
-from kintrafo.vehicle.analysis.compliance.bars import Bars, Foot
 from kintrafo.vehicle.analysis.compliance.on_bushes import on_joints, softs_of
-from kintrafo.vehicle.analysis.compliance.rigid_displacements import RigidDisplacements
 from kintrafo.vehicle.assembly.axle import AxleAssembly
 from kintrafo.vehicle.assembly.axle_kinematics import AxleKinematics
 from kintrafo.vehicle.assembly.by_wheel import flat
@@ -35,32 +33,6 @@ from support.folders import DATA
 
 def without_bar(car):
     return Axle.from_dict({"axle": "rear", "side": car})
-
-
-# -- the anti-roll bar --------------------------------------------------------------------------
-
-
-def test_derivatives_of_the_twist_are_those_along_screws():
-    """Slopes against differences, and the whole second-order polynomial against values."""
-    rng = np.random.default_rng(5)
-    left, right = (axle_of(WISHBONES).halves[side] for side in SIDES)
-    turned = np.stack([np.eye(3), *Rotation.random(2, rng=rng).as_matrix()])[None]
-    places = RigidDisplacements(rng.normal(size=(1, 3, 3)), turned)
-    feet = []
-    for body, half in ((1, left), (2, right)):
-        at = half.foot + 0.02 * rng.normal(size=3)
-        feet.append(Foot(half, body, (turned[0, body].T @ (at - places.centers[0, body]))[None]))
-    measure = Bars(*feet)
-    here = measure.at(places)
-    by = 0.1 * rng.normal(size=(1, 3, 6))
-    flat = by[:, 1:].reshape(1, 1, 12)
-    first = (here.slope * flat).sum(-1)
-    second = np.einsum("nfi,nfij,nfj->nf", flat, here.bend, flat)
-    # differences over 1e-3 of a tenth: 1e-8 of third and fourth derivatives by a lever of 0.2 m
-    h = 1e-3
-    ahead, behind = (measure.at(places.moved(s * h * by)).value for s in (1.0, -1.0))
-    np.testing.assert_allclose((ahead - behind) / (2.0 * h), first, rtol=1e-5)
-    np.testing.assert_allclose((ahead - 2.0 * here.value + behind) / h**2, second, rtol=1e-4)
 
 
 # -- equilibrium --------------------------------------------------------------------------------

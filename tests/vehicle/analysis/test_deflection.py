@@ -19,6 +19,7 @@ from kintrafo import (
 )
 from kintrafo.core.validator import Validator
 from kintrafo.core.vectors import unit_vector
+from kintrafo.vehicle.analysis.compliance.bars import Bars, Foot
 from kintrafo.vehicle.analysis.compliance.connections import CompliantJoints
 from kintrafo.vehicle.analysis.compliance.equilibrium import ElasticEquilibrium
 from kintrafo.vehicle.analysis.compliance.on_bushes import softs_of
@@ -35,7 +36,7 @@ from kintrafo.vehicle.assembly.part_poses import CornerParts
 from kintrafo.vehicle.input.curve import Curve
 from kintrafo.vehicle.models.positions import design_height
 from kintrafo.vehicle.models.reach import at_rest
-from oracle.bushes import CURVED, LINKED, SOFTER, STRUT, TRAILING, WISHBONES, Energy
+from oracle.bushes import CURVED, LINKED, SOFTER, STRUT, TRAILING, WISHBONES, Energy, axle_of
 from oracle.constraints import Pose
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
@@ -51,16 +52,23 @@ def without_stops(car):
 # -- derivatives ----------------------------------------------------------------------------------
 
 
-def random_measures(rng):
+def random_measures(rng, places):
+    """Return measures of each kind, with the relative error of their second differences."""
+    halves, feet = axle_of(WISHBONES).halves, []
+    for body, side in ((1, "left"), (2, "right")):
+        at = halves[side].foot + 0.02 * rng.normal(size=3) - places.centers[0, body]
+        feet.append(Foot(halves[side], body, (places.turned[0, body].T @ at)[None]))
     bodies = np.array([[0, 1], [1, 2], [2, 1], [2, 0]])
     vectors = rng.normal(size=(3, 1, 4, 3))
-    return [
+    found = [
         Distances(bodies, *vectors),
         Angles(bodies, *vectors[:2]),
         Lengths(bodies, *vectors[:2]),
         Torsions(bodies, *vectors[:2], *vectors[::2]),
         Radii(bodies, *vectors, vectors[1], rng.normal(size=(1, 4, 2))),
     ]
+    # levers of a bar are a fifth of a metre: higher derivatives are the larger
+    return [*((measure, 1e-5) for measure in found), (Bars(*feet), 1e-4)]
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -71,7 +79,7 @@ def test_derivatives_are_those_along_screws(seed):
     places = RigidDisplacements(rng.normal(size=(1, 3, 3)), turned)
     by = rng.normal(size=(1, 3, 6))
     by[:, 0] = 0.0
-    for measure in random_measures(rng):
+    for measure, apart in random_measures(rng, places):
         here = measure.at(places)
         flat = by[:, here.bodies].reshape(1, len(here.bodies), 12)
         first = (here.slope * flat).sum(-1)
@@ -80,9 +88,9 @@ def test_derivatives_are_those_along_screws(seed):
         # by 1e-16 / 1e-8 of the values in second ones
         h = 1e-4
         ahead, behind = (measure.at(places.moved(s * h * by)).value for s in (1.0, -1.0))
-        np.testing.assert_allclose((ahead - behind) / (2 * h), first, rtol=1e-6, atol=2e-6)
+        np.testing.assert_allclose((ahead - behind) / (2 * h), first, rtol=0.1 * apart, atol=2e-6)
         bent = (ahead - 2.0 * here.value + behind) / h**2
-        np.testing.assert_allclose(bent, second, rtol=1e-5, atol=2e-5)
+        np.testing.assert_allclose(bent, second, rtol=apart, atol=2e-5)
 
 
 # -- equilibrium ----------------------------------------------------------------------------------
@@ -314,9 +322,6 @@ def test_what_cannot_be_is_refused(refused):
         compliance.nonlinear(model, bushes, "sideways", [1.0])
     with pytest.raises(InputError, match="1e\\+06 N"):
         compliance.nonlinear(model, bushes, "lateral", [1e9])
-    with pytest.raises(PositionError, match="no stable equilibrium"):
-        compliance.nonlinear(model, {"arm_rear": {"axial_N_per_mm": 1.0, "radial_N_per_mm": 1.0}},
-                         "braking", [9e5])  # fmt: skip
     for curve, words in (
         ({"mm": [0.0, 1.0]}, "two lists"),
         ({"mm": [0.0, 1.0], "N": [0.0]}, "give two or more of each"),

@@ -29,7 +29,6 @@ from kintrafo.vehicle.analysis.checkup import checkup
 from kintrafo.vehicle.analysis.scenario import Scenario, run
 from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.assembly.measures import rigid_axle_rolling as formulas
-from kintrafo.vehicle.assembly.measures.rigid_axle import MEASURES
 from kintrafo.vehicle.assembly.measures.whole_axle import wheel_rate, wheel_rate_alone
 from kintrafo.vehicle.assembly.rigid_axle_kinematics import RigidAxleKinematics
 from kintrafo.vehicle.assembly.rigid_axle_parts import RigidAxleParts
@@ -522,13 +521,3 @@ def test_two_axles_are_compared_over_the_same_positions():
     assert found.sizes == {"data_set": 2, "wheel": 2, "roll_angle": 33}
     alone = characteristics.over(TRIANGULATED, "roll")
     np.testing.assert_array_equal(found["roll_steer"].sel(data_set="b"), alone["roll_steer"])
-
-
-# -- the page -------------------------------------------------------------------------------------
-
-
-def test_every_characteristic_is_on_the_page():
-    text = (ROOT / "docs/suspension/characteristics.md").read_text(encoding="utf-8")
-    for measure in MEASURES:
-        stem = measure.quantity.name.removesuffix("_left").removesuffix("_right")
-        assert f"`{stem}`" in text or f"`{stem}_left`" in text, stem

@@ -110,21 +110,6 @@ def test_rack_beyond_the_dead_point_is_refused():
         travel_range(MODEL, rack_position=0.5)
 
 
-def test_hardpoints_agree_with_the_oracle():
-    mechanism = newton.Mechanism(reference_parameters())
-    pose = newton.solve_pose(mechanism, MODEL.design_state[0] - 0.2, 0.03)
-    state = MODEL.state(beta1=MODEL.design_state[0] - 0.2)
-    points = hardpoints(MODEL, state, MODEL.inputs({"rack_position": 0.03}))
-    for name, body in (
-        ("ball_joint", 1),
-        ("tie_rod_outer", 2),
-        ("tie_rod_inner", 4),
-        ("wheel_center", 6),
-    ):
-        assert points[name] == pytest.approx(mechanism.point(pose, name, body), abs=1e-13), name
-    assert points["strut_top"].tolist() == [-0.028, -0.585, 0.82]
-
-
 def test_unknown_state_element_is_refused():
     with pytest.raises(kintrafo.InputError, match="beta3"):
         MODEL.state(beta3=1.0)
@@ -257,13 +242,6 @@ def test_table_of_the_reach_rises_and_ends_at_its_ends():
         assert np.abs(coarse.angle[row, [0, -1]] - reach.arm_angle).max() < np.deg2rad(6.0)
 
 
-def test_many_racks_are_looked_at_in_parts():
-    racks = np.linspace(-0.05, 0.05, 1203)
-    angles = arm_angles(MODEL, 0.31, racks)
-    for k in (0, 499, 500, 1202):
-        assert angles[k] == arm_angles(MODEL, 0.31, racks[k])
-
-
 # -- under a wheel load ---------------------------------------------------------------------------
 
 
@@ -284,29 +262,10 @@ def test_equilibrium_under_a_wheel_load(load, rack):
     assert rest.beta1_acceleration == pytest.approx(0.0, abs=1e-8)
 
 
-def test_road_under_the_load_makes_the_same_equilibrium():
-    loaded = equilibrium(MODEL, wheel_load=3000.0)
-    road = float(road_under_load(MODEL, 3000.0, loaded))
-    on_road = equilibrium(MODEL, road_height=road)
-    assert on_road[0] == pytest.approx(loaded[0], abs=1e-12)
-    linear = linearise(MODEL, loaded, MODEL.inputs({"road_height": road}))
-    assert linear.steady
-
-
-def test_more_load_presses_the_wheel_up():
-    heights = [height(equilibrium(MODEL, wheel_load=load)) for load in (1000.0, 3000.0, 5000.0)]
-    assert heights == sorted(heights)
-
-
 @pytest.mark.parametrize("load", [-1.0, np.nan, np.inf])
 def test_loads_that_no_road_exerts_are_refused(load):
     with pytest.raises(InputError, match=r"wheel_load = .* N: a finite number of 0 N or more"):
         equilibrium(MODEL, wheel_load=load)
-
-
-def test_load_and_road_together_are_refused():
-    with pytest.raises(InputError, match="both given"):
-        equilibrium(MODEL, wheel_load=3000.0, road_height=0.01)
 
 
 def test_a_tyre_without_stiffness_carries_no_load():
@@ -328,8 +287,9 @@ def test_many_racks_are_as_each_of_them(name):
     racks = random.uniform(-0.06, 0.06, 1200)
     heights = design_height(model) + random.uniform(-0.05, 0.05, racks.size)
     together = arm_angles(model, heights, racks)
-    alone = [float(arm_angles(model, h, r)) for h, r in zip(heights[:60], racks[:60], strict=True)]
-    np.testing.assert_array_equal(together[:60], alone)
+    some = [*range(60), 499, 500, 1199]  # of parts of 500
+    alone = [float(arm_angles(model, heights[k], racks[k])) for k in some]
+    np.testing.assert_array_equal(together[some], alone)
 
 
 def test_one_of_many_out_of_reach_is_refused_by_name():
