@@ -659,8 +659,8 @@ def test_every_characteristic_is_on_the_page(name):
     assembly = assembly_of(kintrafo.load(name))
     measures = [one for motion in assembly.motions for one in assembly.measures(motion)]
     written = set(re.findall(r"`(\w+)`", PAGE))
-    for name, endings in re.findall(r"`(\w+)`((?:, `\.\.\._\w+`)+)", PAGE):
-        written |= {f"{name}{ending}" for ending in re.findall(r"\.(_\w+)", endings)}
+    for first, endings in re.findall(r"`(\w+)`((?:, `\.\.\._\w+`)+)", PAGE):
+        written |= {f"{first}{ending}" for ending in re.findall(r"\.(_\w+)", endings)}
     written = {re.sub("_(left|right)$", "", one) for one in written}
     assert {re.sub("_(left|right)$", "", one.quantity.name) for one in measures} <= written
 
