@@ -6,6 +6,15 @@ from kintrafo.vehicle.models.positions import arm_angles, design_height
 
 AXLE = Axle.load("reference_axle")
 WISHBONES = Suspension.load("double_wishbone_car")
+BAR_OF_STRUTS = {
+    "unit": "mm", "bush": [240.0, -400.0, 320.0], "link_top": [30.0, -580.0, 330.0],
+    "link_foot": [30.0, -580.0, 200.0], "link_on": "control_arm", "rate_Nm_per_deg": 17.5,
+}  # fmt: skip
+BAR_OF_WISHBONES = {
+    "unit": "mm", "bush": [-250.0, -380.0, 260.0], "link_top": [-60.0, -600.0, 300.0],
+    "link_foot": [-50.0, -610.0, 195.0], "link_on": "knuckle", "axis": [0.1, 1.0, -0.05],
+    "rate_Nm_per_deg": 25.0,
+}  # fmt: skip
 # A rear axle whose sides differ, with stops that act, and a bar that is bent at design.
 LOPSIDED = {
     "axle": "rear",
@@ -17,16 +26,7 @@ LOPSIDED = {
             "hardpoints.lower_ball_joint.z": 190.0,
         }
     ),
-    "anti_roll_bar": {
-        "unit": "mm",
-        "bush": [-250.0, -380.0, 260.0],
-        "link_top": [-60.0, -600.0, 300.0],
-        "link_foot": [-50.0, -610.0, 195.0],
-        "link_on": "knuckle",
-        "axis": [0.1, 1.0, -0.05],
-        "rate_Nm_per_deg": 25.0,
-        "free_twist_deg": 1.5,
-    },
+    "anti_roll_bar": BAR_OF_WISHBONES | {"free_twist_deg": 1.5},
     "drive": {"share": 0.6},
     "brakes": {"torque_on": "body"},
 }

@@ -5,7 +5,8 @@ from functools import partial
 from pathlib import Path
 
 import kintrafo
-from kintrafo import Axle, Suspension
+from cars.axles import BENT
+from kintrafo import Axle
 from kintrafo.vehicle.data.starter import whole_axles
 
 ARM = {"axial_N_per_mm": 400.0, "radial_N_per_mm": 1200.0}
@@ -33,16 +34,6 @@ BUSHES |= {
 """Bushes of each subject, one set for both sides; of further axles without sides a file each."""
 
 STEERING = {"angle_deg": [-90.0, 0.0, 90.0], "rack_mm": [11.0, 0.0, -12.0]}
-BAR = {
-    "unit": "mm",
-    "bush": [-250.0, -380.0, 260.0],
-    "link_top": [-60.0, -600.0, 300.0],
-    "link_foot": [-50.0, -610.0, 195.0],
-    "link_on": "knuckle",
-    "axis": [0.1, 1.0, -0.05],
-    "rate_Nm_per_deg": 25.0,
-    "free_twist_deg": 1.5,
-}
 
 CORNERS = (
     "chrono_generic",
@@ -56,26 +47,9 @@ CORNERS = (
 )
 
 
-def lopsided():
-    """Return a rear axle whose sides differ, with stops and a bar that is twisted at design."""
-    side = Suspension.load("double_wishbone_car")
-    stop = {"clearance_mm": 8.0, "rate_N_per_m": 1e5}
-    left = {"bump_stop": stop, "spring.rate_N_per_m": 65e3, "hardpoints.lower_ball_joint.z": 190.0}
-    return Axle.from_dict(
-        {
-            "axle": "rear",
-            "right": side.with_changes({"bump_stop": stop | {"clearance_mm": 5.0}}),
-            "left": side.mirrored().with_changes(left),
-            "anti_roll_bar": BAR,
-            "drive": {"share": 0.6},
-            "brakes": {"torque_on": "body"},
-        }
-    )
-
-
 AXLES = {
     "reference_axle": lambda: Axle.load("reference_axle"),
-    "lopsided_axle": lopsided,
+    "lopsided_axle": lambda: BENT,
     "multi_link_axle": lambda: Axle.from_dict(
         {"axle": "rear", "side": "multi_link_car", "steering": STEERING}
     ),

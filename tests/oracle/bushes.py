@@ -4,6 +4,7 @@ An oracle for compliance: it shares no code with what it is held against.
 """
 
 import numpy as np
+from cars.axles import BAR_OF_STRUTS, BAR_OF_WISHBONES
 from kintrafo import Axle, Model, Suspension, arm_angles
 from kintrafo.vehicle.models.positions import design_height
 from kintrafo.vehicle.models.reach import at_rest
@@ -381,17 +382,7 @@ class Energy(Stiffness):
 SIDES = ("left", "right")
 STIFFNESS_OF_RACK = 2.5e5  # N/m: a tenth of what is usual
 RACK = {"rack": {"axial_N_per_mm": 1e-3 * STIFFNESS_OF_RACK}}
-BAR_OF = {
-    STRUT: {
-        "unit": "mm", "bush": [240.0, -400.0, 320.0], "link_top": [30.0, -580.0, 330.0],
-        "link_foot": [30.0, -580.0, 200.0], "link_on": "control_arm", "rate_Nm_per_deg": 17.5,
-    },
-    WISHBONES: {
-        "unit": "mm", "bush": [-250.0, -380.0, 260.0], "link_top": [-60.0, -600.0, 300.0],
-        "link_foot": [-50.0, -610.0, 195.0], "link_on": "knuckle", "axis": [0.1, 1.0, -0.05],
-        "rate_Nm_per_deg": 25.0,
-    },
-}  # fmt: skip
+BAR_OF = {STRUT: BAR_OF_STRUTS, WISHBONES: BAR_OF_WISHBONES}
 
 
 def axle_of(car, **bar):

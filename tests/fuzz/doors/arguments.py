@@ -14,6 +14,7 @@ from pathlib import Path
 import kintrafo
 import numpy as np
 import xarray as xr
+from cars.axles import BAR_OF_STRUTS
 from kintrafo import (
     characteristics,
     checkup,
@@ -49,10 +50,9 @@ _LINEAR = kintrafo.linearise(_CAR, _REST)
 _RESULT = kintrafo.simulate(_CAR, (0.0, 0.01), _REST)
 _DATASET = dataset_of(_CAR, _RESULT)
 _AXLE = kintrafo.Axle.load("reference_axle")
-_BAR = {
-    "unit": "mm", "bush": [240.0, -400.0, 320.0], "link_top": [30.0, -580.0, 330.0],
-    "link_foot": [30.0, -580.0, 200.0], "link_on": "control_arm", "axis": [0.0, 1.0, 0.0],
-    "rate_Nm_per_deg": None, "diameter_mm": 20.0, "length_mm": 800.0, "inner_diameter_mm": 0.0,
+_BAR = BAR_OF_STRUTS | {
+    "axis": [0.0, 1.0, 0.0], "rate_Nm_per_deg": None, "diameter_mm": 20.0, "length_mm": 800.0,
+    "inner_diameter_mm": 0.0,
 }  # fmt: skip
 _RIGID = kintrafo.RigidAxle.load("rigid_axle")
 _RIDE, _ = scenario.run(kintrafo.RigidAxleModel(_RIGID), scenario.Scenario(duration=0.01))

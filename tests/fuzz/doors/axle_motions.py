@@ -10,6 +10,7 @@ the bar has no rate, each side moves as it does alone.
 from dataclasses import dataclass, field
 
 import numpy as np
+from cars.axles import BAR_OF_WISHBONES
 from kintrafo import Axle, AxleModel, Model, RigidAxle, RigidAxleModel, Suspension, System, simulate
 from kintrafo.equations.errors import ModelError
 from kintrafo.generated import front_axle
@@ -32,14 +33,6 @@ RATES = ("spring_rate", "damper_rate", "tyre_rate")
 PACKAGED = Axle.load("reference_axle")
 WISHBONES = Suspension.load("double_wishbone_car")
 BEAM = RigidAxle.load("rigid_axle")
-BAR = {
-    "unit": "mm",
-    "bush": [-250.0, -380.0, 260.0],
-    "link_top": [-60.0, -600.0, 300.0],
-    "link_foot": [-50.0, -610.0, 195.0],
-    "link_on": "knuckle",
-    "rate_Nm_per_deg": 25.0,
-}
 # Of coordinates [rad, m]: errors of steps at 1e-8 add up to a hundred tolerances over some
 # oscillations.
 _TOLERANCE = 1e-6
@@ -132,7 +125,12 @@ def _two_sides(random):
         return moved(random, WISHBONES).with_changes({"bump_stop": stop})
 
     axle = Axle.from_dict(
-        {"axle": "rear", "right": side(), "left": side().mirrored(), "anti_roll_bar": BAR}
+        {
+            "axle": "rear",
+            "right": side(),
+            "left": side().mirrored(),
+            "anti_roll_bar": BAR_OF_WISHBONES,
+        }
     )
     return _drawn(random, declared(axle), AxleModel(axle), axle.models)
 

@@ -8,6 +8,7 @@ balance each other on every part.
 """
 
 import numpy as np
+from cars.axles import BAR_OF_STRUTS
 from kintrafo import Axle, Suspension, characteristics, loads
 from kintrafo.vehicle.assembly import motions
 from kintrafo.vehicle.assembly.by_wheel import flat
@@ -22,14 +23,7 @@ CARS = tuple(
     Suspension.load(name)
     for name in ("reference_car", "double_wishbone_car", "push_rod_car", "multi_link_car")
 )
-BAR = {
-    "unit": "mm",
-    "bush": [240.0, -400.0, 320.0],
-    "link_top": [30.0, -580.0, 330.0],
-    "link_foot": [30.0, -580.0, 200.0],
-    "link_on": "knuckle",
-    "rate_Nm_per_deg": 30.0,
-}
+BAR = BAR_OF_STRUTS | {"link_on": "knuckle", "rate_Nm_per_deg": 30.0}
 LINKS = ("front_upper_link", "rear_upper_link", "front_lower_link", "rear_lower_link")
 # Positions of both programs are rounded by some 1e-12 of a metre and of a radian.
 CLOSE = 1e-9

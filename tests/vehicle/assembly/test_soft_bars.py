@@ -2,19 +2,13 @@
 
 import numpy as np
 import pytest
+from cars.axles import BAR_OF_STRUTS
 from kintrafo import Axle, InputError, characteristics, compliance, loads
 from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.assembly.rig import SweepRange
 from kintrafo.vehicle.models.axle.bar import AntiRollBar
 
-STRAIGHT = {
-    "unit": "mm",
-    "bush": [240.0, -400.0, 320.0],
-    "link_top": [30.0, -580.0, 320.0],
-    "link_foot": [30.0, -580.0, 200.0],
-    "link_on": "control_arm",
-    "rate_Nm_per_deg": 17.5,
-}
+STRAIGHT = BAR_OF_STRUTS | {"link_top": [30.0, -580.0, 320.0]}
 INCLINED = STRAIGHT | {"link_top": [30.0, -560.0, 340.0], "link_foot": [60.0, -590.0, 210.0]}
 SOFT = {"bush_radial_N_per_mm": 900.0, "link_axial_N_per_mm": 2500.0}
 # What is rigid is so many times as stiff as all else [N/m, N m/rad].
