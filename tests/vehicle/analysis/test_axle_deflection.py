@@ -307,6 +307,7 @@ def test_loads_that_nothing_holds_are_refused(monkeypatch, refused):
 # -- tables and messages --------------------------------------------------------------------------
 
 
+@pytest.mark.usefixtures("rough_drawings")
 def test_tables_have_each_wheel_and_both():
     found = compliance.elastokinematics(axle_of(STRUT), RACK, "roll", [0.0, 0.02])
     chapter = elastokinematics_chapter(found)
