@@ -6,36 +6,23 @@ One drives, on struts, trailing arms and linear tyres; one heaves, pitches and r
 import kintrafo
 from kintrafo.vehicle.models.car import Car
 
-TYRE = {
-    "radius_mm": 316.0,
-    "effective_radius_mm": 306.0,
-    "vertical_stiffness_N_per_mm": 200.0,
-    "vertical_damping_N_s_per_m": 50.0,
-    "slip_stiffness_N": 9.0e4,
-    "cornering_stiffness_N_per_rad": 6.5e4,
-    "friction": 1.1,
-    "relaxation_x_mm": 300.0,
-    "relaxation_y_mm": 400.0,
-}
+TYRE = {"radius_mm": 316.0, "effective_radius_mm": 306.0, "vertical_stiffness_N_per_mm": 200.0,
+        "vertical_damping_N_s_per_m": 50.0, "slip_stiffness_N": 9.0e4,
+        "cornering_stiffness_N_per_rad": 6.5e4, "friction": 1.1, "relaxation_x_mm": 300.0,
+        "relaxation_y_mm": 400.0}  # fmt: skip
 LINES = ("front_left_strut", "front_right_strut", "rear_left_spring", "rear_right_spring")
 """Lines of the springs and dampers of the packaged car that drives."""
 FILE = {
     "car": "full",
     "front": {"axle": "front", "side": "reference_car", "drive": {"share": 1.0}},
     "rear": {"axle": "rear", "side": "trailing_arm_car"},
-    "wheelbase_mm": 2600.0,
-    "rear_origin_mm": -2600.0,
-    "body": {
-        "mass_kg": 1300.0,
-        "com_mm": [-1300.0, 0.0, 582.4],
-        "inertia_xx_kg_m2": 480.0,
-        "inertia_yy_kg_m2": 1900.0,
-        "inertia_zz_kg_m2": 2100.0,
-    },
+    "wheelbase_mm": 2600.0, "rear_origin_mm": -2600.0,
+    "body": {"mass_kg": 1300.0, "com_mm": [-1300.0, 0.0, 582.4], "inertia_xx_kg_m2": 480.0,
+             "inertia_yy_kg_m2": 1900.0, "inertia_zz_kg_m2": 2100.0},
     "tyres": {"front": TYRE, "rear": TYRE},
     "brakes": {"torque_Nm": 6000.0},
     "air": {"drag_area_m2": 0.65, "front_lift_area_m2": 0.05, "rear_lift_area_m2": 0.1},
-}
+}  # fmt: skip
 
 
 def light_car(**changes):

@@ -30,17 +30,8 @@ LINES = (
     ("loads", "FILE"),
     ("loads", "FILE", "--envelope"),
     ("compliance", "FILE", *SOFT, *GRID),
-    (
-        "compliance",
-        "FILE",
-        "--bushes",
-        "BUSHES",
-        "--nonlinear",
-        "--under",
-        "lateral",
-        "--most",
-        "500",
-    ),
+    ("compliance", "FILE", "--bushes", "BUSHES", "--nonlinear", "--under", "lateral", "--most",
+     "500"),
     ("compliance", "FILE", *SOFT, "--nonlinear", "--over", "bump", *GRID),
     ("sheet", "FILE", *SOFT),
     ("compare", "FILE", "FILE"),
@@ -49,7 +40,7 @@ LINES = (
     ("tolerance", "FILE", "TOLERANCES", "--cars", "5"),
     ("check", "FILE"),
     ("mechanism", "topology", "FILE"),
-)
+)  # fmt: skip
 
 
 def observed(folder):

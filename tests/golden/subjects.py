@@ -35,16 +35,8 @@ BUSHES |= {
 
 STEERING = {"angle_deg": [-90.0, 0.0, 90.0], "rack_mm": [11.0, 0.0, -12.0]}
 
-CORNERS = (
-    "chrono_generic",
-    "double_wishbone_car",
-    "multi_link_car",
-    "offset_strut_car",
-    "pull_rod_car",
-    "push_rod_car",
-    "reference_car",
-    "trailing_arm_car",
-)
+CORNERS = ("chrono_generic", "double_wishbone_car", "multi_link_car", "offset_strut_car",
+           "pull_rod_car", "push_rod_car", "reference_car", "trailing_arm_car")  # fmt: skip
 
 
 AXLES = {

@@ -52,28 +52,18 @@ SCOTCH_YOKE = yoke("scotch_yoke")
 
 WHEEL_ON_A_YOKE = declare(
     "wheel_on_a_yoke",
-    {
-        "crank": askew(0.02, 0.02),
-        "block": askew(0.03, 0.05),
-        "yoke": askew(0.2, 0.05),
-        "wheel": askew(0.03, 0.03, 0.05),
-    },
-    (
-        sketched("crank_hinge", "ground", "crank", "crank_pivot", "normal"),
-        sketched("pin", "crank", "block", "crank_pin", "normal"),
-        guide("slot", "yoke", "block", "slot_direction"),
-        guide("rail", "ground", "yoke", "rail_direction"),
-        sketched("bearing", "crank", "wheel", "wheel_com", "normal"),
-    ),
-    {
-        "crank_pivot": askew(0.0, 0.0),
-        "crank_pin": askew(0.03, 0.04),
-        "ground_top": askew(0.2, 0.6),
-        "yoke_seat": askew(0.25, 0.3),
-    },
+    {"crank": askew(0.02, 0.02), "block": askew(0.03, 0.05), "yoke": askew(0.2, 0.05),
+     "wheel": askew(0.03, 0.03, 0.05)},
+    (sketched("crank_hinge", "ground", "crank", "crank_pivot", "normal"),
+     sketched("pin", "crank", "block", "crank_pin", "normal"),
+     guide("slot", "yoke", "block", "slot_direction"),
+     guide("rail", "ground", "yoke", "rail_direction"),
+     sketched("bearing", "crank", "wheel", "wheel_com", "normal")),
+    {"crank_pivot": askew(0.0, 0.0), "crank_pin": askew(0.03, 0.04), "ground_top": askew(0.2, 0.6),
+     "yoke_seat": askew(0.25, 0.3)},
     {"normal": NORMAL, "slot_direction": heading(1.4), "rail_direction": heading(0.2)},
     ("crank_hinge", "bearing"),
     spring=("ground_top", "yoke_seat"),
     wheel=("wheel", NORMAL),
-)
+)  # fmt: skip
 """One in an oblique plane, with a wheel on its crank: directions that must agree in two ways."""

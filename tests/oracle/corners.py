@@ -16,18 +16,11 @@ UP = np.array([0.0, 0.0, 1.0])
 WEIGHTS = np.array([3.0, -32.0, 168.0, -672.0, 0.0, 672.0, -168.0, 32.0, -3.0]) / 840.0
 # Wishbones in no special position.
 SKEWED = Suspension.load("double_wishbone_car").with_changes(
-    {
-        "hardpoints.lower_arm_front.z": 205.0,
-        "hardpoints.upper_arm_rear.y": -445.0,
-        "hardpoints.upper_ball_joint.x": -35.0,
-        "hardpoints.tie_rod_inner.z": 270.0,
-        "hardpoints.spring_seat.x": 25.0,
-        "wheel.camber_deg": -1.5,
-        "wheel.toe_deg": 0.3,
-        "rack.axis": [0.05, 1.0, 0.02],
-        "tyre.radius_mm": 310.0,
-    }
-)
+    {"hardpoints.lower_arm_front.z": 205.0, "hardpoints.upper_arm_rear.y": -445.0,
+     "hardpoints.upper_ball_joint.x": -35.0, "hardpoints.tie_rod_inner.z": 270.0,
+     "hardpoints.spring_seat.x": 25.0, "wheel.camber_deg": -1.5, "wheel.toe_deg": 0.3,
+     "rack.axis": [0.05, 1.0, 0.02], "tyre.radius_mm": 310.0},
+)  # fmt: skip
 
 
 def difference(function, step=2e-3):

@@ -13,22 +13,8 @@ from kintrafo.generator.declare.shown import Shown
 from kintrafo.generator.mechanisms import MODELS
 from mechanisms.own_force import GUIDE, A, Own, Showing, model
 
-WRONG = (
-    "deg",
-    "furlong",
-    "mm",
-    "km/h",
-    "N*m",
-    "Nm",
-    "kN",
-    "g",
-    "",
-    "m/",
-    "m^",
-    "°",
-    "N/mm",
-    "rad/",
-)
+WRONG = ("deg", "furlong", "mm", "km/h", "N*m", "Nm", "kN", "g", "", "m/", "m^", "°", "N/mm",
+         "rad/")  # fmt: skip
 
 
 @pytest.mark.parametrize("unit", WRONG)

@@ -25,15 +25,8 @@ from kintrafo.vehicle.analysis.scenario import Scenario
 from kintrafo.vehicle.data.starter import write_starter
 from kintrafo.vehicle.models.reach import at_rest
 
-KINDS = (
-    "reference_car",
-    "offset_strut_car",
-    "double_wishbone_car",
-    "multi_link_car",
-    "push_rod_car",
-    "pull_rod_car",
-    "trailing_arm_car",
-)
+KINDS = ("reference_car", "offset_strut_car", "double_wishbone_car", "multi_link_car",
+         "push_rod_car", "pull_rod_car", "trailing_arm_car")  # fmt: skip
 STEP = {"road_height": roads.step(0.04, at=0.02, end=0.3)}
 
 

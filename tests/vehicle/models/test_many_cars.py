@@ -12,16 +12,8 @@ from kintrafo.vehicle.studies.curves import Curves, changed
 from kintrafo.vehicle.studies.design_variables import places_of
 from kintrafo.vehicle.studies.evaluation import available
 
-ALL = [
-    "reference_car",
-    "double_wishbone_car",
-    "push_rod_car",
-    "pull_rod_car",
-    "trailing_arm_car",
-    "offset_strut_car",
-    "multi_link_car",
-    "chrono_generic",
-]
+ALL = ["reference_car", "double_wishbone_car", "push_rod_car", "pull_rod_car", "trailing_arm_car",
+       "offset_strut_car", "multi_link_car", "chrono_generic"]  # fmt: skip
 
 
 def drawn(car, count):
