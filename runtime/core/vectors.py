@@ -9,6 +9,9 @@ from .columns import atan2, degrees, hypot, number
 
 Vector = NDArray[np.float64]
 
+MIRROR = np.array([1.0, -1.0, 1.0])
+"""The factors of a point's coordinates in its mirror image on the other side."""
+
 
 def cross(first: ArrayLike, second: ArrayLike) -> Vector:
     """Return the vector product of vectors (..., 3), with the bits of `numpy.cross`, twice as fast.

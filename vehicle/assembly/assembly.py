@@ -19,17 +19,47 @@ from ..models.model import Model
 from ..models.plausibility import Plausibility
 from .anti_roll_bar import AnyBar
 from .coupling import BodyPose
-from .held import RestConditions
 from .load import Load, known
 from .measures.measure import Measure, values
 from .part_poses import PartPoses, states_with
 from .quantity import RACK, Quantity, displaced_by
-from .rig import STEERING, RigMotion, RigPosition, SweepRange, WheelReach
+from .rig import STEERING, RestConditions, RigMotion, RigPosition, SweepRange, WheelReach
 from .soft_lines import SoftLines
-from .wheel_names import WheelNames
 
 if TYPE_CHECKING:
     import xarray as xr
+
+
+@dataclass(frozen=True)
+class WheelNames:
+    """Names of one wheel in the equations of motion."""
+
+    prefix: str  # prefix of its inputs: empty for a corner, `left_` for an axle
+    signals: str  # prefix of its signals and events: `left_front_` for an axle
+    spin: str  # state: the angle of the wheel about its axis
+    actuator: str  # input: the force of the actuator beside its spring
+    tyre: str = "tyre_force"  # signal of the tyre's load, without this prefix
+
+    @property
+    def road(self) -> str:
+        """Input: the height of the road under the wheel."""
+        return f"{self.prefix}road_height"
+
+    @property
+    def load(self) -> str:
+        """Signal: the load of the tyre."""
+        return f"{self.signals}{self.tyre}"
+
+    @property
+    def hub_torque(self) -> str:
+        """Input of a model with loads on the wheel: the torque of the brake at the hub."""
+        return f"{self.prefix}hub_torque"
+
+    @property
+    def events(self) -> tuple[str, str]:
+        """The events at which the wheel leaves and touches the ground."""
+        leaves, touches = (f"{self.signals}wheel_{what}_ground" for what in ("leaves", "touches"))
+        return leaves, touches
 
 
 NOT_A_CAR = (

@@ -13,27 +13,28 @@ from ...core.validator import Validator
 from ..corner.bushes import described_bushings, mirrored_bushings, softness_of_rack
 from ..models.axle import Axle
 from ..models.axle.equations import AxleModel
+from ..models.car.car import AnyAxle
 from ..models.model import Model
 from ..models.plausibility import Plausibility
 from ..models.reach import PositionError
 from ..models.sides import LEFT, RIGHT, SENSE, SIDES
+from ..models.whole_axle import WholeAxle
 from . import motions
 from .anti_roll_bar import Bar
-from .assembly import Bushings, HeldAssembly
+from .assembly import Bushings, HeldAssembly, WheelNames
 from .axle_coupling import on_the_bar, pull_of_bar, rules_of, turn_of_half
 from .axle_kinematics import AxleKinematics, refuse_loose_link
 from .corner import CornerAssembly, lines_of, poses_of
 from .coupling import BodyPose
-from .held import RestConditions
 from .load import Load
 from .measures.axle import OVER_RACK, OVER_STEERING, OVER_TRAVEL
 from .part_poses import CornerParts, PartPoses, states_with
 from .rest import settled
-from .rig import RigPosition, SweepRange, WheelReach
+from .rig import RestConditions, RigPosition, SweepRange, WheelReach
 from .soft_lines import SoftLines
 from .steered import SteerableAssembly, motions_of_two
 from .steering_linkage import on_the_steering, steering_of
-from .wheel_names import WheelNames
+from .whole_axle import whole_axle_assembly
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -309,3 +310,10 @@ class AxleAssembly(SteerableAssembly):
             f"_{side}": SENSE[side] * turn_of_half(self.axle, side, poses[f"_{side}"])[1]
             for side in self.axle.halves
         }
+
+
+def axle_assembly(axle: AnyAxle) -> SteerableAssembly:
+    """Return an axle of two sides, or one without sides, as an assembly."""
+    if isinstance(axle, WholeAxle):
+        return whole_axle_assembly(axle.KEY)(axle)
+    return AxleAssembly(axle)

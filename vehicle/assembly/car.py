@@ -21,18 +21,16 @@ from ..models.car.equations import CarModel
 from ..models.model import Model
 from ..models.reach import PositionError
 from ..models.sides import LEFT, RIGHT
-from .assembly import Assembly, HeldAssembly
-from .axle_of import axle_assembly
+from .assembly import Assembly, HeldAssembly, WheelNames
+from .axle import axle_assembly
 from .car_kinematics import CarKinematics, measures_of_axles
 from .controls import Controls
 from .corner import CornerAssembly
-from .held import RestConditions
 from .measures.measure import Measure
 from .quantity import HEAVE, PITCH, ROLL
-from .rig import RigMotion, RigPosition, SweepRange
+from .rig import RestConditions, RigMotion, RigPosition, SweepRange
 from .running import straight
 from .usual import grid
-from .wheel_names import WheelNames
 
 _MOTIONS = {
     "heave": RigMotion(HEAVE, "the body rises and falls on all wheels", "heave of the body"),

@@ -10,7 +10,7 @@ from ...core.named_types import Array, ArrayLike
 from ...core.validator import Validator
 from ..models.car.car import Car
 from ..models.sides import SIDES
-from .axle_of import axle_assembly
+from .axle import axle_assembly
 from .steered import SteerableAssembly
 from .steering_wheel import SteeringWheel
 

@@ -14,10 +14,9 @@ from ..models.axle.file import TorqueReaction
 from ..models.model import Model
 from ..models.positions import PositionError, arm_angles, design_height
 from ..models.reach import at_rest, height_and_slope, travel_range
-from .assembly import Bushings, HeldAssembly
+from .assembly import Bushings, HeldAssembly, WheelNames
 from .corner_kinematics import corner
 from .coupling import BodyPose, rules_of
-from .held import RestConditions
 from .load import Load
 from .measures.corner import OF_STEERING, OVER_RACK, OVER_TRAVEL
 from .measures.measure import Measure
@@ -25,11 +24,10 @@ from .mirrored_corner import MirroredCorner
 from .part_poses import CornerParts, PartPoses
 from .quantity import TRAVEL, Quantity
 from .rest import forces_of, nearest
-from .rig import RigMotion, RigPosition, SweepRange, WheelReach
+from .rig import RestConditions, RigMotion, RigPosition, SweepRange, WheelReach
 from .soft_lines import SoftLines, soft_lines
 from .steering_linkage import on_the_steering
 from .usual import usual_rack, usual_travel
-from .wheel_names import WheelNames
 
 _TRAVEL = {"travel": RigMotion(TRAVEL, "the wheel rises and falls", "wheel travel")}
 

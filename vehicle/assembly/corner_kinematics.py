@@ -12,8 +12,7 @@ from ...core.columns import BatchNumber, spread
 from ...core.named_types import Array, ArrayLike
 from ...core.vectors import cross, turned
 from ...systems.inputs import rates_of
-from ..corner.corner import CarrierMotion, Corner, SteeringAxis, Vehicle
-from ..corner.strokes import Strokes
+from ..corner.corner import CarrierMotion, Corner, SteeringAxis, Strokes, Vehicle
 from ..corner.wheeled import WheeledSection
 from ..input.units import in_metres
 from ..kinds import Suspension

@@ -10,9 +10,8 @@ from ...systems.state import State
 from ..corner.wheel_loads import UNITS
 from . import rest
 from .assembly import Assembly
-from .held import RestConditions
 from .of import given_model
-from .rig import RigPosition
+from .rig import RestConditions, RigPosition
 
 if TYPE_CHECKING:
     from .of import AnyModel

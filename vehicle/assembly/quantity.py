@@ -72,3 +72,7 @@ SPEED = Quantity("speed", "m/s", "speed",
 def displaced_by(key: str) -> Quantity:
     """Return the displacement that steers, given the key of the section of the steering."""
     return PITMAN_BALL if key == "pitman_arm" else RACK
+
+
+LEAST_SPEED, GREATEST_SPEED = 1.0, 500.0
+"""The range of the speed of a simulation [km/h]: others are mistakes, such as of units."""

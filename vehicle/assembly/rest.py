@@ -20,7 +20,7 @@ from ...equations.errors import ModelError
 from ..models.positions import road_below
 from ..models.reach import AngleRange, PositionError, refuse_beyond
 from .assembly import Assembly
-from .held import RestConditions
+from .rig import RestConditions
 
 Forces = Callable[[ArrayLike], Array]
 

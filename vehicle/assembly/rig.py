@@ -1,7 +1,7 @@
 """Motions of wheels and rack on a rig, and the positions along them."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from ...core.named_types import Array
 from .quantity import Quantity
@@ -61,3 +61,17 @@ class SweepRange:
     roll: float | None = None
     rack: float | None = None
     step: float = 0.002
+
+
+@dataclass(frozen=True)
+class RestConditions:
+    """Constraints and applied forces of an assembly that comes to rest."""
+
+    rack: float = 0.0  # displacement of the rack [m]
+    roads: Mapping[str, float] = field(default_factory=dict)  # height of the road by wheel [m]
+    # instead of a road, by wheel: the vertical force of the tyre [N]
+    loads: Mapping[str, float] = field(default_factory=dict)
+    # force of the actuator, by wheel [N]
+    actuators: Mapping[str, float] = field(default_factory=dict)
+    # further inputs by their names, SI units
+    inputs: Mapping[str, float] = field(default_factory=dict)

@@ -14,10 +14,10 @@ from ..models.rigid_axle.structure import BEAM
 from .anti_roll_bar import RollBar
 from .measures.measure import Measure
 from .measures.rigid_axle import MEASURES
-from .rigid_axle_kinematics import RigidAxleKinematics
 from .rigid_axle_parts import RigidAxleParts
 from .soft_lines import SoftLines, lines_by_rates
 from .whole_axle import WholeAxleAssembly
+from .whole_axle_kinematics import RigidAxleKinematics
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -9,8 +9,8 @@ from ...core.named_types import Array
 from ...equations.errors import ModelError
 from ...systems.state import State
 from ..models.car.equations import CarModel
+from .assembly import WheelNames
 from .controls import Controls
-from .wheel_names import WheelNames
 
 _MOST_STEPS, _HALVINGS = 40, 20
 # Residual accelerations and velocities [m/s^2, rad/s^2, m/s].

@@ -9,9 +9,8 @@ import numpy as np
 
 from ...core.named_types import Array
 from ...core.quantities import variable
-from ...core.vectors import cross
+from ...core.vectors import MIRROR, cross
 from ..corner.corner import CarrierMotion, SteeringAxis
-from ..models.mirror import MIRROR
 from ..models.rigid_axle.structure import BEAM
 from ..models.sides import LEFT, RIGHT, SIDES
 from ..models.steered_rigid_axle.axle import SteeredRigidAxle
@@ -30,11 +29,10 @@ from .load import Load
 from .measures.steered_rigid_axle import MEASURES, OVER_RACK, OVER_STEERING
 from .part_poses import CENTER, PartPoses
 from .rigid_axle import RigidAxleAssembly, lengths_of, pull
-from .rigid_axle_kinematics import RigidAxleKinematics
 from .rigid_axle_parts import RigidAxleParts
 from .steering_axis import AxisOfPoints
 from .steering_linkage import on_the_steering, steering_of
-from .whole_axle_kinematics import TravellingWheel
+from .whole_axle_kinematics import RigidAxleKinematics, TravellingWheel
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -15,17 +15,15 @@ from ..models.reach import PositionError
 from ..models.sides import SIDES
 from ..models.whole_axle import WholeAxle, class_in
 from ..models.whole_axle_model import WholeAxleModel
-from .assembly import Bushings
-from .held import RestConditions
+from .assembly import Bushings, WheelNames
 from .load import Load
 from .motions import MOST_ROLL, USUAL_ROLL, USUAL_ROLL_STEP
 from .part_poses import PartPoses
 from .rest import settled
-from .rig import RigPosition, SweepRange
+from .rig import RestConditions, RigPosition, SweepRange
 from .soft_lines import SoftLines, lines_of_beam
 from .steered import SteerableAssembly, motions_of_two
 from .usual import CLEARANCE, USUAL_RACK, USUAL_TRAVEL, grid
-from .wheel_names import WheelNames
 from .whole_axle_kinematics import RISES, WholeAxleKinematics
 from .whole_axle_parts import WholeAxleParts
 

@@ -17,7 +17,7 @@ import numpy as np
 from ...core.named_types import Array
 from ...core.vectors import cross
 from ..corner.corner import CarrierMotion, RoadWheel
-from ..input.spring_table import rate_at
+from ..input.spring import rate_at
 from ..models.sides import SIDES
 from ..models.whole_axle import of_side
 from ..models.whole_axle_model import WholeAxleModel
@@ -292,3 +292,27 @@ _SPRINGS = tuple(
         ("damper", "rebound_stop_force"),
     )
 )
+
+
+@dataclass(frozen=True)
+class RigidAxleKinematics(WholeAxleKinematics):
+    """A rigid axle at rest in many positions, of shape (n,)."""
+
+    @cached_property
+    def _relative(self) -> dict[str, Array]:
+        values = self.model.evaluate("relative_coordinates", self.parts.states, self.parts.inputs)
+        return {n: values[:, i] for i, n in enumerate(self.model.equations.RELATIVE_COORDINATES)}
+
+    @cached_property
+    def _slopes(self) -> dict[str, Array]:
+        """Derivatives of the relative coordinates with respect to heave and roll, (n, 2) each."""
+        by = self.model.evaluate("relative_jacobian", self.parts.states, self.parts.inputs)[..., :2]
+        return {n: by[:, i] for i, n in enumerate(self.model.equations.RELATIVE_COORDINATES)}
+
+    def coordinate(self, name: str) -> Array:
+        """Return heave, sway (left), shift (forward) [m], roll, yaw (left) or pitch [rad]."""
+        return self._relative[name]
+
+    def slope(self, name: str, by: str) -> Array:
+        """Return the derivative of such a coordinate with respect to heave or roll."""
+        return self._slopes[name][:, self.model.COORDINATES.index(by)]

@@ -1,5 +1,6 @@
 """``kintrafo optimise``: values of a file that bring characteristics to targets."""
 
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -9,7 +10,6 @@ from ...core.tabulated import significant
 from ...terminal.console import console, print_json, progress_bar, say, table
 from ...terminal.exits import Exit
 from .loading import variable_subject
-from .moved_values import moved_table
 from .options import File, argument
 from .outputs import CarOptions, name_files, title_of
 
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from ..studies import Optimum
+    from ..studies.design_variables import DesignVariable
 
 EXAMPLES = (
     "kintrafo optimise my_car.toml goals.toml",
@@ -93,3 +94,15 @@ def _goals(found: "Optimum") -> "Table":
         rows.append((name, *(significant(float(v) * factor) for v in (*missed, target.within))))
     columns = ("characteristic", "before", "after", "within")
     return table("largest deviations from the targets", columns, rows)
+
+
+def moved_table(
+    places: "Iterable[DesignVariable]", moved: Mapping[str, float], title: str
+) -> "Table":
+    """Return a table of design variables: old values, new ones, and changes."""
+    rows = []
+    for place in places:
+        by = moved[place.name]
+        numbers = (f"{value:.3f}" for value in (place.value, place.value + by, by))
+        rows.append((place.name, *numbers, place.unit or "-"))
+    return table(title, ("value", "was", "is", "moved by", "unit"), rows, words=(0, 4))

@@ -10,7 +10,7 @@ from ...core.tabulated import significant
 from ...terminal.console import console, print_json, progress_bar, say, table
 from ...terminal.exits import Exit
 from .loading import variable_subject
-from .moved_values import moved_table
+from .optimise import moved_table
 from .options import OUTPUT, File, argument, option
 from .outputs import Outputs, SingleFigureOptions, name_files, title_of
 

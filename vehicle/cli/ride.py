@@ -51,7 +51,7 @@ def command(
     from ...core.validator import Validator
     from ...datasets import export
     from ..analysis import ride
-    from ..analysis.speeds import GREATEST_SPEED, LEAST_SPEED
+    from ..assembly.quantity import GREATEST_SPEED, LEAST_SPEED
     from ..plots.by_axle import by_axle
     from ..plots.motion import ENDINGS, shown_names
     from ..plots.motion import animate as write_motion

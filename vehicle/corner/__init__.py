@@ -4,7 +4,7 @@
 `bushes`     stiffnesses of bushes at joints
 `structure`  joints, and forces along lines
 `geometry`   checks of the geometry of any suspension
-`facts`, `drawing`    names in the equations of a kind, and its drawing
-`corner`, `strokes`   the data of characteristics
+`drawing`    the drawing of a kind
+`corner`     the data of characteristics
 `wheel_loads`         loads of road, drive shaft and brake on a wheel, as inputs
 """

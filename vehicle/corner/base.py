@@ -13,7 +13,7 @@ from collections.abc import Mapping
 from importlib.resources.abc import Traversable
 from pathlib import Path
 from types import ModuleType
-from typing import Any, ClassVar, Self, TypeVar, get_args
+from typing import Any, ClassVar, NamedTuple, Self, TypeVar, get_args
 
 from pydantic import ConfigDict, Field, ValidationError
 
@@ -34,13 +34,34 @@ from ..input.places import reverse
 from ..input.stop import StopSection
 from ..input.vehicle import GravitySection, Steering, TyreSection, VehicleSection, WheelSection
 from .bushes import Bush, Bushings, bushes_of, mirrored_bushings, softness_of_rack
-from .corner import CarrierMotion, Plane, SpringForce, Stroke
+from .corner import CarrierMotion, Plane, SpringForce, Stroke, Strokes
 from .drawing import Drawing
-from .facts import Extended, Names
 from .geometry import geometry_problems
-from .strokes import Strokes
 from .structure import Structure
 from .wheeled import NOT_STEERED, WheeledSection
+
+
+class Names(NamedTuple):
+    """The names in the equations of coordinates and inputs that every suspension has."""
+
+    # states: angle of the lower arm, which falls as the wheel rises, and of the wheel [rad]
+    arm: str
+    spin: str
+    # relative coordinate, and with a free rack a state: displacement of the rack [m]. Empty if the
+    # wheel is not steered.
+    rack: str
+    actuator: str  # input: force of an actuator in the strut, or beside the spring [N]
+
+
+class Extended(NamedTuple):
+    """The strut or damper that limits rebound at its greatest length."""
+
+    signal: str  # signal of its length
+    length: float  # greatest length [m]
+    # name, and the key of its greatest length in the file
+    name: str
+    key: str
+
 
 # The top-level key of the kind of suspension in a file.
 KIND = "suspension"

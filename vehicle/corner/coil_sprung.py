@@ -15,8 +15,7 @@ from ..input.section import NonNegative, Positive, Section
 from ..input.spring import SEATS, SpringSection
 from ..input.units import in_metres
 from .base import Suspension
-from .corner import SpringForce, Stroke
-from .strokes import Strokes
+from .corner import SpringForce, Stroke, Strokes
 
 
 class CoilDamper(Section):

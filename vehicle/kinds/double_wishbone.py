@@ -11,10 +11,10 @@ from ...core.columns import number
 from ...core.named_types import Array
 from ...core.vectors import Vector, cross, distance_from_line, unit_vector
 from ...generated import double_wishbone, double_wishbone_general
+from ..corner.base import Names
 from ..corner.coil_sprung import CoilDamper, CoilSprung
 from ..corner.corner import CarrierMotion, Plane
 from ..corner.drawing import Axis, Drawing
-from ..corner.facts import Names
 from ..corner.structure import (
     FORCES_OF_A_DAMPER,
     HingeJoint,

@@ -15,11 +15,9 @@ from ...core.vectors import Vector, cross, unit_vector
 from ...generated import macpherson, macpherson_free_rack, macpherson_general
 from ...systems.allowed import LengthLimit
 from ...systems.compile.build import compile_mechanism, require_generator
-from ..corner.base import Suspension
-from ..corner.corner import CarrierMotion, Plane, SpringForce, Stroke
+from ..corner.base import Extended, Names, Suspension
+from ..corner.corner import CarrierMotion, Plane, SpringForce, Stroke, Strokes
 from ..corner.drawing import Axis, Drawing
-from ..corner.facts import Extended, Names
-from ..corner.strokes import Strokes
 from ..corner.structure import (
     FORCES_OF_A_DAMPER,
     HingeJoint,

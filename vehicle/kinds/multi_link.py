@@ -11,10 +11,10 @@ from ...core.columns import least_singular_value, stacked
 from ...core.named_types import Array
 from ...core.vectors import Vector, components, cross, unit_vector
 from ...generated import multi_link
+from ..corner.base import Names
 from ..corner.coil_sprung import ApartDamper, CoilSprung
 from ..corner.corner import CarrierMotion, Plane
 from ..corner.drawing import Axis, Drawing
-from ..corner.facts import Names
 from ..corner.structure import (
     FORCES_OF_A_DAMPER,
     LineForce,

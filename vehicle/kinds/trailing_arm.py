@@ -11,10 +11,10 @@ from ...core.columns import length, number
 from ...core.named_types import Array
 from ...core.vectors import angle_between_lines, cross, distance_from_line
 from ...generated import trailing_arm
+from ..corner.base import Names
 from ..corner.coil_sprung import ApartDamper, CoilSprung
 from ..corner.corner import CarrierMotion, Plane
 from ..corner.drawing import Axis, Drawing
-from ..corner.facts import Names
 from ..corner.structure import (
     FORCES_OF_A_DAMPER,
     FixedJoint,

@@ -1,7 +1,7 @@
 """Suspensions and axles together with their compiled equations.
 
 `model`      a suspension together with its compiled equations
-`packaged`, `corner_equations`    equations that are part of kintrafo; those of a suspension
+`packaged`   equations that are part of kintrafo; those of a suspension
 `axle`       two suspensions, a rack and an anti-roll bar
 `whole_axle`, `whole_axle_model`    the bases of axles without sides, and of their equations
 `rigid_axle`, `steered_rigid_axle`, `twist_beam`    axles without sides
@@ -9,5 +9,5 @@
 `points`     hardpoints in a position
 `swing`, `reach`, `positions`    the range of wheel travel, and positions at rest
 `model_batch`      a batch of suspensions
-`plausibility`, `typical`      almost certain mistakes of a file, and usual ranges of cars
+`plausibility`      almost certain mistakes of a file, and usual ranges of cars
 """

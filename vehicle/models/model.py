@@ -13,7 +13,7 @@ from ...systems.allowed import LengthLimit
 from ...systems.system import System
 from ..corner.wheel_loads import with_wheel_loads
 from ..kinds import Suspension
-from .corner_equations import equations_of
+from .packaged import equations_of
 
 
 class Model(System):

@@ -21,8 +21,8 @@ from ...systems.allowed import LengthLimit
 from ..corner.geometry import problems_of_sections
 from ..input.section import Section, metadata_of
 from ..kinds import Suspension
-from .corner_equations import equations_of
 from .model import Model
+from .packaged import equations_of
 
 _COMPONENTS = {"x": 0, "y": 1, "z": 2}
 # Values with the opposite sign in the mirror image, by section and the end of the place.

@@ -6,20 +6,20 @@ limit is the geometric mean of the value of a car and the value with the mistake
 factors of 1,000 or more.
 """
 
+import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Protocol
+from importlib import resources
+from typing import Any, Protocol
 
 import numpy as np
 
 from ...core.named_types import Array
 from ...core.vectors import angle_between_lines
 from ..input.bodies import RigidBody, WheelBody
-from ..input.spring import SEATS
-from ..input.spring_table import ends_of_table, rate_at
+from ..input.spring import SEATS, ends_of_table, rate_at
 from ..input.vehicle import TyreSection, WheelSection
 from ..kinds import Suspension
-from .typical import typical_ranges
 
 # Frequency of wheel hop of passenger cars [Hz]: TRL Report SR12 UC, vehicles over discontinuities
 # of the road.
@@ -365,3 +365,13 @@ def _steering_axis(suspension: Suspension) -> Iterator[str]:
                 f"have {low_end:g} to {high_end:g} ({usual[name]['source']}). Is the sign of "
                 f"{axis} right?"
             )
+
+
+def typical_ranges(kind: str) -> dict[str, dict[str, Any]]:
+    """Return ``low``, ``high``, ``unit`` and ``source`` of the usual ranges, by characteristic.
+
+    `kind` is the kind of the suspension, as in the input file.
+    """
+    text = resources.files(__package__).joinpath("typical.toml").read_text(encoding="utf-8")
+    ranges: dict[str, dict[str, Any]] = tomllib.loads(text)
+    return {name: usual for name, usual in ranges.items() if usual.get("only", kind) == kind}

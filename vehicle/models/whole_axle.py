@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from ...core.errors import InputError
 from ...core.named_types import Array
 from ...core.validator import Validator
-from ...core.vectors import components
+from ...core.vectors import MIRROR, components
 from ...systems.allowed import LengthLimit
 from ...systems.compile.build import require_generator
 from ..corner.bushes import Bush
@@ -24,7 +24,6 @@ from ..data import data_sets
 from ..data.starter import WHOLE_AXLES, words_of
 from ..input.described import check_keys
 from ..input.messages import messages_of
-from .mirror import MIRROR
 from .plausibility import (
     Plausibility,
     beyond_the_table,

@@ -7,7 +7,7 @@ from typing import Any
 from ..corner.bushes import BUSH_SCHEMA
 from ..input.section import Section
 from ..kinds import Suspension
-from ..models.typical import typical_ranges
+from ..models.plausibility import typical_ranges
 from .curves import CharacteristicCurve
 from .payload import ReportSamples
 

@@ -11,9 +11,8 @@ from ...core.validator import Validator
 from ..analysis.handling.circle import columns_of_turns, turns_at
 from ..analysis.handling.steady import SteadyCondition
 from ..analysis.handling.subject import driving_car
-from ..analysis.speeds import GREATEST_SPEED
 from ..assembly.assembly import Assembly
-from ..assembly.quantity import LATERAL_ACCELERATION
+from ..assembly.quantity import GREATEST_SPEED, LATERAL_ACCELERATION
 from ..models.car.car import WHEELS
 from .axis import SweepAxis, number_of
 

@@ -9,9 +9,9 @@ from kintrafo import Model, PositionError, Suspension, load, loads
 from kintrafo.vehicle.analysis.checkup import USUAL_HOP, USUAL_RIDE, as_dict, checkup
 from kintrafo.vehicle.analysis.wheel_facts import NO_STIFFNESS
 from kintrafo.vehicle.assembly.of import assembly_of
+from kintrafo.vehicle.models.plausibility import typical_ranges
 from kintrafo.vehicle.models.points import hardpoints
 from kintrafo.vehicle.models.positions import state_at_height
-from kintrafo.vehicle.models.typical import typical_ranges
 from support.folders import ROOT
 
 PAGE = ROOT / "docs/suspension/characteristics.md"

@@ -30,8 +30,8 @@ from kintrafo.vehicle.analysis.scenario import Scenario, run
 from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.assembly.measures import rigid_axle_rolling as formulas
 from kintrafo.vehicle.assembly.measures.whole_axle import wheel_rate, wheel_rate_alone
-from kintrafo.vehicle.assembly.rigid_axle_kinematics import RigidAxleKinematics
 from kintrafo.vehicle.assembly.rigid_axle_parts import RigidAxleParts
+from kintrafo.vehicle.assembly.whole_axle_kinematics import RigidAxleKinematics
 from scipy.interpolate import PchipInterpolator
 from support.folders import ROOT
 

@@ -20,7 +20,7 @@ from kintrafo import (
 from kintrafo.vehicle import data
 from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.data import whole_axles as rigid_data
-from kintrafo.vehicle.input.spring_table import force_and_rate, rate_at
+from kintrafo.vehicle.input.spring import force_and_rate, rate_at
 from kintrafo.vehicle.models.plausibility import plausibility
 from kintrafo.vehicle.models.rigid_axle.model import RigidAxleModel
 from scipy.interpolate import CubicHermiteSpline, PchipInterpolator, interp1d

@@ -14,8 +14,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from kintrafo import InputError, Model, compliance, loads, state_at_height
 from kintrafo.vehicle.assembly.of import assembly_of
+from kintrafo.vehicle.models.plausibility import typical_ranges
 from kintrafo.vehicle.models.points import hardpoints
-from kintrafo.vehicle.models.typical import typical_ranges
 from kintrafo.vehicle.report import compliance_chapter, elastokinematics_chapter, loads_chapter
 from kintrafo.vehicle.report.curves import curves
 from kintrafo.vehicle.report.encode import packed, rounded

@@ -8,7 +8,7 @@ import numpy as np
 
 from ....core.named_types import Array
 from ...input.curve import Curve
-from ...input.spring_table import force_and_rate
+from ...input.spring import force_and_rate
 
 
 class Law(Protocol):

@@ -11,7 +11,7 @@ from ....core.named_types import Array
 from ...models.rigid_axle.model import HEAVE, ROLL
 from ...models.rigid_axle.structure import BEAM
 from ...models.sides import LEFT, RIGHT, SIDES
-from ..rigid_axle_kinematics import RigidAxleKinematics
+from ..whole_axle_kinematics import RigidAxleKinematics
 from .whole_axle import dot
 
 

@@ -18,11 +18,10 @@ import numpy as np
 from pydantic import Field
 
 from ....core.named_types import Array
-from ....core.vectors import angle_between_lines, cross, distance_from_line, unit_vector
+from ....core.vectors import MIRROR, angle_between_lines, cross, distance_from_line, unit_vector
 from ...input.hardpoints import SMALLEST_CROSS_ANGLE, SMALLEST_DISTANCE
 from ...input.section import CHECK_UNIT, NonNegative, Number, Remedy, Section, Triple
 from ...input.units import LengthUnit, in_metres, point_in_metres
-from ..mirror import MIRROR
 
 # Steel: shear modulus [GPa], and Young's modulus over it, 2 (1 + nu) with nu = 0.3.
 _STEEL, _YOUNG = 79.3, 2.6

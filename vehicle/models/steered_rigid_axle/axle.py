@@ -9,7 +9,7 @@ from pydantic.json_schema import SkipJsonSchema
 
 from ....core.named_types import Array
 from ....core.physical import ELEMENTS
-from ....core.vectors import angle_between_lines, components, cross, unit_vector
+from ....core.vectors import MIRROR, angle_between_lines, components, cross, unit_vector
 from ...corner.corner import UP
 from ...corner.structure import Structure
 from ...input.bodies import RigidBody
@@ -17,7 +17,6 @@ from ...input.hardpoints import LARGEST_COORDINATE, SMALLEST_CROSS_ANGLE, SMALLE
 from ...input.pitman_arm import PitmanArmSection
 from ...input.units import point_in_metres
 from ..axle.file import Brakes
-from ..mirror import MIRROR
 from ..rigid_axle.axle import BeamAxle
 from ..rigid_axle.structure import CENTER
 from ..sides import LEFT, RIGHT, SIDES

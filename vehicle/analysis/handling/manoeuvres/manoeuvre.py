@@ -7,10 +7,10 @@ from typing import ClassVar
 import numpy as np
 
 from .....core.named_types import Array
+from ....assembly.quantity import GREATEST_SPEED, LEAST_SPEED
 from ....input.section import Section
 from ....input.units import unit_of
 from ....models.car.car import Car
-from ...speeds import GREATEST_SPEED, LEAST_SPEED
 from ..car import DrivingCar
 from ..result import HandlingResult
 from ..subject import require_controls
