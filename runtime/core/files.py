@@ -73,6 +73,13 @@ def replacing(path: str | Path, *, force: bool = False, inputs: Paths = ()) -> I
                     shutil.rmtree(folder, ignore_errors=True)
 
 
+def write_text(path: str | Path, text: str, *, force: bool = False, inputs: Paths = ()) -> Path:
+    """Write a file of text by the rules of `replacing`, and return its path."""
+    with replacing(path, force=force, inputs=inputs) as temporary:
+        temporary.write_text(text, encoding="utf-8", newline="\n")
+    return Path(path)
+
+
 def refuse(
     paths: Paths, *, force: bool = False, inputs: Paths = (), endings: Sequence[str] = ()
 ) -> None:

@@ -22,7 +22,7 @@ def command(
     it beside them, and let their first line be `#:schema ./kintrafo.schema.json`, which TOML
     language servers understand.
     """
-    from ...core.files import refuse, replacing
+    from ...core.files import refuse, write_text
     from .published import published
 
     text, _ = published()
@@ -30,6 +30,4 @@ def command(
         typer.echo(text, nl=False)
         return
     refuse([path], force=force, endings=[".json"])
-    with replacing(path, force=force) as temporary:
-        temporary.write_text(text, encoding="utf-8", newline="\n")
-    say(f"  {path}")
+    say(f"  {write_text(path, text, force=force)}")

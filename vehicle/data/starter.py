@@ -6,7 +6,7 @@ from importlib.resources.abc import Traversable
 from pathlib import Path
 
 from ...core.errors import InputError
-from ...core.files import refuse, replacing
+from ...core.files import refuse, write_text
 from ...core.suggestions import suggestion
 from . import data_sets
 
@@ -177,9 +177,7 @@ def write_starter(
         raise InputError([problem], "template")
     refuse([path], force=force, endings=[_ENDING])
     text = _with_limits(known[template].read_text(encoding="utf-8"))
-    with replacing(path, force=force) as temporary:
-        temporary.write_text(text, encoding="utf-8", newline="\n")
-    return Path(path)
+    return write_text(path, text, force=force)
 
 
 def _with_limits(text: str) -> str:

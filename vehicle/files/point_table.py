@@ -14,7 +14,7 @@ from typing import Any
 import tomlkit
 
 from ...core.errors import InputError
-from ...core.files import Paths, refuse, replacing
+from ...core.files import Paths, refuse, replacing, write_text
 from ...core.legible import legible, short
 from ...core.suggestions import nearest
 from ...core.tables import key
@@ -352,9 +352,7 @@ def write_merged(
     with Validator("write_merged") as given:
         given.instance("found", found, Merged, "a result of merged is needed")
     refuse([path], force=force, inputs=inputs, endings=[".toml"])
-    with replacing(path, force=force, inputs=inputs) as temporary:
-        temporary.write_text(found.text, encoding="utf-8", newline="\n")
-    return Path(path)
+    return write_text(path, found.text, force=force, inputs=inputs)
 
 
 def write_points(

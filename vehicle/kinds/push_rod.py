@@ -4,6 +4,7 @@ The classes for any rod that moves the rocker know it by its name alone.
 """
 
 from collections.abc import Mapping
+from dataclasses import replace
 from types import ModuleType
 from typing import ClassVar, Literal
 
@@ -13,9 +14,9 @@ from ...core.columns import number
 from ...core.vectors import cross, distance_from_line, unit_vector
 from ...generated import push_rod
 from ..corner.coil_sprung import CoilDamper
-from ..corner.drawing import Axis, Drawing
+from ..corner.drawing import Drawing
 from ..corner.structure import HingeJoint, SphericalJoint, Structure, UniversalJoint
-from ..input.bodies import Rack, RigidBody, TieRod
+from ..input.bodies import RigidBody
 from ..input.hardpoints import SMALLEST_DISTANCE, Pair
 from ..input.section import Triple
 from ..input.spring import SpringSection
@@ -118,10 +119,6 @@ class PushRodBodies(RockerBodies):
     push_rod: PushRodBody = Field(
         default=PushRodBody(mass_kg=0.0), description="the push rod, whose mass must be 0"
     )
-    tie_rod: TieRod = Field(
-        default=TieRod(mass_kg=0.0), description="the tie rod, whose mass must be 0"
-    )
-    rack: Rack = Field(default=Rack(mass_kg=0.0), description="the rack, whose mass must be 0")
 
 
 class PushRod(DoubleWishbone):
@@ -176,18 +173,15 @@ rate or a curve; the stops depend on its length."""
         }
         foot = (outer, arm.replace("arm", "ball_joint"), f"{arm}_front")
         plain = super().drawing()
-        return Drawing(
+        return replace(
+            plain,
             links={
                 **plain.links,
                 words: (outer, inner, "push rod"),
                 "rocker": ("rocker_front", inner, "rocker"),
                 "rocker at the spring": ("rocker_front", "spring_seat", "rocker"),
             },
-            knuckle=plain.knuckle,
             legend={**plain.legend, "arm": f"control arms, {words} and rocker"},
-            damper=Axis("spring_seat", "spring_top", 0.5),
-            spring=Axis("spring_seat", "spring_top", 0.32),
-            upright=plain.upright,
             brackets={
                 f"{rod}_bracket": (foot, outer),
                 rod: (outer, inner),

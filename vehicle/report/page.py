@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from jinja2 import Environment
 
-from ...core.files import Paths, refuse, replacing
+from ...core.files import Paths, refuse, write_text
 from ...core.legible import legible, power_of_ten
 from ...core.validator import Validator, shown
 from ...pages.embedded import asset, page_environment
@@ -126,9 +126,7 @@ def write(
         report("positions of the mechanism")
         text = report_page(model, title, motion)
     report("writing the page")
-    with replacing(path, force=force, inputs=inputs) as temporary:
-        temporary.write_text(text, encoding="utf-8", newline="\n")
-    return Path(path)
+    return write_text(path, text, force=force, inputs=inputs)
 
 
 def render(
@@ -215,9 +213,7 @@ def write_chapters(
         player_style=player_style(),
         style=asset(__package__, "assets/report.css"),
     )
-    with replacing(path, force=force, inputs=inputs) as temporary:
-        temporary.write_text(text, encoding="utf-8", newline="\n")
-    return Path(path)
+    return write_text(path, text, force=force, inputs=inputs)
 
 
 def _sample(

@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...core.errors import InputError
-from ...core.files import Paths, replacing
+from ...core.files import Paths, write_text
 from ...core.legible import legible
 from ...core.validator import Validator
 from ...formulas.coefficients import NEUTRAL, SCALES
@@ -94,9 +94,7 @@ def write_tir(
         elif own:
             lines.append(f"[{section}]")
         lines += [f"{key:<24} = {values[key]!r}" for key in own]
-    with replacing(path, force=force, inputs=inputs) as temporary:
-        temporary.write_text("\n".join([*lines, ""]), encoding="utf-8")
-    return Path(path)
+    return write_text(path, "\n".join([*lines, ""]), force=force, inputs=inputs)
 
 
 _NEEDED = frozenset(key for keys in known.NEEDED.values() for key in keys)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ....core.files import refuse, replacing
+from ....core.files import refuse, write_text
 from .document import FIGURES
 from .latex import latex
 from .markdown import markdown
@@ -42,6 +42,5 @@ def write_report(
         text = latex(derivation, figures)
     else:
         text = markdown(derivation)
-    with replacing(path, force=force, inputs=inputs) as temporary:
-        temporary.write_text(text, encoding="utf-8", newline="\n")
+    write_text(path, text, force=force, inputs=inputs)
     return [path, *(path.with_name(name) for name in figures.values())]

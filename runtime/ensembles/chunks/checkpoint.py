@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import InputError
-from ...core.files import as_input_errors, replacing
+from ...core.files import as_input_errors, replacing, write_text
 from ..collected import Collected
 from .chunk import ChunkResult, taken
 from .cutting import Span
@@ -141,8 +141,7 @@ def checkpoint_in(folder: str | Path, collected: Collected) -> Checkpoint:
         elif there:
             _refuse(path, "other things are in this folder. Name one that is empty or not there.")
         else:
-            with replacing(path / _NAME, force=True) as temporary:
-                temporary.write_text(json.dumps(identity, indent=1), encoding="utf-8")
+            write_text(path / _NAME, json.dumps(identity, indent=1), force=True)
     whole = json.dumps(identity, sort_keys=True).encode()
     return Checkpoint(path, hashlib.sha256(whole).hexdigest(), collected)
 

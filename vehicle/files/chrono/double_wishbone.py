@@ -8,8 +8,15 @@ import numpy as np
 from pydantic import Field
 
 from ....core.vectors import cross
-from .forces import DamperLaw, Shock, Spring, damper_law, spring_law, words_of_curves
-from .keys import Part
+from .forces import (
+    DamperLaw,
+    LineToArm,
+    ShockOnArm,
+    SpringOnArm,
+    damper_law,
+    spring_law,
+    words_of_curves,
+)
 from .parts import ON_THE_LINE, POINTS_ONLY, ArmPoints, ControlArm, Point
 from .suspension_file import KnuckleFile, SteeredPoints, arm_sources
 
@@ -26,19 +33,6 @@ _SOURCES = {
 }
 
 
-class _SpringPoints(Part):
-    chassis: Point = Field(alias="Location Chassis")
-    arm: Point = Field(alias="Location Arm")
-
-
-class _Spring(Spring, _SpringPoints):
-    pass
-
-
-class _Shock(Shock):
-    arm: Point = Field(alias="Location Arm")
-
-
 class WishbonePoints(SteeredPoints):
     """The points of two arms; the spring acts on the lower one."""
 
@@ -49,7 +43,7 @@ class WishbonePoints(SteeredPoints):
     template: Literal["DoubleWishbone"] = Field(alias="Template")
     upper: ArmPoints = Field(alias="Upper Control Arm")
     lower: ArmPoints = Field(alias="Lower Control Arm")
-    spring: _SpringPoints = Field(alias="Spring")
+    spring: LineToArm = Field(alias="Spring")
 
     def own_points(self) -> dict[str, Point]:
         points = {}
@@ -76,8 +70,8 @@ class DoubleWishboneFile(KnuckleFile, WishbonePoints):
 
     upper: ControlArm = Field(alias="Upper Control Arm")
     lower: ControlArm = Field(alias="Lower Control Arm")
-    spring: _Spring = Field(alias="Spring")
-    shock: _Shock = Field(alias="Shock")
+    spring: SpringOnArm = Field(alias="Spring")
+    shock: ShockOnArm = Field(alias="Shock")
 
     def arms(self) -> dict[str, tuple[str, ControlArm]]:
         return {
@@ -130,7 +124,7 @@ class DoubleWishboneFile(KnuckleFile, WishbonePoints):
         """Return the speed of the damper between its own points over that of the spring."""
         front, back = np.array(self.lower.front), np.array(self.lower.back)
 
-        def speed(element: _Spring | _Shock) -> float:
+        def speed(element: SpringOnArm | ShockOnArm) -> float:
             end = np.array(element.arm)
             line = end - element.chassis
             return float(cross(front - back, end - front) @ line / np.linalg.norm(line))

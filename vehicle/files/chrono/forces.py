@@ -110,6 +110,21 @@ class Shock(Element):
         return self.given("Damping Coefficient", "Damping Curve Data", "Curve Data")
 
 
+class LineToArm(Part):
+    """The ends of a spring or a damper that acts on an arm."""
+
+    chassis: Point = Field(alias="Location Chassis")
+    arm: Point = Field(alias="Location Arm")
+
+
+class SpringOnArm(Spring, LineToArm):
+    """The spring on an arm."""
+
+
+class ShockOnArm(Shock, LineToArm):
+    """The damper on an arm."""
+
+
 class ChronoSpringLaw(NamedTuple):
     """A spring: by its rate, or by its curve, which has the stiffer parts of its stops, too."""
 

@@ -5,7 +5,7 @@ from typing import Any, ClassVar, Literal
 
 from pydantic import Field
 
-from .forces import Shock, Spring, damper_law, spring_law, words_of_curves
+from .forces import LineToArm, ShockOnArm, SpringOnArm, damper_law, spring_law, words_of_curves
 from .keys import Part
 from .parts import DRAWING, POINTS_ONLY, ChronoArm, Point
 from .suspension_file import PointsFile, SuspensionFile
@@ -40,19 +40,6 @@ class _TrailingArm(_Bearings, ChronoArm):
         return self.outer, self.inner, self.end
 
 
-class _Line(Part):
-    chassis: Point = Field(alias="Location Chassis")
-    arm: Point = Field(alias="Location Arm")
-
-
-class _Spring(Spring, _Line):
-    pass
-
-
-class _Shock(Shock, _Line):
-    pass
-
-
 class TrailingPoints(PointsFile):
     """The points of an arm that swings about two bearings, of its spring and of its damper."""
 
@@ -62,8 +49,8 @@ class TrailingPoints(PointsFile):
 
     template: Literal["SemiTrailingArm"] = Field(alias="Template")
     arm: _Bearings = Field(alias="Trailing Arm")
-    spring: _Line = Field(alias="Spring")
-    shock: _Line = Field(alias="Shock")
+    spring: LineToArm = Field(alias="Spring")
+    shock: LineToArm = Field(alias="Shock")
 
     def own_points(self) -> dict[str, Point]:
         return {
@@ -89,8 +76,8 @@ class SemiTrailingArm(SuspensionFile, TrailingPoints):
     }
 
     arm: _TrailingArm = Field(alias="Trailing Arm")
-    spring: _Spring = Field(alias="Spring")
-    shock: _Shock = Field(alias="Shock")
+    spring: SpringOnArm = Field(alias="Spring")
+    shock: ShockOnArm = Field(alias="Shock")
 
     def arms(self) -> dict[str, tuple[str, ChronoArm]]:
         return {"trailing_arm": ("Trailing Arm", self.arm)}

@@ -24,8 +24,6 @@ _ALIKE = 1e-3
 class _File(Part):
     UNREAD: ClassVar[frozenset[str]] = _FORMAL
 
-    TYPE: ClassVar[str]
-
 
 class _Frame(Part):
     location: Point = Field(alias="Location")
@@ -181,10 +179,6 @@ class RackPinion(_File):
             f"Chrono up to {self.pinion.greatest:g} deg, {1e3 * most:.1f} mm of rack, to each side"
         )
         return {"rack": section}, words
-
-    def problems(self) -> list[str]:
-        """Return none: any rack can be read."""
-        return []
 
 
 class _Revolute(Part):
