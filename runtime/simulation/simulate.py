@@ -3,6 +3,7 @@
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import cache
 from typing import Any, Literal
 
 import numpy as np
@@ -62,7 +63,6 @@ _TOLERANCE = (1e-6, 1e-9)
 _TOLERANCE_OF_BDF = (1e-8, 1e-10)
 # Steps of BDF for about a thousand oscillations, after which its damping matters.
 _LONG = 200_000
-_warned = False
 
 
 def simulate(
@@ -364,15 +364,13 @@ def _what_else(model: System, backend: Backend, options: Options) -> str:
     return f"{advice[0].upper()}{advice[1:]}: {by} then."
 
 
+@cache
 def _warn_once() -> None:
-    global _warned  # noqa: PLW0603 (once in a process)
-    if not _warned:
-        _warned = True
-        warnings.warn(
-            f"{why_not_native()}. Until then SciPy integrates, with the same results but slower.",
-            RuntimeWarning,
-            stacklevel=4,
-        )
+    warnings.warn(
+        f"{why_not_native()}. Until then SciPy integrates, with the same results but slower.",
+        RuntimeWarning,
+        stacklevel=4,
+    )
 
 
 def _among(some: Array, times: Array) -> NDArray[np.bool_]:

@@ -11,10 +11,11 @@ from kintrafo.systems.modes import modes_of_motions
 from kintrafo.vehicle.analysis.characteristics import over
 from kintrafo.vehicle.analysis.checkup import checkup
 from kintrafo.vehicle.assembly.of import assembly_of
-from kintrafo.vehicle.data.starter import packaged_cars
+from kintrafo.vehicle.data import data_sets
+from kintrafo.vehicle.data.starter import CARS as FILES
 from kintrafo.vehicle.models.car.car import center_of_gravity, masses, suspension_masses
 
-CARS = [name for name in packaged_cars() if kintrafo.load(name).axles]
+CARS = [name for name in data_sets(FILES) if kintrafo.load(name).axles]
 # How far from design a wheel rests on a body that is held [m]: the springs of FED-Alpha are those
 # of its source, and others are said to carry their car; the tyres of the driving car are 5 mm lower
 # under the load than those that its axles' files have for cars that do not travel.

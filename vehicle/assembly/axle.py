@@ -119,9 +119,8 @@ class AxleAssembly(SteerableAssembly):
 
     def coordinates_at_rest(self, held: RestConditions) -> Array:
         """Return the arm angles of the state of rest nearest to that of the sides without a bar."""
-        alone = replace(
-            held, inputs={}
-        )  # further inputs have other names in the equations of a side
+        # further inputs have other names in the equations of a side
+        alone = replace(held, inputs={})
         sides = self._corners.values()
         near = np.concatenate([side.coordinates_at_rest(alone) for side in sides])
         return settled(self, held, near, _NO_REST)

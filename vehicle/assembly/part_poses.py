@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...core.named_types import Array
+from ...core.physical import ELEMENTS
 from ...core.vectors import cross
 from ...systems.allowed import LengthLimit
 from ...systems.inputs import rates_of
@@ -18,8 +19,43 @@ from ..corner.structure import LineForce, Structure
 from ..models.model import Model
 from ..models.points import hardpoints
 from .corner_kinematics import design_axis, vehicle_of
-from .mass import PartMass
 from .wheel import lowest_point, upward_across
+
+
+@dataclass(frozen=True)
+class PartMass:
+    """Mass and inertia of a part."""
+
+    body: str  # name of the part in the equations
+    mass: float  # [kg]
+    tensor: Array  # inertia about its centre of mass at design, chassis axes, (3, 3) [kg m^2]
+
+    @classmethod
+    def of(
+        cls, parameters: Mapping[str, float], name: str, body: str, spin_axis: Array | None = None
+    ) -> "PartMass":
+        """Return mass and inertia of a body.
+
+        `name` is the prefix of its parameters in the equations. `spin_axis`, (3,), is that of a
+        wheel at design: its parameters are the inertia about this axis and across it.
+        """
+        tensor = (
+            _tensor(parameters, name)
+            if spin_axis is None
+            else _of_wheel(parameters, name, spin_axis)
+        )
+        return cls(body, parameters[f"{name}_mass"], tensor)
+
+
+def _tensor(parameters: Mapping[str, float], name: str) -> Array:
+    xx, yy, zz, xy, xz, yz = (parameters[f"{name}_inertia_{element}"] for element in ELEMENTS)
+    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+
+
+def _of_wheel(parameters: Mapping[str, float], name: str, axis: Array) -> Array:
+    spin, across = (parameters[f"{name}_inertia_{part}"] for part in ("spin", "diametral"))
+    return across * np.eye(3) + (spin - across) * np.outer(axis, axis)
+
 
 CONTACT, CENTER = "contact", "wheel_center"
 """The points of a wheel at which loads act: its lowest point and its centre."""

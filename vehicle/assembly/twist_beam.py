@@ -20,9 +20,8 @@ from ..models.twist_beam import (
 )
 from .anti_roll_bar import TwistBar
 from .load import Load
-from .mass import PartMass
 from .measures.twist_beam import MEASURES
-from .part_poses import CENTER
+from .part_poses import CENTER, PartMass
 from .whole_axle import WholeAxleAssembly
 from .whole_axle_parts import BAR, WholeAxleParts
 

@@ -23,8 +23,7 @@ from ..models.whole_axle import of_side
 from ..models.whole_axle_model import WholeAxleModel
 from .corner_kinematics import vehicle
 from .load import Load, known
-from .mass import PartMass
-from .part_poses import CENTER, CONTACT, PartPoses
+from .part_poses import CENTER, CONTACT, PartMass, PartPoses
 from .wheel import lowest_point, upward_across
 
 BAR = "bar"

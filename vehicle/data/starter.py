@@ -75,17 +75,6 @@ def packaged_axles() -> tuple[str, ...]:
     return tuple(data_sets(AXLES))
 
 
-def packaged_cars() -> tuple[str, ...]:
-    """Return the names of the packaged cars.
-
-    Examples
-    --------
-    >>> {"driving_car", "quarter_car", "reference_vehicle"} <= set(packaged_cars())
-    True
-    """
-    return tuple(data_sets(CARS))
-
-
 def manoeuvres() -> dict[str, Traversable]:
     """Return the files of the packaged manoeuvres by name.
 
@@ -102,23 +91,12 @@ def whole_axles() -> tuple[str, ...]:
 
     A kind is the top-level key of its files, the name of its packaged data set, and the name of
     the modules with its equations and its assembly.
-
-    Examples
-    --------
-    >>> "rigid_axle" in whole_axles()
-    True
     """
     return tuple(data_sets(WHOLE_AXLES))
 
 
 def all_packaged() -> dict[str, Traversable]:
-    """Return the files of all packaged suspensions, axles and cars by name.
-
-    Examples
-    --------
-    >>> {"reference_car", "rigid_axle", "quarter_car"} <= set(all_packaged())
-    True
-    """
+    """Return the files of all packaged suspensions, axles and cars by name."""
     return data_sets() | data_sets(AXLES) | data_sets(WHOLE_AXLES) | data_sets(CARS)
 
 

@@ -41,6 +41,13 @@ def content(path: str | Path) -> dict[str, Any]:
     return data
 
 
+def entry(data: Any, place: tuple[str, ...]) -> Any:
+    """Return the value at a place in nested objects, or None."""
+    for key in place:
+        data = data.get(key) if isinstance(data, dict) else None
+    return data
+
+
 class _TwiceError(ValueError):
     """An object with the same key twice."""
 

@@ -49,13 +49,7 @@ def without_unit(key: str) -> str:
 
 
 def in_metres(length: float, unit: LengthUnit) -> float:
-    """Return a length of an input file in metres.
-
-    Examples
-    --------
-    >>> in_metres(205.0, "mm")
-    0.205
-    """
+    """Return a length of an input file in metres."""
     # A division is rounded correctly and yields the double nearest to 0.205. The factor 0.001 is
     # itself rounded, and would give 0.20500000000000002.
     return length / 1000.0 if unit == "mm" else length

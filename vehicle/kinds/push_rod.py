@@ -13,7 +13,6 @@ from pydantic import Field
 from ...core.columns import number
 from ...core.vectors import cross, distance_from_line, unit_vector
 from ...generated import push_rod
-from ..corner.coil_sprung import CoilDamper
 from ..corner.drawing import Drawing
 from ..corner.structure import HingeJoint, SphericalJoint, Structure, UniversalJoint
 from ..input.bodies import RigidBody
@@ -145,7 +144,6 @@ rate or a curve; the stops depend on its length."""
     )
     hardpoints: PushRodHardpoints = Field(description="the points that define the geometry")
     spring: SpringSection = Field(description="the spring, between chassis and rocker")
-    damper: CoilDamper = Field(description="the damper, on the spring's axis")
     bodies: PushRodBodies = Field(description="masses and inertia")
 
     @property

@@ -2,8 +2,7 @@
 
 from .chapters.axle import axle_chapter
 from .chapters.chapter import Chapter
-from .chapters.compliance import compliance_chapter
-from .chapters.elastokinematics import elastokinematics_chapter
+from .chapters.compliance import compliance_chapter, elastokinematics_chapter
 from .chapters.goals import goals_chapter
 from .chapters.handling import steady_turns_chapter, step_steer_chapter
 from .chapters.loads import loads_chapter

@@ -100,12 +100,6 @@ def gaps_on(model: Model, grid: Grid) -> list[Array]:
     return [gap for gap in gaps(model, angles, rack) if gap.min() <= 0.0 < gap.max()]
 
 
-def only_over_rack(drawn: list[CharacteristicCurve]) -> set[str]:
-    """Return the names of characteristics over the rack alone."""
-    along = {curve.name for curve in drawn if curve.over == "travel"}
-    return {curve.name for curve in drawn} - along
-
-
 def _stacked(
     cuts: "Sequence[Dataset]", coordinate: str, over: Literal["travel", "rack"]
 ) -> list[CharacteristicCurve]:

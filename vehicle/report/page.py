@@ -25,7 +25,7 @@ from ..plots.motion.page import player_script, player_style
 from ..studies.goals import Goal, check_goals
 from .accuracy import GridAccuracy, measure
 from .chapters.chapter import Chapter
-from .curves import CharacteristicCurve, curves, gaps_on, only_over_rack
+from .curves import CharacteristicCurve, curves, gaps_on
 from .grid import Grid
 from .marks import Marks, marks
 from .motion import DROP, simulated_second
@@ -270,7 +270,8 @@ def _over_rack(
     drawn: list[CharacteristicCurve], marked: Marks
 ) -> tuple[list[CharacteristicCurve], list[CharacteristicCurve]]:
     """Return the curves over the rack that are shown: of steering, wheel and goals, and others."""
-    first = only_over_rack(drawn) | {c.name for c in drawn if c.group == ORDER[0]}
+    first = {c.name for c in drawn} - {c.name for c in drawn if c.over == "travel"}
+    first |= {c.name for c in drawn if c.group == ORDER[0]}
     first |= {c.name for c in drawn if c.over == "rack" and marked.about(c.key)}
     along = [curve for curve in drawn if curve.over == "rack"]
     return [c for c in along if c.name in first], [c for c in along if c.name not in first]

@@ -16,7 +16,7 @@ from .encode import packed
 from .grid import Grid, GridAxis
 from .marks import Marks
 from .motion import NoMotion, ReportedMotion, TimeCurve
-from .plotted import decimals, full_range, meaningful
+from .plotted import decimals, full_range
 from .poses import Poses
 
 # Tyre of the drawing [m]; the radius of files without one.
@@ -114,7 +114,8 @@ def _described(curve: CharacteristicCurve | TimeCurve, look: Look) -> dict[str, 
         "unit": curve.unit,
         "factor": curve.factor,
         "decimals": look.decimals,
-        "approximate": not meaningful(look.decimals, look.error),
+        # the last decimal is not right to rounding
+        "approximate": not look.error <= 0.5 * 10.0**-look.decimals,
         "range": look.shown,
         # a smaller range is drawn flat
         "least": 4.0 * max(10.0**-look.decimals, 2.0 * look.error),

@@ -64,8 +64,3 @@ def decimals(low: float, high: float, *, unit: str = "", value: float = 0.0) -> 
     if value != 0.0 and math.isfinite(value):
         wanted = max(wanted, 2 - math.floor(math.log10(abs(value))))
     return min(max(wanted, 0), most)
-
-
-def meaningful(places: int, error: float) -> bool:
-    """Return whether the last of some decimals is right to rounding, for an error."""
-    return error <= 0.5 * 10.0**-places

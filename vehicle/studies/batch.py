@@ -21,7 +21,7 @@ from ...simulation.lanes.run import usual_threads
 from ..analysis.compliance.flexibility import HELD
 from ..assembly.corner_kinematics import corner
 from ..assembly.measures.corner import OVER_RACK, OVER_TRAVEL
-from ..assembly.measures.measure import some_of_axle, values
+from ..assembly.measures.measure import values
 from ..assembly.mirrored_corner import MirroredCorner
 from ..assembly.of import assembly_of
 from ..corner.corner import Corner
@@ -48,7 +48,7 @@ def moved_by(places: Sequence[DesignVariable], off: Array) -> dict[str, Array]:
     return {
         name: column
         for place, by in zip(places, off.T, strict=True)
-        for name, column in place.moved_all(by).items()
+        for name, column in place.moved(by).items()
     }
 
 
@@ -180,7 +180,8 @@ def _corners(batch: ModelBatch, look: Curves) -> Iterator[Corner]:
     at = look.positions
     still = np.zeros(at.size)
     travel, rack = (at, still) if look.over == "travel" else (still, at)
-    both = look.over == "rack" and some_of_axle(OVER_RACK, look.names)
+    of_axle = {measure.name for measure in OVER_RACK if measure.scope == "axle"}
+    both = look.over == "rack" and not of_axle.isdisjoint(look.names)
     sides = [(batch, travel, rack)]
     if both:
         sides += [(batch.mirror_image, travel, rack), (batch, still[:1], still[:1])]

@@ -6,11 +6,9 @@ import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
-from typing import Any
+from typing import Any, TypeVar
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ...core.named_types import Array
 from ...core.quantities import Display, attributes
 from ...core.suggestions import nearest
 from ...core.validator import Validator, shown
@@ -24,7 +22,7 @@ _DEG = math.pi / 180.0
 _LEAST, _GREATEST = 1e-12, 1e12
 _TO_SI = {"mm": 1e-3, "deg": _DEG, "N/mm^3": 1e9, "N/mm": 1e3, "N m/deg": 1.0 / _DEG}
 _SI = {"mm": "m", "deg": "rad", "N/mm^3": "N/m^3", "N/mm": "N/m", "N m/deg": "N m/rad", "": "1"}
-
+_Numbers = TypeVar("_Numbers", float, Array)
 
 # Beginnings of the names of values of mirrored sides and of a single side, the latter after the end
 # of a car.
@@ -92,12 +90,8 @@ class DesignVariable:
             "display_factor": shown.factor,
         }
 
-    def moved(self, by: float) -> dict[str, float]:
-        """Return the value of the file after a change in SI units, by its name."""
-        return {self.name: (self.value + by / self.to_si) * self.in_file}
-
-    def moved_all(self, by: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
-        """Return the values of many files, as `moved` for each."""
+    def moved(self, by: _Numbers) -> dict[str, _Numbers]:
+        """Return the value of one file or many after a change in SI units, by its name."""
         return {self.name: (self.value + by / self.to_si) * self.in_file}
 
 

@@ -14,13 +14,7 @@ _PACKAGED = f"{__package__.rpartition('.')[0]}.data.tyres"
 
 
 def packaged_tyres() -> dict[str, Traversable]:
-    """Return the files of the packaged tyres by name.
-
-    Examples
-    --------
-    >>> "passenger_205_55" in packaged_tyres()
-    True
-    """
+    """Return the files of the packaged tyres by name."""
     return data_sets(_PACKAGED, ".tir") | data_sets(_PACKAGED, ".json")
 
 

@@ -14,7 +14,7 @@ from ...core.validator import Validator
 from ...formulas import tmeasy
 from ...formulas.arithmetic import ARRAYS
 from ...formulas.magic_formula import Forces
-from ..input.commented_json import content
+from ..input.commented_json import content, entry
 from .tyre import States, SymmetricTyre
 
 _DESIGN = {
@@ -183,20 +183,14 @@ class _Reader:
     def values(self) -> Iterator[tuple[str, float]]:
         """Yield names and numbers; 0 for each number that is missing or wrong."""
         for name, place in _DESIGN.items():
-            yield name, self._number(place, self._at(place))
+            yield name, self._number(place, entry(self._data, place))
         for name, place in _PAIRS.items():
-            found = self._at(place)
+            found = entry(self._data, place)
             if not isinstance(found, list) or len(found) != 2:
                 self._refuse(place, found, "two numbers are needed, in brackets")
                 found = [0.0, 0.0]
             yield f"{name}_1", self._number(place, found[0])
             yield f"{name}_2", self._number(place, found[1])
-
-    def _at(self, place: tuple[str, ...]) -> Any:
-        found: Any = self._data
-        for key in place:
-            found = found.get(key) if isinstance(found, dict) else None
-        return found
 
     def _number(self, place: tuple[str, ...], value: Any) -> float:
         if (

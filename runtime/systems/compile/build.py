@@ -4,6 +4,7 @@ import os
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext
+from functools import cache
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Literal
@@ -30,7 +31,6 @@ Report = Callable[[str], None]
 
 _REMEDY = "Install a C compiler (on Debian: apt-get install gcc libc6-dev), or name one in CC"
 _COMPILED_PER_S = 8_000  # operations of a file by GCC on a processor of 2024
-_warned = False
 # by the name of the module: what returns the declaration, and whether it has derivatives by
 # parameters
 _declared: dict[str, "tuple[Callable[[], Formulation], bool]"] = {}
@@ -216,16 +216,14 @@ def _compiler(backend: Backend) -> Compiler | None:
     return compiler
 
 
+@cache
 def _warn_once() -> None:
-    global _warned  # noqa: PLW0603 (once in a process)
-    if not _warned:
-        _warned = True
-        warnings.warn(
-            "there is no C compiler; NumPy evaluates the equations instead, with the same results "
-            f"but slower. {_REMEDY}.",
-            RuntimeWarning,
-            stacklevel=4,
-        )
+    warnings.warn(
+        "there is no C compiler; NumPy evaluates the equations instead, with the same results "
+        f"but slower. {_REMEDY}.",
+        RuntimeWarning,
+        stacklevel=4,
+    )
 
 
 def build(

@@ -1,12 +1,11 @@
 """The model description of FMI 2.0."""
 
-import math
 from collections.abc import Sequence
 from importlib.metadata import version
 from xml.etree import ElementTree as ET
 
 from .description import ModelDescription, Variable
-from .xml import element, log_categories, number, text_of, unit_definitions, units_of
+from .xml import described, element, log_categories, text_of, unit_definitions, values_of
 
 VERSION = 2
 FRONT = "fmi2.c"
@@ -51,30 +50,10 @@ def model_description(known: ModelDescription, sources: Sequence[str]) -> str:
 
 
 def _variable(parent: ET.Element, variable: Variable) -> None:
-    scalar = element(
-        parent,
-        "ScalarVariable",
-        {
-            "name": variable.name,
-            "valueReference": variable.reference,
-            "description": variable.meaning,
-            "causality": variable.causality,
-            "variability": variable.variability,
-            "initial": variable.initial,
-        },
-    )
+    scalar = element(parent, "ScalarVariable", described(variable))
     source = variable.derivative_of
-    element(
-        scalar,
-        "Real",
-        {
-            **units_of(variable),
-            "min": number(variable.least) if math.isfinite(variable.least) else None,
-            "max": number(variable.most) if math.isfinite(variable.most) else None,
-            "start": None if variable.start is None else number(variable.start),
-            "derivative": None if source is None else source + 1,
-        },
-    )
+    derivative = None if source is None else source + 1
+    element(scalar, "Real", {**values_of(variable), "derivative": derivative})
 
 
 def _structure(root: ET.Element, known: ModelDescription) -> None:

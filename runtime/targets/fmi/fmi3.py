@@ -1,12 +1,11 @@
 """The model description and the build description of FMI 3.0."""
 
-import math
 from collections.abc import Sequence
 from importlib.metadata import version
 from xml.etree import ElementTree as ET
 
 from .description import ModelDescription, Variable
-from .xml import element, log_categories, number, text_of, unit_definitions, units_of
+from .xml import described, element, log_categories, text_of, unit_definitions, values_of
 
 VERSION = 3
 FRONT = "fmi3.c"
@@ -48,23 +47,8 @@ def model_description(known: ModelDescription, sources: Sequence[str]) -> str:
 
 
 def _variable(parent: ET.Element, variable: Variable) -> None:
-    element(
-        parent,
-        "Float64",
-        {
-            "name": variable.name,
-            "valueReference": variable.reference,
-            "description": variable.meaning,
-            "causality": variable.causality,
-            "variability": variable.variability,
-            "initial": variable.initial,
-            **units_of(variable),
-            "min": number(variable.least) if math.isfinite(variable.least) else None,
-            "max": number(variable.most) if math.isfinite(variable.most) else None,
-            "start": None if variable.start is None else number(variable.start),
-            "derivative": variable.derivative_of,
-        },
-    )
+    derivative = {"derivative": variable.derivative_of}
+    element(parent, "Float64", {**described(variable), **values_of(variable), **derivative})
 
 
 def _structure(root: ET.Element, known: ModelDescription) -> None:

@@ -1,11 +1,13 @@
 """XML that both versions of FMI share."""
 
+import math
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from xml.etree import ElementTree as ET
 
 from ...core.quantities import display_of
+from ...core.si_units import powers_of
 from .description import Variable
-from .units import powers
 
 _NONE = "1"
 
@@ -35,12 +37,28 @@ def unit_definitions(parent: ET.Element, variables: Iterable[Variable]) -> None:
             element(defined, "DisplayUnit", {"name": shown.units, "factor": factor})
 
 
-def units_of(variable: Variable) -> dict[str, str]:
-    """Return the attributes of a variable with its units."""
-    if variable.unit == _NONE:
-        return {}
+def described(variable: Variable) -> dict[str, object]:
+    """Return the attributes of a variable with its name, number, meaning and role."""
+    return {
+        "name": variable.name,
+        "valueReference": variable.reference,
+        "description": variable.meaning,
+        "causality": variable.causality,
+        "variability": variable.variability,
+        "initial": variable.initial,
+    }
+
+
+def values_of(variable: Variable) -> dict[str, object]:
+    """Return the attributes of a variable with its units, range and start."""
     shown = display_of({"units": variable.unit}).units
-    return {"unit": variable.unit, "displayUnit": shown if shown != variable.unit else ""}
+    units = {"unit": variable.unit, "displayUnit": shown if shown != variable.unit else ""}
+    return {
+        **({} if variable.unit == _NONE else units),
+        "min": number(variable.least) if math.isfinite(variable.least) else None,
+        "max": number(variable.most) if math.isfinite(variable.most) else None,
+        "start": None if variable.start is None else number(variable.start),
+    }
 
 
 def log_categories(parent: ET.Element) -> None:
@@ -60,3 +78,28 @@ def text_of(root: ET.Element) -> str:
     ET.indent(root)
     body = ET.tostring(root, encoding="unicode")
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{body}\n'
+
+
+_DERIVED = {"N": {"kg": 1, "m": 1, "s": -2}, "J": {"kg": 1, "m": 2, "s": -2}}
+_DERIVED |= {"W": {"kg": 1, "m": 2, "s": -3}, "Pa": {"kg": 1, "m": -1, "s": -2}, "Hz": {"s": -1}}
+_BASE = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
+
+
+def powers(unit: str) -> dict[str, int] | None:
+    """Return the powers of base units in a unit; None for a unit that is not known.
+
+    Examples
+    --------
+    >>> powers("N s/m")
+    {'kg': 1, 's': -1}
+    >>> powers("furlong") is None
+    True
+    """
+    factors = powers_of(unit)
+    if factors is None or not factors.keys() <= {*_BASE, *_DERIVED}:
+        return None
+    found: Counter[str] = Counter()
+    for name, power in factors.items():
+        for base, exponent in _DERIVED.get(name, {name: 1}).items():
+            found[base] += power * exponent
+    return {base: found[base] for base in _BASE if found[base]}

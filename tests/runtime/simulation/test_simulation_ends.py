@@ -114,7 +114,7 @@ def test_who_follows_the_advice_is_not_refused(
     """The method and backend that a message advises are available in every build."""
     linked = None if release == "none" else SimpleNamespace(version=lambda: release)
     monkeypatch.setattr(solvers, "sundials", linked)
-    monkeypatch.setattr(simulation, "_warned", True)
+    monkeypatch.setattr(simulation, "_warn_once", lambda: None)
     model = SimpleNamespace(
         equations=SimpleNamespace(ADDRESSES={"rhs": 1} if compiled else {}),
         state_names=("q",) if moves else (),

@@ -28,7 +28,7 @@ from kintrafo import (
 from kintrafo.vehicle.analysis.checkup import checkup
 from kintrafo.vehicle.analysis.scenario import Scenario, run
 from kintrafo.vehicle.assembly.by_wheel import flat
-from kintrafo.vehicle.assembly.measures import rigid_axle_rolling as formulas
+from kintrafo.vehicle.assembly.measures import rigid_axle as formulas
 from kintrafo.vehicle.assembly.measures.whole_axle import wheel_rate, wheel_rate_alone
 from kintrafo.vehicle.assembly.rigid_axle_parts import RigidAxleParts
 from kintrafo.vehicle.assembly.whole_axle_kinematics import RigidAxleKinematics

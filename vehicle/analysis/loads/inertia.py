@@ -8,7 +8,7 @@ from ....core.named_types import Array
 from ....core.vectors import cross
 from ....systems.system import System
 from ...assembly.load import Load
-from ...assembly.mass import PartMass
+from ...assembly.part_poses import PartMass
 
 # Accelerations of parts are differences of fourth order of their velocities along the motion, over
 # a step in which no state changes by more than this [rad, m, rad/s, m/s]: the error is of its

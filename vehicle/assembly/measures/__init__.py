@@ -7,7 +7,6 @@
     `whole_axle`   springs and dampers of any axle without sides
     `rolling`      track, roll moment and roll stiffness of two wheels: the formulas
     `axle_rolling` roll centre, jacking and the anti-roll bar of two corners
-    `rigid_axle_rolling` roll centre and jacking of a rigid axle
     `pitching`     anti-dive, anti-lift and anti-squat
     `ackermann`    comparisons of two steered wheels
 

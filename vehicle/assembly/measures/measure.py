@@ -115,11 +115,6 @@ def columns(measures: Iterable[Measure], wheels: Sequence[str]) -> dict[str, Qua
     }
 
 
-def some_of_axle(measures: Iterable[Measure], names: Container[str] | None) -> bool:
-    """Return whether some measures belong to an axle."""
-    return any(m.scope == "axle" and (names is None or m.name in names) for m in measures)
-
-
 def _wanted(
     measures: Iterable[Measure], wheels: Sequence[str], names: Container[str] | None
 ) -> Iterator[tuple[Measure, Mapping[str, str]]]:

@@ -1,14 +1,52 @@
-"""The measures of a rigid axle."""
+"""The measures of a rigid axle, with the formulas of its roll centre and of jacking.
+
+Source: J. C. Dixon, Suspension Geometry and Computation, Wiley, 2009 (rigid axles).
+"""
 
 from dataclasses import replace
 
+import numpy as np
+
+from ....core.named_types import Array
 from ...models.rigid_axle.model import HEAVE, ROLL
+from ...models.rigid_axle.structure import BEAM
+from ...models.sides import LEFT, RIGHT, SIDES
+from ..whole_axle_kinematics import RigidAxleKinematics
 from . import pitching, rolling
-from . import rigid_axle_rolling as rolls
 from .corner import GROUND, PITCH
 from .measure import Measure, of_axle, of_wheel
 from .quantities import QUANTITIES
-from .whole_axle import SPRINGS, is_at, signal
+from .whole_axle import SPRINGS, dot, is_at, signal
+
+
+def roll_center_height(beam: RigidAxleKinematics) -> Array:
+    """Return the height of the roll centre above the line through the contacts [m].
+
+    In front view it lies on the perpendicular bisector of the contacts: the point that does not
+    move along the line through the contacts when the axle rolls and their middle does not move
+    across this line. A force along the line at this point does no work in roll.
+    """
+    left, right = (beam.contact(side) for side in SIDES)
+    middle, line = 0.5 * (left + right), (left - right)[:, 1:]
+    line = line / np.linalg.norm(line, axis=-1, keepdims=True)
+    across = np.stack([-line[:, 1], line[:, 0]], -1)
+    roll, heave = (beam.velocity_of(BEAM, middle, by)[:, 1:] for by in (ROLL, HEAVE))
+    times = -dot(across, roll) / dot(across, heave)
+    velocity = roll + times[:, None] * heave
+    turning = beam.turning_of(BEAM, ROLL)[:, 0] + times * beam.turning_of(BEAM, HEAVE)[:, 0]
+    return dot(line, velocity) / turning
+
+
+def jacking(beam: RigidAxleKinematics) -> Array:
+    """Return the lift of the body by a force on the tyres to the left, over that force [1].
+
+    By virtual work the force pushes the axle up, and the body down, if the axle moves to the left
+    as it rises.
+    """
+    middle = 0.5 * (beam.contact(LEFT) + beam.contact(RIGHT))
+    velocity = beam.velocity_of(BEAM, middle, HEAVE)
+    return -velocity[:, 1] / velocity[:, 2]
+
 
 _ON_AXLE = "contacts with brakes on the axle, wheel centres with inboard ones"
 _IN_AXLE = "contacts with the final drive in the axle, wheel centres with it on the body"
@@ -46,11 +84,11 @@ GUIDANCE = (
 
 ON_THE_ROAD = (
     of_axle(
-        "roll_center_height", rolls.roll_center_height, GROUND,
+        "roll_center_height", roll_center_height, GROUND,
         definition="point midway between the contacts that does not move along the line through "
         "them as the axle rolls and the middle between the contacts stays on that line",
     ),
-    Measure(_JACKING, rolls.jacking, "axle", GROUND),
+    Measure(_JACKING, jacking, "axle", GROUND),
     of_axle(
         "anti_dive", pitching.braking, (*PITCH, "front_brake_share"), is_at("front"),
         "b (L / h) v_x / v_z under braking: brake share b, wheelbase L, height h of the gravity "

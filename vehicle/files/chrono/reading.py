@@ -16,7 +16,7 @@ from .macpherson import MacPhersonStrut, StrutPoints
 from .points_only import with_points
 from .semi_trailing_arm import SemiTrailingArm, TrailingPoints
 from .suspension_file import PointsFile, SuspensionFile
-from .tires import USUAL, Tire, read_tire
+from .tires import USUAL, Tire, tire_of
 
 _TEMPLATES: Mapping[str, tuple[type[PointsFile], type[SuspensionFile]]] = {
     whole.TEMPLATE: (points, whole)
@@ -89,7 +89,8 @@ def read(
     data = content(path)
     if points_only:
         return _points_of(checked(_template(data, path)[0], data, path), data, path)
-    given, wheel = suspension_file(data, path), USUAL if tire is None else read_tire(tire)
+    given = suspension_file(data, path)
+    wheel = USUAL if tire is None else tire_of(content(tire), tire)
     found = imported(given, data, path, wheel)
     alone = (*given.assumed_alone(wheel), *found.assumptions, *ground(found.suspension))
     return found._replace(

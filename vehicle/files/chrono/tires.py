@@ -12,7 +12,7 @@ from pydantic import Field, ValidationError
 from ....core.errors import InputError
 from ....core.legible import legible, short
 from ...input.bodies import impossible_inertia
-from ...input.commented_json import content
+from ...input.commented_json import entry
 from ...input.teim_orbit import read_blocks
 from ...input.teim_values import MILLIMETRES, Values, number, unit_of
 from .keys import Part, Place, Unread, leaves, listed, meant, problem_of, shown, slip
@@ -99,16 +99,11 @@ USUAL = Tire(None, _Values().mass, _Values().inertia)
 """The default tire, of a passenger car, with its rim."""
 
 
-def read_tire(path: str | Path) -> Tire:
-    """Return the tire of a file, which may name another one beside it."""
-    return tire_of(content(path), path)
-
-
 def tire_of(data: dict[str, Any], path: str | Path) -> Tire:
-    """Return the tire of the content of a file; see `read_tire`."""
+    """Return the tire of the content of a file, which may name another one beside it."""
     template = _template(data, path)
     places = _TEMPLATES[template]
-    there = {n: p for n, p in places._asdict().items() if p and _at(data, p) is not None}
+    there = {n: p for n, p in places._asdict().items() if p and entry(data, p) is not None}
     if "curve" in there:
         there.pop("rate", None)
     problems = [
@@ -120,7 +115,7 @@ def tire_of(data: dict[str, Any], path: str | Path) -> Tire:
     ]  # fmt: skip
     given = {name: place for name, place in there.items() if name in _Values.model_fields}
     try:
-        values = _Values.model_validate({name: _at(data, p) for name, p in given.items()})
+        values = _Values.model_validate({name: entry(data, p) for name, p in given.items()})
     except ValidationError as error:
         details = error.errors()
         problems += [
@@ -135,7 +130,7 @@ def tire_of(data: dict[str, Any], path: str | Path) -> Tire:
                 "leave the tire out and enter its values in the new file."
             )
     unread = list(_unread(data, {*_FORMAL, *given.values()}))
-    missing = [place for place in places if place and _at(data, place) is None]
+    missing = [place for place in places if place and entry(data, place) is None]
     problems += _slips(unread, missing)
     if problems:
         raise InputError(problems, str(path))
@@ -143,7 +138,7 @@ def tire_of(data: dict[str, Any], path: str | Path) -> Tire:
     of_elements = f"tire: {USUAL.mass:g} kg and the inertia of a usual one, as its file has none"
     assumed = [] if places.mass else [of_elements]
     if "file" in there:
-        radius, text = _radius_in(Path(path).parent, str(_at(data, there["file"])))
+        radius, text = _radius_in(Path(path).parent, str(entry(data, there["file"])))
         tire = replace(tire, radius=radius if tire.radius is None else tire.radius)
         assumed.append(text)
     left = [f"tire > {line}" for line in listed(unread)]
@@ -161,7 +156,7 @@ def _template(data: dict[str, Any], path: str | Path) -> str:
             f'"Template" is {shown(template)}; of tires, these can be read: {known}. Leave the '
             "tire out and enter its values in the new file."
         )
-    elif template == "MFTire" and (unit := _at(data, ("UNITS", "LENGTH"))) not in ("meter", "m"):
+    elif template == "MFTire" and (unit := entry(data, ("UNITS", "LENGTH"))) not in ("meter", "m"):
         problem = f'"UNITS > LENGTH" is {shown(unit)}; only "meter" can be read.'
     else:
         return template
@@ -182,13 +177,6 @@ def _radius_in(folder: Path, name: str) -> tuple[float | None, str]:
         text = f"not known, since it is in {legible(short(name))}: {problem} Enter radius_mm"
         return None, f"radius of the tire: {text} in [tyre]"
     return radius, f"tire: of {legible(short(name))} only UNLOADED_RADIUS is read"
-
-
-def _at(data: Any, place: Place) -> Any:
-    """Return the value at a place, or None."""
-    for key in place:
-        data = data.get(key) if isinstance(data, dict) else None
-    return data
 
 
 def _unread(data: dict[str, Any], used: set[Place], above: Place = ()) -> Iterator[Unread]:

@@ -9,7 +9,7 @@ from .....core.errors import InputError
 from .....core.units import KM_PER_H
 from ....input.section import NonNegative, Positive
 from ..car import DrivingCar
-from ..drivers import Fixed, HeldTorque
+from ..drivers import HeldTorque
 from ..responses import first_crossing
 from ..result import HandlingResult
 from .manoeuvre import Number, Progress
@@ -36,10 +36,7 @@ class Acceleration(UntilSpeed):
         _, straight = self.straight(car)
         end = self.end_speed
         pushes = HeldTorque(straight.unknowns["drive"], self.torque_Nm, 0.0, self.rise_s)
-        motion = self.simulated(
-            car, straight, Fixed(straight.unknowns["steering_wheel"]), pushes, self.duration_s,
-            until=self.ended, progress=progress,
-        )  # fmt: skip
+        motion = self.held(car, straight, pushes, self.duration_s, progress)
         time, speed, x = (motion[name].values for name in ("time", "speed", "x"))
         if speed[-1] < end:
             problem = (

@@ -6,7 +6,7 @@ import numpy as np
 from pydantic import Field
 
 from ..car import DrivingCar
-from ..drivers import Braking, Fixed
+from ..drivers import Braking
 from ..responses import first_crossing
 from ..result import HandlingResult
 from .brakes import BrakingManoeuvre
@@ -27,10 +27,7 @@ class StraightBraking(BrakingManoeuvre):
         _, straight = self.straight(car)
         end = self.end_speed
         pushes = Braking(straight.unknowns["drive"], self.pedal_of(car), self.start_s, self.rise_s)
-        motion = self.simulated(
-            car, straight, Fixed(straight.unknowns["steering_wheel"]), pushes, self.duration_s,
-            until=self.ended, progress=progress,
-        )  # fmt: skip
+        motion = self.held(car, straight, pushes, self.duration_s, progress)
         self.refuse_without_end(motion)
         time, speed, x = (motion[name].values for name in ("time", "speed", "x"))
         begun = float(np.interp(self.start_s, time, x))

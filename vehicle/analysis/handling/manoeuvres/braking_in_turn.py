@@ -10,7 +10,7 @@ from .....core.errors import InputError
 from ....input.section import Positive
 from ..car import DrivingCar
 from ..circle import Turns
-from ..drivers import Braking, Fixed
+from ..drivers import Braking
 from ..result import HandlingResult
 from ..steady import NoSteadyMotionError, Steady, SteadyCondition
 from .brakes import BrakingManoeuvre
@@ -33,10 +33,7 @@ class BrakingInTurn(BrakingManoeuvre, TurningManoeuvre):
         """Return metrics of the motion relative to the steady turn, and the motion."""
         turn = self._steady(car)
         pushes = Braking(turn.unknowns["drive"], self.pedal_of(car), self.start_s, self.rise_s)
-        motion = self.simulated(
-            car, turn, Fixed(turn.unknowns["steering_wheel"]), pushes, self.duration_s,
-            until=self.ended, progress=progress,
-        )  # fmt: skip
+        motion = self.held(car, turn, pushes, self.duration_s, progress)
         self.refuse_without_end(motion)
         return HandlingResult(self.judged(self._numbers(motion) | greatest(motion)), {"": motion})
 

@@ -9,7 +9,7 @@ from .....core.errors import InputError
 from .....core.units import KM_PER_H
 from ....input.section import Positive
 from ..car import DrivingCar
-from ..drivers import Fixed, HeldTorque
+from ..drivers import HeldTorque
 from ..responses import first_crossing
 from ..result import HandlingResult
 from .manoeuvre import Number, Progress
@@ -30,10 +30,7 @@ class CoastDown(UntilSpeed):
         """Return time, distance and driving resistance, and the motion."""
         _, straight = self.straight(car)
         end = self.end_speed
-        motion = self.simulated(
-            car, straight, Fixed(straight.unknowns["steering_wheel"]), HeldTorque(0.0, 0.0),
-            self.duration_s, until=self.ended, progress=progress,
-        )  # fmt: skip
+        motion = self.held(car, straight, HeldTorque(0.0, 0.0), self.duration_s, progress)
         time, speed, x = (motion[name].values for name in ("time", "speed", "x"))
         if speed[-1] > end:
             reason = (

@@ -15,7 +15,7 @@ from ....models.car.slope import Slope
 from ..car import DrivingCar
 from ..circle import Turns
 from ..driven import MOST_SAMPLES, Sampling, driven
-from ..drivers import HeldTorque, Observation, Pushes, SpeedHeld, Steers
+from ..drivers import Fixed, HeldTorque, Observation, Pushes, SpeedHeld, Steers
 from ..result import quantity
 from ..steady import NoSteadyMotionError, Steady, SteadyCondition
 from .manoeuvre import Manoeuvre, Number, Progress
@@ -207,9 +207,16 @@ class UntilSpeed(SimulatedManoeuvre):
     def greatest_distance(self) -> float:
         return super().greatest_distance * max(1.0, self.end_speed / self.speed)
 
-    def ended(self, seen: Observation) -> bool:
-        """Return whether the car has reached the end speed."""
-        return seen.speed <= self.end_speed if self.SLOWS else seen.speed >= self.end_speed
+    def held(
+        self, car: DrivingCar, start: Steady, pushes: Pushes, duration: float, progress: Progress
+    ) -> xr.Dataset:
+        """Return the motion with the steering wheel held, to the end speed or for a duration."""
+
+        def ended(seen: Observation) -> bool:
+            return seen.speed <= self.end_speed if self.SLOWS else seen.speed >= self.end_speed
+
+        steers = Fixed(start.unknowns["steering_wheel"])
+        return self.simulated(car, start, steers, pushes, duration, until=ended, progress=progress)
 
 
 def greatest(motion: xr.Dataset) -> dict[str, Number]:
