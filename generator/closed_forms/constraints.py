@@ -85,7 +85,6 @@ class Coincident(Constraint):
     scale: sp.Expr = sp.S.One
 
     def residual(self) -> sp.Expr:
-        """Return their distance along the direction, times the scale."""
         return self.along.dot(self.p2 - self.p1) * self.scale
 
     def rate(self, one: Moving, two: Moving) -> sp.Expr:
@@ -114,7 +113,6 @@ class Guided(Coincident):
         return self.along.dot(self._slip(one, two)) * self.scale
 
     def acceleration(self, one: Moving, two: Moving) -> sp.Expr:
-        """Return its acceleration relative to the first body, along the direction."""
         pull = two.acceleration_of(self.p2) - one.acceleration_of(self.p2)
         slip = self._slip(one, two)
         if self.guide is not None:
@@ -138,11 +136,9 @@ class Perpendicular(Constraint):
         return self.a1.dot(self.b2)
 
     def rate(self, one: Moving, two: Moving) -> sp.Expr:
-        """Return the rate of the cosine."""
         return (two.omega - one.omega).dot(self.b2.cross(self.a1))
 
     def acceleration(self, one: Moving, two: Moving) -> sp.Expr:
-        """Return the second derivative of the cosine."""
         a_rate, b_rate = one.omega.cross(self.a1), two.omega.cross(self.b2)
         changing = b_rate.cross(self.a1) + self.b2.cross(a_rate)
         relative = (two.omega - one.omega).dot(changing)
@@ -164,11 +160,9 @@ class FixedDistance(Constraint):
         return (self.rod_vector.dot(self.rod_vector) - self.squared) * (self.scale / 2)
 
     def rate(self, one: Moving, two: Moving) -> sp.Expr:
-        """Return the rate of the residual."""
         return self.rod_vector.dot(self._rate(one, two)) * self.scale
 
     def acceleration(self, one: Moving, two: Moving) -> sp.Expr:
-        """Return the second derivative of the residual."""
         rate = self._rate(one, two)
         pull = two.acceleration_of(self.p2) - one.acceleration_of(self.p1)
         return (self.rod_vector.dot(pull) + rate.dot(rate)) * self.scale

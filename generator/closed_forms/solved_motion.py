@@ -71,7 +71,6 @@ class TargetPoint(PlacedBody):
         return Moving(velocity=self._seen(k, self.of.motion.get(k, ZERO)))
 
     def biases(self) -> Moving:
-        """Return its bias acceleration."""
         return Moving(acceleration=self._seen("bias", self.of.bias))
 
 

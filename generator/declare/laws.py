@@ -151,7 +151,6 @@ class LinearSpring(AnyLaw):
         return _with_formula(self)
 
     def problems(self, path: AnyPath) -> list[str]:
-        """Return problems of its free slide or length on a path."""
         if self.free_slide is not None and not path.has_slide:
             return ["a free_slide needs a telescope; give its spring a free_length"]
         return _of_either_sign(self.free_length, path)
@@ -340,7 +339,6 @@ class SpringTable(AnyTable):
     ends = "by compression before", "by compression behind"
 
     def problems(self, path: AnyPath) -> list[str]:
-        """Return a problem on a path of an angle."""
         if path.words.force == "moment":
             return [f"the lengths of {self.name!r} are in m, and a twist has none"]
         return []
@@ -414,7 +412,6 @@ class Stop(AnyLaw):
         return f"force of the {self.side} stop"
 
     def problems(self, path: AnyPath) -> list[str]:
-        """Return problems of its length on a path."""
         return _of_either_sign(self.length, path)
 
     def events_of_length(self, element: str) -> tuple[Event, ...]:

@@ -186,7 +186,6 @@ class CarAssembly(Assembly):
             given.fail(f"travel: the motion {motion!r} moves the body by along. Leave it out.")
 
     def measures(self, motion: str) -> tuple[Measure, ...]:
-        """Return its characteristics over a motion: those of its axles, or of its corner."""
         own = {end: part.measures(self._motion_of(part, motion)) for end, part in self.held.items()}
         return measures_of_axles(own) if self.axles else own[""]
 

@@ -285,12 +285,10 @@ def _print(
     from ..assembly.by_wheel import flat
 
     for motion, dataset in curves.items():
-        shown = only(of, dataset)
-        if len(assembly.wheels) == 1:
-            for table in at_design(shown, f"{file}: characteristics over {motion}, "):
-                print_table(table)
-        elif motion == assembly.usual_motion:
-            for table in at_design(shown, f"{file}: "):
+        shown, alone = only(of, dataset), len(assembly.wheels) == 1
+        if alone or motion == assembly.usual_motion:
+            words = f"characteristics over {motion}, " if alone else ""
+            for table in at_design(shown, f"{file}: {words}"):
                 print_table(table)
         else:
             if not of:

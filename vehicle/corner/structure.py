@@ -182,7 +182,6 @@ class TelescopeJoint(PartJoint):
         return loads
 
     def directions(self, points: Points) -> Array:
-        """Return two directions normal to its axis."""
         return np.stack(frame(points[self.end] - points[self.at[0]])[1:], axis=-2)
 
     def right_angles(

@@ -243,7 +243,6 @@ curve in `[damper]`, the spring a rate in `[strut]` or a curve in `[spring]`."""
         return {name: mass for name, mass in masses.items() if mass > 0.0}
 
     def without_friction(self) -> Self:
-        """Return the suspension without the friction of its strut."""
         return self.with_changes({"strut.friction_N": 0.0}) if self.strut.friction_N else self
 
     def parameters(self) -> dict[str, float]:
@@ -304,7 +303,6 @@ curve in `[damper]`, the spring a rate in `[strut]` or a curve in `[spring]`."""
         return (LengthLimit("strut_length", in_metres(least, "mm"), "strut", end),)
 
     def rate_key(self, part: str) -> str:
-        """Return the key of the rate of spring or damper, which is usually in [strut]."""
         if part == "spring" and self.spring is not None:
             return super().rate_key(part)
         return super().rate_key(part).replace(f"[{part}] ", f"[strut] {part}_")

@@ -24,7 +24,7 @@ from ...pictures.figures import METADATA, STYLE, lay_out, save
 from ..analysis.characteristics.groups import ORDER, group_of
 from ..assembly.by_wheel import AXLE, WHEEL
 from ..studies.goals import Goal
-from .goals import about, mark_sides
+from .goals import about, mark
 
 FORMATS = ("png", "svg", "pdf")
 # Main curves over travel and roll, and over the rack.
@@ -304,8 +304,12 @@ def figure(
     matplotlib.figure.Figure
     """
 
-    def mark(axes: Axes, data: xr.DataArray, along: str, colours: Mapping[str, str]) -> Array:
-        return mark_sides(axes, about(goals, data, along), colours)
+    def marked(axes: Axes, data: xr.DataArray, along: str, colours: Mapping[str, str]) -> Array:
+        # goals of one side in the colour of its curve
+        of_sides = about(goals, data, along).items()
+        return np.concatenate(
+            [mark(axes, own, side, colours.get(side, "")) for side, own in of_sides]
+        )
 
     with Validator("figures") as given:
         given.dataset(dataset)
@@ -313,5 +317,5 @@ def figure(
     return draw(
         dataset.assign_coords(words), names, title=title, alone=alone, columns=columns,
         positions=_WITH_DESIGN,
-        upright=_UPRIGHT, mark=mark,
+        upright=_UPRIGHT, mark=marked,
     )  # fmt: skip

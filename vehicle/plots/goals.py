@@ -1,6 +1,6 @@
 """Targets and limits of characteristics, drawn into their curves."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 
 import numpy as np
 import xarray as xr
@@ -55,15 +55,6 @@ def but_name(goal: Goal) -> tuple[type, dict[str, list[float] | str]]:
     """Return all attributes of a goal but its name, for comparisons."""
     values = {key: np.asarray(value).tolist() for key, value in vars(goal).items() if key != "name"}
     return type(goal), values
-
-
-def mark_sides(
-    axes: Axes, goals: Mapping[str, Iterable[Goal]], colours: Mapping[str, str]
-) -> NDArray[np.float64]:
-    """Draw the goals of `about`, those of one side in the colour of its curve; see `mark`."""
-    return np.concatenate(
-        [mark(axes, some, side, colours.get(side, "")) for side, some in goals.items()]
-    )
 
 
 def mark(
