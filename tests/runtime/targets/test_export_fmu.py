@@ -18,7 +18,7 @@ from kintrafo.targets.emitted import Emitted
 from kintrafo.targets.fmi import binaries
 from kintrafo.targets.fmi.sources import library_files
 from kintrafo.targets.fmi.tables import any_tables
-from kintrafo.targets.fmi.units import powers
+from kintrafo.targets.fmi.xml import powers
 from mechanisms.scotch_yokes import WHEEL_ON_A_YOKE
 from support.c_text import EMITTED
 from support.exported import needs_library, system_named
