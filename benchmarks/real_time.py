@@ -4,7 +4,6 @@
 each step is stable, one at a time by `Stepper`, and in a loop over the equations in Python.
 """
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated
 
@@ -22,8 +21,8 @@ STEPS = (50e-3, 20e-3, 10e-3, 5e-3, 2e-3, 1e-3, 0.5e-3)  # [s]
 REPEATS = 5
 
 
-def rows(steps: tuple[float, ...], unstable: dict[float, float]) -> Iterator[tuple[str, ...]]:
-    """Yield the row of each step; `unstable` receives the others, with the longest stable step."""
+def measured(steps: tuple[float, ...]) -> tuple[list[tuple[str, ...]], dict[float, float]]:
+    """Return the row of each stable step, and the longest stable step for each of the others."""
     model = Model("reference_car")
     start = state_at_height(model, 0.325, spin_rate=93.0)
     truth = simulate(model, SPAN, start, method="DOP853", t_eval=TIMES, rtol=1e-13, atol=1e-15).y[0]
@@ -32,6 +31,7 @@ def rows(steps: tuple[float, ...], unstable: dict[float, float]) -> Iterator[tup
         seconds_of(lambda: [model.evaluate("rhs", start, inputs) for _ in range(400)])
         for _ in range(REPEATS)
     )
+    rows, unstable = [], {}
     for step in steps:
         stepper = Stepper(model, step, equilibrium(model))
         shown = f"{step * 1e3:g}"
@@ -53,11 +53,12 @@ def rows(steps: tuple[float, ...], unstable: dict[float, float]) -> Iterator[tup
             )
             for _ in range(REPEATS)
         )
-        yield (
+        rows.append((
             shown, count(found.steps), count(found.nfev),
             f"{np.abs(found.y[0] - truth).max():.1e}", f"{taken / (20.0 / step) * 1e6:.2g}",
             f"{stepped / 1000.0 * 1e6:.2g}", f"{in_python / 100.0 * 1e6:.2g}",
-        )  # fmt: skip
+        ))  # fmt: skip
+    return rows, unstable
 
 
 def run(
@@ -70,8 +71,8 @@ def run(
         "step [ms]", "steps", "evaluations", "error [rad]", "a step in `simulate` [µs]",
         "one of `Stepper` [µs]", "four evaluations in Python [µs]",
     )  # fmt: skip
-    unstable: dict[float, float] = {}
-    table = markdown_table(header, list(rows(STEPS[:2] if quick else STEPS, unstable)))
+    rows, unstable = measured(STEPS[:2] if quick else STEPS)
+    table = markdown_table(header, rows)
     sentences = [
         f"A step of {step * 1e3:g} ms is an error, since it is not stable: the longest stable step "
         f"at the time of the error is {longest * 1e3:g} ms."

@@ -36,7 +36,7 @@ class Scene:
     remark: str = ""  # sentence for the reader
 
 
-def of_motion(skeleton: Skeleton, result: Simulation, remark: str = "") -> Scene:
+def of_motion(skeleton: Skeleton, result: Simulation) -> Scene:
     """Return the scene of a simulation, with no more than `MOST_FRAMES` of its outputs."""
     count = len(result.t)
     even = np.linspace(result.t[0], result.t[-1], min(count, MOST_FRAMES))
@@ -50,7 +50,6 @@ def of_motion(skeleton: Skeleton, result: Simulation, remark: str = "") -> Scene
         skeleton.places(states, inputs),
         states,
         {name: np.asarray(values)[kept] for name, values in result.signals.items()},
-        remark,
     )
 
 
