@@ -47,7 +47,7 @@ def signals_of(dynamics: Dynamics, output: Output) -> Iterator[Shown]:
         yield Shown(output.name, _angle(dynamics, output), "rad", output.meaning)
     elif isinstance(output, ForceOf):
         unit = "N m" if output.element.turns else "N"
-        yield Shown(output.name, dynamics.total(output.element), unit, output.meaning)
+        yield Shown(output.name, dynamics.acting.total(output.element), unit, output.meaning)
 
 
 def _components(output: OfPoint, value: Vector, unit: str, what: str) -> Iterator[Shown]:

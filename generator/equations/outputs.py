@@ -22,6 +22,7 @@ from ..program.together import share_together
 from ..program.vectors import IDENTITY, ZERO, from_axes
 from ..progress import counted, silent
 from .assumptions import define_assumptions, find_assumptions
+from .closure_residuals import closure_residuals
 from .declared_outputs import signals_of
 from .design import design_state
 from .dynamics import Dynamics
@@ -371,7 +372,7 @@ class _Builder:
         rates = {f"d({name})/dt": rate for name, rate in dynamics.moving.rates().items()}
         accelerations = ((k, dynamics.accelerations[k]) for k in dynamics.coordinates.independent)
         rates |= {f"d({speed_of[k]})/dt": a for k, a in accelerations}
-        rates |= {f"d({name})/dt": rate for name, rate in dynamics.internal_rates.items()}
+        rates |= {f"d({name})/dt": rate for name, rate in dynamics.acting.internal_rates.items()}
         what = f" with {variant.replace('_', ' ')}" if variant else ""
         rhs, jacobian = ("_".join(filter(None, (n, variant))) for n in ("rhs", "rhs_jacobian"))
         self.variant_of |= dict.fromkeys((rhs, jacobian), variant)
@@ -387,7 +388,7 @@ class _Builder:
         values = [
             *dynamics.moving.rates().values(),
             *dynamics.to_differentiate().values(),
-            *dynamics.internal_rates.values(),
+            *dynamics.acting.internal_rates.values(),
         ]
         self._add_derivatives(program, jacobian, f"of {rhs}", values, labels, "state")
         if rhs == "rhs":
@@ -447,7 +448,7 @@ class _Builder:
             (len(values), len(names)),
         )
         free = {name: sp.Symbol(f"given_{name}") - value for name, value in self._free().items()}
-        residuals = self._in_order([free, *(r.residuals() for r in self.relative.values())])
+        residuals = self._in_order([free, *(closure_residuals(r) for r in self.relative.values())])
         self._add(
             "residuals",
             "Closure residuals g(beta, q) for given beta.",
@@ -585,7 +586,7 @@ class _Builder:
         declared = (s for o in self.mechanism.outputs for s in signals_of(self.dynamics, o))
         taken = {e.name: "an element of the state" for e in self.states.entries}
         taken |= {i.name: "an input" for i in self._inputs()} | {TIME: "the time"}
-        for shown in (*self.dynamics.signals(), *declared):
+        for shown in (*self.dynamics.acting.signals(self.dynamics.accelerations), *declared):
             if shown.name in results:
                 problem = f"two signals are named {shown.name!r}; give the output another name"
                 raise DeclarationError(self.formulation.name, [problem])
