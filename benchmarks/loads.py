@@ -2,9 +2,11 @@
 
 import os
 import platform
+import re
 import shutil
 import tempfile
 import timeit
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -18,6 +20,7 @@ from .report import fill_page, milliseconds
 
 ROOT = Path(__file__).parent.parent
 PAGE = ROOT / "docs/suspension/loads.md"
+PAGE_OF_BUSHES = ROOT / "docs/suspension/compliance.md"
 IMAGES = ROOT / "docs/images"
 BUSHES = {
     name: {
@@ -91,8 +94,16 @@ def _along(model: Model) -> Callable[[], object]:
     return lambda: loads.along(model, motion)
 
 
+def _bushes_of_page() -> dict[str, Any]:
+    """Return the bushes of the first file on the page whose pictures show them."""
+    page = PAGE_OF_BUSHES.read_text(encoding="utf-8")
+    (text,) = re.findall(r"```toml\n(# bushes\.toml\n.*?)```", page, re.DOTALL)
+    bushes: dict[str, Any] = tomllib.loads(text)["bushings"]
+    return bushes
+
+
 def _draw() -> None:
-    """Draw the pictures of the page."""
+    """Draw the pictures of both pages."""
     # its strut stands beside the ball joint, so that their forces do not cover each other
     found = loads.static(Model("offset_strut_car"))
     with tempfile.TemporaryDirectory() as name:
@@ -101,13 +112,13 @@ def _draw() -> None:
             found, [path], "brake", ["knuckle"], title="offset strut"
         )
         shutil.copyfile(written, IMAGES / "loads.png")
-        car = MODELS["reference_car"]
-        sheet = compliance.linear(car, BUSHES["reference_car"])
+        car, bushes = MODELS["reference_car"], _bushes_of_page()
+        sheet = compliance.linear(car, bushes, held="spring")
         curves.write_overview(
             sheet.drop_dims(["moved", "by"]), path, title=f"reference car, {sheet.attrs['held']}"
         )
         shutil.copyfile(path, IMAGES / "compliance.png")
-        elastic = compliance.elastokinematics(car, BUSHES["reference_car"])
+        elastic = compliance.elastokinematics(car, bushes)
         curves.write_overview(elastic, path, title="reference car", force=True)
         shutil.copyfile(path, IMAGES / "elastokinematic.png")
 

@@ -56,7 +56,8 @@ def export_model(
         Files that are never replaced, such as that of the suspension.
     **options
         Of 'fmu': ``fmi``, the version of the standard, 2 (default) or 3; ``platforms``, a sequence
-        of 'linux' and 'windows' for compiled libraries, by default this platform.
+        of 'linux' and 'windows' for compiled libraries, by default 'linux' on
+        Linux for x86-64, and none elsewhere.
 
     Returns
     -------

@@ -53,7 +53,7 @@ class RigidAxleAssembly(WholeAxleAssembly):
     @property
     def words(self) -> str:
         rods = ", ".join(self.axle.rods).replace("_", " ")
-        return f"A {self.axle.heading()} on {len(self.axle.rods)} rods, {rods}."
+        return f"A {self.axle.heading()} on {len(self.axle.rods)} rods: {rods}."
 
     def soft_lines(self, poses: Mapping[str, Any]) -> dict[str, SoftLines]:
         if not self.axle.overheld:

@@ -163,13 +163,13 @@ def swing_arm_length_geometric(corner: Corner) -> Array:
 
 
 def side_view_swing_arm_angle(corner: Corner) -> Array:
-    """Return the slope of the contact's path in side view, wheel locked [rad]."""
+    """Return the angle of the contact's path from the vertical, wheel locked [rad]."""
     velocity = contact_velocity(corner)
     return np.arctan2(velocity[..., 0], velocity[..., 2])
 
 
 def side_view_hub_angle(corner: Corner) -> Array:
-    """Return the slope of the wheel centre's path in side view [rad]."""
+    """Return the angle of the wheel centre's path from the vertical [rad]."""
     return np.arctan2(corner.travel.velocity[..., 0], corner.travel.velocity[..., 2])
 
 

@@ -41,7 +41,8 @@ __all__ = ["COMMANDS", "app", "run"]
 
 _EXIT_CODES = (
     "Exit codes: 0 done; 1 no result, or an invalid one, or [bold]check[/bold] found a problem; "
-    "2 a mistake in the arguments or in a file; 3 a required package is not installed.\n\n"
+    "2 a mistake in the arguments or in a file; 3 a required package is not installed; "
+    "130 Ctrl-C.\n\n"
     "Not listed: [bold]kintrafo schema[/bold], the JSON Schema of input files for editors, and "
     "[bold]kintrafo paper[/bold], the figures of the paper."
 )

@@ -54,8 +54,8 @@ def command(
     platform: Annotated[
         list[str] | None,
         option(
-            "Systems of the library: linux, windows, or none for sources only. Default: this "
-            "system.",
+            "Systems of the library: linux, windows, or none for sources only. Default: linux on "
+            "Linux for x86-64, elsewhere none.",
             "NAME,...",
         ),
     ] = None,

@@ -39,7 +39,7 @@ def command(
     car: Annotated[bool, option("Write the file of a car, which names its axles.")] = False,
     force: Force = False,
 ) -> None:
-    """Write an annotated hardpoint file to begin with: every key, its unit and its sign."""
+    """Write an annotated input file to begin with: every key, its unit and its sign."""
     from ..data.starter import write_starter
     from ..kinds import KINDS
 

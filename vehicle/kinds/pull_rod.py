@@ -55,7 +55,7 @@ class PullRodBodies(RockerBodies):
     MASSLESS: ClassVar[tuple[str, ...]] = ("tie_rod", "rack", "pull_rod")
 
     pull_rod: PullRodBody = Field(
-        default=PullRodBody(mass_kg=0.0), description="the pull rod, without mass"
+        default=PullRodBody(mass_kg=0.0), description="the pull rod, whose mass must be 0"
     )
 
 

@@ -66,9 +66,9 @@ class BeamSection(Section):
     """The beam between both arms."""
 
     shear_center_x_mm: Number = Field(
-        description="shear centre of the beam's section in the vehicle's centre plane, forward"
+        description="x of the shear centre of the beam's section in the vehicle's centre plane"
     )
-    shear_center_z_mm: Number = Field(description="the same, upward")
+    shear_center_z_mm: Number = Field(description="z of the shear centre there")
     rate_Nm_per_deg: _Rate = Field(  # noqa: N815 (N is the newton)
         description="torque per twist of the beam, with warping and a bar inside the beam"
     )

@@ -193,6 +193,8 @@ def _in_columns(axes: Axes, labels: Sequence[Annotation]) -> None:
 
     Their offsets are in points.
     """
+    if not labels:
+        return
     figure = axes.get_figure(root=True)
     assert figure is not None
     pixels = figure.dpi / _POINTS

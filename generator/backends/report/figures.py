@@ -130,7 +130,7 @@ def bodies(plan: Plan) -> Figure:
         for point in np.unique(points.round(9), axis=0):
             style = ":" if at_rest else "-"
             axes.plot(*zip(center, point, strict=True), style, color=colour, lw=1 if at_rest else 3)
-            obstacles += [center + share * (point - center) for share in (0.25, 0.5, 0.75, 1.0)]
+            obstacles += [center + share * (point - center) for share in np.linspace(0.1, 1.0, 10)]
     letters = [(text, view @ point) for text, point in _letters(mechanism.joints, ends)]
     spots = [at for _, at in letters]
     for text, colour, center in marks:
@@ -141,16 +141,15 @@ def bodies(plan: Plan) -> Figure:
         axes.text(
             at[0], at[1], text, ha="center", va="center", size=12, color="white", zorder=5, bbox=box
         )
-        spots.append(at)
+        spots += [at, *_around(at, 0.035 * size)]
     short = all(len(text) <= 5 for text, _ in letters)
     legend = []
     for place_of, (text, seen) in zip("abcdefghijklmnopqrstuvwxyz", letters, strict=False):
-        at = _free(seen, [*spots, *obstacles], 0.05 * size)
-        spots.append(at)
+        words = text if short else place_of
+        at = _free(seen, [*spots, *obstacles], 0.05 * size, 0.015 * size * (len(words) - 1))
+        spots += [at, *_around(at, 0.02 * size)]
         axes.plot(*seen, "o", ms=6, mfc="white", mec=INK, zorder=4)
-        axes.text(
-            at[0], at[1], text if short else place_of, ha="center", va="center", size=13, zorder=6
-        )
+        axes.text(at[0], at[1], words, ha="center", va="center", size=13, zorder=6)
         legend += [] if short else [f"{place_of}{HELD}{text.replace('_', HELD)}"]
     names = ", ".join(f"{n}{HELD}{b.replace('_', HELD)}" for b, n in mechanism.numbers.items())
     lines = [_filled(names), *([_filled("; ".join(legend))] if legend else [])]
@@ -183,11 +182,21 @@ def _held(mechanism: Mechanism, ends: dict[str, list[Any]]) -> dict[str, list[An
     return held
 
 
-def _free(at: Any, others: list[Any], radius: float) -> Any:
-    """Return the position around a point that is farthest from all others."""
+def _around(at: Any, radius: float) -> list[Any]:
+    """Return positions around a point."""
     angles = np.arange(16) * np.pi / 8
-    around = [at + radius * np.array([np.cos(a), np.sin(a)]) for a in angles]
-    return max(around, key=lambda p: min(round(float(np.hypot(*(p - o))), 9) for o in others))
+    return [at + radius * np.array([np.cos(a), np.sin(a)]) for a in angles]
+
+
+def _free(at: Any, others: list[Any], radius: float, half_width: float = 0.0) -> Any:
+    """Return the position around a point where a text of a width is farthest from all others."""
+    along = [np.array([half_width * share, 0.0]) for share in (-1.0, 0.0, 1.0)]
+
+    def distance(place: Any) -> float:
+        gaps = [np.hypot(*(place + part - other)) for part in along for other in others]
+        return round(float(min(gaps)), 9)
+
+    return max(_around(at, radius), key=distance)
 
 
 def _points(joint: Joint) -> list[Point]:

@@ -5,7 +5,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 from cars.rigid_axles import LOPSIDED, STOPPED
-from kintrafo import Model, loads
+from kintrafo import Axle, Model, loads
 from kintrafo.vehicle.plots.loads import free_bodies
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
@@ -53,3 +53,11 @@ def test_every_force_is_drawn_and_the_part_connects_its_points():
         assert len(heads) + len(across) == forces.sum()
         members = [line for line in axes.get_lines() if line.get_linewidth() == 6.0]
         assert len(members) == points - 1
+
+
+def test_a_part_without_forces_is_drawn_without_labels():
+    """The anti-roll bar of an axle at design, and its drop links."""
+    found = loads.static(Axle.load("reference_axle"), {"static": {"contact_g": [0.0, 0.0, 1.0]}})
+    figure = free_bodies(found, "static", ["anti_roll_bar", "drop_link_left"])
+    assert [len(axes.texts) for axes in figure.axes] == [0] * 4
+    assert all(axes.get_lines() for axes in figure.axes)

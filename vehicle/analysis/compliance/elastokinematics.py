@@ -119,8 +119,9 @@ def elastokinematics(
     Notes
     -----
     The equilibrium of all parts is found by Newton's method in six coordinates of each part;
-    displacements may be of any size. Bushes turn with the first part of the joint; torsion and
-    tilting stiffnesses are relaxed at design.
+    displacements may be of any size. The axes of a bush turn with the part nearer to the chassis,
+    those of a bush of a rod at a rigid axle with the axle. Torsion and tilting stiffnesses are
+    relaxed at design.
 
     Examples
     --------

@@ -332,25 +332,20 @@ class _Search:
         """Return why spring and stops of a single wheel do not carry a case, with advice."""
         low, high = (1e3 * end for end in reach.height)
         if held[-1] < 0.0:
-            problem = f"{-held[-1]:.4g} N too much for spring and stops even near the upper end"
+            problem = f"{_excess(held[-1])}, also near the upper end"
         elif held[0] > 0.0:
-            problem = f"it lifts the wheel by {held[0]:.4g} N too much even near the lower end"
+            problem = f"{_excess(held[0])}, also near the lower end"
         else:
             problem = "no position is stable"
         return (
             f"there is no equilibrium between wheel heights of {low:.1f} mm and {high:.1f} mm: "
-            f"{problem}. {self._advice(0, pressed=held[-1] < 0.0, lifted=held[0] > 0.0)}"
+            f"{problem}. {self._advice(0, pressed=held[-1] < 0.0, pulled=held[0] > 0.0)}"
         )
 
     def _at_the_end(self, row: int, missing: Array) -> str:
         """Return why springs and stops of several wheels do not carry a case, with advice."""
         most = int(np.abs(missing).argmax())
         force = missing[most]
-        problem = (
-            f"{-force:.4g} N too much for spring and stops"
-            if force < 0.0
-            else f"a lift of {force:.4g} N too much"
-        )
         poses = self.assembly.at_wheel_coordinates(self.coordinates[[row]], self.loads.racks[[row]])
         travels = [1e3 * (w.center - w.design_center)[0, 2] for _, _, w in wheels_of(poses)]
         where = " and ".join(
@@ -359,18 +354,24 @@ class _Search:
         )
         return (
             f"there is no equilibrium: at travels of {where} wheel {self.assembly.ENDS}, and at "
-            f"the {self.assembly.wheels[most]} one there is {problem}. "
-            f"{self._advice(most, pressed=force < 0.0, lifted=force > 0.0)}"
+            f"the {self.assembly.wheels[most]} one {_excess(force)}. "
+            f"{self._advice(most, pressed=force < 0.0, pulled=force > 0.0)}"
         )
 
-    def _advice(self, wheel: int, *, pressed: bool, lifted: bool) -> str:
-        """Return advice for a wheel that is pressed or lifted too much."""
+    def _advice(self, wheel: int, *, pressed: bool, pulled: bool) -> str:
+        """Return advice for a wheel that is pressed up or pulled down too much."""
         name = self.assembly.wheels[wheel]
         if pressed and not self.assembly.has_stop(name, "bump_stop"):
             return "Add a [bump_stop] to the file, or give the case a travel_mm."
-        if not pressed and lifted and not self.assembly.has_stop(name, "rebound_stop"):
+        if not pressed and pulled and not self.assembly.has_stop(name, "rebound_stop"):
             return "Add a [rebound_stop] to the file, or give the case a travel_mm."
         return "Give the case a travel_mm, or correct the forces."
+
+
+def _excess(force: float) -> str:
+    """Return by how much a load is not carried; `force` is the carried part less the load [N]."""
+    direction = "upward" if force < 0.0 else "downward"
+    return f"spring and stops do not carry {abs(force):.4g} N {direction}"
 
 
 def _changes_sign(values: Array, axes: NDArray[np.int64]) -> Booleans:

@@ -169,7 +169,7 @@ def response(
         spectrum_of.attrs |= _rms(own, frequencies, accelerates=unit == "m/s^2")
         variables[f"{name}_psd"] = spectrum_of
         sizes = np.stack([np.abs(row) for row in rows.values()])
-        by_road = f"size of {words} by the height of the road under a wheel"
+        by_road = f"amplitude of {words} by the height of the road under a wheel"
         variables[f"{name}_by_road"] = variable(("road_wheel", *dims), sizes, by_road, f"{whole}/m")
     of_road = {"long_name": "wheel on the road"} | AS_COLUMNS
     coordinates = {

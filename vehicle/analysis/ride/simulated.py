@@ -53,7 +53,7 @@ def over(
     duration : float, optional
         Duration of the simulation [s]; by default until the rear wheels reach the end of the road.
     settle : float, optional
-        Time from which on RMS and extremes are taken [s]; by default 2 s on a stationary rough
+        Time after which RMS and extremes are taken [s]; by default 2 s on a stationary rough
         road, and 0 on other roads, which may begin with a bump.
     output_step : float, optional
         Time between two outputs [s]; 0.01 s at most, so that accelerations can be weighted.

@@ -97,10 +97,11 @@ _ALL = (
         "lateral distance of contact and instant centre of the links",
         "positive with the centre inboard"),
     Quantity("side_view_swing_arm_angle", "rad", "side-view swing arm angle",
-        "slope of the contact's path with the wheel locked to its carrier, atan(v_Cx / v_Cz)",
+        "angle of the contact's path from the vertical, the wheel locked to its carrier, "
+        "atan(v_Cx / v_Cz)",
         "positive when the contact moves forward in bump"),
     Quantity("side_view_hub_angle", "rad", "side-view hub angle",
-        "slope of the wheel centre's path, atan(v_Wx / v_Wz)",
+        "angle of the wheel centre's path from the vertical, atan(v_Wx / v_Wz)",
         "positive when the wheel centre moves forward in bump"),
     Quantity("anti_dive", "1", "anti-dive",
         "b (L / h) v_Cx / v_Cz: front brake share b, wheelbase L, height h of the gravity centre",

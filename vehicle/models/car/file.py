@@ -45,7 +45,7 @@ class CarBody(RigidBody):
 
     mass_kg: Positive = Field(description="mass of the body, without axles and wheels")
     com_mm: Triple | None = Field(
-        default=None, description="centre of mass at design; needed but for a quarter car"
+        default=None, description="centre of mass at design; required, except for a quarter car"
     )
 
     def default_centre_of_mass(self, points: Hardpoints) -> Vector:

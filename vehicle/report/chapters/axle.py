@@ -105,7 +105,7 @@ def _of_a_whole_axle(
     assert found.axle is not None
     words = [f"Problem: {text}" for text in found.problems]
     words += [f"Note: {text}" for text in found.notes]
-    look = Tabulated("First look", ("", "value"), tuple(found.axle.rows.items()), frozenset({0, 1}))
+    look = Tabulated("Summary", ("", "value"), tuple(found.axle.rows.items()), frozenset({0, 1}))
     with rc_context(STYLE):
         drawing = ChapterPicture.of(
             views(assembly.subject), "The axle from above, from the left and from behind"

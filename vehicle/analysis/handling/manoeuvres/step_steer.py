@@ -87,7 +87,8 @@ class StepSteer(SteeredManoeuvre):
         found["sideslip_steady"] = (slip, "steady sideslip angle, positive to the left", "rad")
         peak = judged["yaw_rate"].peak_time
         found["tb_factor"] = (
-            peak * abs(slip), "TB factor: peak response time of yaw times steady sideslip", "rad s"
+            peak * abs(slip),
+            "TB factor: peak response time of yaw times absolute steady sideslip", "rad s",
         )  # fmt: skip
         return found | greatest(motion)
 
