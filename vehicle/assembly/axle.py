@@ -20,9 +20,8 @@ from ..models.reach import PositionError
 from ..models.sides import LEFT, RIGHT, SENSE, SIDES
 from ..models.whole_axle import WholeAxle
 from . import motions
-from .anti_roll_bar import Bar
+from .anti_roll_bar import Bar, on_the_bar, pull_of_bar, rules_of, turn_of_half
 from .assembly import Bushings, HeldAssembly, WheelNames
-from .axle_coupling import on_the_bar, pull_of_bar, rules_of, turn_of_half
 from .axle_kinematics import AxleKinematics, refuse_loose_link
 from .corner import CornerAssembly, lines_of, poses_of
 from .coupling import BodyPose

@@ -14,9 +14,8 @@ from .candidates import IMPOSSIBLE, Candidates
 from .curves import changed, refuse_bushes
 from .design_variables import DesignVariable, amounts
 from .evaluation import Subject, check_subject
-from .front import compromise, spread, unbeaten
+from .front import check_installed, compromise, evolve, spread, unbeaten
 from .goals import Limit, check_data, limits_of
-from .nsga import check_installed, evolve
 from .objectives import Objective, objectives_of
 from .search import in_words
 from .sweep_axes import sweep_axes_of

@@ -22,7 +22,7 @@ from .linear import (
     root_mean_square,
     weighted_root_mean_square,
 )
-from .subject import car_assembly
+from .rest import car_assembly
 
 _PERCENT = Display("%", 100.0)
 _ALWAYS = "positive always"

@@ -26,7 +26,7 @@ from ...assembly.car import CarAssembly
 from ...assembly.equilibrium import equilibrium
 from ...roads.rough import isotropic_coherence, roughness_of, spectrum
 from .outputs import OUTPUTS_OF_WHEELS, body_outputs, upward
-from .subject import car_assembly
+from .rest import car_assembly
 from .weighting import weighting
 
 Complex = NDArray[np.complex128]

@@ -9,7 +9,7 @@ from ....core.quantities import variable
 from ...assembly.by_wheel import WHEEL, wheel_coordinate
 from ...assembly.car import CarAssembly
 from ...assembly.equilibrium import equilibrium
-from .subject import car_assembly
+from ...assembly.of import car_assembly_of
 
 _OF_BODY = {
     "heave": ("height of the body's centre of mass above that at design", "m"),
@@ -89,3 +89,17 @@ _OF_WHEELS = {
     "camber": ("camber to the vertical, positive with the top outboard", "rad"),
     "toe": ("toe angle, positive toe-in", "rad"),
 }
+
+
+def car_assembly(source: str, subject: Any, *, riding: bool = True) -> CarAssembly:
+    """Return a car as an assembly, or raise an `InputError`; for `riding` if its body travels."""
+    found = car_assembly_of(source, subject, _NEEDED)
+    if riding:
+        found.require_riding()
+    return found
+
+
+_NEEDED = (
+    'a kintrafo.Car, such as kintrafo.load("quarter_car"), is needed; the body of a suspension or '
+    "an axle alone is held"
+)

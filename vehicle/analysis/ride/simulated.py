@@ -15,7 +15,7 @@ from ...assembly.equilibrium import equilibrium
 from ...roads import Road
 from ..run import CAR_ADVICE, MovingCar, Run
 from .outputs import OUTPUTS_OF_WHEELS, body_outputs, upward
-from .subject import car_assembly
+from .rest import car_assembly
 from .weighting import weighted
 
 # More outputs would fill the memory: the step is probably wrong.

@@ -7,8 +7,7 @@ import xarray as xr
 
 from ....core.quantities import displayed, heading_of, names_in_words
 from ....core.tabulated import Tabulated, number
-from ...analysis.ride.rest import of_state, wheels_and_body
-from ...analysis.ride.subject import car_assembly
+from ...analysis.ride.rest import car_assembly, of_state, wheels_and_body
 from ...analysis.run import MovingCar, Run
 from ...assembly.by_wheel import WHEEL
 from ...assembly.equilibrium import equilibrium

@@ -11,7 +11,7 @@ from ....core.units import KM_PER_H
 from ....pictures.figures import STYLE
 from ... import roads
 from ...analysis import ride
-from ...analysis.ride.subject import car_assembly
+from ...analysis.ride.rest import car_assembly
 from ...assembly.by_wheel import WHEEL
 from ...plots.motion.animate import played
 from ...plots.ride import response_figures
