@@ -306,6 +306,37 @@ def test_a_step_response_of_second_order():
     assert np.isnan(responses.first_crossing(time, values, 1.0))
 
 
+def test_a_step_response_is_that_of_the_change():
+    """A car with different sides rolls before the step, to the other side than in the turn."""
+    time = np.linspace(0.0, 10.0, 10001)
+    values = 2.0 * (1.0 - np.exp(-np.maximum(time - 1.0, 0.0)))
+    alone, moved = (responses.step_response(time, values + v, 1.0, 9.0) for v in (0.0, -1.5))
+    assert moved.steady == pytest.approx(alone.steady - 1.5)
+    assert moved[1:] == pytest.approx(alone[1:], nan_ok=True)
+    # the steady value is a mean over the last second
+    assert moved.response_time == pytest.approx(-np.log(1.0 - 0.45 * alone.steady), rel=1e-6)
+    assert np.isnan(moved.peak_time)  # it rises until the end
+    assert moved.drift < 1e-3 < responses.step_response(time, values, 1.0, 1.5).drift
+
+
+def test_a_response_during_the_step_has_no_response_time():
+    """As of the lateral acceleration at walking speed, which follows the steering rate."""
+    time = np.linspace(0.0, 5.0, 5001)
+    values = np.where(time < 1.0, 0.0, 1.0 + 5.0 * np.exp(-(((time - 1.2) / 0.05) ** 2)))
+    found = responses.step_response(time, values, 1.4, 4.5)
+    assert np.isnan(found.response_time)
+    assert found.overshoot == pytest.approx(5.0, rel=1e-6)
+
+
+def test_a_step_steer_that_is_not_steady_at_the_end_is_not_valid(car):
+    steady, early = (
+        run(car, "step_steer", duration_s=end, settled_s=0.4).curves[""].attrs["not_valid"]
+        for end in (5.0, 1.0)
+    )
+    assert not steady
+    assert any("is not steady in the last 0.4 s" in text for text in early)
+
+
 def test_a_frequency_response_of_first_order():
     time = np.linspace(0.0, 30.0, 30001)
     cause = np.exp(-((time - 5.0) ** 2))

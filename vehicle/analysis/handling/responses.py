@@ -34,11 +34,12 @@ def first_crossing(time: Array, values: Array, level: float) -> float:
 def peak(time: Array, values: Array) -> tuple[float, float]:
     """Return the time of the greatest value, and this value.
 
-    They are those of a parabola through the greatest sample and its neighbours.
+    They are those of a parabola through the greatest sample and its neighbours. The time is NaN if
+    the greatest sample is the first or the last one.
     """
     i = int(np.argmax(values))
     if i in (0, values.size - 1):
-        return float(time[i]), float(values[i])
+        return np.nan, float(values[i])
     (t0, t1, t2), (y0, y1, y2) = time[i - 1 : i + 2], values[i - 1 : i + 2]
     slopes = (y1 - y0) / (t1 - t0), (y2 - y1) / (t2 - t1)
     bend = (slopes[1] - slopes[0]) / (t2 - t0)
@@ -52,10 +53,14 @@ class StepResponse(NamedTuple):
     """Metrics of a response to a step (ISO 7401)."""
 
     steady: float  # the value at the end
-    # time from half of the step until 90 % of the steady value is first reached [s]
+    change: float  # the steady value minus the first one
+    # time from half of the step until 90 % of the change is first reached [s]; NaN if it is reached
+    # before, as by a car at walking speed, whose lateral acceleration follows the steering rate
     response_time: float
-    peak_time: float  # time from half of the step until the greatest value [s]
-    overshoot: float  # the greatest value minus the steady one, as a part of the latter
+    # time from half of the step until the greatest change [s]; NaN if it is at the end
+    peak_time: float
+    overshoot: float  # the greatest change minus the steady one, as a part of the latter
+    drift: float  # change within the settled part, between its halves, as a part of `change`
 
 
 def step_response(time: Array, values: Array, begun: float, settled: float) -> StepResponse:
@@ -63,11 +68,19 @@ def step_response(time: Array, values: Array, begun: float, settled: float) -> S
 
     The steady value is the mean of the values after the time `settled` [s].
     """
-    steady = float(np.mean(values[time >= settled]))
-    towards = values * np.sign(steady)
-    reached = first_crossing(time, towards, 0.9 * abs(steady))
+    last = values[time >= settled]
+    steady, before = float(np.mean(last)), float(values[0])
+    change = steady - before
+    towards = (values - before) * np.sign(change)
+    reached = first_crossing(time, towards, 0.9 * abs(change)) - begun
     when, greatest = peak(time, towards)
-    return StepResponse(steady, reached - begun, when - begun, greatest / abs(steady) - 1.0)
+    halves = [float(np.mean(half)) for half in np.array_split(last, 2) if half.size]
+    with np.errstate(divide="ignore", invalid="ignore"):  # of a car that does not respond
+        overshoot, drift = np.array([greatest, halves[-1] - halves[0]]) / abs(change) - [1.0, 0.0]
+    return StepResponse(
+        steady, change, reached if reached >= 0.0 else np.nan, when - begun, float(overshoot),
+        abs(float(drift)),
+    )  # fmt: skip
 
 
 def frequency_response(time: Array, cause: Array, effect: Array, frequency: Array) -> Complex:

@@ -65,6 +65,7 @@ class StepSteer(SteeredManoeuvre):
     def _numbers(
         self, motion: xr.Dataset, course: SteeringCourse, amplitude: float
     ) -> dict[str, Number]:
+        """Return its metrics, and name responses that are not steady at the end."""
         time, half = motion["time"].values, 0.5 * (course.start + course.end)
         settled = float(time[-1]) - self.settled_s
         found: dict[str, Number] = {
@@ -77,12 +78,18 @@ class StepSteer(SteeredManoeuvre):
             found |= {
                 f"{name}_steady": (one.steady, f"steady {words}", unit),
                 f"{name}_gain": (
-                    one.steady / amplitude, f"steady {words} by steering wheel angle", per_angle,
+                    one.change / amplitude, f"steady {words} by steering wheel angle", per_angle,
                 ),
                 f"{name}_response_time": (one.response_time, f"response time of {words}", "s"),
                 f"{name}_peak_time": (one.peak_time, f"peak response time of {words}", "s"),
                 f"{name}_overshoot": (one.overshoot, f"overshoot of {words}", "1"),
             }  # fmt: skip
+        motion.attrs["not_valid"] += [
+            f"the {words} is not steady in the last {self.settled_s:g} s: it changes by "
+            f"{100.0 * judged[name].drift:.0f} %. Raise duration_s, or steer less"
+            for name, words, *_ in _JUDGED[:2]
+            if not judged[name].drift < _DRIFT
+        ]
         slip = float(np.mean(motion["sideslip_angle"].values[time >= settled]))
         found["sideslip_steady"] = (slip, "steady sideslip angle, positive to the left", "rad")
         peak = judged["yaw_rate"].peak_time
@@ -93,6 +100,9 @@ class StepSteer(SteeredManoeuvre):
         return found | greatest(motion)
 
 
+# Largest change of steady responses within the last part of the simulation, as a part of them; on
+# rough roads the mean of half of this part changes by some percent.
+_DRIFT = 0.1
 _JUDGED = (
     ("yaw_rate", "yaw velocity", "rad/s", "1/s"),
     ("lateral_acceleration", "lateral acceleration", "m/s^2", "m/(s^2 rad)"),
