@@ -14,6 +14,8 @@ from ...core.validator import Validator
 from ..analysis.compliance.flexibility import HELD
 from ..assembly.of import assembly_of, given_assembly
 from ..assembly.quantity import Quantity
+from ..assembly.rig import STEERING
+from ..corner.wheeled import NOT_STEERED
 from ..input.toml_file import read_sections
 from .curves import CurveBundle, Curves
 from .evaluation import available
@@ -420,6 +422,9 @@ def _tables(
             given.fail(f"{title} must be a section, with {' and '.join([at_key, *sorted(keys)])}.")
             continue
         named = table.get("over", axes[0])
+        if isinstance(named, str) and named in STEERING and not {*STEERING, "heave"} & {*axes}:
+            given.fail(NOT_STEERED.format(f"{title} over = {named!r}"))
+            continue
         options = options_of(named) if isinstance(named, str) else ()
         chosen = {key: table[key] for key in options if key in table}
         over = given_axis(given, f"{title} over", named, axes, chosen)

@@ -16,7 +16,7 @@ from kintrafo import (
 from kintrafo.vehicle.analysis.compare import compare
 from kintrafo.vehicle.analysis.scenario import Scenario, run
 from kintrafo.vehicle.assembly.usual import usual_rack
-from kintrafo.vehicle.studies import sensitivity
+from kintrafo.vehicle.studies import optimise, sensitivity
 
 SUBJECTS = {
     "corner": lambda: kintrafo.load("trailing_arm_car"),
@@ -33,6 +33,9 @@ ANALYSES = {
     "held rack": lambda subject: characteristics.over(subject, None, rack_position=0.005),
     "elastokinematics": lambda subject: compliance.elastokinematics(subject, {}, "steer"),
     "sensitivity": lambda subject: sensitivity(subject, ["wheel.camber_deg"], over="rack"),
+    "goal": lambda subject: optimise(
+        subject, {"wheel.camber_deg": 1.0}, {"toe": {"over": "rack", "value": 0.0, "within": 0.1}}
+    ),
     "grid": lambda subject: sweep.positions(subject, rack=[0.0, 0.01]),
     "rest": lambda subject: equilibrium(kintrafo.model_of(subject), rack_position=0.01),
     "simulation": lambda subject: run(

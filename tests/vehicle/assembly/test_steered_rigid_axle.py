@@ -308,6 +308,7 @@ def test_it_rests_at_its_design():
         ({"hardpoints.track_rod": [-170.0, 697.0, 300.0]}, r"\[hardpoints\] track_rod = .* right"),
         ({"brakes.torque_on": "body"}, "torque_on = 'body' must be 'carrier'"),
         ({"drive": {"share": 1.0}}, "not driven"),
+        ({"drive": {"torque_on": "body"}}, "not driven"),
         ({"rods.track_rod": {"chassis": [1, 2, 3], "axle": [4, 5, 6]}}, "name of another part"),
         ({"steered_rigid_axle": "rear"}, r"'rear' must be 'front'\. Enter it"),
     ],

@@ -16,6 +16,7 @@ from ...input.bodies import RigidBody
 from ...input.hardpoints import LARGEST_COORDINATE, SMALLEST_CROSS_ANGLE, SMALLEST_DISTANCE
 from ...input.pitman_arm import PitmanArmSection
 from ...input.units import point_in_metres
+from ...input.vehicle import Share
 from ..axle.file import Brakes
 from ..rigid_axle.axle import BeamAxle
 from ..rigid_axle.structure import CENTER
@@ -58,6 +59,12 @@ class KnuckleBrakes(Brakes):
     )
 
 
+class _RefusedDrive(AxleDrive):
+    """A drive that needs no key, since the section as a whole is refused."""
+
+    share: Share = 0.0
+
+
 class SteeredRigidAxle(BeamAxle, _Key):
     """A rigid axle with steered wheels, at its design position; see `WholeAxle`.
 
@@ -91,7 +98,7 @@ ends of the drag link, `pitman_ball` and `drag_link_knuckle`.
     drag_link: DragLinkSection = Field(description="the drag link from Pitman arm to knuckle")
     brakes: KnuckleBrakes = Field(default=KnuckleBrakes(), description="the brakes of the axle")
     # not a section of these files: the schema does not have it, and the check refuses it
-    drive: SkipJsonSchema[AxleDrive | None] = Field(default=None, description="the drive")
+    drive: SkipJsonSchema[_RefusedDrive | None] = Field(default=None, description="the drive")
     bodies: SteeredRigidAxleBodies = Field(description="masses and inertia")
 
     PARTS: ClassVar[tuple[str, ...]] = (
