@@ -19,6 +19,7 @@ from ..kinds import Suspension
 from ..models.car.car import AnyAxle, Car, center_of_gravity, masses, suspension_masses
 from ..models.car.equations import CarModel
 from ..models.model import Model
+from ..models.plausibility import LOWEST_CENTER, Plausibility, unlikely_body
 from ..models.reach import PositionError
 from ..models.sides import LEFT, RIGHT
 from .assembly import Assembly, HeldAssembly, WheelNames
@@ -71,6 +72,14 @@ class CarAssembly(Assembly):
     @property
     def held_parts(self) -> Mapping[str, HeldAssembly]:
         return {end or "corner": part for end, part in self.held.items()}
+
+    def plausibility(self) -> Plausibility:
+        """Return the unlikely values of its body; those of a quarter car have no meaning alone."""
+        if not self.axles:
+            return Plausibility((), ())
+        base = in_metres(self.car.described.wheelbase_mm or 0.0, "mm")
+        found = unlikely_body(self.car.described.body, center_of_gravity(self.car), base)
+        return Plausibility(tuple(found), ())
 
     def described(self) -> dict[str, str]:
         """Return masses, tyres, brakes and drive as text, and the unused data of its files."""
@@ -553,7 +562,8 @@ def _in_vehicle(car: Car) -> dict[str, AnyAxle]:
     height = float(1e3 * center_of_gravity(car)[2])
     known = {
         "wheelbase_mm": car.described.wheelbase_mm,
-        "center_of_gravity_height_mm": height if height > 0.0 else None,  # as in a file
+        # without it where the check of the car finds it impossible
+        "center_of_gravity_height_mm": height if height >= 1e3 * LOWEST_CENTER else None,
         "front_brake_share": car.front_brake_share,
     }
     return {end: axle.in_vehicle(known) for end, axle in car.axles.items()}

@@ -48,15 +48,19 @@ def command(file: File, *, json: Json = False) -> None:
             say(str(error))
         raise typer.Exit(Exit.REFUSED) from None
     more = assembly.described() if assembly.body_moves else {}
+    of_body = assembly.plausibility().problems if assembly.body_moves else ()
     if json:
         written = {part: as_dict(one) for part, one in found.items()}
-        print_json(written | more if more else written[""])
+        named = {"problems": list(of_body)} if of_body else {}
+        print_json(written | more | named if more else written[""])
     else:
         for part, one in found.items():
             _print(one, f"{file}, {part}" if part else file)
         if more:
             console.print(_table(f"{file}: {assembly.heading}", more))
-    if any(one.problems for one in found.values()):
+        for text in of_body:
+            say(f"problem: {text}")
+    if of_body or any(one.problems for one in found.values()):
         raise typer.Exit(Exit.REFUSED)
 
 

@@ -58,7 +58,7 @@ _ALIKE = 31.6
 _HOOPS = 1e3
 # The wheelbase of a car is 1.5 to 4 m, and its centre of gravity 0.25 to 1 m high; a value in
 # metres is 1,000 times less in millimetres [m].
-_SHORTEST_WHEELBASE, _LOWEST_CENTER = 0.05, 0.01
+_SHORTEST_WHEELBASE, LOWEST_CENTER = 0.05, 0.01
 # Wheels of cars stand within some degrees of upright and straight ahead [deg].
 _MOST_ALIGNMENT = 10.0
 # Rounding of lengths [m].
@@ -265,24 +265,47 @@ def _inertia(suspension: Suspension) -> Iterator[str]:
 def unlikely_inertia(bodies: Mapping[str, RigidBody], size: float) -> Iterator[str]:
     """Yield problems of a radius of gyration greater than the size of the suspension [m]."""
     for name, body in bodies.items():
-        elements = body.elements()
-        if body.mass_kg > 0.0:
-            # the trace of the tensor is twice the polar moment about the centre of mass
-            polar = 0.5 * (elements["xx"] + elements["yy"] + elements["zz"])
-            gyration = float(np.sqrt(max(polar, 0.0) / body.mass_kg))
-            if gyration > size:
-                yield (
-                    f"[bodies.{name}] mass_kg = {body.mass_kg:g} kg and its inertia make a radius "
-                    f"of gyration of {gyration:.3g} m in a suspension of the size {size:.2f} m. "
-                    "Is the inertia in kg mm^2, or the mass wrong?"
-                )
+        gyration = _radius_of_gyration(body)
+        if gyration > size:
+            yield (
+                f"[bodies.{name}] mass_kg = {body.mass_kg:g} kg and its inertia make a radius "
+                f"of gyration of {gyration:.3g} m in a suspension of the size {size:.2f} m. "
+                "Is the inertia in kg mm^2, or the mass wrong?"
+            )
+
+
+def _radius_of_gyration(body: RigidBody) -> float:
+    """Return the polar radius of gyration [m]; zero without mass."""
+    if not body.mass_kg > 0.0:
+        return 0.0
+    elements = body.elements()
+    # the trace of the tensor is twice the polar moment about the centre of mass
+    polar = 0.5 * (elements["xx"] + elements["yy"] + elements["zz"])
+    return float(np.sqrt(max(polar, 0.0) / body.mass_kg))
+
+
+def unlikely_body(body: RigidBody, center: Array, wheelbase: float) -> Iterator[str]:
+    """Yield problems of the body of a car by the centre of gravity of the car, (3,), in metres."""
+    height = float(center[2])
+    if height < LOWEST_CENTER:
+        yield (
+            f"[body] com_mm: with it the centre of gravity of the whole car is {1e3 * height:.3g} "
+            "mm above z = 0: cars have 250 to 1000 mm. Is it in metres, or in other axes?"
+        )
+    gyration = _radius_of_gyration(body)
+    if gyration > wheelbase:
+        yield (
+            f"[body] mass_kg = {body.mass_kg:g} kg and its inertia make a radius of gyration of "
+            f"{gyration:.3g} m in a car with a wheelbase of {wheelbase:.2f} m. Is the inertia in "
+            "kg mm^2, or the mass wrong?"
+        )
 
 
 def unlikely_vehicle(vehicle: WholeVehicle) -> Iterator[str]:
     """Yield problems of lengths of the whole vehicle that are in metres."""
     for name, least, usual in (
         ("wheelbase_mm", _SHORTEST_WHEELBASE, "1500 to 4000"),
-        ("center_of_gravity_height_mm", _LOWEST_CENTER, "250 to 1000"),
+        ("center_of_gravity_height_mm", LOWEST_CENTER, "250 to 1000"),
     ):
         value = getattr(vehicle, name)
         if value is not None and value < 1e3 * least:

@@ -131,10 +131,17 @@ class _Running:
             lines = file.read().splitlines()
         if self.process.returncode != 0:
             shown = "\n".join(lines[:_SHOWN_LINES])
+            # gcc itself ends with 1 if the compiler proper is killed
+            killed = self.process.returncode < 0 or any("Killed" in line for line in lines)
+            remedy = (
+                "It was killed, as Linux does when memory runs out. End other programs"
+                if killed
+                else "Name another compiler in the variable CC"
+            )
             message = (
                 f"the C compiler ended with exit code {self.process.returncode}:\n"
                 f"  {shlex.join(self.command)}\n{shown}\n"
-                'Name another compiler in the variable CC, or use backend="numpy".'
+                f'{remedy}, or use backend="numpy".'
             )
             raise CompilerError(message)
 

@@ -126,3 +126,16 @@ def test_where_one_compiler_fails_the_others_are_not_waited_for(tmp_path, monkey
         kintrafo.compile(FOUR_BAR, folder=tmp_path / "cache", backend="c")
     assert list((tmp_path / "cache").iterdir()) == []
     assert not numbers.exists() or not runs(numbers.read_text().split()[0])
+
+
+@on_linux
+@pytest.mark.parametrize(
+    "end", ["kill -9 $$", "echo 'cc: fatal error: Killed signal terminated program cc1'; exit 1"]
+)
+def test_a_compiler_that_is_killed_is_not_blamed(end, tmp_path, monkeypatch):
+    """Either the program that is called, or one that it calls, as by gcc."""
+    waiting_compiler(tmp_path, monkeypatch)
+    script = tmp_path / "slow-cc"
+    script.write_text(script.read_text().replace("sleep 60 &", f"{end}\nsleep 60 &"))
+    with pytest.raises(CompilerError, match="killed, as Linux does when memory runs out"):
+        kintrafo.compile(FOUR_BAR, folder=tmp_path / "cache", backend="c")

@@ -7,6 +7,7 @@ import sys
 import numpy as np
 import pytest
 import xarray as xr
+from cars.driving_cars import car_on_arms
 from kintrafo import Model, Suspension, characteristics
 from kintrafo.core.quantities import variable
 from kintrafo.core.tabulated import number, significant
@@ -166,6 +167,16 @@ def test_check_lists_problems(kintrafo, tmp_path):
     assert len(json.loads(out)["problems"]) == 2
     # a file that is not there is a mistake in the arguments
     assert kintrafo("check", "no_such.toml")[0] == 2
+
+
+def test_check_finds_the_body_of_a_car_below_the_ground(kintrafo, tmp_path):
+    car_on_arms().with_changes({"body.com_mm": [-1200.0, 0.0, -90.0]}).save(tmp_path / "low.toml")
+    code, out, _ = kintrafo("check", "low.toml")
+    assert code == 1
+    assert "problem: [body] com_mm" in out
+    code, out, _ = kintrafo("check", "low.toml", "--json")
+    assert code == 1
+    assert len(json.loads(out)["problems"]) == 1
 
 
 def test_check_finds_no_equilibrium(kintrafo, tmp_path):

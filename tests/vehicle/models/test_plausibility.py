@@ -1,9 +1,11 @@
 """Common mistakes in hardpoint files, one at a time: each is reported by its name."""
 
 import pytest
+from cars.driving_cars import car_on_arms
 from kintrafo import Model, Suspension
 from kintrafo.core.errors import InputError
 from kintrafo.vehicle.analysis.checkup import checkup
+from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.data.starter import packaged
 from kintrafo.vehicle.models.plausibility import plausibility
 
@@ -146,3 +148,21 @@ def test_the_paper_of_a_rough_strut_says_so_too():
     text = _hop(rough, paper.rest(rough))
     assert text == f"{paper.rest(smooth).hop.text}, without friction"
     assert "overdamped" in paper.rest(rough).hop.text
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({}, ()),
+        ({"body.com_mm": [-1200.0, 0.0, -70.0]}, ("[body] com_mm",)),
+        ({f"body.inertia_{axis}_kg_m2": 2e9 for axis in ("xx", "yy", "zz")}, ("in kg mm^2",)),
+    ],
+    ids=["as it is", "almost on the ground", "kg mm^2"],
+)
+def test_the_body_of_a_car(changes, words):
+    """Axles without the height of the centre of gravity take that of the car, but not this one."""
+    car = assembly_of(car_on_arms().with_changes(changes))
+    found = car.plausibility().problems
+    assert len(found) == len(words)
+    assert all(word in text for word, text in zip(words, found, strict=True))
+    assert not any(checkup(part).problems for part in car.held_parts.values())
