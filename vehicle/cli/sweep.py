@@ -55,7 +55,7 @@ def command(
     driven: ScenarioOptions,
     output: SingleFigureOptions,
 ) -> None:
-    """Compute motions, or characteristics of a car, for all combinations of some values.
+    """Compute motions, or characteristics of a car, for combinations of values.
 
     Each motion starts at rest, or at --height. The exit code is 1 if one does not reach the end.
     A sweep of a car has no simulation: its table has characteristics of steady turns, of the ride
