@@ -337,6 +337,28 @@ def test_a_step_steer_that_is_not_steady_at_the_end_is_not_valid(car):
     assert any("is not steady in the last 0.4 s" in text for text in early)
 
 
+def test_a_car_that_spins_has_no_valid_responses():
+    """The steady turn of the step is unstable; after the sweep the car stands the other way round.
+
+    It oversteers far above its critical speed.
+    """
+    cornering = {"front": 300e3, "rear": 110e3}
+    values = {f"{end}_tyre_cornering_stiffness": 0.5 * v for end, v in cornering.items()}
+    spun = rail_car.car(**values)
+    how = {"lateral_acceleration_m_per_s2": 1.0, "speed_km_per_h": 150.0, "duration_s": 5.0}
+    step, sweep = (
+        run(spun, name, **how).curves[""].attrs["not_valid"]
+        for name in ("step_steer", "sine_sweep")
+    )
+    assert any("turns to the other side than left" in text for text in step)
+    assert any("the sideslip angle is 100 %" in text for text in sweep)
+
+
+def test_a_sweep_that_ends_early_is_not_valid(car):
+    found = run(car, "sine_sweep", duration_s=3.0, settle_s=0.01).curves[""].attrs["not_valid"]
+    assert any("Raise settle_s" in text for text in found)
+
+
 def test_a_frequency_response_of_first_order():
     time = np.linspace(0.0, 30.0, 30001)
     cause = np.exp(-((time - 5.0) ** 2))

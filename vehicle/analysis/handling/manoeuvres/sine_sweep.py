@@ -73,6 +73,7 @@ class SineSweep(SteeredManoeuvre):
             car, straight, OpenLoop(course, before), HeldTorque(torque, torque),
             course.end + self.settle_s, progress=progress,
         )  # fmt: skip
+        motion.attrs["not_valid"] += _unsettled(motion)
         curves = self._by_frequency(car, straight, motion)
         return HandlingResult(
             self.judged(_numbers(curves, amplitude) | greatest(motion)),
@@ -107,6 +108,8 @@ class SineSweep(SteeredManoeuvre):
         return xr.Dataset(found, {"frequency": axis, "source": sources}, {"title": title})
 
 
+# Largest motion at the end, as a part of the greatest one; rough roads leave some percent.
+_LEFT = 0.1
 # 20 outputs in a period [ms Hz].
 _COARSE = 50.0
 _FOLLOWING = {
@@ -115,6 +118,20 @@ _FOLLOWING = {
     "roll_angle": ("roll angle", "1"),
     "sideslip_angle": ("sideslip angle", "1"),
 }
+
+
+def _unsettled(motion: xr.Dataset) -> list[str]:
+    """Return a text for each motion that does not end as it began."""
+    found = []
+    for name in ("yaw_rate", "sideslip_angle"):
+        moved = np.abs(motion[name].values - motion[name].values[0])
+        if not moved[-1] <= _LEFT * moved.max():
+            found.append(
+                f"at the end the {_FOLLOWING[name][0]} is {100.0 * moved[-1] / moved.max():.0f} % "
+                "of its greatest one, and responses by frequency need a car that runs straight "
+                "again. Raise settle_s, steer less, or lower the speed"
+            )
+    return found
 
 
 def _numbers(curves: xr.Dataset, amplitude: float) -> dict[str, Number]:

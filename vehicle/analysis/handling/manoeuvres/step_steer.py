@@ -90,6 +90,11 @@ class StepSteer(SteeredManoeuvre):
             for name, words, *_ in _JUDGED[:2]
             if not judged[name].drift < _DRIFT
         ]
+        if self.lateral_acceleration_m_per_s2 and self.sense * judged["yaw_rate"].change < 0.0:
+            motion.attrs["not_valid"].append(
+                f"the car turns to the other side than {self.turn}: its steady turn with "
+                "lateral_acceleration_m_per_s2 is unstable. Choose a lower speed"
+            )
         slip = float(np.mean(motion["sideslip_angle"].values[time >= settled]))
         found["sideslip_steady"] = (slip, "steady sideslip angle, positive to the left", "rad")
         peak = judged["yaw_rate"].peak_time
