@@ -9,6 +9,7 @@ import xarray as xr
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.gridspec import GridSpec
 from matplotlib.patheffects import withStroke
 from matplotlib.text import Annotation
 
@@ -35,6 +36,9 @@ _ROW, _FRAME, _LABEL = 2.7, 0.8, 0.45
 # Forces and couples below these are not drawn [N], [N m].
 _SMALL_FORCE, _SMALL_MOMENT = 0.5, 1.0
 _FROM_OUTSIDE = ("road", "drive", "gravity")
+# Width of the figure, and room beside drawings for ticks, labels and titles [in]. It is known: a
+# layout computed from all texts takes twice as long as the drawing itself.
+_WIDTH, _LEFT, _RIGHT, _BELOW, _ABOVE, _TOP = 7.4, 0.65, 0.1, 0.45, 0.3, 0.35
 # Distance of two labels, and of labels from the edge [points].
 _ROOM = 3.0
 _POINTS = 72.0
@@ -79,8 +83,7 @@ def free_bodies(
         for loads in chosen.values()
         for _ in (_VIEWS if _crowded(loads) else (0,))
     ]
-    figure = Figure(figsize=(7.4, 0.6 + sum(heights)), layout="constrained")
-    grid = figure.add_gridspec(len(heights), len(_VIEWS), height_ratios=heights)
+    figure, grid = _grid(heights)
     row = 0
     labels = {}
     for part, loads in chosen.items():
@@ -90,11 +93,26 @@ def free_bodies(
             labels[axes] = _draw(axes, loads, view)
             axes.set_title(f"{part.replace('_', ' ')}, {view}", fontsize=9.5)
         row += len(_VIEWS) if _crowded(loads) else 1
-    figure.suptitle(title, fontsize=11)
-    figure.draw_without_rendering()  # labels are placed after the layout
+    figure.text(0.5, 1.0 - 0.6 * _TOP / figure.get_figheight(), title, fontsize=11, ha="center")
     for axes, of_view in labels.items():
+        axes.apply_aspect()
         _in_columns(axes, of_view)
     return written_plainly(figure)
+
+
+def _grid(heights: Sequence[float]) -> tuple[Figure, GridSpec]:
+    """Return a figure and its grid of drawings, whose rows have these heights [in]."""
+    height, width = _TOP + sum(heights), _WIDTH / len(_VIEWS)
+    rows = [row - _BELOW - _ABOVE for row in heights]
+    figure = Figure(figsize=(_WIDTH, height))
+    grid = figure.add_gridspec(
+        len(rows), len(_VIEWS), height_ratios=rows,
+        left=_LEFT / _WIDTH, right=1.0 - _RIGHT / _WIDTH,
+        bottom=_BELOW / height, top=1.0 - (_TOP + _ABOVE) / height,
+        wspace=(_LEFT + _RIGHT) / (width - _LEFT - _RIGHT),
+        hspace=(_BELOW + _ABOVE) / (sum(rows) / len(rows)),
+    )  # fmt: skip
+    return figure, grid
 
 
 def _drawn(loads: xr.Dataset) -> np.ndarray:
