@@ -437,7 +437,7 @@ def test_without_sundials_the_user_is_warned_once(monkeypatch):
     from kintrafo.simulation import solvers
 
     monkeypatch.setattr(solvers, "sundials", None)
-    monkeypatch.setattr(simulation, "_warned", False)
+    simulation._warn_once.cache_clear()
     with pytest.warns(RuntimeWarning, match="built without SUNDIALS") as warned:  # noqa: PT031
         first = simulate(MODEL, (0, 0.1), START)
         second = simulate(MODEL, (0, 0.1), START)

@@ -597,7 +597,9 @@ def test_the_chapter_of_an_axle_without_sides_has_all_of_it(name):
     chapter = axle_chapter(load(name))
     look, wheels, *_ = chapter.tables
     rows = dict(look.rows)
-    assert {"equilibrium", "wheel rate, left", "roll stiffness of the anti-roll bar"} <= {*rows}
+    assert {"equilibrium", "wheel rate, left", "roll stiffness of the anti-roll bar or beam"} <= {
+        *rows
+    }
     assert {"camber", "toe angle", "wheel rate"} <= {row[0] for row in wheels.rows}
     assert "from above" in chapter.pictures[0].words
 
