@@ -8,6 +8,7 @@ from contextlib import contextmanager, suppress
 from enum import IntEnum
 from typing import Any, TextIO
 
+from ..core import interrupts
 from .console import problems
 
 
@@ -129,8 +130,12 @@ def _show_warning(
     file: TextIO | None = None,
     line: str | None = None,
 ) -> None:
-    """Show a warning as a note, without its place in the program."""
+    """Show a warning as a note, without its place in the program.
+
+    A library that takes an interrupt for an error of its own warns: the interrupt is raised then.
+    """
     del category, filename, lineno, file, line
+    interrupts.check()
     _print(f"note: {message}", "yellow")
 
 

@@ -78,6 +78,26 @@ def test_none_is_lost(tmp_path, where):
     assert time.monotonic() - begun < 20.0  # of the 30 s that it would go on
 
 
+def test_a_library_that_warns_of_an_interrupt_is_interrupted(tmp_path):
+    """As Matplotlib, whose import goes on without 3D axes after errors in theirs."""
+    warning = """
+try:
+    signal.raise_signal(signal.SIGINT)
+except BaseException:
+    __import__("warnings").warn("Unable to import Axes3D")
+"""
+    (tmp_path / "matplotlib.py").write_text(f"{BEGIN}{warning}{END}", encoding="utf-8")
+    done = subprocess.run(
+        [sys.executable, "-m", "kintrafo", "characteristics", "reference_car", "--plot", "a.png"],
+        env={**os.environ, "PYTHONPATH": str(tmp_path)},
+        cwd=tmp_path,
+        capture_output=True,
+        check=False,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )
+    assert (done.returncode, done.stderr) == (130, b"")
+
+
 def test_after_the_end_a_command_is_not_interrupted():
     """Ctrl-C at the end of the interpreter does not interrupt the command, which is complete."""
     late = "import atexit, signal; atexit.register(signal.raise_signal, signal.SIGINT)"
