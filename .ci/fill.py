@@ -71,9 +71,10 @@ def add_cars(folder: Path, part: bool, wheel: str) -> None:
 def cars(part: bool) -> "Iterator[kintrafo.Car]":
     """Yield the packaged cars on two axles, and those that can drive as driving ones, too."""
     import kintrafo
-    from kintrafo.vehicle.data.starter import packaged_cars
+    from kintrafo.vehicle.data import data_sets
+    from kintrafo.vehicle.data.starter import CARS
 
-    for name in PART[1:] if part else packaged_cars():
+    for name in PART[1:] if part else data_sets(CARS):
         car = kintrafo.load(name)
         if car.axles:
             yield car
