@@ -103,8 +103,8 @@ def declared(cls: Declared) -> Declared:
 
     Its objects are checked when they are made: as arguments of others, their type is sufficient.
     """
-    # pydantic asks a class for this method; mypy allows no assignment to one that it does not know
-    setattr(cls, "__get_pydantic_core_schema__", classmethod(_of_type))  # noqa: B010
+    # pydantic asks a class for this method
+    setattr(cls, "__get_pydantic_core_schema__", classmethod(_of_type))  # noqa: B010 (mypy allows no assignment to a method that it does not know)
     checked_init = _checked(vars(cls)["__init__"], cls.__name__, cls)
     setattr(cls, "__init__", checked_init)  # noqa: B010 (mypy allows no assignment to a method)
     return cls

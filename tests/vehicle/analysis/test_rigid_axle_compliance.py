@@ -208,12 +208,12 @@ def test_the_axle_deflects_as_on_springs(axle, rods, held, travel):
     ]
     line, change = left - right, centers[0] - centers[1]
     steer = (change[1] * line[0] - change[0] * line[1]) / (line[:2] @ line[:2])
-    told = {name: float(found[f"{name}_by_lateral_parallel"][0])
-            for name in ("axle_steer", "axle_lateral", "axle_longitudinal")}  # fmt: skip
+    names = ("axle_steer", "axle_lateral", "axle_longitudinal")
+    reported = {name: float(found[f"{name}_by_lateral_parallel"][0]) for name in names}
     middle = np.mean(centers, axis=0)
     want = {"axle_steer": steer, "axle_lateral": middle[1], "axle_longitudinal": middle[0]}
     for name, value in want.items():
-        assert told[name] == pytest.approx(value, rel=1e-5, abs=1e-6 * abs(theirs).max())
+        assert reported[name] == pytest.approx(value, rel=1e-5, abs=1e-6 * abs(theirs).max())
 
 
 # -- loads of any size ----------------------------------------------------------------------------
@@ -330,7 +330,7 @@ class OnSprings:
         return at, 1e4 * found.x[6:]
 
 
-def told_of(at):
+def deflections(at):
     left, right = at.wheels["left"], at.wheels["right"]
     axis = at.turn.apply(at.axle.wheel.spin_axis(-1.0))
     return {
@@ -368,7 +368,7 @@ def test_motions_on_bushes_are_those_of_a_beam_on_springs(axle, motion, along, h
         del places["kinematic"]
     assert found["data_set"].values.tolist() == [*places]
     for data_set, place in places.items():
-        for name, value in told_of(place).items():
+        for name, value in deflections(place).items():
             ours = float(found[name].sel(data_set=data_set)[0])
             # steps of 1e-9 m end Newton's method; 1e-6 N over stiffnesses of 1e6 N/m this one
             assert ours == pytest.approx(value, abs=2e-10), (data_set, name)
@@ -405,12 +405,12 @@ def test_large_loads_move_it_as_a_beam_on_springs(kind, under, wheels, held, loa
         assert np.ptp(more) > 1000.0
         ends = heights - more / axle.tyre.rate_N_per_m
     at, carried = on.solve(6000.0 * np.array(load), ends, road)
-    for name, value in told_of(at).items():
+    for name, value in deflections(at).items():
         key = name.replace("_right", "_change_right") if "right" in name else f"{name}_change"
-        assert float(here[key]) == pytest.approx(value - told_of(base)[name], abs=3e-10), name
+        assert float(here[key]) == pytest.approx(value - deflections(base)[name], abs=3e-10), name
     for i, side in enumerate(SIDES):
         assert float(here[f"wheel_load_{side}"]) == pytest.approx(carried[i], rel=1e-7)
-    assert abs(told_of(at)["axle_lateral"]) + abs(told_of(at)["axle_steer"]) > 1e-3
+    assert abs(deflections(at)["axle_lateral"]) + abs(deflections(at)["axle_steer"]) > 1e-3
 
 
 # -- files, commands and errors -------------------------------------------------------------------

@@ -113,7 +113,7 @@ def test_events_of_the_stops(car):
         for state in states:
             length = float(model.signal(f"{element}_length", state))
             assert length == pytest.approx(reached, abs=1e-7)
-    assert len(result.t_events[0]) >= 1  # let go in rebound, it is thrown up to the other stop
+    assert len(result.t_events[0]) >= 1  # released in rebound, it reaches the other stop
 
 
 @each_car
