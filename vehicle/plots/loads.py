@@ -36,7 +36,7 @@ _ROW, _FRAME, _LABEL = 2.7, 0.8, 0.45
 # Forces and couples below these are not drawn [N], [N m].
 _SMALL_FORCE, _SMALL_MOMENT = 0.5, 1.0
 _FROM_OUTSIDE = ("road", "drive", "gravity")
-# Width of the figure, and room beside drawings for ticks, labels and titles [in]. It is known: a
+# Width of the figure, and room beside drawings for ticks, labels and titles [in]. They are given: a
 # layout computed from all texts takes twice as long as the drawing itself.
 _WIDTH, _LEFT, _RIGHT, _BELOW, _ABOVE, _TOP = 7.4, 0.65, 0.1, 0.45, 0.3, 0.35
 # Distance of two labels, and of labels from the edge [points].
