@@ -136,13 +136,19 @@ def test_straight_running_by_speed_is_that_of_the_bicycle_model(car):
     assert characteristic == pytest.approx(np.sqrt(car.wheelbase / gradient), rel=1e-4)
 
 
-def test_the_critical_speed_is_that_of_the_bicycle_model(car):
+@pytest.fixture(scope="module")
+def loose(car):
+    """A car that oversteers, and its critical speed by the bicycle model [m/s]."""
     swapped = {"front": CORNERING["rear"], "rear": CORNERING["front"]}
     changed = {f"{end}_tyre_cornering_stiffness": 0.5 * c for end, c in swapped.items()}
     loose = rail_car.car(**(car.model.parameters | changed))
     _, _, front, rear = bicycle(loose)
     gradient = loose.mass / loose.wheelbase * (rear / swapped["front"] - front / swapped["rear"])
-    critical = np.sqrt(-loose.wheelbase / gradient)
+    return loose, np.sqrt(-loose.wheelbase / gradient)
+
+
+def test_the_critical_speed_is_that_of_the_bicycle_model(loose):
+    loose, critical = loose
     steps = {"from_km_per_h": 3.0 * critical, "to_km_per_h": 4.5 * critical}
     found = run(loose, "speed_range", **steps, step_km_per_h=0.5 * critical)
     assert float(found.metrics["critical_speed"]) == pytest.approx(critical, rel=1e-4)
@@ -199,6 +205,30 @@ def test_slow_steering_finds_the_angle_of_the_turn(car):
     # a line through a curve, and 0.05 s of delay at 13.5 deg/s
     angle = float(turn["steering_wheel_angle"][0])
     assert float(found["reference_angle"]) == pytest.approx(angle, rel=0.06)
+
+
+@pytest.mark.parametrize(("part", "words"), [
+    (0.3, None), (0.7, "lags behind the steering wheel"),
+    (0.9, r"a steady turn with 0\.3 g is unstable.*lower speed"),
+    (1.1, r"straight running is unstable.*above its critical speed.*lower speed"),
+])  # fmt: skip
+def test_slow_steering_has_no_angle_where_turns_are_not_stable(loose, part, words):
+    loose, critical = loose
+    speed = part * critical * 3.6
+    found = run(loose, "slowly_increasing_steer", speed_km_per_h=speed, turn="right")
+    assert re.search(words or "^$", "; ".join(found.not_valid))
+    # it ends at the lateral acceleration, which a car that yaws quickly reaches late
+    last = found.curves[""]["lateral_acceleration"].values[-1]
+    assert last == pytest.approx(-5.4, rel=0.01)
+    if part == 1.1:
+        dwell = run(loose, "sine_with_dwell", speed_km_per_h=speed, amplitudes_deg=[1.0])
+        assert any(text.startswith("slowly increasing steer: At") for text in dwell.not_valid)
+
+
+def test_slow_steering_whose_tyres_slide_needs_more_friction(car):
+    smooth = rail_car.car(**(car.model.parameters | {"front_tyre_friction": 0.25}))
+    with pytest.raises(InputError, match=r"3\.68 m/s\^2 are needed\. .*tyres with more friction"):
+        run(smooth, "slowly_increasing_steer", largest_deg=60.0, rate_deg_per_s=30.0)
 
 
 def test_a_driver_passes_between_the_cones(car):
@@ -496,6 +526,7 @@ def test_a_mistake_in_a_manoeuvre_is_named(name, changes, words):
     ("coast_down", {"duration_s": 0.5}, "little or no resistance"),
     ("acceleration", {"duration_s": 0.5}, "Raise torque_Nm"),
     ("slowly_increasing_steer", {"largest_deg": 10.0}, "Raise speed_km_per_h"),
+    ("slowly_increasing_steer", {"rate_deg_per_s": 400.0, "output_step_ms": 200.0}, "5 outputs"),
 ])  # fmt: skip
 def test_what_a_car_cannot_do_is_named(car, name, changes, words):
     with pytest.raises(InputError, match=re.escape(words)):

@@ -57,7 +57,7 @@ class SineWithDwell(TurningManoeuvre):
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
         """Return yaw rates after steering and lateral displacements, by amplitude, and motions."""
         _, straight = self.straight(car)
-        reference = self._reference(car, progress)
+        reference, not_valid = self._reference(car, progress)
         amplitudes = np.asarray(self.amplitudes_deg or amplitudes_of(reference))
         begun = 0.0 if self.reference_deg is not None else _SHARE
         motions = []
@@ -76,21 +76,23 @@ class SineWithDwell(TurningManoeuvre):
             )  # fmt: skip
             motions.append((course, motion))
         numbers = [judge(motion, course, self.sense) for course, motion in motions]
+        together = _together([motion for _, motion in motions], amplitudes)
+        together.attrs["not_valid"] = not_valid + together.attrs["not_valid"]
         return HandlingResult(
-            self._judged(numbers, amplitudes, reference, car.mass),
-            {"": _together([motion for _, motion in motions], amplitudes)},
+            self._judged(numbers, amplitudes, reference, car.mass), {"": together}
         )
 
-    def _reference(self, car: DrivingCar, progress: Progress) -> float:
-        """Return the reference angle A [deg]."""
+    def _reference(self, car: DrivingCar, progress: Progress) -> tuple[float, list[str]]:
+        """Return the reference angle A [deg], and why it is not valid."""
         if self.reference_deg is not None:
-            return self.reference_deg
+            return self.reference_deg, []
         slow = SlowlyIncreasingSteer(
             manoeuvre="slowly_increasing_steer", speed_km_per_h=self.speed_km_per_h,
             turn=self.turn, step_ms=self.step_ms, output_step_ms=self.output_step_ms,
         )  # fmt: skip
         found = slow.run(car, lambda part: progress(_SHARE * part))
-        return float(np.rad2deg(found.metrics["reference_angle"]))
+        not_valid = [f"{slow.TITLE}: {text}" for text in found.not_valid]
+        return float(np.rad2deg(found.metrics["reference_angle"])), not_valid
 
     def _judged(
         self, numbers: list[dict[str, float]], amplitudes: Array, reference: float, mass: float
