@@ -4,16 +4,19 @@ A variable of a dataset has its description as attributes: ``units`` (SI), ``lon
 ``display_units`` and ``display_factor``: a value in SI units times the factor is in display units.
 """
 
-import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from .named_types import Array
+from .units import in_si
 
 if TYPE_CHECKING:
     import xarray as xr
+
+
+_SHOWN = ("mm", "deg", "deg/s", "N/mm")  # in place of their SI units
 
 
 class Display(NamedTuple):
@@ -22,14 +25,19 @@ class Display(NamedTuple):
     units: str  # as it is printed
     factor: float  # value in this unit divided by the value in SI units
 
+    @classmethod
+    def of(cls, units: str) -> "Display":
+        """Return a unit that `kintrafo.core.units` knows.
 
-_DEGREES = 180.0 / math.pi
-_DISPLAYS = {
-    "m": Display("mm", 1e3),
-    "rad": Display("deg", _DEGREES),
-    "rad/s": Display("deg/s", _DEGREES),
-    "N/m": Display("N/mm", 1e-3),
-}
+        Examples
+        --------
+        >>> Display.of("%")
+        Display(units='%', factor=100.0)
+        """
+        return cls(units, 1.0 / in_si(units)[1])
+
+
+_DISPLAYS = {in_si(unit)[0]: Display.of(unit) for unit in _SHOWN}
 
 
 def attributes(meaning: str, units: str) -> dict[str, Any]:

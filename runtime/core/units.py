@@ -85,15 +85,15 @@ def in_si(text: str) -> tuple[str, float]:
 
     Examples
     --------
-    >>> in_si("N/mm")
-    ('N/m', 1000.0)
+    >>> in_si("N/mm"), in_si("km/h")[0]
+    (('N/m', 1000.0), 'm/s')
     >>> in_si("m/s\u00b2"), in_si("furlong")[0]
     (('m/s^2', 1.0), '')
     """
     text = text.strip()
     if len(text) > 1 and text[0] + text[-1] in ("[]", "()"):
         text = text[1:-1]
-    parts = text.split("/")
+    parts = [text] if unit_of(text) else text.split("/")  # km/h has a name of its own
     known = [_UNITS[unit_of(part)] for part in parts if unit_of(part) or not text.strip()]
     if len(known) < len(parts) or len(parts) > 2:
         return "", math.nan

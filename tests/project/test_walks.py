@@ -75,7 +75,7 @@ class Pivot(Revolute):
         ),
     },
     "An analysis": {
-        "vehicle/analysis/rig.py": '''"""Motions of a rig that each wheel can make."""
+        "vehicle/analysis/rig_motions.py": '''"""Motions of a rig that each wheel can make."""
 
 from typing import Any
 
@@ -135,6 +135,16 @@ class BenchAssembly(CornerAssembly):
     },
 }
 
+# what the page has a walk change; all other files of a walk are new
+CHANGED = {
+    "generator/closed_forms/prismatic.py",
+    "generator/declare/joints.py",
+    "generator/declare/__init__.py",
+    "generator/backends/files.py",
+    "vehicle/assembly/of.py",
+    "vehicle/cli/__init__.py",
+}
+
 FOUND = """
 import sys
 import kintrafo
@@ -147,7 +157,7 @@ from kintrafo.generator.declare.forces import KINDS as FORCES
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import four_bar, slider_crank
 from kintrafo.vehicle import cli
-from kintrafo.vehicle.analysis.rig import motions
+from kintrafo.vehicle.analysis.rig_motions import motions
 from kintrafo.vehicle.assembly.bench import Bench
 from kintrafo.vehicle.assembly.of import assembly_of
 
@@ -242,6 +252,10 @@ def own_folder(package, parts):
             for item in there.iterdir() if there.exists() else ():
                 link(here / item.name, item)
     return here
+
+
+def test_a_walk_changes_no_other_file():
+    assert {path for files in WALKS.values() for path in files if (ROOT / path).exists()} == CHANGED
 
 
 def test_the_walks_are_done_on_a_copy(copy):

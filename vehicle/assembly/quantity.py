@@ -6,8 +6,6 @@ from typing import Any
 from ...core.quantities import Display, display_of
 from ...core.units import KM_PER_H
 
-_DEG_PER_MM = display_of({"units": "rad"}).factor * 1e-3
-
 
 @dataclass(frozen=True)
 class Quantity:
@@ -22,7 +20,7 @@ class Quantity:
 
     def attributes(self) -> dict[str, Any]:
         """Return the attributes of the variable in a dataset."""
-        per_length = Display("deg/mm", _DEG_PER_MM) if self.units == "rad/m" else None
+        per_length = Display.of("deg/mm") if self.units == "rad/m" else None
         shown = self.display or per_length or display_of({"units": self.units})
         return {
             "units": self.units,

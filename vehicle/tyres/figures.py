@@ -139,7 +139,7 @@ def tabulated(found: "xr.Dataset", head: str = "") -> Tabulated:
 
 
 _SHOWN = {
-    "cornering_stiffness": Display("N/deg", np.pi / 180.0),
-    "camber_stiffness": Display("N/deg", np.pi / 180.0),
-    "load_sensitivity": Display("1/kN", 1e3),
+    "cornering_stiffness": Display.of("N/deg"),
+    "camber_stiffness": Display.of("N/deg"),
+    "load_sensitivity": Display.of("1/kN"),
 }

@@ -52,7 +52,7 @@ _IN_ROLL = Quantity(
     "and bar, weights included; the roll stiffness of the characteristics has those of springs, "
     "stops and bar by the heights of the wheel centres",
     "positive when it resists roll",
-    display=Display("N m/deg", np.pi / 180.0),
+    display=Display.of("N m/deg"),
 )
 _STEERED = {KNOWN["rack"]["steer"]: wheel.steer}
 

@@ -24,7 +24,7 @@ from .linear import (
 )
 from .rest import car_assembly
 
-_PERCENT = Display("%", 100.0)
+_PERCENT = Display.of("%")
 _ALWAYS = "positive always"
 _OF_BODY = (
     Quantity(

@@ -3,13 +3,11 @@
 An assembly with another definition of the same quantity has it in its list of measures.
 """
 
-from math import pi
-
 from ....core.quantities import Display
 from ..quantity import Quantity
 
-_PERCENT = Display("%", 100.0)
-_PER_DEGREE = Display("N m/deg", pi / 180.0)
+_PERCENT = Display.of("%")
+_PER_DEGREE = Display.of("N m/deg")
 _ANGLES = Display("deg/deg", 1.0)
 _NEWTON_METRES = Display("N m", 1.0)
 _METRES = Display("m", 1.0)
