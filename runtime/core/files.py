@@ -106,6 +106,10 @@ def refuse(
         raise InputError([problem], given)
 
 
+def _kind(value: object) -> str:
+    return "None" if value is None else type(value).__name__
+
+
 def _paths(paths: Paths, inputs: Paths, force: object) -> tuple[list[Path], list[str | Path]]:
     """Return the files that are written and those that are read; refuse objects that are not paths.
 
@@ -114,7 +118,7 @@ def _paths(paths: Paths, inputs: Paths, force: object) -> tuple[list[Path], list
     """
     listed = {"path": _listed(paths), "inputs": _listed(inputs)}
     problems = [
-        f"{name}: {type(wrong).__name__} is not the path of a file, such as 'out/curves.csv'."
+        f"{name}: {_kind(wrong)} is not the path of a file, such as 'out/curves.csv'."
         for name, some in listed.items()
         for wrong in some
         if not isinstance(wrong, str | os.PathLike)
@@ -125,7 +129,7 @@ def _paths(paths: Paths, inputs: Paths, force: object) -> tuple[list[Path], list
         if isinstance(some, str | bytes)
     ]
     if type(force).__name__ not in ("bool", "bool_"):  # NumPy's, too
-        problems.append(f"force: True or False is needed, not {type(force).__name__}.")
+        problems.append(f"force: True or False is needed, not {_kind(force)}.")
     if problems:
         raise InputError(problems, "output")
     return [Path(path) for path in listed["path"]], listed["inputs"]

@@ -30,6 +30,7 @@ _MOST_ROWS, _MOST_COLUMNS = 5_000_000, 1000
 _BRACKETS = re.compile(r"(.*?)\s*(?:\[([^\[\]]*)\]|\(((?:[^()]|\([^()]*\))*)\))\s*")
 _BETWEEN = re.compile(r"[\s_,/]+(?:in\s+)?")
 _STROKE_OR_NUMBER = re.compile(r"[\[(]?[\d.,eE+\s-]*[\])]?")
+_NUMBER = re.compile(r"[+-]?(?=[.,]?\d)\d*[.,]?\d*(?:[eE][+-]?\d+)?")
 # a comment line that states units
 _STATES = re.compile(
     r"\W*(?:all\s+)?(?:(?:units?|lengths?|coordinates?|dimensions?|points?|values?|everything)\s*)?"
@@ -266,7 +267,8 @@ def csv_rows(
     """Return the rows of a CSV file, its comment lines, and whether decimals may have commas.
 
     Columns are separated by tabs, semicolons or commas; comments begin with a hash. Raises
-    `InputError` if the file cannot be read, is too large or is not UTF-8.
+    `InputError` if the file cannot be read, is too large, is not UTF-8 or separates its columns by
+    blanks.
     """
     lines = [
         (number, line)
@@ -278,6 +280,12 @@ def csv_rows(
         problem = f"the file has {len(lines)} lines; {_MOST_ROWS} are the most. Give a part of it."
         raise InputError([problem], str(path))
     delimiter = _delimiter_of(plain[0][1]) if plain else ","
+    if len(plain) > 1 and _by_blanks(plain[0][1], plain[1][1]):
+        problem = (
+            "blanks separate the columns. Separate them by commas, semicolons or tabs, in the "
+            "first line too."
+        )
+        raise InputError([problem], str(path))
     rows: list[Row] = [(number, _cells_of(line, delimiter)) for number, line in plain]
     remarks: list[Row] = [
         (number, _cells_of(line.lstrip("#"), delimiter)) for number, line in lines if line[0] == "#"
@@ -297,6 +305,13 @@ def _delimiter_of(heading: str) -> str:
     """Return the delimiter of columns, outside of quotes: a tab, a semicolon or a comma."""
     outside_quotes = re.sub(r'"[^"]*"', "", heading)
     return next((mark for mark in _DELIMITERS if mark in outside_quotes), ",")
+
+
+def _by_blanks(heading: str, line: str) -> bool:
+    """Return whether the heading has no delimiter, and the line below it several numbers."""
+    words = re.split(r"[;,]?\s+", line.strip())
+    numbers = [word for word in words if _NUMBER.fullmatch(word)]
+    return len(numbers) > 1 and not any(mark in heading for mark in _DELIMITERS)
 
 
 def _cells_of(line: str, delimiter: str) -> list[Any]:

@@ -55,6 +55,8 @@ def check_keys(source: str, name: str, given: Any, words: str) -> None:
     `source` and `name`, of the argument, begin the message; `words` is the expected content:
     'places and values'.
     """
+    with Validator("input data") as checked:
+        checked.instance("source", source, str, "a text is needed")
     with Validator(source) as checked:
         for key in checked.mapping(name, given, words):
             checked.instance(f"key of {name}", key, str, "a text is needed")

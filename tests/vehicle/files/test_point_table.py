@@ -75,6 +75,7 @@ HEAD = "point,x [mm],y [mm],z [mm]\n"
 WRONG = {
     "empty": "",
     "no points": HEAD,
+    "blanks": "point  x  y  z\nball_joint  5.0 -711,5  1.8e2\n",
     "no names": "x [mm],y [mm],z [mm]\n1,2,3\n",
     "no z": "point,x [mm],y [mm]\na,1,2\n",
     "units": "point,x [mm],y [m],z [mm]\na,1,2,3\n",
