@@ -18,6 +18,8 @@ Samples = tuple[Array, Array]
 # A cubic spline differs from its function by h^4 / 384 of the fourth derivative: 6e-11 for these.
 _SAMPLES_OF_A_PERIOD = 512
 _MOST_PERIODS = 5000
+# Shortest motion over a sinusoidal road, whose slopes are finite [s].
+_SHORTEST = 1e-9
 
 
 def step(height: float, *, at: float, end: float) -> Samples | float:
@@ -84,7 +86,7 @@ def sine(amplitude: float, frequency: float, *, end: float) -> CubicSpline:
     with Validator("sine") as given:
         amplitude = given.number("amplitude", amplitude, "m")
         frequency = given.number("frequency", frequency, "Hz")
-        end = given.number("end", end, "s", above=0.0)
+        end = given.number("end", end, "s", least=_SHORTEST)
     periods = frequency * end
     if not 0.0 < periods <= _MOST_PERIODS:
         problem = (

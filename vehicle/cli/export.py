@@ -21,8 +21,8 @@ EXAMPLES = (
 )
 
 _NOT_A_TABLE = (
-    "and a table of hardpoints is that of a suspension. Give the file of a suspension, such as "
-    "that of a side of an axle."
+    "and a table of hardpoints is that of a suspension. Give the file of a suspension, such as one "
+    "that the file of an axle names; rigid and twist-beam axles have no table."
 )
 
 

@@ -95,7 +95,7 @@ def cars(
         given.function("progress", progress)
         if threads is not None:
             threads = given.whole("threads", threads, most=1024)
-        kept = tuple(given.names("reductions", reductions, _REDUCTIONS)) if reductions else ()
+        kept = () if reductions is None else given.names("reductions", reductions, _REDUCTIONS)
         if not given.failed:
             curves = curves_of(given, suspension, over, positions, names, held)
             columns, frame = _columns(given, suspension, values, curves.over)

@@ -54,10 +54,12 @@ def test_a_sine_ends_where_it_was_made_to():
         assert simulate(MODEL, (0.0, 2.0), equilibrium(MODEL), **options).success
 
 
-def test_a_sine_too_long_to_tabulate_is_refused():
+def test_a_sine_too_long_or_too_short_to_tabulate_is_refused():
     for frequency in (0.0, -1.0, 1e6):
         with pytest.raises(InputError, match="at most 500 Hz"):
             sine(0.01, frequency, end=10.0)
+    with pytest.raises(InputError, match="end = 1e-300 s: a finite number of 1e-09 s or more"):
+        sine(0.01, 1.0, end=1e-300)
 
 
 def test_a_slow_sine_carries_the_suspension_along():

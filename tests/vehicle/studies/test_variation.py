@@ -468,6 +468,8 @@ WRONG = [
     lambda: variation.optimise(
             CAR, {ROD: 1.0}, TOE, {"toe": {"least": 1.0, "most": -1.0}}
         ),
+    lambda: variation.cars(CAR, {ROD: [279.0]}, positions=[0.0], reductions=np.zeros(2)),
+    lambda: variation.cars(CAR, {ROD: [279.0]}, positions=[0.0], reductions=0),
 ]  # fmt: skip
 
 
