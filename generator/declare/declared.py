@@ -247,7 +247,7 @@ def _advice(value: Any, wanted: list[str]) -> str:
     kind = type(value).__name__
     cases = (
         (isinstance(value, type), f"write {getattr(value, '__name__', '')}(...)"),
-        ("a tuple" in wanted, f"write it in brackets with a comma behind, ({_shown(value)},)"),
+        ("a tuple" in wanted, f"write it in brackets, with a comma after it, ({_shown(value)},)"),
         (wanted == ["a Line"], "write Line(point, direction) or Line(point, point)"),
         (wanted == ["a Point"], "write Point(name, place, meaning)"),
         (wanted == ["a Direction"], "write Direction(name, components, meaning)"),

@@ -145,8 +145,8 @@ def ensemble(
     MissingPackageError
         If the packages of the extra "cluster" are not installed.
     ClusterError
-        If the scheduler is lost, or several workers in a row with the same systems. The systems of
-        a single lost worker are simulated by another.
+        If the scheduler is lost, or several workers are lost one after the other with the same
+        systems. The systems of a single lost worker are simulated by another one.
 
     Notes
     -----

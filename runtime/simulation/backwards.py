@@ -103,11 +103,11 @@ def motion_gradient(
     The derivatives are those at fixed lengths of steps. Lengths depend on parameters, too, but this
     changes the result by no more than the error of the integration. A disturbance of a system at
     rest is integrated as accurately: the length of a step times the size of any eigenvalue of the
-    Jacobian is at most (3600 rtol)^(1/6), which makes stiff members slow.
+    Jacobian is at most (3600 rtol)^(1/6), which makes the integration of stiff motions slow.
 
     Where a stop is touched, or a curve has a kink, the derivatives jump. Steps become shorter
-    towards such a time, so that the step that passes it has a length of some root of `rtol` of the
-    longest one. A part that rests on a kink has the derivative of one side. If rates jump, for
+    towards such a time: the step that passes it is shorter than the longest one by a factor of
+    about the square root of `rtol`. A part that rests on a kink has the derivative of one side. If rates jump, for
     example where a tyre with damping meets the road, there is no gradient, and an error is raised.
 
     Examples

@@ -83,8 +83,9 @@ class Simulation(OptimizeResult):
     solver : str
         'kintrafo', 'SciPy', or 'SUNDIALS' with its version.
     validity : tuple of Excursion
-        Outputs at which the motion is beyond a bound of the model: a strut longer than its stops
-        allow, a tyre that pulls. Empty if there are none. Not an item of the mapping.
+        Outputs at which the motion is beyond a bound of the model: a strut longer than its
+        greatest length, a tyre that pulls. Empty if there are none. It is an attribute alone, not
+        a key of the result as a dictionary.
     """
 
     t: Array

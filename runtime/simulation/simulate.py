@@ -360,8 +360,8 @@ def _what_else(model: System, backend: Backend, options: Options) -> str:
     words = [f"use {' and '.join(other)}"] if other else []
     words += [f"leave out {' and '.join(out)}"] if out else []
     advice = ", ".join(words)
-    by = "it is integrated in C" if in_c else "SciPy integrates it"
-    return f"{advice[0].upper()}{advice[1:]}: {by} then."
+    by = "the equations are then integrated in C" if in_c else "SciPy then integrates them"
+    return f"{advice[0].upper()}{advice[1:]}: {by}."
 
 
 @cache

@@ -119,7 +119,7 @@ class Linearisation:
 
     @cached_property
     def tangent(self) -> Tangent:
-        """The motions near the point, in as many coordinates as there are speeds."""
+        """The linear motions about the state, in as many coordinates as there are speeds."""
         return Tangent.at(self.A, self.rate, self.state, self.layout)
 
     @property

@@ -209,7 +209,7 @@ class System:
         return self.signals(state, inputs)[name]
 
     def allowed_lengths(self) -> tuple[LengthLimit, ...]:
-        """Return limits of lengths that the equations do not have."""
+        """Return limits of lengths that a simulation reports and the equations do not contain."""
         return ()
 
     def eigenvalues(

@@ -69,8 +69,8 @@ def measured_curves(path: str | Path) -> xr.Dataset:
     ``steering_wheel_angle [deg]``. Other columns are left out. `kintrafo.core.tables` describes the
     spellings of names and units, such as ``Wheel Travel (mm)``; units may be in a separate row or
     comment. Rows may be in any order, and positions may repeat, as in a loop with friction. A cell
-    may be empty. If there are two positions, one must be the same in all rows, to 0.1 mm: the
-    suspension is held at its mean.
+    may be empty. If there are columns of two positions, one of them must be constant to 0.1 mm; the
+    suspension is then held at the mean of this column.
 
     Parameters
     ----------

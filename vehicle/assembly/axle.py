@@ -49,7 +49,7 @@ class AxleAssembly(SteerableAssembly):
 
     MEASURES, OVER_STEERING, OVER_RACK = OVER_TRAVEL, OVER_STEERING, OVER_RACK
     ENDS = "the linkage or a drop link reaches no farther"
-    BAR_SIGN = "positive with the left half turned the farther"
+    BAR_SIGN = "positive with the left half turned farther about the axis to the left"
 
     def __init__(self, axle: Axle, model: AxleModel | None = None) -> None:
         self.subject = self.axle = axle

@@ -518,7 +518,7 @@ class CarAssembly(Assembly):
     def coordinates_at(self, position: RigPosition) -> Array:
         """Raise an `InputError`: a car begins at rest, or in a state of its equations."""
         problem = (
-            "heights of wheels: the body of a car moves too; it begins at rest. Leave them out."
+            "height: the motion of a car begins at rest, since its body moves, too. Leave it out."
         )
         raise InputError([problem], self.heading)
 

@@ -62,8 +62,8 @@ class NonlinearOptions:
     hardpoints: Annotated[
         Literal["loaded", "relaxed"] | None,
         option(
-            "With --nonlinear: state in which the joints are at the hardpoints, under the static "
-            "load at design (loaded, the default), or with bushes without load (relaxed)."
+            "With --nonlinear: where the joints are at the hardpoints. loaded (the default): under "
+            "the static load at design; relaxed: with unloaded bushes."
         ),
     ] = None
 
@@ -95,7 +95,12 @@ def command(
         option(f"{SUPPORT} Default: height."),
     ] = None,
     at: Annotated[
-        float, option("Wheel travel of the table, under a load, and over steer.", "MM")
+        float,
+        option(
+            "Wheel travel: of the table; with --under, of the wheel before the load; with --over "
+            "steer, during the steering.",
+            "MM",
+        ),
     ] = 0.0,
     rack: Annotated[float, option("Constant rack displacement.", "MM")] = 0.0,
     rebound: Rebound = None,

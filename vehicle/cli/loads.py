@@ -144,7 +144,7 @@ def command(
         if envelope:
             console.print(_extremes(with_sums, study.envelope(with_sums), parts, file))
         elif not shown:
-            print_table(overview(found, f"{file}: sizes of the forces [N]", parts))
+            print_table(overview(found, f"{file}: magnitudes of the forces [N]", parts))
         _print_rest(found)
         name_files(written)
     if not _did_what_was_asked(found, [*described.get("cases", shown or ())]):

@@ -38,7 +38,7 @@ def format_of(path: str | Path) -> Format:
     file = Path(path)
     ending = file.suffix.lower()
     if ending == ".toml":
-        problem = "this is a hardpoint file already. Copy it, or name it behind --from."
+        problem = "this is a hardpoint file already. Copy it, or name it after --from."
         raise InputError([problem], str(path))
     known = _BY_ENDING.get(ending)
     if known is not None and ending != ".txt":

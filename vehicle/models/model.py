@@ -94,7 +94,7 @@ class Model(System):
         return Model(suspension, free_rack=self.free_rack, wheel_loads=self.wheel_loads)
 
     def of(self, some: NDArray[np.int64]) -> "Model":
-        """Return the model of some rows of an array of positions, which is the same for all."""
+        """Return this model: the equations are the same for all rows of an array of positions."""
         return self
 
     def allowed_lengths(self) -> tuple[LengthLimit, ...]:

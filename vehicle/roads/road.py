@@ -76,7 +76,7 @@ class Road:
     def lead(self) -> float:
         """Distance before the road at which a car on the level begins [m].
 
-        It is zero if both first heights are equal, else whole spacings of `LEAD` or more.
+        It is zero if both first heights are equal, else the spacings that make `LEAD` (5 m) or more.
         """
         return 0.0 if self.left[0] == self.right[0] else self.spacing * self._before
 
@@ -128,9 +128,9 @@ class Road:
         Returns
         -------
         scipy.interpolate.CubicSpline
-            Height above `datum` [m] by distance [m], level at both ends: from `LEAD` or more before
-            the road, where it rises from zero to the first height, to one spacing beyond the last
-            one.
+            Height above `datum` [m] by distance [m], level at both ends. It begins `LEAD` (5 m) or
+            more before the road, rises from zero to the first height, and ends one spacing beyond
+            the last height.
         """
         with Validator("Road.over_distance") as given:
             given.among("side", side, ("left", "right"))

@@ -110,7 +110,7 @@ def _result(future: Any, span: Span) -> ChunkResult:
             found: ChunkResult = future.result()
     except KilledWorker as error:
         message = (
-            f"systems {span[0]} to {span[1]}: several workers in a row were lost with them. See "
+            f"systems {span[0]} to {span[1]}: several workers were lost with them, one after the other. See "
             "their output; they may have had too little memory."
         )
         raise ClusterError(message) from error

@@ -89,7 +89,8 @@ def compile_mechanism(
         If the file cannot be run or an argument is not known; if the folder cannot be written, or
         its files cannot be loaded; if another user owns it, or can write there.
     MechanismError
-        If the declaration contradicts itself, or a loop does not close in closed form.
+        If the declaration contradicts itself, or a loop has no closed form and the declaration does
+        not allow iteration.
     CompilerError
         If the compiler fails.
     MissingPackageError

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 class MechanismError(KintrafoError, ValueError):
-    """A mechanism whose declaration contradicts itself, or whose loops do not close."""
+    """A declaration that contradicts itself, or has a loop that cannot be solved."""
 
 
 @contextmanager

@@ -45,7 +45,8 @@ def write_derivation(
     InputError
         If the declaration cannot be read or the files must not be written.
     MechanismError
-        If the declaration contradicts itself, or a loop does not close in closed form.
+        If the declaration contradicts itself, or a loop has no closed form and the declaration does
+        not allow iteration.
     MissingPackageError
         If the packages of the extra "generator" are not installed.
 

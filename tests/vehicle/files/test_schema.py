@@ -6,7 +6,7 @@ from importlib import resources
 
 import jsonschema
 import pytest
-from kintrafo import Axle, Suspension
+from kintrafo import Axle, Suspension, handling
 from kintrafo.core.errors import InputError
 from kintrafo.vehicle import data
 from kintrafo.vehicle.analysis.handling import MANOEUVRES
@@ -152,6 +152,19 @@ def test_packaged_manoeuvres_are_valid(validator, name):
         ({first: -1.0}, "less than"),
     ):
         assert any(complaint in error.message for error in validator.iter_errors(found | changes))
+
+
+@pytest.mark.parametrize("name", manoeuvres())
+def test_numbers_beyond_the_published_ranges_of_manoeuvres_are_errors(name):
+    found = tomllib.loads(manoeuvres()[name].read_text(encoding="utf-8"))
+    model = MANOEUVRES[found["manoeuvre"]]
+    for key, entry in json.loads(PUBLISHED)["$defs"][model.__name__]["properties"].items():
+        if key not in found:  # it may be one of several, of which one is allowed
+            continue
+        for end, factor in (("minimum", 0.999), ("maximum", 1.001)):
+            if entry.get(end):
+                with pytest.raises(InputError, match=f"{key} = .* allowed"):
+                    handling.load_manoeuvre(name, {key: factor * entry[end]})
 
 
 def test_a_kind_that_there_is_not(validator):

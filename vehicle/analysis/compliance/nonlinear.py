@@ -82,8 +82,9 @@ def nonlinear(
         wheel [m], all relative to the position without the load; ``patch_displacement`` on the
         stationary tyre where the file has its rate, see `linear`; and ``wheel_load`` [N]. The data
         set 'linear' is that of `linear`. With an anti-roll bar ``bar_torque`` [N m], positive with
-        the left half turned the farther; of a rigid axle with the left wheel up, and
-        ``axle_steer_change`` [rad], ``axle_lateral_change`` and ``axle_longitudinal_change`` [m].
+        the left half turned farther about the axis to the left. Of a rigid axle ``bar_torque`` is
+        positive with the left wheel up, and there are ``axle_steer_change`` [rad],
+        ``axle_lateral_change`` and ``axle_longitudinal_change`` [m].
 
     Raises
     ------

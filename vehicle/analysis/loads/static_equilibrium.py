@@ -371,7 +371,7 @@ class _Search:
 def _excess(force: float) -> str:
     """Return by how much a load is not carried; `force` is the carried part less the load [N]."""
     direction = "upward" if force < 0.0 else "downward"
-    return f"spring and stops do not carry {abs(force):.4g} N {direction}"
+    return f"spring and stops carry {abs(force):.4g} N less than the {direction} load"
 
 
 def _changes_sign(values: Array, axes: NDArray[np.int64]) -> Booleans:

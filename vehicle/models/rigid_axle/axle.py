@@ -172,7 +172,7 @@ class BeamAxle(WholeAxle):
         ]
         problems += [
             f"[rods] {name!r} is the name of another part, which loads could not distinguish from "
-            f"it; {', '.join(self.PARTS)} are taken, with _left and _right behind them, too. "
+            f"it; {', '.join(self.PARTS)} are taken, also with the endings _left and _right. "
             "Rename the rod."
             for name in ends
             if name.removesuffix("_left").removesuffix("_right") in self.PARTS

@@ -13,9 +13,6 @@ from ..result import HandlingResult
 from ..steady import SteadyCondition
 from .manoeuvre import Manoeuvre, Progress
 
-# The smallest step makes some ten thousand turns, the largest one or two [m/s^2].
-_STEPS = 1e-3, 5.0
-
 
 class Circle(Manoeuvre):
     """Steady turns at constant speed, radius or steering wheel angle, up to the limit of tyres."""
@@ -44,10 +41,6 @@ class Circle(Manoeuvre):
                 "than 0 km/h, or radius_m."
             )
             return [problem]
-        least, most = _STEPS
-        if not least <= self.step_m_per_s2 <= most:
-            step = f"step_m_per_s2 = {self.step_m_per_s2:g} m/s^2"
-            return [f"{step}: {least:g} to {most:g} m/s^2 are allowed."]
         return super().problems()
 
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:

@@ -5,6 +5,9 @@ from collections.abc import Callable
 from typing import ClassVar
 
 import numpy as np
+from pydantic import GetJsonSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema
 
 from .....core.named_types import Array
 from ....assembly.quantity import GREATEST_SPEED, LEAST_SPEED
@@ -24,6 +27,7 @@ _RANGES = {
     "radius_m": (1.0, 1e5),
     "duration_s": (0.1, 3600.0),
     "step_km_per_h": (1e-3, GREATEST_SPEED),
+    "step_m_per_s2": (1e-3, 5.0),  # some ten thousand turns of a circle, or one or two
     "km/h": (LEAST_SPEED, GREATEST_SPEED),
     "m/s^2": (1e-3, 60.0),
     "deg": (1e-3, 2000.0),
@@ -35,6 +39,11 @@ _RANGES = {
     "ms": (0.01, 1e4),
     "N m": (1e-3, 1e6),
 }
+
+
+def _range_of(key: str) -> tuple[float, float]:
+    """Return the allowed range of the value of a key, in its unit."""
+    return _RANGES.get(key) or _RANGES.get(unit_of(key), (-np.inf, np.inf))
 
 
 class Manoeuvre(Section):
@@ -55,9 +64,25 @@ class Manoeuvre(Section):
             for value in np.ravel(getattr(self, key))
             for unit in [unit_of(key)]
             if unit and value is not None
-            for least, most in [_RANGES.get(key) or _RANGES.get(unit, (-np.inf, np.inf))]
+            for least, most in [_range_of(key)]
             if not least <= value <= most
         ]
+
+    @classmethod
+    def __get_pydantic_json_schema__(
+        cls, core: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        """Return the JSON Schema with the ranges of numbers, for the reference of input files."""
+        made = handler(core)
+        for key, entry in handler.resolve_ref_schema(made)["properties"].items():
+            least, most = _range_of(key)
+            for option in (entry, *entry.get("anyOf", ())):
+                if option.get("type") == "number" and np.isfinite(most):
+                    option["le"] = most
+                    if least > option.get("ge", option.get("gt", -np.inf)):
+                        option.pop("gt", None)
+                        option["ge"] = least
+        return made
 
     SLOPES: ClassVar[bool] = False
     """Whether it may be driven on a slope: straight ahead, without steady turns."""

@@ -97,7 +97,10 @@ class Parking(Manoeuvre):
         description="greatest steering wheel angle, to both sides; a steering column twists "
         "further by the friction",
     )
-    step_deg: Positive = Field(default=5.0, description="step of the steering wheel angle")
+    step_deg: Positive = Field(
+        default=5.0,
+        description="step of the steering wheel angle, at most a quarter of largest_deg",
+    )
     friction: _Friction = Field(
         default=0.8,
         description="friction coefficient of a tyre that turns on the road; 0: no friction",
