@@ -7,7 +7,7 @@
  * Units are SI. Axes are right-handed, with gravity along -z; in a vehicle x is forward and y left (ISO 8855).
  * Arrays of several dimensions are row-major.
  * All functions are pure: no allocation, no global state, safe to call from any thread.
- * They return 0, or status bits, which name the error; results are then finite, but meaningless.
+ * They return 0, or status bits, which name the error; results are then meaningless.
  */
 
 #ifndef KINTRAFO_DOUBLE_WISHBONE_GENERAL_PITMAN_ARM_H
@@ -120,7 +120,7 @@ enum double_wishbone_general_pitman_arm_parameter {
     DOUBLE_WISHBONE_GENERAL_PITMAN_ARM_PARAMETER_WHEEL_INERTIA_DIAMETRAL = 97, /* [kg m^2] inertia of the wheel across its axis */
     DOUBLE_WISHBONE_GENERAL_PITMAN_ARM_PARAMETER_SPRING_TABLE_FIRST_FORCE = 98, /* [N] force at the first knot */
     DOUBLE_WISHBONE_GENERAL_PITMAN_ARM_PARAMETER_SPRING_TABLE_FIRST_SLOPE = 99, /* [N/m] slope by compression before the first knot */
-    DOUBLE_WISHBONE_GENERAL_PITMAN_ARM_PARAMETER_SPRING_TABLE_LAST_SLOPE = 100, /* [N/m] slope by compression behind the last knot */
+    DOUBLE_WISHBONE_GENERAL_PITMAN_ARM_PARAMETER_SPRING_TABLE_LAST_SLOPE = 100, /* [N/m] slope by compression after the last knot */
     DOUBLE_WISHBONE_GENERAL_PITMAN_ARM_PARAMETER_SPRING_TABLE_KNOT_0 = 101, /* [m] knot 0 of length, falling */
     DOUBLE_WISHBONE_GENERAL_PITMAN_ARM_PARAMETER_SPRING_TABLE_KNOT_1 = 102, /* [m] knot 1 of length, falling */
     DOUBLE_WISHBONE_GENERAL_PITMAN_ARM_PARAMETER_SPRING_TABLE_KNOT_2 = 103, /* [m] knot 2 of length, falling */

@@ -7,7 +7,7 @@
  * Units are SI. Axes are right-handed, with gravity along -z; in a vehicle x is forward and y left (ISO 8855).
  * Arrays of several dimensions are row-major.
  * All functions are pure: no allocation, no global state, safe to call from any thread.
- * They return 0, or status bits, which name the error; results are then finite, but meaningless.
+ * They return 0, or status bits, which name the error; results are then meaningless.
  */
 
 #ifndef KINTRAFO_EXCAVATOR_LIFTING_H

@@ -7,7 +7,7 @@
  * Units are SI. Axes are right-handed, with gravity along -z; in a vehicle x is forward and y left (ISO 8855).
  * Arrays of several dimensions are row-major.
  * All functions are pure: no allocation, no global state, safe to call from any thread.
- * They return 0, or status bits, which name the error; results are then finite, but meaningless.
+ * They return 0, or status bits, which name the error; results are then meaningless.
  */
 
 #ifndef KINTRAFO_MACPHERSON_GENERAL_H
@@ -118,7 +118,7 @@ enum macpherson_general_parameter {
     MACPHERSON_GENERAL_PARAMETER_SPRING_FREE_LENGTH = 95,  /* [m] distance of the spring's seats at which it is free of force */
     MACPHERSON_GENERAL_PARAMETER_SPRING_TABLE_FIRST_FORCE = 96, /* [N] force at the first knot */
     MACPHERSON_GENERAL_PARAMETER_SPRING_TABLE_FIRST_SLOPE = 97, /* [N/m] slope by compression before the first knot */
-    MACPHERSON_GENERAL_PARAMETER_SPRING_TABLE_LAST_SLOPE = 98, /* [N/m] slope by compression behind the last knot */
+    MACPHERSON_GENERAL_PARAMETER_SPRING_TABLE_LAST_SLOPE = 98, /* [N/m] slope by compression after the last knot */
     MACPHERSON_GENERAL_PARAMETER_SPRING_TABLE_KNOT_0 = 99, /* [m] knot 0 of length, falling */
     MACPHERSON_GENERAL_PARAMETER_SPRING_TABLE_KNOT_1 = 100, /* [m] knot 1 of length, falling */
     MACPHERSON_GENERAL_PARAMETER_SPRING_TABLE_KNOT_2 = 101, /* [m] knot 2 of length, falling */

@@ -7,7 +7,7 @@
  * Units are SI. Axes are right-handed, with gravity along -z; in a vehicle x is forward and y left (ISO 8855).
  * Arrays of several dimensions are row-major.
  * All functions are pure: no allocation, no global state, safe to call from any thread.
- * They return 0, or status bits, which name the error; results are then finite, but meaningless.
+ * They return 0, or status bits, which name the error; results are then meaningless.
  *
  * Some loops of this model are solved by iteration. Newton's method finds the pose of knuckle,
  * held by sensor_rod, front_upper_link, rear_upper_link, front_lower_link, rear_lower_link,
@@ -184,7 +184,7 @@ enum multi_link_parameter {
     MULTI_LINK_PARAMETER_DAMPER_RATE = 155,                /* [N s/m] rate of the damper along its axis */
     MULTI_LINK_PARAMETER_SPRING_TABLE_FIRST_FORCE = 156,   /* [N] force at the first knot */
     MULTI_LINK_PARAMETER_SPRING_TABLE_FIRST_SLOPE = 157,   /* [N/m] slope by compression before the first knot */
-    MULTI_LINK_PARAMETER_SPRING_TABLE_LAST_SLOPE = 158,    /* [N/m] slope by compression behind the last knot */
+    MULTI_LINK_PARAMETER_SPRING_TABLE_LAST_SLOPE = 158,    /* [N/m] slope by compression after the last knot */
     MULTI_LINK_PARAMETER_SPRING_TABLE_KNOT_0 = 159,        /* [m] knot 0 of length, falling */
     MULTI_LINK_PARAMETER_SPRING_TABLE_KNOT_1 = 160,        /* [m] knot 1 of length, falling */
     MULTI_LINK_PARAMETER_SPRING_TABLE_KNOT_2 = 161,        /* [m] knot 2 of length, falling */

@@ -7,7 +7,7 @@
  * Units are SI. Axes are right-handed, with gravity along -z; in a vehicle x is forward and y left (ISO 8855).
  * Arrays of several dimensions are row-major.
  * All functions are pure: no allocation, no global state, safe to call from any thread.
- * They return 0, or status bits, which name the error; results are then finite, but meaningless.
+ * They return 0, or status bits, which name the error; results are then meaningless.
  */
 
 #ifndef KINTRAFO_PULL_ROD_H
@@ -152,7 +152,7 @@ enum pull_rod_parameter {
     PULL_ROD_PARAMETER_SPRING_FREE_LENGTH = 129,           /* [m] distance of its ends with the spring force-free */
     PULL_ROD_PARAMETER_SPRING_TABLE_FIRST_FORCE = 130,     /* [N] force at the first knot */
     PULL_ROD_PARAMETER_SPRING_TABLE_FIRST_SLOPE = 131,     /* [N/m] slope by compression before the first knot */
-    PULL_ROD_PARAMETER_SPRING_TABLE_LAST_SLOPE = 132,      /* [N/m] slope by compression behind the last knot */
+    PULL_ROD_PARAMETER_SPRING_TABLE_LAST_SLOPE = 132,      /* [N/m] slope by compression after the last knot */
     PULL_ROD_PARAMETER_SPRING_TABLE_KNOT_0 = 133,          /* [m] knot 0 of length, falling */
     PULL_ROD_PARAMETER_SPRING_TABLE_KNOT_1 = 134,          /* [m] knot 1 of length, falling */
     PULL_ROD_PARAMETER_SPRING_TABLE_KNOT_2 = 135,          /* [m] knot 2 of length, falling */

@@ -7,7 +7,7 @@
  * Units are SI. Axes are right-handed, with gravity along -z; in a vehicle x is forward and y left (ISO 8855).
  * Arrays of several dimensions are row-major.
  * All functions are pure: no allocation, no global state, safe to call from any thread.
- * They return 0, or status bits, which name the error; results are then finite, but meaningless.
+ * They return 0, or status bits, which name the error; results are then meaningless.
  *
  * Some loops of this model are solved by iteration. Newton's method finds the coordinates of
  * sway_guide, shift_guide, yaw_hinge, pitch_hinge, with which rod_1, rod_2, rod_3, rod_4 close: in
@@ -165,7 +165,7 @@ enum rigid_axle_parameter {
     RIGID_AXLE_PARAMETER_TYRE_FREE_HEIGHT = 137,           /* [m] height of the wheel centre at which the tyre is free of force */
     RIGID_AXLE_PARAMETER_SPRING_TABLE_FIRST_FORCE = 138,   /* [N] force at the first knot */
     RIGID_AXLE_PARAMETER_SPRING_TABLE_FIRST_SLOPE = 139,   /* [N/m] slope by compression before the first knot */
-    RIGID_AXLE_PARAMETER_SPRING_TABLE_LAST_SLOPE = 140,    /* [N/m] slope by compression behind the last knot */
+    RIGID_AXLE_PARAMETER_SPRING_TABLE_LAST_SLOPE = 140,    /* [N/m] slope by compression after the last knot */
     RIGID_AXLE_PARAMETER_SPRING_TABLE_KNOT_0 = 141,        /* [m] knot 0 of length, falling */
     RIGID_AXLE_PARAMETER_SPRING_TABLE_KNOT_1 = 142,        /* [m] knot 1 of length, falling */
     RIGID_AXLE_PARAMETER_SPRING_TABLE_KNOT_2 = 143,        /* [m] knot 2 of length, falling */
@@ -303,7 +303,7 @@ enum rigid_axle_parameter {
     RIGID_AXLE_PARAMETER_LEFT_SPRING_FREE_LENGTH = 275,    /* [m] distance of the seats with the spring force-free */
     RIGID_AXLE_PARAMETER_LEFT_SPRING_TABLE_FIRST_FORCE = 276, /* [N] force at the first knot */
     RIGID_AXLE_PARAMETER_LEFT_SPRING_TABLE_FIRST_SLOPE = 277, /* [N/m] slope by compression before the first knot */
-    RIGID_AXLE_PARAMETER_LEFT_SPRING_TABLE_LAST_SLOPE = 278, /* [N/m] slope by compression behind the last knot */
+    RIGID_AXLE_PARAMETER_LEFT_SPRING_TABLE_LAST_SLOPE = 278, /* [N/m] slope by compression after the last knot */
     RIGID_AXLE_PARAMETER_LEFT_SPRING_TABLE_KNOT_0 = 279,   /* [m] knot 0 of length, falling */
     RIGID_AXLE_PARAMETER_LEFT_SPRING_TABLE_KNOT_1 = 280,   /* [m] knot 1 of length, falling */
     RIGID_AXLE_PARAMETER_LEFT_SPRING_TABLE_KNOT_2 = 281,   /* [m] knot 2 of length, falling */

@@ -7,7 +7,7 @@
  * Units are SI. Axes are right-handed, with gravity along -z; in a vehicle x is forward and y left (ISO 8855).
  * Arrays of several dimensions are row-major.
  * All functions are pure: no allocation, no global state, safe to call from any thread.
- * They return 0, or status bits, which name the error; results are then finite, but meaningless.
+ * They return 0, or status bits, which name the error; results are then meaningless.
  *
  * Some loops of this model are solved by iteration. Newton's method finds the coordinates of
  * sway_guide, shift_guide, yaw_hinge, pitch_hinge, with which rod_1, rod_2, rod_3, rod_4 close: in
@@ -183,7 +183,7 @@ enum steered_rigid_axle_parameter {
     STEERED_RIGID_AXLE_PARAMETER_KNUCKLE_INERTIA_YZ = 155, /* [kg m^2] yz element of the inertia tensor of the knuckle */
     STEERED_RIGID_AXLE_PARAMETER_SPRING_TABLE_FIRST_FORCE = 156, /* [N] force at the first knot */
     STEERED_RIGID_AXLE_PARAMETER_SPRING_TABLE_FIRST_SLOPE = 157, /* [N/m] slope by compression before the first knot */
-    STEERED_RIGID_AXLE_PARAMETER_SPRING_TABLE_LAST_SLOPE = 158, /* [N/m] slope by compression behind the last knot */
+    STEERED_RIGID_AXLE_PARAMETER_SPRING_TABLE_LAST_SLOPE = 158, /* [N/m] slope by compression after the last knot */
     STEERED_RIGID_AXLE_PARAMETER_SPRING_TABLE_KNOT_0 = 159, /* [m] knot 0 of length, falling */
     STEERED_RIGID_AXLE_PARAMETER_SPRING_TABLE_KNOT_1 = 160, /* [m] knot 1 of length, falling */
     STEERED_RIGID_AXLE_PARAMETER_SPRING_TABLE_KNOT_2 = 161, /* [m] knot 2 of length, falling */
@@ -336,7 +336,7 @@ enum steered_rigid_axle_parameter {
     STEERED_RIGID_AXLE_PARAMETER_LEFT_SPRING_FREE_LENGTH = 308, /* [m] distance of the seats with the spring force-free */
     STEERED_RIGID_AXLE_PARAMETER_LEFT_SPRING_TABLE_FIRST_FORCE = 309, /* [N] force at the first knot */
     STEERED_RIGID_AXLE_PARAMETER_LEFT_SPRING_TABLE_FIRST_SLOPE = 310, /* [N/m] slope by compression before the first knot */
-    STEERED_RIGID_AXLE_PARAMETER_LEFT_SPRING_TABLE_LAST_SLOPE = 311, /* [N/m] slope by compression behind the last knot */
+    STEERED_RIGID_AXLE_PARAMETER_LEFT_SPRING_TABLE_LAST_SLOPE = 311, /* [N/m] slope by compression after the last knot */
     STEERED_RIGID_AXLE_PARAMETER_LEFT_SPRING_TABLE_KNOT_0 = 312, /* [m] knot 0 of length, falling */
     STEERED_RIGID_AXLE_PARAMETER_LEFT_SPRING_TABLE_KNOT_1 = 313, /* [m] knot 1 of length, falling */
     STEERED_RIGID_AXLE_PARAMETER_LEFT_SPRING_TABLE_KNOT_2 = 314, /* [m] knot 2 of length, falling */

@@ -7,7 +7,7 @@
  * Units are SI. Axes are right-handed, with gravity along -z; in a vehicle x is forward and y left (ISO 8855).
  * Arrays of several dimensions are row-major.
  * All functions are pure: no allocation, no global state, safe to call from any thread.
- * They return 0, or status bits, which name the error; results are then finite, but meaningless.
+ * They return 0, or status bits, which name the error; results are then meaningless.
  */
 
 #ifndef KINTRAFO_TRAILING_ARM_H
@@ -62,7 +62,7 @@ enum trailing_arm_parameter {
     TRAILING_ARM_PARAMETER_DAMPER_RATE = 39,               /* [N s/m] rate of the damper along its axis */
     TRAILING_ARM_PARAMETER_SPRING_TABLE_FIRST_FORCE = 40,  /* [N] force at the first knot */
     TRAILING_ARM_PARAMETER_SPRING_TABLE_FIRST_SLOPE = 41,  /* [N/m] slope by compression before the first knot */
-    TRAILING_ARM_PARAMETER_SPRING_TABLE_LAST_SLOPE = 42,   /* [N/m] slope by compression behind the last knot */
+    TRAILING_ARM_PARAMETER_SPRING_TABLE_LAST_SLOPE = 42,   /* [N/m] slope by compression after the last knot */
     TRAILING_ARM_PARAMETER_SPRING_TABLE_KNOT_0 = 43,       /* [m] knot 0 of length, falling */
     TRAILING_ARM_PARAMETER_SPRING_TABLE_KNOT_1 = 44,       /* [m] knot 1 of length, falling */
     TRAILING_ARM_PARAMETER_SPRING_TABLE_KNOT_2 = 45,       /* [m] knot 2 of length, falling */

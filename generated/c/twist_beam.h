@@ -7,7 +7,7 @@
  * Units are SI. Axes are right-handed, with gravity along -z; in a vehicle x is forward and y left (ISO 8855).
  * Arrays of several dimensions are row-major.
  * All functions are pure: no allocation, no global state, safe to call from any thread.
- * They return 0, or status bits, which name the error; results are then finite, but meaningless.
+ * They return 0, or status bits, which name the error; results are then meaningless.
  */
 
 #ifndef KINTRAFO_TWIST_BEAM_H
@@ -71,7 +71,7 @@ enum twist_beam_parameter {
     TWIST_BEAM_PARAMETER_TYRE_FREE_HEIGHT = 48,            /* [m] height of the wheel centre at which the tyre is free of force */
     TWIST_BEAM_PARAMETER_SPRING_TABLE_FIRST_FORCE = 49,    /* [N] force at the first knot */
     TWIST_BEAM_PARAMETER_SPRING_TABLE_FIRST_SLOPE = 50,    /* [N/m] slope by compression before the first knot */
-    TWIST_BEAM_PARAMETER_SPRING_TABLE_LAST_SLOPE = 51,     /* [N/m] slope by compression behind the last knot */
+    TWIST_BEAM_PARAMETER_SPRING_TABLE_LAST_SLOPE = 51,     /* [N/m] slope by compression after the last knot */
     TWIST_BEAM_PARAMETER_SPRING_TABLE_KNOT_0 = 52,         /* [m] knot 0 of length, falling */
     TWIST_BEAM_PARAMETER_SPRING_TABLE_KNOT_1 = 53,         /* [m] knot 1 of length, falling */
     TWIST_BEAM_PARAMETER_SPRING_TABLE_KNOT_2 = 54,         /* [m] knot 2 of length, falling */
@@ -207,7 +207,7 @@ enum twist_beam_parameter {
     TWIST_BEAM_PARAMETER_LEFT_SPRING_FREE_LENGTH = 184,    /* [m] distance of the seats with the spring force-free */
     TWIST_BEAM_PARAMETER_LEFT_SPRING_TABLE_FIRST_FORCE = 185, /* [N] force at the first knot */
     TWIST_BEAM_PARAMETER_LEFT_SPRING_TABLE_FIRST_SLOPE = 186, /* [N/m] slope by compression before the first knot */
-    TWIST_BEAM_PARAMETER_LEFT_SPRING_TABLE_LAST_SLOPE = 187, /* [N/m] slope by compression behind the last knot */
+    TWIST_BEAM_PARAMETER_LEFT_SPRING_TABLE_LAST_SLOPE = 187, /* [N/m] slope by compression after the last knot */
     TWIST_BEAM_PARAMETER_LEFT_SPRING_TABLE_KNOT_0 = 188,   /* [m] knot 0 of length, falling */
     TWIST_BEAM_PARAMETER_LEFT_SPRING_TABLE_KNOT_1 = 189,   /* [m] knot 1 of length, falling */
     TWIST_BEAM_PARAMETER_LEFT_SPRING_TABLE_KNOT_2 = 190,   /* [m] knot 2 of length, falling */

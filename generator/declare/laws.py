@@ -336,7 +336,7 @@ class SpringTable(AnyTable):
     meaning = "spring force"
     units = "N/m", "m", "1/m"
     knots = "length, falling"
-    ends = "by compression before", "by compression behind"
+    ends = "by compression before", "by compression after"
 
     def problems(self, path: AnyPath) -> list[str]:
         if path.words.force == "moment":

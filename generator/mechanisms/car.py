@@ -45,8 +45,8 @@ _UPWARD = d.Direction(
 )
 _ANGLES: dict[Literal["yaw", "pitch", "roll"], str] = {
     "yaw": "turn of the body about the upward axis, positive to the left",
-    "pitch": "pitch of the body behind that, positive nose down",
-    "roll": "roll of the body behind both, positive with its left side up",
+    "pitch": "pitch of the body after yaw, positive nose down",
+    "roll": "roll of the body after yaw and pitch, positive with its left side up",
 }
 _MEANINGS = {
     "heave": "height of the centre of mass of the body above that at design",

@@ -70,8 +70,7 @@ class Header(CText):
             f"\n\nUnits are SI. Axes are right-handed{gravity}.\n"
             "Arrays of several dimensions are row-major.\n"
             "All functions are pure: no allocation, no global state, safe to call from any thread."
-            "\nThey return 0, or status bits, which name the error; results are then finite, but "
-            "meaningless."
+            "\nThey return 0, or status bits, which name the error; results are then meaningless."
         ) + (f"\n\n{textwrap.fill(note, WIDTH - 4)}" if note else "")
 
     def _enum(self, kind: str, title: str, entries: Sequence[Entry | Input | Shown]) -> str:

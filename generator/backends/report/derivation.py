@@ -240,11 +240,16 @@ def _transformers(derivation: Derivation, number: EquationNumbers) -> Iterator[B
     if not derivation.plan.transformers:
         yield Paragraph("The mechanism has no loop to close.")
         return
+    together = (
+        " Of loops that are solved by iteration, the remaining equations are solved together."
+        if iteration_note(derivation)
+        else ""
+    )
     yield Paragraph(
         "A loop is cut at a pair of joints whose points keep a known distance. This leaves one "
         "equation with one unknown, of the six equations of a loop in space or the three of a loop "
-        "in a plane. A table lists the pairs of each loop. The inputs of a transformer are known "
-        "from the transformers before it."
+        f"in a plane.{together} A table lists the pairs of each loop. The inputs of a transformer "
+        "are known from the transformers before it."
     )
     yield Picture("transformers", "Kinematic transformers, and the coordinates between them.")
     yield from _turns(derivation, number)
