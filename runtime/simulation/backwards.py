@@ -106,9 +106,9 @@ def motion_gradient(
     Jacobian is at most (3600 rtol)^(1/6), which makes the integration of stiff motions slow.
 
     Where a stop is touched, or a curve has a kink, the derivatives jump. Steps become shorter
-    towards such a time: the step that passes it is shorter than the longest one by a factor of
-    about the square root of `rtol`. A part that rests on a kink has the derivative of one side. If rates jump, for
-    example where a tyre with damping meets the road, there is no gradient, and an error is raised.
+    towards such a time: the step that passes it is about sqrt(rtol) times as long as the longest
+    one. A part that rests on a kink has the derivative of one side. If rates jump, for example
+    where a tyre with damping meets the road, there is no gradient, and an error is raised.
 
     Examples
     --------

@@ -77,8 +77,8 @@ class Stepper:
 
     A step has the checks of `kintrafo.simulate`, with the same errors: stability of 'RK4', loops
     that cannot close, dead points. A state beyond a bound of the model, such as a strut longer than
-    its greatest length, is not an error: `kintrafo.Simulation.validity` reports it for a motion, and
-    for a stepper the signals show it. No memory is allocated by a step.
+    its greatest length, is not an error: `kintrafo.Simulation.validity` reports it for a motion,
+    and for a stepper the signals show it. No memory is allocated by a step.
 
     Examples
     --------

@@ -50,10 +50,10 @@ def command(
     over: Annotated[
         str | None,
         option(
-            "Motion: travel or rack of suspensions; bump, roll, left, right, steer or rack of axles; "
-            "heave, pitch or roll of cars, and, with options as of kintrafo sensitivity, speed or "
-            "lateral_acceleration. Default: travel, bump of axles, heave of cars, or that of the "
-            "measured curves.",
+            "Motion: travel or rack of suspensions; bump, roll, left, right, steer or rack of "
+            "axles; heave, pitch or roll of cars, and, with options as of kintrafo sensitivity, "
+            "speed or lateral_acceleration. Default: travel, bump of axles, heave of cars, or that "
+            "of the measured curves.",
             "NAME[:OPTION=VALUE]",
         ),
     ] = None,

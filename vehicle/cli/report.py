@@ -61,8 +61,8 @@ def command(
     The 3D view shows one side of an axle; a chapter has the characteristics of both sides on a rig.
     A rigid axle or a twist beam is shown in its motions on a rig. A car is shown at rest, in motion
     over a bump and, if it drives, in a step steer; a line in the curves marks the time of the
-    picture. Each axle has a chapter. Targets and limits of --goals have a chapter. Compliance is included if FILE has
-    bushes, or with --bushes.
+    picture. Each axle has a chapter. Targets and limits of --goals have a chapter. Compliance is
+    included if FILE has bushes, or with --bushes.
     """
     from ...core.files import refuse
     from ..report import ENDINGS, write, write_chapters

@@ -127,11 +127,11 @@ class MultiLinkHardpoints(Hardpoints):
         found = np.round([*shift, *turn], 2).tolist()
         problem = (
             f"{self.text(*(f'{link}_outer' for link in _WORDS))}: the five links do not hold the "
-            f"knuckle, which {words} (x, y, z, roll, pitch and yaw as {found}): its displacement is {times} "
-            f"times the elongation of a link, with the wheel at its height; at most {_LOOSEST:g} "
-            "times are allowed. Move the links: no two on one line, no three of a plane through "
-            "one point, no four through one point, and the toe link at a distance from the "
-            "steering axis."
+            f"knuckle, which {words} (x, y, z, roll, pitch and yaw as {found}): its displacement "
+            f"is {times} times the elongation of a link, with the wheel at its height; at most "
+            f"{_LOOSEST:g} times are allowed. Move the links: no two on one line, no three of a "
+            "plane through one point, no four through one point, and the toe link at a distance "
+            "from the steering axis."
         )
         return [problem]
 

@@ -76,7 +76,7 @@ class Road:
     def lead(self) -> float:
         """Distance before the road at which a car on the level begins [m].
 
-        It is zero if both first heights are equal, else the spacings that make `LEAD` (5 m) or more.
+        It is zero if both first heights are equal, else as many spacings as make 5 m (`LEAD`).
         """
         return 0.0 if self.left[0] == self.right[0] else self.spacing * self._before
 

@@ -110,8 +110,8 @@ def _result(future: Any, span: Span) -> ChunkResult:
             found: ChunkResult = future.result()
     except KilledWorker as error:
         message = (
-            f"systems {span[0]} to {span[1]}: several workers were lost with them, one after the other. See "
-            "their output; they may have had too little memory."
+            f"systems {span[0]} to {span[1]}: several workers were lost with them, one after the "
+            "other. See their output; they may have had too little memory."
         )
         raise ClusterError(message) from error
     except CancelledError as error:
