@@ -13,7 +13,7 @@ import pytest
 from kintrafo.generator import progress
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.systems.compile.build import _estimated
-from kintrafo.systems.compile.compiler import CompilerError, find_compiler
+from kintrafo.systems.compile.compiler import FLAGS, Compiler, CompilerError, find_compiler
 
 on_linux = pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
 needs_compiler = pytest.mark.skipif(find_compiler() is None, reason="no C compiler")
@@ -139,3 +139,22 @@ def test_a_compiler_that_is_killed_is_not_blamed(end, tmp_path, monkeypatch):
     script.write_text(script.read_text().replace("sleep 60 &", f"{end}\nsleep 60 &"))
     with pytest.raises(CompilerError, match="killed, as Linux does when memory runs out"):
         kintrafo.compile(FOUR_BAR, folder=tmp_path / "cache", backend="c")
+
+
+@on_linux
+@pytest.mark.parametrize(("own", "level"), [((), "-O1"), (("-O3",), "-O3")])
+def test_long_derivatives_are_optimised_less_unless_the_user_says_how_much(own, level, tmp_path):
+    log, script = tmp_path / "log", tmp_path / "cc"
+    script.write_text(f'#!/bin/sh\necho "$@" >> {log}\n')
+    script.chmod(0o700)
+    sources = [tmp_path / name for name in ("a.c", "a_derivatives.c", "b_derivatives.c")]
+    for source, size in zip(sources, (3_000_000, 3_000_000, 1_000), strict=True):
+        source.write_bytes(b"\n" * size)
+    Compiler((str(script), *FLAGS, *own), "").build(sources, tmp_path / "library")
+    lines = [line.split() for line in log.read_text().splitlines() if "-c" in line.split()]
+    levels = {
+        Path(line[line.index("-c") + 1]).name: [word for word in line if word.startswith("-O")][-1]
+        for line in lines
+    }
+    usual = own[0] if own else "-O2"
+    assert levels == {"a.c": usual, "a_derivatives.c": level, "b_derivatives.c": usual}
