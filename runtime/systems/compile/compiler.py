@@ -62,7 +62,7 @@ class Compiler:
         `CompilerError` with the command and the output of the compiler.
         """
         objects = [source.with_suffix(".o") for source in sources]
-        parts = [
+        parts: list[tuple[str | Path, ...]] = [
             (*self._options(c), "-c", c, "-o", o) for c, o in zip(sources, objects, strict=True)
         ]
         # a compiler that is killed leaves its own temporary files behind
