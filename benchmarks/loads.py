@@ -108,14 +108,15 @@ def _draw() -> None:
     found = loads.static(Model("offset_strut_car"))
     with tempfile.TemporaryDirectory() as name:
         path = Path(name) / "loads.png"
-        (written,) = pictures.write_free_bodies(
-            found, [path], "brake", ["knuckle"], title="offset strut"
-        )
-        shutil.copyfile(written, IMAGES / "loads.png")
+        pictures.write_free_bodies(found, path, "brake", ["knuckle"], title="offset strut")
+        shutil.copyfile(path, IMAGES / "loads.png")
         car, bushes = MODELS["reference_car"], _bushes_of_page()
         sheet = compliance.linear(car, bushes, held="spring")
         curves.write_overview(
-            sheet.drop_dims(["moved", "by"]), path, title=f"reference car, {sheet.attrs['held']}"
+            sheet.drop_dims(["moved", "by"]),
+            path,
+            title=f"reference car, {sheet.attrs['held']}",
+            force=True,
         )
         shutil.copyfile(path, IMAGES / "compliance.png")
         elastic = compliance.elastokinematics(car, bushes)

@@ -40,14 +40,18 @@ _NARROW_TITLE, _NARROW_TICKS = 34, 4
 _AROUND = np.array([0.9, 0.7])
 # Height of the first and of each further row of names below the panels [in].
 _BELOW, _FURTHER = 0.4, 0.2
+_NAME = 0.15  # height of a name above the curves of a panel [in]
 _IN_A_ROW = 4  # names below the panels
 _LETTERS_PER_INCH = 12  # of the title
 # Round values.
 _TICK_STEPS = [1, 2, 2.5, 5, 10]
 # A smaller variation, relative to the values, is rounding: the curve is constant.
 _CONSTANT = 1e-6
-# A curve has a pole if its whole range exceeds that of nine tenths of its values by this factor.
+# A curve has a pole if its whole range exceeds that of nine tenths of its values by this factor, or
+# a step of it the median step.
 _POLE = 10.0
+# Beside a simple pole a value is at least twice its neighbour farther away; less with an offset.
+_GROWTH = 1.5
 
 # Distance of marks from the ends of their axis, relative to its length.
 _ROOM = 0.05
@@ -61,8 +65,8 @@ LEAST_SPANS = {
     "%": 1.0,
     "1": 0.01,
 }
-_FEW_NAMES = 3  # curves with their names beside them; more have a legend
-_SHORT = 3  # rows of panels; a figure with more has the names of the lines in each row
+_FEW_NAMES = 3  # curves with their names in each panel; more have a legend below
+_SHORT = 3  # rows of panels; a figure with more has the names of many lines in each row
 
 # All lines are thin if one of them has more extremes than this, as over a rough road.
 _MANY_TURNS, _THIN = 40, 0.7
@@ -84,6 +88,7 @@ def draw(
     title: str = "",
     alone: bool = True,
     columns: int = COLUMNS,
+    headings: Mapping[Hashable, str] | None = None,
     positions: Collection[str] = (),
     upright: Collection[str] = (),
     mark: Mark = lambda *_: np.empty(0),
@@ -91,8 +96,9 @@ def draw(
     """Return a figure of curves of some variables, over one dimension or two, each in its own axes.
 
     `alone` is whether this is the figure of one curve, with its definition where there is one;
-    `columns` is the largest number of panels in a row. `positions` are dimensions whose zero is the
-    design position, `upright` those on the vertical axis; `mark` draws marks in a panel.
+    `columns` is the largest number of panels in a row; a variable with a heading begins a row below
+    it. `positions` are dimensions whose zero is the design position, `upright` those on the
+    vertical axis; `mark` draws marks in a panel.
     """
     with Validator("figures") as given:
         given.dataset(dataset)
@@ -104,25 +110,34 @@ def draw(
             if not names:
                 given.fail("names is empty: at least one variable is needed.")
     vertical = {dimension_along(dataset[name]) in upright for name in names} == {True}
-    columns, rows, size = _grid(len(names), columns, vertical=vertical, alone=alone)
+    columns = _columns(len(names), columns, vertical=vertical)
+    cells = _cells(names, columns, headings or {})
+    rows = 1 + cells[-1] // columns
+    panel = np.array(_UPRIGHT if vertical else _LEVEL)
+    size = (7.2, 4.6) if alone else (max(panel[0] * columns, 5.0), 1.0 + panel[1] * rows)
     result = Figure(figsize=size, layout="constrained")
-    cells = result.subplots(rows, columns, squeeze=False).ravel()
-    panels, free = cells[: len(names)], cells[len(names) :]
+    panels = np.array([result.add_subplot(rows, columns, 1 + cell) for cell in cells])
     curves = [dataset[name] for name in names]
     width = min(_width(values) for data in curves for _, values in _lines(data)[1])
-    for index, (axes, name) in enumerate(zip(panels, names, strict=True)):
+    for cell, axes, name in zip(cells, panels, names, strict=True):
         along = _draw(axes, dataset[name], positions, mark, width)
-        (_describe_alone if alone else _describe_panel)(axes, dataset[name])
-        at_edge = index % columns == 0 if along in upright else index + columns >= len(names)
+        if alone:
+            _describe_alone(axes, dataset[name])
+        else:
+            _describe_panel(axes, dataset[name], upright=along in upright)
+        lowest = max(other for other in cells if (other - cell) % columns == 0)
+        at_edge = cell % columns == 0 if along in upright else cell == lowest
         if at_edge:
             axes.set_xlabel(_with_sign(dataset[along]), fontsize=10 if alone else 9)
         if along in upright:
             turn(axes)
-            if not alone:  # space for ticks and title
+            if not alone:  # space for ticks
                 axes.xaxis.set_major_locator(MaxNLocator(nbins=_NARROW_TICKS, steps=_TICK_STEPS))
-                axes.set_title(fill(axes.get_title(), _NARROW_TITLE), fontsize=8, color="#555555")
+        if headings and name in headings:
+            above = "\n" * (1 + axes.get_title().count("\n"))
+            axes.set_title(headings[name] + above, loc="left", fontweight="bold")
     shape = np.array(size) / (columns, rows) - _AROUND
-    page = _Page(panels, free, curves, shape, alone, dense=width == _THIN)
+    page = _Page(panels, curves, shape, alone, dense=width == _THIN)
     _name_lines(result, page, vertical=vertical)
     lines = [line for line in (*title.split("\n"), _held(dataset)) if line]
     most = int(_LETTERS_PER_INCH * result.get_figwidth())
@@ -130,19 +145,22 @@ def draw(
     return written_plainly(result)
 
 
-def _grid(
-    count: int, columns: int, *, vertical: bool, alone: bool
-) -> tuple[int, int, tuple[float, float]]:
-    """Return columns and rows of panels, and the size of their figure [in]."""
+def _columns(count: int, columns: int, *, vertical: bool) -> int:
+    """Return the number of panels in a row."""
     if vertical and columns == COLUMNS and count in _FOUR_IN_A_ROW:
         columns = 4
     if not vertical and columns == COLUMNS and count == _TWO_IN_A_ROW:
         columns = 2
-    columns = min(columns, count)
-    rows = -(-count // columns)
-    panel = _UPRIGHT if vertical else _LEVEL
-    size = (7.2, 4.6) if alone else (max(panel[0] * columns, 5.0), 1.0 + panel[1] * rows)
-    return columns, rows, size
+    return min(columns, count)
+
+
+def _cells(names: Sequence[Hashable], columns: int, headings: Mapping[Hashable, str]) -> list[int]:
+    """Return the cell of each panel: those with headings begin a row."""
+    cells: list[int] = []
+    for name in names:
+        cell = cells[-1] + 1 if cells else 0
+        cells.append(-(-cell // columns) * columns if name in headings else cell)
+    return cells
 
 
 def varying(dataset: xr.Dataset) -> tuple[Hashable, ...]:
@@ -166,9 +184,12 @@ def _draw(
     family = _family(data)
     measured = 0 if family is None else int(data[family].attrs.get("measured", 0))
     curves = [
-        axes.plot(position, values, dashes, color=colour, linewidth=width)[0]
+        axes.plot(
+            position, interrupted(values) if along in positions else values, dashes, color=colour,
+            linewidth=width,
+        )[0]
         for (_, values), (colour, dashes) in zip(lines, styles, strict=True)
-    ]
+    ]  # fmt: skip
     for curve in curves[:measured]:
         curve.set(marker="o", markersize=4, linewidth=_THIN)
     for (_, values), (colour, _) in zip(lines, styles, strict=True):
@@ -184,14 +205,12 @@ def _draw(
     marked = mark(axes, data, along, colours)
     axes.margins(x=0.02)
     drawn = np.concatenate([v for _, v in lines])
-    _limit(axes, drawn, may_have_pole=along in positions)
+    _limit(axes, [values for _, values in lines], may_have_pole=along in positions)
     _include(axes, marked)
     if along in positions:
         whole = np.concatenate([drawn, marked])
         _widen(axes, whole, LEAST_SPANS.get(display_of(data.attrs).units, 0.0))
     low, high = axes.get_ylim()
-    for curve, (_, values) in zip(curves, lines, strict=True):
-        curve.set_ydata(_without_leaps(values, low, high))
     if low < 0.0 < high:
         axes.axhline(0.0, color="#888888", linewidth=0.8, zorder=1)
     for axis in (axes.xaxis, axes.yaxis):
@@ -212,9 +231,16 @@ def _describe_alone(axes: Axes, data: xr.DataArray) -> None:
     axes.set_title(fill(definition, 100), fontsize=8.5, color="#555555")
 
 
-def _describe_panel(axes: Axes, data: xr.DataArray) -> None:
-    axes.set_ylabel(wrapped(bracketed(long_name(data), data.attrs), 26), fontsize=9.5)
-    axes.set_title(fill(str(data.attrs.get("sign", "")), 46), fontsize=8, color="#555555")
+def _describe_panel(axes: Axes, data: xr.DataArray, *, upright: bool) -> None:
+    """Write the name and the sign above a panel; the name below one with an upright position."""
+    sign = str(data.attrs.get("sign", ""))
+    name = bracketed(long_name(data), data.attrs)
+    if upright:
+        axes.set_ylabel(wrapped(name, 26), fontsize=9.5)
+        axes.set_title(fill(sign, _NARROW_TITLE), fontsize=8, color="#555555")
+    else:
+        lines = filter(None, (wrapped(name, 42), fill(sign, 46)))
+        axes.set_title("\n".join(lines), fontsize=8.5, color="#333333")
 
 
 def _styles(data: xr.DataArray, count: int) -> list[tuple[Any, str]]:
@@ -279,8 +305,9 @@ def is_constant(values: Array) -> bool:
     return finite.size > 0 and bool(np.ptp(finite) <= _CONSTANT * max(np.abs(finite).max(), 1e-6))
 
 
-def _limit(axes: Axes, values: Array, *, may_have_pole: bool) -> None:
+def _limit(axes: Axes, lines: Sequence[Array], *, may_have_pole: bool) -> None:
     """Choose limits that neither magnify rounding errors nor follow a curve into a pole."""
+    values = np.concatenate(lines)
     finite = values[np.isfinite(values)]
     if finite.size == 0:
         axes.text(0.5, 0.5, "not defined", transform=axes.transAxes, ha="center")
@@ -290,7 +317,8 @@ def _limit(axes: Axes, values: Array, *, may_have_pole: bool) -> None:
         axes.set_ylim(middle - half, middle + half)
     elif may_have_pole:
         low, high = np.quantile(finite, (0.05, 0.95))
-        if high > low and np.ptp(finite) > _POLE * (high - low):
+        far = np.ptp(finite) > _POLE * (high - low) > 0.0
+        if far or any(leaps(line).size for line in lines):
             axes.set_ylim(1.5 * low - 0.5 * high, 1.5 * high - 0.5 * low)
 
 
@@ -313,13 +341,27 @@ def _widen(axes: Axes, values: Array, least: float) -> None:
         axes.set_ylim(middle - 0.5 * least, middle + 0.5 * least)
 
 
-def _without_leaps(values: Array, low: float, high: float) -> Array:
-    """Return a curve with gaps at poles, where it leaves on one side and returns on the other."""
-    side = np.sign(values - 0.5 * (low + high)) * ((values < low) | (values > high))
-    leaps = np.flatnonzero(side[:-1] * side[1:] < 0.0)
+def interrupted(values: Array) -> Array:
+    """Return a curve with gaps at its poles."""
     cut = values.copy()
-    cut[leaps] = np.nan
+    cut[leaps(values)] = np.nan
     return cut
+
+
+def leaps(values: Array) -> NDArray[np.intp]:
+    """Return the indices before poles, where a curve grows to one side and returns from the other.
+
+    The step across a pole has opposite signs at its ends and is many times the median step, and
+    towards it both sides grow.
+    """
+    known = np.pad(values, 1, constant_values=np.nan)
+    before, first, last, after = (known[i : i + values.size - 1] for i in range(4))
+    steps = np.abs(last - first)
+    finite = steps[np.isfinite(steps)]
+    found = (first * last < 0.0) & (steps > _POLE * np.median(finite) if finite.size else False)
+    for near, far in ((first, before), (last, after)):  # also true beside missing values
+        found &= ~(far * near < 0.0) & ~(np.abs(near) < _GROWTH * np.abs(far))
+    return np.flatnonzero(found)
 
 
 def _with_sign(data: xr.DataArray) -> str:
@@ -339,14 +381,13 @@ class _Named:
 
 @dataclass(frozen=True)
 class _Page:
-    """The panels of a figure, its free cells, and the curves in the panels.
+    """The panels of a figure, and the curves in them.
 
     A panel has about the width and height `shape` [in]; `alone` as in `draw`. Between `dense`
     curves there is no space for names.
     """
 
     panels: Array
-    free: Array
     curves: Sequence[xr.DataArray]
     shape: Array
     alone: bool
@@ -354,42 +395,53 @@ class _Page:
 
 
 def _name_lines(result: Figure, page: _Page, *, vertical: bool) -> None:
-    """Name the lines: few lines beside them if a panel has space, else in one legend."""
-    for axes in page.free:
-        axes.set_axis_off()
+    """Name the lines: few lines in each panel, beside them if it has space; else in one legend."""
     marks = _marks_of_goals(page.panels)
     once = _named_once(page.panels, page.curves) if vertical else None
     lines = _unnamed(page) if once is None else once
-    if once is not None or marks or page.alone:
+    if once is not None and len(page.panels) > 1:
+        in_each = len(once.handles) <= _FEW_NAMES
+        high = page.panels[0].get_gridspec().nrows > _SHORT
+        room = _NAME * (1 + len(once.labels)) / float(page.shape[1])
+        for axes, data in zip(page.panels, page.curves, strict=True):
+            if in_each or (high and axes.get_subplotspec().is_first_col()):
+                _name_above(axes, _named_lines(axes, data) if data.ndim > 1 else _Named(), room)
+        lines = _Named() if in_each else once
+    if len(page.panels) > 1 or page.alone or marks or once is not None:
         _legend_below(result, lines, marks, alone=page.alone and once is None)
     elif lines.handles:
-        _legend_apart(result, page, lines)
-    if once is not None:
-        _name_rows(page.panels, once)
-    for axes in page.free:
-        if axes.get_legend() is None:
-            axes.remove()
+        (axes,) = page.panels
+        axes.legend(lines.handles, lines.labels, title=lines.title, loc="best", fontsize=8)
+
+
+def _name_above(axes: Axes, lines: _Named, room: float) -> None:
+    """Name the lines above them in a part `room` of a panel, whose axis is extended for the names.
+
+    Its vertical axis is that of the position, so that no curve is there.
+    """
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, low + (high - low) / (1.0 - room))
+    if lines.handles:
+        axes.legend(
+            lines.handles, lines.labels, loc="upper left", borderaxespad=0.0, frameon=False,
+            fontsize=7,
+        )  # fmt: skip
 
 
 def _unnamed(page: _Page) -> _Named:
     """Name few lines beside them if a panel has space; return those that need a legend.
 
-    Of several families without space, such as wheels and axles, the first one is returned, and the
-    others get a legend in their first panel.
+    Of several families without space in all of their panels, such as wheels and axles, the first
+    one is returned, and the others get a legend in their first panel.
     """
-    named: set[str | None] = set()
     pairs = [(a, d) for a, d in zip(page.panels, page.curves, strict=True) if d.ndim > 1]
-    for axes, data in pairs:
-        family = _family(data)
-        if page.dense or family is None or data.sizes[family] > _FEW_NAMES:
-            continue
-        names = [name for name, _ in _lines(data)[1]]
-        if label_lines(axes, _drawn_lines(axes, len(names)), names, page.shape):
-            named.add(family)
     first: dict[str | None, tuple[Axes, xr.DataArray]] = {}
     for axes, data in pairs:
-        if _family(data) not in named:
-            first.setdefault(_family(data), (axes, data))
+        family = _family(data)
+        names = [name for name, _ in _lines(data)[1]]
+        few = not page.dense and family is not None and len(names) <= _FEW_NAMES
+        if not few or not label_lines(axes, _drawn_lines(axes, len(names)), names, page.shape):
+            first.setdefault(family, (axes, data))
     panels = list(first.values())
     for axes, data in panels[1:]:
         lines = _named_lines(axes, data)
@@ -415,26 +467,6 @@ def _named_lines(axes: Axes, data: xr.DataArray) -> _Named:
     across = next(d for d in data.dims if d != along)
     title = None if _has_names(data, str(across)) else long_name(data[across])
     return _Named(_drawn_lines(axes, len(lines)), [label for label, _ in lines], title)
-
-
-def _legend_apart(result: Figure, page: _Page, lines: _Named) -> None:
-    """Name the lines below the panels, in a free cell, or in the free part of a single panel."""
-    panels, free = page.panels, page.free
-    if len(panels) > 1 and not free.size:
-        _legend_below(result, lines, {}, alone=False)
-        return
-    axes, loc = (free[0], "center") if free.size else (panels[0], "best")
-    how = {"fontsize": 8, "title_fontsize": 8, "frameon": not free.size}
-    axes.legend(lines.handles, lines.labels, title=lines.title, loc=loc, **how)
-
-
-def _name_rows(panels: Array, lines: _Named) -> None:
-    """Name the lines in each row of a high figure, too, since its legend is far away."""
-    columns = panels[0].get_gridspec().ncols
-    if len(panels) <= _SHORT * columns:
-        return
-    for axes in panels[::columns]:
-        axes.legend(lines.handles, lines.labels, loc="best", frameon=False, fontsize=7)
 
 
 def _legend_below(result: Figure, lines: _Named, marks: Mapping[str, Any], *, alone: bool) -> None:

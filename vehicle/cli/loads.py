@@ -8,7 +8,7 @@ import typer
 
 from ...core.errors import InputError
 from ...core.tabulated import whole
-from ...terminal.console import console, print_json, print_table, say, table
+from ...terminal.console import console, print_json, print_table, problems, say, table
 from ...terminal.exits import Exit
 from .loading import assembly_of_file
 from .options import OUTPUT, File, among, option
@@ -122,7 +122,8 @@ def command(
     shown = among(case, [*named], "--case") if case else None
     data, cards = output.split()
     outputs = data.files(file, cases, drawn=[f"_{name}" for name in shown or named])
-    found = study.static(assembly, named, static_load=described.get("static_load_N"))
+    with problems.status("loads"):
+        found = study.static(assembly, named, static_load=described.get("static_load_N"))
     parts = among(part, dict.fromkeys(with_totals(found)["part"].values), "--part") if part else []
     bodies = [name for name in parts if name != ALL]
     if outputs.pages and parts and not bodies:
@@ -175,8 +176,10 @@ def _draw(
     from ..plots.loads import write_free_bodies
 
     still = [name for name in cases if not str(found["reason"].sel(case=name).values)]
-    how: Any = {"title": title_of(file), **outputs.rule}
-    each = (write_free_bodies(found, [*outputs.pages], name, parts, **how) for name in still)
+    each = (
+        outputs.draw(write_free_bodies, found, name, parts, title=title_of(file), suffix=f"_{name}")
+        for name in still
+    )
     return [path for files in each for path in files]
 
 

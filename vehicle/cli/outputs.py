@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TypedDict
 
 import typer
+from rich.markup import escape
 
 from ...terminal.console import problems, progress_bar, say
 from ...terminal.exits import Exit
@@ -96,13 +97,14 @@ class _Files:
             plots.check_formats(pages, formats)
         rule: Rule = {"force": self.force, "inputs": [each for each in inputs if each is not None]}
         named = [(data, suffixes), (pages, suffixes if drawn is None else drawn)]
-        refuse(
-            [_named(path, end) for paths, ends in named for path in paths for end in ends], **rule
+        files, planned = (
+            [_named(path, end) for end in ends for path in paths] for paths, ends in named
         )
+        refuse([*files, *planned], **rule)
         if car is not None:
             refuse([car], endings=[".toml"], **rule)
         figures = getattr(self, "figures", None)
-        return Outputs(rule, data, pages, figures, formats or ("png",), car)
+        return Outputs(rule, data, pages, planned, figures, formats or ("png",), car)
 
 
 @dataclass(frozen=True)
@@ -170,6 +172,7 @@ class Outputs:
     rule: Rule
     data: Sequence[Path] = ()
     pages: Sequence[Path] = ()
+    planned: Sequence[Path] = ()  # files of the pages, in the order in which they are drawn
     figures: Path | None = None
     formats: Sequence[str] = ("png",)
     car: Path | None = None
@@ -202,10 +205,7 @@ class Outputs:
         from ..plots import curves as plots
 
         shown = dataset if drawn is None else drawn
-        written += [
-            plots.write_overview(shown, _named(p, suffix), names, title, goals=goals, **self.rule)
-            for p in self.pages
-        ]
+        written += self.draw(plots.write_overview, shown, names, title, goals=goals, suffix=suffix)
         if self.figures is not None:
             how: dict[str, Any] = {"title": title, "suffix": suffix, "goals": goals, **self.rule}
             with progress_bar("figures") as progress:
@@ -247,9 +247,18 @@ class Outputs:
         suffix: str = "",
         **options: Any,
     ) -> list[Path]:
-        """Write the pages by a function of the data and a path, and return them."""
-        paths = [_named(path, suffix) for path in self.pages]
-        return [write(shown, path, *rest, **options, **self.rule) for path in paths]
+        """Write the pages by a function of the data and a path, and return them.
+
+        A line on the terminal names the figure.
+        """
+        written = []
+        for path in (_named(path, suffix) for path in self.pages):
+            number = 1 + self.planned.index(path)
+            with problems.status(
+                escape(f"drawing figure {number} of {len(self.planned)}: {path.name}")
+            ):
+                written.append(write(shown, path, *rest, **options, **self.rule))
+        return written
 
     def write_car(self, subject: "Subject", head: str) -> list[Path]:
         """Write the new hardpoint file with a comment at its top, and return it."""

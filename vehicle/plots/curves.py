@@ -168,7 +168,8 @@ def write_overview(
     with rc_context(STYLE):
         if Path(path).suffix.lower() != ".pdf":
             chosen = tuple(name for page in pages.values() for name in page)
-            one = figure(dataset, chosen, title=title, alone=False, goals=goals)
+            headings = {page[0]: group for group, page in pages.items() if len(pages) > 1}
+            one = figure(dataset, chosen, title=title, alone=False, headings=headings, goals=goals)
             return save(one, path, force=force, inputs=inputs)
         drawn = BytesIO()
         with PdfPages(drawn, metadata=METADATA["pdf"]) as document:
@@ -257,6 +258,8 @@ def first_curves(dataset: xr.Dataset) -> tuple[str, ...]:
     over_rack = any(name in dataset.dims for name in ("rack_position", "steering_wheel_angle"))
     there = [name for name in (_FIRST_STEERED if over_rack else _FIRST) if name in dataset]
     shown = [name for name in there if not is_constant(displayed(dataset[name]))]
+    if "track_change" in shown:  # the sum of both halves
+        shown = [name for name in shown if name != "half_track_change"]
     return tuple(shown) if len(shown) >= _FEWEST_FIRST else ()
 
 
@@ -282,6 +285,7 @@ def figure(
     title: str = "",
     alone: bool = True,
     columns: int = COLUMNS,
+    headings: Mapping[Hashable, str] | None = None,
     goals: Sequence[Goal] = (),
 ) -> Figure:
     """Return a figure with curves of some variables, each in its own axes.
@@ -296,6 +300,8 @@ def figure(
         Whether this is the figure of one curve, with its definition if it has one.
     columns : int, optional
         Largest number of curves in a row.
+    headings : mapping of str to str, optional
+        Headings by the variable that begins a row below them.
     goals : sequence of Goal, optional
         Targets and limits, drawn into their curves; for an axle only those over its motion.
 
@@ -316,6 +322,5 @@ def figure(
     words = {dim: names_in_words(dataset[dim]) for dim in (WHEEL, AXLE) if dim in dataset.dims}
     return draw(
         dataset.assign_coords(words), names, title=title, alone=alone, columns=columns,
-        positions=_WITH_DESIGN,
-        upright=_UPRIGHT, mark=marked,
+        headings=headings, positions=_WITH_DESIGN, upright=_UPRIGHT, mark=marked,
     )  # fmt: skip

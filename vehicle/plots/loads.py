@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 from matplotlib import rc_context
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.gridspec import GridSpec
 from matplotlib.patheffects import withStroke
@@ -46,27 +47,22 @@ _POINTS = 72.0
 
 def write_free_bodies(
     dataset: xr.Dataset,
-    paths: Sequence[Path],
+    path: Path,
     case: str,
     parts: Sequence[str] | None = None,
     *,
     title: str = "",
     force: bool = False,
     inputs: Paths = (),
-) -> list[Path]:
+) -> Path:
     """Write the moving parts of a suspension with the forces on them in a load case, in two views.
 
-    Rods with forces only at their ends are drawn only if they are named. The name of the case is
-    appended to the name of each file, whose ending is the format.
+    Rods with forces only at their ends, and parts without loads, are drawn only if they are named.
     """
-    check_formats(paths)
-    written = []
+    check_formats([path])
     with rc_context(STYLE):
         figure = free_bodies(dataset, case, parts, title=f"{title}: forces on the parts in {case}")
-        for path in paths:
-            named = path.with_name(f"{path.stem}_{case}{path.suffix}")
-            written.append(save(figure, named, force=force, inputs=inputs))
-    return written
+        return save(figure, path, force=force, inputs=inputs)
 
 
 def free_bodies(
@@ -76,7 +72,10 @@ def free_bodies(
     here = dataset.sel(case=case)
     rods = [str(rod) for rod in here["rod"].values] if "rod" in here.coords else []
     shown = parts or [str(part) for part in here["moving_part"].values if part not in rods]
-    chosen = {part: here.isel(load=(here["part"] == part).values) for part in shown}
+    every = {part: here.isel(load=(here["part"] == part).values) for part in shown}
+    # parts without loads are drawn only if they are named, or if there are no others
+    loaded = {part: loads for part, loads in every.items() if len(_drawn(loads))}
+    chosen = every if parts or not loaded else loaded
     # a view with many labels has a row of its own
     heights = [
         max(_ROW, _FRAME + _LABEL * -(-len(_drawn(loads)) // 2))
@@ -105,6 +104,7 @@ def _grid(heights: Sequence[float]) -> tuple[Figure, GridSpec]:
     height, width = _TOP + sum(heights), _WIDTH / len(_VIEWS)
     rows = [row - _BELOW - _ABOVE for row in heights]
     figure = Figure(figsize=(_WIDTH, height))
+    FigureCanvasAgg(figure)  # keeps one renderer, in which all labels are measured
     grid = figure.add_gridspec(
         len(rows), len(_VIEWS), height_ratios=rows,
         left=_LEFT / _WIDTH, right=1.0 - _RIGHT / _WIDTH,

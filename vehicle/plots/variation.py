@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
 from ...core.quantities import bracketed, display_of, displayed, long_name
+from ...pictures.curves import interrupted
 from ...pictures.figures import BLUE, ORANGE, typeset, wrapped
 from ...pictures.turned import turn
 from ..assembly.of import assembly_of
@@ -91,7 +92,8 @@ def write_optimum(found: Optimum, path: str | Path, **how: Unpack[FigureOptions]
         factor, step = (display_of(each.attributes()).factor for each in (quantity, over))
         for (label, model), (colour, dashes) in zip(models.items(), _PAIR, strict=True):
             values = Curves(panel.over, along, (panel.name,)).of(model)[0]
-            axes.plot(step * along, factor * values, dashes, color=colour, label=label)
+            values = interrupted(factor * values)
+            axes.plot(step * along, values, dashes, color=colour, label=label)
         mark(axes, of_curve(goals, panel.name, panel.over))
         _around(axes, over.attributes() | {"long_name": over.long_name}, quantity.attributes())
 
@@ -136,7 +138,8 @@ def _bands(
     axes.fill_between(
         position, low, high, color=BLUE, alpha=0.35, label="90 % of them", linewidth=0
     )
-    axes.plot(position, nominal - shift, color="black", linewidth=1.4, label="nominal")
+    centre = interrupted(nominal - shift)
+    axes.plot(position, centre, color="black", linewidth=1.4, label="nominal")
     words = dict(data.attrs)
     if deviation:
         words["long_name"] = f"{words['long_name']}, deviation"

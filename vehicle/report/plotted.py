@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from ...core.named_types import Array
+from ...pictures.curves import leaps
 
 # A range wider than that of the middle 80 % of the values by this factor is due to a pole.
 _POLE = 12.0
@@ -23,7 +24,10 @@ def has_pole(values: Array) -> bool:
     if np.isinf(known).any():
         return True
     low, high = np.quantile(known, (0.1, 0.9))
-    return bool(np.ptp(known) > _POLE * (high - low) > 0.0)
+    if np.ptp(known) > _POLE * (high - low) > 0.0:
+        return True
+    grid = np.atleast_2d(values)
+    return any(leaps(line).size for lines in (grid, grid.T) for line in lines)
 
 
 def full_range(values: Array) -> tuple[float, float]:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from kintrafo.core.quantities import variable
-from kintrafo.pictures.curves import LEAST_SPANS, draw
+from kintrafo.pictures.curves import LEAST_SPANS, draw, leaps
 from kintrafo.pictures.figures import wrapped
 from kintrafo.vehicle.cli.outputs import title_of
 from kintrafo.vehicle.plots.curves import figure, grouped
@@ -94,16 +94,62 @@ def test_no_curve_is_drawn_twice():
     assert names == ["one"]
 
 
-def test_a_high_figure_names_its_lines_in_each_row():
-    """Its legend below is far from most panels."""
-    lines = 0.02 * TRAVEL, -0.02 * TRAVEL
-    one = curves(*lines, names=("first", "second"))
+@pytest.mark.parametrize("count", [2, 4])
+def test_lines_over_wheel_travel_are_named_in_each_panel(count):
+    """Few above the curves; many below, and in the first panel of each row of a high figure."""
+    lines = [slope * TRAVEL for slope in range(1, count + 1)]
+    one = curves(*lines, names=("first", "second", "third", "fourth")[:count])
     several = xr.Dataset({f"curve_{i}": (1.0 + i) * one["one"] for i in range(11)})
     for curve in several.values():
         curve.attrs = dict(one["one"].attrs)
-    panels = figure(several, list(several)).axes
-    named = [panel.get_legend() is not None for panel in panels]
-    assert named == [index % 3 == 0 for index in range(11)]
+    drawn = figure(several, list(several), alone=False)
+    FigureCanvasAgg(drawn).draw()
+    panels = drawn.axes
+    legends = [panel.get_legend() for panel in panels]
+    named = [legend is not None for legend in legends]
+    assert named == [count == 2 or index % 3 == 0 for index in range(11)]
+    assert len(drawn.legends) == (count > 2)
+    for panel, legend in zip(panels, legends, strict=True):
+        highest = panel.transData.transform((0.0, 1e3 * TRAVEL[-1]))[1]
+        assert legend is None or legend.get_window_extent().y0 > highest
+
+
+def test_headings_begin_rows():
+    several = xr.Dataset({name: curves(TRAVEL)["one"] for name in "abcde"})
+    drawn = figure(several, list("abcde"), alone=False, headings={"a": "First", "b": "Second"})
+    cells = [
+        (place.rowspan.start, place.colspan.start)
+        for place in (axes.get_subplotspec() for axes in drawn.axes)
+    ]
+    assert cells == [(0, 0), (1, 0), (1, 1), (1, 2), (2, 0)]
+    titles = [axes.get_title(loc="left").strip() for axes in drawn.axes]
+    assert titles == ["First", "Second", "", "", ""]
+
+
+@pytest.mark.parametrize("at", [0.0113, -0.0312, TRAVEL[3] + 1e-6, -0.0799])
+def test_a_curve_is_interrupted_at_its_pole(at):
+    """Whatever the distance of the pole from the samples, and beside a missing value."""
+    values = 1.0 / (TRAVEL - at) + 5.0
+    pole = int(np.flatnonzero(at > TRAVEL)[-1])
+    np.testing.assert_array_equal(leaps(values), [pole])
+    values[pole + 2] = np.nan
+    np.testing.assert_array_equal(leaps(values), [pole])
+    (axes,) = figure(curves(1.0 / (TRAVEL - at)), ["one"]).axes
+    drawn = axes.get_lines()[0].get_xdata()
+    np.testing.assert_array_equal(np.flatnonzero(np.isnan(drawn)), [pole])
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        TRAVEL, TRAVEL**3, np.sign(TRAVEL), np.sin(300.0 * TRAVEL), np.full(33, np.nan),
+        np.where(np.arange(33) == 7, 40.0, -TRAVEL - 0.1),
+        np.random.default_rng(1).normal(size=33), 1.0 / (TRAVEL - 0.01) ** 2,
+    ],
+    ids=["line", "cubic", "step", "wave", "missing", "outlier", "noise", "same sign"],
+)  # fmt: skip
+def test_a_curve_without_a_pole_is_whole(values):
+    assert leaps(values).size == 0
 
 
 def over_time(*values, amplitudes=()):
@@ -118,15 +164,14 @@ def over_time(*values, amplitudes=()):
     )
 
 
-@pytest.mark.parametrize(("count", "free"), [(3, 0), (5, 1)])
-def test_names_of_many_lines_cover_no_curve(count, free):
-    """They are below the panels, or in a cell without one."""
+@pytest.mark.parametrize("count", [3, 5])
+def test_names_of_many_lines_cover_no_curve(count):
+    """They are below the panels."""
     several = over_time(*[np.arange(9.0) ** i for i in range(1, count + 1)], amplitudes=[1.0, 2.0])
     drawn = draw(several, list(several), alone=False)
-    cells = drawn.axes[count:]
-    assert len(cells) == free
-    assert all(axes.get_legend() is None for axes in drawn.axes[:count])
-    legend = cells[0].get_legend() if free else drawn.legends[0]
+    assert len(drawn.axes) == count
+    assert all(axes.get_legend() is None for axes in drawn.axes)
+    (legend,) = drawn.legends
     assert [text.get_text() for text in legend.get_texts()] == ["1 N", "2 N"]
 
 

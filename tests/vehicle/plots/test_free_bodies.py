@@ -55,9 +55,12 @@ def test_every_force_is_drawn_and_the_part_connects_its_points():
         assert len(members) == points - 1
 
 
-def test_a_part_without_forces_is_drawn_without_labels():
-    """The anti-roll bar of an axle at design, and its drop links."""
+def test_a_part_without_forces_is_drawn_if_it_is_named():
+    """The anti-roll bar of an axle at design, and its drop links, without labels."""
     found = loads.static(Axle.load("reference_axle"), {"static": {"contact_g": [0.0, 0.0, 1.0]}})
     figure = free_bodies(found, "static", ["anti_roll_bar", "drop_link_left"])
     assert [len(axes.texts) for axes in figure.axes] == [0] * 4
     assert all(axes.get_lines() for axes in figure.axes)
+    drawn = {axes.get_title().partition(",")[0] for axes in free_bodies(found, "static").axes}
+    assert "knuckle left" in drawn
+    assert drawn.isdisjoint({"anti roll bar", "drop link left", "drop link right"})

@@ -239,12 +239,13 @@ def test_goals_of_an_axle_are_those_of_its_sides():
         expected = [[[x, bound] for x in at] for bound in bounds]
         np.testing.assert_allclose(drawn(toe, f"limit, {side}"), expected, atol=1e-12)
     assert not drawn(toe, "limit")
-    # all of it is named once, where it covers nothing
+    # marks are named once below the panels, curves in each panel
     (legend,) = panels.legends
     words = [text.get_text() for text in legend.get_texts()]
-    marks = {"target", "limit, left", "limit, right", "limit"}
-    assert sorted(words) == sorted({"left", "right", *marks})
-    assert all(axes.get_legend() is None for axes in panels.get_axes())
+    assert sorted(words) == ["limit", "limit, left", "limit, right", "target"]
+    for axes in (camber, toe):
+        assert [text.get_text() for text in axes.get_legend().get_texts()] == ["left", "right"]
+    assert height.get_legend() is None
     np.testing.assert_allclose(drawn(height, "limit"), [[[x, 20.0] for x in at]])
 
 
