@@ -70,7 +70,7 @@ def ensemble(
 ) -> xr.Dataset:
     """Return simulations of many systems of one model.
 
-    Each system may have parameters, an initial state and inputs of its own.
+    Each system, such as a car, may have parameters, an initial state and inputs of its own.
 
     Dormand and Prince's method of order 5 integrates them in the lanes of vectors, each with a step
     size of its own, on all cores. The results of a system have the same bits for any number of

@@ -62,8 +62,8 @@ class NonlinearOptions:
     hardpoints: Annotated[
         Literal["loaded", "relaxed"] | None,
         option(
-            "With --nonlinear: where the joints are at the hardpoints. loaded (the default): under "
-            "the static load at design; relaxed: with unloaded bushes."
+            "With --nonlinear: the load under which the joints are at the hardpoints. loaded (the "
+            "default): the static load at design; relaxed: none, with unloaded bushes."
         ),
     ] = None
 

@@ -63,12 +63,13 @@ def sensitivity(
         those of rods, a drag link and a Pitman arm.
     over : str, optional
         Motion along the curves, of which the first is the default. Of a corner 'travel' or 'rack';
-        of axles 'bump' (both wheels), 'roll', 'left' or 'right'; of a car 'heave', 'pitch' or
-        'roll' of its body, its 'speed' on a rough road, or the 'lateral_acceleration' of steady
-        turns, both with options after a colon: ``speed:road=C``.
+        of axles 'bump' (both wheels), 'roll', 'left' or 'right', of steered ones also 'steer' or
+        'rack'; of a car 'heave', 'pitch' or 'roll' of its body, its 'speed' on a rough road, or
+        the 'lateral_acceleration' of steady turns, both with options after a colon:
+        ``speed:road=C``.
     positions : array_like, optional
-        Wheel travel, heave, or displacement of the rack [m], roll or pitch [rad], speed [m/s], or
-        lateral acceleration [m/s^2]; by default the usual range.
+        Wheel travel, heave, or displacement of the rack [m], roll, pitch or angle of the steering
+        wheel [rad], speed [m/s], or lateral acceleration [m/s^2]; by default the usual range.
     names : sequence of str, optional
         Characteristics; by default all.
     held : {'height', 'tyre', 'spring', 'locked'}, optional

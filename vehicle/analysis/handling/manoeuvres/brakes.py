@@ -1,15 +1,21 @@
 """The base of manoeuvres with brakes."""
 
+from typing import Annotated
+
 import xarray as xr
 from pydantic import Field
 
 from .....core.errors import InputError
 from .....core.units import KM_PER_H
-from ....input.section import NonNegative, Positive
+from ....input.section import NonNegative, Number, Positive, Remedy
 from ....models.car.car import Car
 from ..car import DrivingCar
 from ..subject import require_controls
 from .simulated import UntilSpeed
+
+_Pedal = Annotated[
+    Number, Field(gt=0.0, le=1.0), Remedy("Enter 1 for the whole torque, 0.5 for half of it.")
+]
 
 
 class BrakingManoeuvre(UntilSpeed):
@@ -18,7 +24,7 @@ class BrakingManoeuvre(UntilSpeed):
     until_km_per_h: Positive = Field(default=5.0, description="speed at which the manoeuvre ends")
     start_s: NonNegative = Field(default=0.5, description="time at which the brakes are applied")
 
-    pedal: Positive | None = Field(
+    pedal: _Pedal | None = Field(
         default=None, description="position of the pedal; 1: the whole torque of the brakes"
     )
     deceleration_m_per_s2: Positive | None = Field(
@@ -32,8 +38,6 @@ class BrakingManoeuvre(UntilSpeed):
         found = super().problems()
         if (self.pedal is None) == (self.deceleration_m_per_s2 is None):
             found.append("pedal, deceleration_m_per_s2: give one of the two.")
-        if (self.pedal or 0.0) > 1.0:
-            found.append(f"pedal = {self.pedal:g}: at most 1 is allowed.")
         return found
 
     def check(self, car: Car) -> None:
