@@ -1,6 +1,7 @@
 """Cars that are quickly derived.
 
-One drives, on struts, trailing arms and linear tyres; one heaves, pitches and rolls on arms alone.
+One drives, on struts, trailing arms and linear tyres, and one on axles without sides; one heaves,
+pitches and rolls on arms alone.
 """
 
 import kintrafo
@@ -23,11 +24,28 @@ FILE = {
     "brakes": {"torque_Nm": 6000.0},
     "air": {"drag_area_m2": 0.65, "front_lift_area_m2": 0.05, "rear_lift_area_m2": 0.1},
 }  # fmt: skip
+COLUMN = {"stiffness_Nm_per_deg": 1.5, "damping_Nm_s_per_deg": 0.01, "pinion_inertia_kg_m2": 1e-3,
+          "friction_Nm": 0.5, "rack_friction_N": 100.0}  # fmt: skip
+"""A steering column that twists."""
 
 
 def light_car(**changes):
     """Return the car that drives, with changes of values in its file."""
     return Car.from_dict(FILE).with_changes({"body.mass_kg": 1300.0, **changes})
+
+
+def car_on_beams():
+    """Return a car whose front wheels are steered by a drag link and a column, on a twist beam."""
+    vehicle = {"vehicle.front_brake_share": None, "vehicle.center_of_gravity_height_mm": None}
+    beams = {
+        end: kintrafo.load(name).with_changes(vehicle | {"vehicle.wheelbase_mm": None} | more)
+        for end, name, more in (
+            ("front", "steered_rigid_axle", {}),
+            ("rear", "twist_beam", {"drive": {"share": 1.0, "torque_on": "body"}}),
+        )
+    }
+    brakes = {"torque_Nm": 6000.0, "front_share": 0.6}
+    return Car.from_dict(FILE | beams | {"brakes": brakes, "steering_column": COLUMN})
 
 
 def car_on_arms():

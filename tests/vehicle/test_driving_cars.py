@@ -86,6 +86,16 @@ def on_a_rigid_axle():
     return FILE | {"rear": rear, "body": FILE["body"] | {"com_mm": [-1300.0, 0.0, 585.8]}}
 
 
+def _parameters_of(car):
+    """Return values of the parameters of a car, and names of those of massive bodies without."""
+    formulation = declared(car)
+    needed = {p.name: {"unit": p.unit} for p in formulation.mechanism.parameters}
+    found = _parameters(car, needed)
+    bodies = formulation.mechanism.bodies
+    light = tuple(f"{body.name}_" for body in bodies if not formulation.has_mass(body.name))
+    return found, {name for name in needed if name not in found and not name.startswith(light)}
+
+
 @pytest.mark.parametrize(
     "described",
     [
@@ -100,12 +110,7 @@ def on_a_rigid_axle():
 def test_equations_have_every_number_of_the_files(described):
     """All but those of bodies without mass, free angles of bars, and the slope of the road."""
     car = Car.load(described) if isinstance(described, str) else Car.from_dict(described)
-    formulation = declared(car)
-    needed = {p.name: {"unit": p.unit} for p in formulation.mechanism.parameters}
-    found = _parameters(car, needed)
-    bodies = formulation.mechanism.bodies
-    light = tuple(f"{body.name}_" for body in bodies if not formulation.has_mass(body.name))
-    missing = {name for name in needed if name not in found and not name.startswith(light)}
+    found, missing = _parameters_of(car)
     slope = {"upward_x", "upward_y", "upward_z"}
     assert missing <= {"rear_beam_free_angle", "rear_bar_free_angle", *slope}
     assert found["front_rack_axis_y"] == car.axles["front"].right.rack.axis[1]
@@ -199,13 +204,12 @@ def test_its_axles_are_on_its_tyres(assembly):
 
 def _numbers(car):
     """Return characteristics, loads and the parameters of the car that rides."""
-    assembly = CarAssembly(car)
-    curves = kintrafo.characteristics.over(assembly, "roll", [0.01])
+    curves = kintrafo.characteristics.over(CarAssembly(car), "roll", [0.01])
     loads = kintrafo.loads.static(car.axles["front"], {"curb": {"contact_N": [900.0, 0.0, 3e3]}})
     return {
         "curves": np.concatenate([np.ravel(v) for v in curves.values()]),
         "loads": loads["force"].values,
-        "riding": list(CarModel(assembly.riding().car).parameters.values()),
+        "riding": list(_parameters_of(CarAssembly(car).riding().car)[0].values()),
     }
 
 

@@ -3,7 +3,7 @@
 import kintrafo
 import numpy as np
 import pytest
-from cars.driving_cars import FILE, LINES
+from cars.driving_cars import FILE, LINES, car_on_beams
 from kintrafo.vehicle.analysis.handling import circle, drive, dynamic_loads
 from kintrafo.vehicle.analysis.handling.subject import driving_car
 from kintrafo.vehicle.analysis.loads import along, peaks, static
@@ -80,9 +80,12 @@ def the_body_is_balanced(motion, loads, vertical=UP):
     force = forces.sum(axis=1) + of_air - weight
     about = about + (moments + np.cross(at - com, forces)).sum(axis=1)
     # the reaction of the drive torque is on the body
-    for suffix, group in motion.axle("front").poses.items():
-        wheel, torque = group.wheels["wheel"], motion.signals[f"front{suffix}_drive_moment"]
-        about -= torque[:, None] * wheel.vehicle.side * wheel.axis
+    for end in motion.assembly.car.drive_shares:
+        for suffix, group in motion.axle(end).poses.items():
+            for name, wheel in group.wheels.items():
+                side = name.removeprefix("wheel")
+                torque = motion.signals[f"{end}{suffix}{side}_drive_moment"]
+                about -= torque[:, None] * wheel.vehicle.side * wheel.axis
     rates = motion.model.evaluate("rhs", motion.states, motion.inputs)
     changed = CarInMotion(motion.assembly, rates, motion.inputs)
     u, p = of_state(motion, "uvw"), of_state(motion, "pqr")
@@ -217,14 +220,10 @@ def test_an_axle_without_sides_has_its_parts_in_a_car(name):
     assert {f"rear_{mass.body}" for mass in found.masses().values()} <= bodies
 
 
-def test_loads_of_a_car_on_a_twist_beam():
-    """The smallest car with one: trailing arms in front, no steering; it turns, rolls and leaps."""
-    own = {"vehicle.end": "front", "vehicle.center_of_gravity_height_mm": None}
-    arm = kintrafo.load("trailing_arm_car").with_changes(own)
-    front = kintrafo.Axle.from_dict({"axle": "front", "side": arm, "drive": {"share": 1.0}})
-    body = FILE["body"] | {"com_mm": [-1300.0, 0.0, 575.0]}
-    car = Car.from_dict(FILE | {"front": front, "rear": "twist_beam", "body": body})
-    assembly = assembly_of(car)
+def test_loads_of_a_car_on_beams():
+    """It is steered, rolls and leaps; its pinion has no inertia, whose reaction is on the body."""
+    column = {"steering_column.pinion_inertia_kg_m2": 0.0}
+    assembly = assembly_of(car_on_beams().with_changes(column))
     start = assembly.running(15.0)
     # angles of some degrees, speeds of some decimetres and tenths of a radian per second
     off = np.random.default_rng(1).normal(scale=0.05, size=(3, len(start)))

@@ -4,7 +4,7 @@ import kintrafo
 import numpy as np
 import pytest
 from cars import rail_car
-from cars.driving_cars import FILE, light_car
+from cars.driving_cars import COLUMN, FILE, car_on_beams, light_car
 from kintrafo import variation
 from kintrafo.vehicle.analysis.handling import circle, drive
 from kintrafo.vehicle.analysis.handling.circle import Turns
@@ -18,16 +18,9 @@ from kintrafo.vehicle.models.car import Car
 from kintrafo.vehicle.models.car.car import masses
 from kintrafo.vehicle.models.car.equations import declared, name_of
 
-STIFFNESS = 1.5  # N m/deg
+STIFFNESS = COLUMN["stiffness_Nm_per_deg"]
 TRAVEL = 0.05 / (2.0 * np.pi)  # of the rack [m/rad]
-INERTIA = 1e-3
-COLUMN = {
-    "stiffness_Nm_per_deg": STIFFNESS,
-    "damping_Nm_s_per_deg": 0.01,
-    "pinion_inertia_kg_m2": INERTIA,
-    "friction_Nm": 0.5,
-    "rack_friction_N": 100.0,
-}
+INERTIA = COLUMN["pinion_inertia_kg_m2"]
 
 
 def with_column(**changes):
@@ -319,32 +312,17 @@ def test_other_cars_have_no_column():
     assert Car.from_dict(with_column().to_dict()).to_dict() == with_column().to_dict()
 
 
-def on_a_beam():
-    """Return a car whose front wheels are steered by a drag link."""
-    vehicle = {"vehicle.front_brake_share": None, "vehicle.center_of_gravity_height_mm": None}
-    beam, arm = (
-        kintrafo.load(name).with_changes(vehicle | more)
-        for name, more in (
-            ("steered_rigid_axle", {"vehicle.wheelbase_mm": None}),
-            ("trailing_arm_car", {}),
-        )
-    )
-    axles = {"front": beam, "rear": {"axle": "rear", "side": arm, "drive": {"share": 1.0}}}
-    brakes = {"torque_Nm": 6000.0, "front_share": 0.6}
-    return Car.from_dict(FILE | axles | {"brakes": brakes, "steering_column": COLUMN})
-
-
 def test_a_drag_link_has_a_column():
-    car = on_a_beam()
+    car = car_on_beams()
     found, state = declared(car), assembly_of(car).rack_state
     assert "front_rack_guide" in {joint.name for joint in found.independent}
     assert [joint.name for joint in found.prescribed] == ["front_wheel_guide"]
     assert state in {coordinate.name for coordinate in found.mechanism.coordinates}
 
 
-def test_a_car_on_a_steered_beam_rests_runs_straight_and_turns_by_its_column():
+def test_a_car_on_beams_rests_runs_straight_and_turns_by_its_column():
     """Loads carry the weight; the balance of all parts has the torque of the twisted column."""
-    assembly = assembly_of(kintrafo.CarModel(on_a_beam()))
+    assembly = assembly_of(kintrafo.CarModel(car_on_beams()))
     model, car = assembly.model, assembly.car
     weight = 9.81 * sum(mass for mass, _ in masses(car))
     assert float(kintrafo.ride.at_rest(assembly)["load"].sum()) == pytest.approx(weight, rel=1e-9)
@@ -373,7 +351,9 @@ def test_a_car_on_a_steered_beam_rests_runs_straight_and_turns_by_its_column():
 
 def test_a_missing_ratio_is_one_of_the_file_that_lacks_it():
     """An axle without sides has one file, and no curve of its steering."""
-    beam = on_a_beam().with_changes({"steering_column": None, "front.pitman_arm.gear_ratio": None})
+    beam = car_on_beams().with_changes(
+        {"steering_column": None, "front.pitman_arm.gear_ratio": None}
+    )
     sided = light_car(**{"front.side.rack.travel_per_turn_mm": None})
     for car, words in (
         (beam, r"add \[pitman_arm\] gear_ratio to the file of the axle\.$"),
