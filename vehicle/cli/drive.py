@@ -34,11 +34,10 @@ if TYPE_CHECKING:
 EXAMPLES = (
     "kintrafo drive driving_car",
     "kintrafo drive driving_car --manoeuvre circle --plot circle.png",
-    "kintrafo drive driving_car --manoeuvre double_lane_change --speed 70 -o lane.csv",
-    "kintrafo drive driving_car --manoeuvre double_lane_change --animate lane.gif",
-    "kintrafo drive driving_car --manoeuvre braking --loads loads.csv",
+    "kintrafo drive driving_car --manoeuvre double_lane_change --animate lane.gif -o lane.csv",
+    "kintrafo drive driving_car --manoeuvre braking --speed 50 --loads loads.csv",
     "kintrafo drive driving_car --manoeuvre straight --bump-height -40 --plot pothole.png",
-    "kintrafo drive driving_car --manoeuvre straight --crossfall 3",
+    "kintrafo drive driving_car --manoeuvre straight --grade 8 --crossfall 3",
     "kintrafo new my_step.toml --template step_steer",
 )
 
