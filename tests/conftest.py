@@ -102,8 +102,7 @@ _LONGEST = (
 _MEMORY = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
 MUCH = _MEMORY // 4 // (1024 if sys.platform == "linux" else 1)
 """Growth of memory after which cycles of objects are freed, in the unit of ``ru_maxrss``: a quarter
-of the memory for each of two processes. The search takes some 3 s for 1 GiB, and SymPy remembers
-nothing after it."""
+of the memory for each of two processes. The search takes some 3 s for 1 GiB."""
 _most = 0
 
 
@@ -163,14 +162,14 @@ def pytest_unconfigure(config: pytest.Config) -> None:
 
 
 @pytest.fixture(scope="module", autouse=True)
-def _circles_of_files_are_freed() -> Iterator[None]:
-    """Free cycles of objects after files that took much memory; then exclude the rest."""
+def _memory_of_files_is_freed() -> Iterator[None]:
+    """Free remembered expressions, and cycles of objects after files that took much memory."""
     global _most  # noqa: PLW0603 (of this process)
     yield
+    if "kintrafo.generator.memory" in sys.modules:
+        sys.modules["kintrafo.generator.memory"].forget()
     most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     if most > _most + MUCH:
-        if "sympy" in sys.modules:
-            sys.modules["sympy.core.cache"].clear_cache()
         gc.collect()
         gc.freeze()
         _most = most
@@ -285,6 +284,22 @@ def few_frames(monkeypatch: pytest.MonkeyPatch) -> None:
 
     for name in ("kintrafo.pages.animation", "kintrafo.vehicle.plots.motion.animate"):
         monkeypatch.setattr(import_module(name), "frames", fewer)
+
+
+@pytest.fixture
+def coarse_drives(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Lengthen the sampling times of commands' manoeuvres, for tests that do not need numbers."""
+    from kintrafo.vehicle.analysis import handling
+
+    whole = handling.load_manoeuvre
+
+    def coarse(given: Any, changes: dict[str, Any]) -> Any:
+        found = whole(given, changes)
+        if hasattr(found, "step_ms"):
+            found = whole(given, changes | {"step_ms": 5.0, "output_step_ms": 20.0})
+        return found
+
+    monkeypatch.setattr(handling, "load_manoeuvre", coarse)
 
 
 @pytest.fixture

@@ -36,7 +36,7 @@ LINES = (
     ("sheet", "FILE", *SOFT),
     ("compare", "FILE", "FILE"),
     ("compare", "FILE", "FILE", "--held", "height"),
-    ("sensitivity", "FILE", "--at", "10"),
+    ("sensitivity", "FILE", "--place", "hardpoints.wheel_center", "--at", "10"),
     ("tolerance", "FILE", "TOLERANCES", "--cars", "5"),
     ("check", "FILE"),
     ("mechanism", "topology", "FILE"),

@@ -205,7 +205,7 @@ def run_line(kintrafo: Any, line: str, files: Files) -> tuple[str, list[Path]]:
 
 @pytest.mark.skipif(find_compiler() is None, reason="no C compiler")
 @pytest.mark.usefixtures("coarse_report", "first_page_of_curves", "one_picture")
-@pytest.mark.usefixtures("few_frames", "few_generations")
+@pytest.mark.usefixtures("few_frames", "few_generations", "coarse_drives")
 @pytest.mark.parametrize("line", [line for line in EXAMPLES if line not in ON_PAGES])
 def test_every_example_of_a_help_text_runs(kintrafo, line):
     run_line(kintrafo, line, FILES | FILES_OF.get(shlex.split(line)[1], {}))
@@ -342,7 +342,8 @@ def toe_at_60_mm(car: Suspension) -> float:
 
 
 @pytest.mark.parametrize("page", PAGES)
-@pytest.mark.usefixtures("coarse_report", "one_picture", "few_frames", "few_generations")
+@pytest.mark.usefixtures("coarse_report", "one_picture")
+@pytest.mark.usefixtures("few_frames", "few_generations", "coarse_drives")
 def test_the_commands_of_a_page_run(kintrafo, page, request, capsys):
     """In their order, in one folder; one page draws all groups of curves."""
     if page in COMPILED and find_compiler() is None:
