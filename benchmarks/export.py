@@ -25,7 +25,7 @@ from fmpy.fmi2 import FMU2Slave
 from fmpy.fmi3 import FMU3Slave
 from kintrafo import CompilerError, Model, equilibrium, export_model
 from kintrafo.core.folders import VARIABLE
-from kintrafo.systems.compile.compiler import FLAGS, find_compiler
+from kintrafo.systems.compile.compiler import find_compiler
 from rich.console import Console
 from rich.markdown import Markdown
 
@@ -91,7 +91,7 @@ def steps(folder: Path, rounds: int) -> list[float]:
     program = folder / "steps"
     defined = [f"-D{macro}={value}" for macro, value in macros.items()]
     files = [str(DRIVER), *(str(code / source) for source in sources)]
-    command = [compiler.command[0], *FLAGS, "-std=c11", *defined, *files, "-o", str(program)]
+    command = [*compiler.command, "-std=c11", *defined, *files, "-o", str(program)]
     subprocess.run([*command, "-lm", "-ldl"], check=True)
     given = []
     for version, key in VERSIONS.items():
@@ -132,7 +132,7 @@ def in_jax(folder: Path, rounds: int) -> str:
     """Return the time of a right-hand side by jax.ffi, state by state and in lanes."""
     compiler = find_compiler()
     assert compiler is not None
-    code, command = folder / "c", compiler.command[0]
+    code = folder / "c"
     name = Model(CAR).equations.NAME
     ends = ("", "_derivatives", "_values", "_ffi", "_lanes")
     files = [str(code / f"{name}{end}.c") for end in ends]
@@ -140,8 +140,8 @@ def in_jax(folder: Path, rounds: int) -> str:
     for flags in ([], [f"-D{name.upper()}_LANES", "-march=native"]):
         library = folder / f"jax_{len(flags)}.so"
         headers = ["-isystem", jax.ffi.include_dir()]
-        made = [command, *FLAGS, *flags, "-shared", *headers, *files, "-o", str(library), "-lm"]
-        subprocess.run(made, check=True)
+        options = (*flags, "-shared", *headers, *files, "-o", str(library), "-lm")
+        subprocess.run([*compiler.command, *options], check=True)
         # functions are registered once in a process
         with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
             found.append(
