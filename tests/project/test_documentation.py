@@ -7,7 +7,7 @@ import re
 import runpy
 import tomllib
 from collections import Counter
-from functools import cached_property
+from functools import cache, cached_property
 
 import kintrafo
 import pytest
@@ -34,6 +34,7 @@ def slug(heading):
     return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
 
 
+@cache
 def anchors_of(page):
     """Return all anchors; of headings that are alike the later ones have a number."""
     headings = re.findall(r"^#+ (.*)$", without_code(text_of(page)), flags=re.MULTILINE)

@@ -228,7 +228,7 @@ def is_point(part):
     return isinstance(part, Point)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", [n for n in NAMES if n != "rigid_axle"])  # as the steered one
 def test_printed_motion_is_what_the_compiled_functions_give(name):
     """Poses and velocities of each body, from the printed formulas alone.
 

@@ -150,7 +150,7 @@ class Drive:
 
 
 @pytest.mark.parametrize("kind", ["lever", "slide"])
-@pytest.mark.parametrize("ratio", [3.0, 10.0, 27.0, 100.0])
+@pytest.mark.parametrize("ratio", [3.0, 100.0])
 @pytest.mark.parametrize(
     ("gap", "start"), [(0.03, 1.0), (0.3, 1.0), (1.0, 1.0), (0.03, 0.4), (1.0, 0.4), (0.3, 1.6)]
 )
