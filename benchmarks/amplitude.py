@@ -63,11 +63,14 @@ def measured(duration: float) -> list[str]:
 def main() -> None:
     """Run the command."""
     parser = argparse.ArgumentParser(prog="benchmarks.amplitude", description=__doc__)
-    parser.add_argument("--duration", type=float, default=1000.0, help="[s], 2 or more")
+    parser.add_argument("--duration", type=float, default=1000.0, help="[s], more than 2")
+    duration = parser.parse_args().duration
+    if not duration > 2.0:
+        parser.error(f"--duration {duration:g}: more than 2 s are needed")
     head = "method | rtol | atol | steps | CPU time [s] | first [mm] | last [mm] | lost [%]"
     print(f"| {head} |")
     print("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |")
-    for row in measured(parser.parse_args().duration):
+    for row in measured(duration):
         print(row, flush=True)
 
 

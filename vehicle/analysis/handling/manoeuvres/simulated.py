@@ -1,6 +1,6 @@
 """Bases of simulated manoeuvres: common keys of their files, and steady starts."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, ClassVar, Literal
 
 import numpy as np
@@ -22,6 +22,9 @@ from .manoeuvre import Manoeuvre, Number, Progress
 
 # Approximate time in which a driver halves a deviation from the speed [s].
 _PATIENCE = 1.0
+# Growth rate above which a motion is unstable; that of a stable car is zero to rounding, since the
+# equations do not depend on position and yaw angle [1/s].
+_GROWTH = 1e-3
 # More than the duration of manoeuvres whose files have none [s].
 _USUAL_DURATION = 60.0
 
@@ -104,6 +107,18 @@ class SimulatedManoeuvre(Manoeuvre):
             )
             raise InputError([problem], self.TITLE) from None
 
+    def unstable(self, car: DrivingCar, motions: Mapping[str, Steady]) -> str:
+        """Return which steady motion, by its description, is unstable; empty if none is."""
+        for words, each in motions.items():
+            growth = float(car.model.eigenvalues(each.state, each.inputs).real.max())
+            if growth > _GROWTH:
+                return (
+                    f"at {self.speed_km_per_h:g} km/h {words} is unstable (growth rate "
+                    f"{growth:.2g} 1/s), as of an oversteering car above its critical speed. "
+                    "Choose a lower speed"
+                )
+        return ""
+
     def holding(self, car: DrivingCar, torque: float) -> SpeedHeld:
         """Return a driver that holds the speed, with the torque of straight running [N m]."""
         radius = float(np.mean(car.radii))
@@ -170,13 +185,18 @@ class SteeredManoeuvre(TurningManoeuvre):
             found.append("lateral_acceleration_m_per_s2, steering_wheel_deg: give one of the two.")
         return found
 
-    def amplitude(self, turns: Turns, straight: Steady) -> float:
-        """Return the steering wheel angle relative to straight running, positive left [rad]."""
-        wanted = self.lateral_acceleration_m_per_s2
+    def amplitude(self, turns: Turns, straight: Steady) -> tuple[float, dict[str, Steady]]:
+        """Return the steering wheel angle relative to straight running, positive left [rad].
+
+        The steady motions whose angles are known follow, by their descriptions.
+        """
+        known, wanted = {"straight running": straight}, self.lateral_acceleration_m_per_s2
         if wanted is None:
-            return float(self.sense * np.deg2rad(self.steering_wheel_deg or 0.0))
+            return float(self.sense * np.deg2rad(self.steering_wheel_deg or 0.0)), known
         turn = self.turned(turns, "lateral_acceleration_m_per_s2", wanted)
-        return float(turn.unknowns["steering_wheel"] - straight.unknowns["steering_wheel"])
+        known["the steady turn with lateral_acceleration_m_per_s2"] = turn
+        angle = turn.unknowns["steering_wheel"] - straight.unknowns["steering_wheel"]
+        return float(angle), known
 
 
 class UntilSpeed(SimulatedManoeuvre):

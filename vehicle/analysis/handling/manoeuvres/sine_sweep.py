@@ -64,7 +64,7 @@ class SineSweep(SteeredManoeuvre):
         """Return gains and phases by frequency, simulated and linear, and the motion."""
         turns, straight = self.straight(car)
         before = straight.unknowns["steering_wheel"]
-        amplitude = self.amplitude(turns, straight)
+        amplitude, _ = self.amplitude(turns, straight)
         course = sine_sweep(
             amplitude, (self.lowest_Hz, self.highest_Hz), self.duration_s, ease=self.ease_ms / 1e3
         )
@@ -73,7 +73,8 @@ class SineSweep(SteeredManoeuvre):
             car, straight, OpenLoop(course, before), HeldTorque(torque, torque),
             course.end + self.settle_s, progress=progress,
         )  # fmt: skip
-        motion.attrs["not_valid"] += _unsettled(motion)
+        unstable = self.unstable(car, {"straight running": straight})
+        motion.attrs["not_valid"] += [*([unstable] if unstable else []), *_unsettled(motion)]
         curves = self._by_frequency(car, straight, motion)
         return HandlingResult(
             self.judged(_numbers(curves, amplitude) | greatest(motion)),

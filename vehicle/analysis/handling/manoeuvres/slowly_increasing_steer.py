@@ -22,9 +22,6 @@ from .simulated import TurningManoeuvre, greatest
 GRAVITY = 9.80665
 # Range of lateral accelerations of the fitted angle, and that of the reference angle [g].
 _FROM, _TO, _REFERENCE = 0.1, 0.375, 0.3
-# Growth rate above which a motion is unstable; that of a stable car is zero to rounding, since the
-# equations do not depend on position and yaw angle [1/s].
-_GROWTH = 1e-3
 # Greatest part of the reference angle by which the steering wheel may be ahead of the car.
 _LAG = 0.5
 # Part of the greatest lateral acceleration of a steady turn near which more steering is no help.
@@ -69,7 +66,7 @@ class SlowlyIncreasingSteer(TurningManoeuvre):
             problem = (
                 f"the lateral acceleration reaches {acceleration.max():.2f} m/s^2 up to a steering "
                 f"wheel angle of {np.rad2deg(angle[-1]):.0f} deg, and {_TO * GRAVITY:.2f} m/s^2 "
-                f"are needed. {advice}."
+                f"are needed. {advice[0].upper()}{advice[1:]}."
             )
             raise InputError([problem], self.TITLE)
         if within.sum() < _FEWEST:
@@ -105,14 +102,8 @@ class SlowlyIncreasingSteer(TurningManoeuvre):
         with suppress(NoSteadyMotionError):
             for part in (_REFERENCE, _TO):
                 steady[_TURN.format(part)] = turns.to(self.sense * part * GRAVITY)
-        for words, each in steady.items():
-            growth = float(car.model.eigenvalues(each.state, each.inputs).real.max())
-            if growth > _GROWTH:
-                return (
-                    f"At {self.speed_km_per_h:g} km/h {words} is unstable (growth rate "
-                    f"{growth:.2g} 1/s), as of an oversteering car above its critical speed. "
-                    "Choose a lower speed"
-                )
+        if unstable := self.unstable(car, steady):
+            return unstable
         wheel = [each.unknowns["steering_wheel"] for each in steady.values()]
         angle = self.sense * (wheel[1] - wheel[0]) if len(wheel) > 1 else np.nan
         if abs(reference - angle) > _LAG * abs(reference):

@@ -51,7 +51,7 @@ class StepSteer(SteeredManoeuvre):
         """Return response times, gains and overshoots, and the motion."""
         turns, straight = self.straight(car)
         before = straight.unknowns["steering_wheel"]
-        amplitude = self.amplitude(turns, straight)
+        amplitude, steady = self.amplitude(turns, straight)
         course = ramp(
             amplitude, np.deg2rad(self.rate_deg_per_s), start=self.start_s, ease=self.ease_ms / 1e3
         )
@@ -60,12 +60,17 @@ class StepSteer(SteeredManoeuvre):
             car, straight, OpenLoop(course, before),
             self.pedals(car, torque, held=self.holds_speed), self.duration_s, progress=progress,
         )  # fmt: skip
-        return HandlingResult(self.judged(self._numbers(motion, course, amplitude)), {"": motion})
+        unstable = self.unstable(car, steady)
+        numbers = self._numbers(motion, course, amplitude, unstable)
+        return HandlingResult(self.judged(numbers), {"": motion})
 
     def _numbers(
-        self, motion: xr.Dataset, course: SteeringCourse, amplitude: float
+        self, motion: xr.Dataset, course: SteeringCourse, amplitude: float, unstable: str
     ) -> dict[str, Number]:
-        """Return its metrics, and name responses that are not steady at the end."""
+        """Return its metrics, and name responses that are not steady at the end.
+
+        A text describes the unstable steady motion; it is empty if there is none.
+        """
         time, half = motion["time"].values, 0.5 * (course.start + course.end)
         settled = float(time[-1]) - self.settled_s
         found: dict[str, Number] = {
@@ -84,16 +89,17 @@ class StepSteer(SteeredManoeuvre):
                 f"{name}_peak_time": (one.peak_time, f"peak response time of {words}", "s"),
                 f"{name}_overshoot": (one.overshoot, f"overshoot of {words}", "1"),
             }  # fmt: skip
+        motion.attrs["not_valid"] += [unstable] if unstable else []
+        advice = "Choose a lower speed" if unstable else "Raise duration_s, or steer less"
         motion.attrs["not_valid"] += [
             f"the {words} is not steady in the last {self.settled_s:g} s: it changes by "
-            f"{100.0 * judged[name].drift:.0f} %. Raise duration_s, or steer less"
+            f"{100.0 * judged[name].drift:.0f} %. {advice}"
             for name, words, *_ in _JUDGED[:2]
             if not judged[name].drift < _DRIFT
         ]
         if self.lateral_acceleration_m_per_s2 and self.sense * judged["yaw_rate"].change < 0.0:
             motion.attrs["not_valid"].append(
-                f"the car turns to the other side than {self.turn}: its steady turn with "
-                "lateral_acceleration_m_per_s2 is unstable. Choose a lower speed"
+                f"the car turns to the other side than {self.turn}. Choose a lower speed"
             )
         slip = float(np.mean(motion["sideslip_angle"].values[time >= settled]))
         found["sideslip_steady"] = (slip, "steady sideslip angle, positive to the left", "rad")
