@@ -118,6 +118,19 @@ def test_turns_to_both_sides_are_mirror_images_and_end_at_the_friction(car):
         run(car, "step_steer", lateral_acceleration_m_per_s2=beyond, speed_km_per_h=90.0)
 
 
+@pytest.mark.parametrize("radius", [300.0, 3000.0, 30000.0])
+def test_turns_of_wide_radii_are_those_of_the_bicycle_model(car, radius):
+    """Fast cars enter them from straight running in small steps."""
+    _, _, front, rear = bicycle(car)
+    found = circle(car, radius=radius, lateral_acceleration=[0.5]).curves[""]
+    by_front, by_rear = front / CORNERING["rear"], rear / CORNERING["front"]
+    gradient = car.mass / car.wheelbase * (by_rear - by_front)
+    ratio = rail_car.Controls.RATIO / rail_car.TURN
+    angle = ratio * (car.wheelbase / radius + 0.5 * gradient)
+    # the next term is of the second order in the acceleration beside that of the friction
+    assert float(found["steering_wheel_angle"][0]) == pytest.approx(angle, rel=5e-3)
+
+
 def test_straight_running_by_speed_is_that_of_the_bicycle_model(car):
     found = run(car, "speed_range", from_km_per_h=40.0, to_km_per_h=300.0, step_km_per_h=20.0)
     _, _, front, rear = bicycle(car)
@@ -385,6 +398,20 @@ def test_a_car_that_spins_has_no_valid_responses():
     assert any("turns to the other side than left" in text for text in step)
     assert not any("duration_s" in text for text in step)
     assert any("the sideslip angle is 100 %" in text for text in sweep)
+
+
+@pytest.mark.parametrize(("name", "part", "unstable"), [
+    ("braking_in_turn", 0.4, False), ("braking_in_turn", 1.2, True), ("braking", 1.2, False),
+])  # fmt: skip
+def test_an_unstable_car_leaves_its_path_with_a_held_steering_wheel(loose, name, part, unstable):
+    """On a straight level road nothing disturbs it."""
+    loose, critical = loose
+    speed = part * critical * 3.6
+    how = {"speed_km_per_h": speed, "deceleration_m_per_s2": 2.0, "until_km_per_h": 0.9 * speed}
+    if name == "braking_in_turn":
+        how["radius_m"] = (part * critical) ** 2 / 2.0
+    found = run(loose, name, **how).not_valid
+    assert any("at the beginning is unstable" in text for text in found) == unstable
 
 
 def test_a_sweep_that_ends_early_is_not_valid(car):

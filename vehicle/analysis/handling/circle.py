@@ -30,6 +30,8 @@ from .steady import NoSteadyMotionError, Steady, SteadyCondition, SteadyMotion
 _RESOLVED = 1e-3
 # Accuracy of the steepest slope of straight running, as a part of the slope of the road.
 _OF_SLOPE = 0.01
+# Smallest step from straight running to a turn, as a part of its curvature or steering wheel angle.
+_OF_TURN = 0.01
 # The part by which the acceleration across the heading may be less than that across the path.
 _OF_SIDESLIP = 0.02
 # No car on tyres has more lateral acceleration than this [m/s^2].
@@ -160,12 +162,18 @@ class Turns:
 
     def _entered(self, speed: float) -> tuple[Array, Steady]:
         """Return the turn at a speed, in steps from straight running to a small circle."""
-        near = self.equations.near_straight(speed)
         at = SteadyCondition("speed", speed)
-        for share in (0.0, 0.5, 1.0):
+        near = self.equations.near_straight(speed)
+
+        def solve(share: float) -> tuple[Array, Steady]:
+            nonlocal near
             around = SteadyCondition(self.first.kind, share * self.first.value)
             near, found = self.equations.solve(near, at, around)
-        return near, found
+            return near, found
+
+        solve(0.0)
+        _in_steps(solve, 0.0, 0.5, _OF_TURN)
+        return _in_steps(solve, 0.5, 1.0, _OF_TURN)
 
     def _faster(self, near: Array, found: Steady, acceleration: float) -> Array:
         """Return the turn of the same steering wheel angle at about a lateral acceleration."""

@@ -14,7 +14,7 @@ from ....input.section import Positive
 from ....models.car.slope import Slope
 from ..car import DrivingCar
 from ..circle import Turns
-from ..driven import MOST_SAMPLES, Sampling, driven
+from ..driven import MOST_SAMPLES, Sampling, driven, runs_straight
 from ..drivers import Fixed, HeldTorque, Observation, Pushes, SpeedHeld, Steers
 from ..result import quantity
 from ..steady import NoSteadyMotionError, Steady, SteadyCondition
@@ -147,6 +147,29 @@ class SimulatedManoeuvre(Manoeuvre):
         found.attrs["title"] = self.title
         return found
 
+    def with_held_wheel(
+        self,
+        car: DrivingCar,
+        start: Steady,
+        pushes: Pushes,
+        duration: float,
+        *,
+        until: Callable[[Observation], bool] | None = None,
+        progress: Progress | None = None,
+    ) -> xr.Dataset:
+        """Return the motion from a steady one, the steering wheel held.
+
+        It is not valid if a car that leaves its straight path on a level road is unstable.
+        """
+        steers = Fixed(start.unknowns["steering_wheel"])
+        motion = self.simulated(
+            car, start, steers, pushes, duration, until=until, progress=progress
+        )
+        if not (any(car.slope) or runs_straight(motion)):
+            unstable = self.unstable(car, {"the steady motion at the beginning": start})
+            motion.attrs["not_valid"] += [unstable] if unstable else []
+        return motion
+
     def judged(self, numbers: dict[str, Number]) -> xr.Dataset:
         """Return its metrics, with the title of the manoeuvre."""
         found = {
@@ -235,8 +258,7 @@ class UntilSpeed(SimulatedManoeuvre):
         def ended(seen: Observation) -> bool:
             return seen.speed <= self.end_speed if self.SLOWS else seen.speed >= self.end_speed
 
-        steers = Fixed(start.unknowns["steering_wheel"])
-        return self.simulated(car, start, steers, pushes, duration, until=ended, progress=progress)
+        return self.with_held_wheel(car, start, pushes, duration, until=ended, progress=progress)
 
 
 def greatest(motion: xr.Dataset) -> dict[str, Number]:

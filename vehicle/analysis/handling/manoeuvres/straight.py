@@ -8,7 +8,6 @@ from pydantic import Field
 
 from ....input.section import Positive
 from ..car import DrivingCar
-from ..drivers import Fixed
 from ..result import HandlingResult
 from .manoeuvre import Number, Progress
 from .simulated import SimulatedManoeuvre, greatest
@@ -26,10 +25,8 @@ class Straight(SimulatedManoeuvre):
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
         """Return torques, accelerations and loads of the wheels, and the motion."""
         _, straight = self.straight(car)
-        motion = self.simulated(
-            car, straight, Fixed(straight.unknowns["steering_wheel"]),
-            self.holding(car, straight.unknowns["drive"]), self.duration_s, progress=progress,
-        )  # fmt: skip
+        pushes = self.holding(car, straight.unknowns["drive"])
+        motion = self.with_held_wheel(car, straight, pushes, self.duration_s, progress=progress)
         numbers: dict[str, Number] = {
             "drive_torque": (
                 straight.unknowns["drive"], "torque of all driven wheels at the beginning", "N m"
