@@ -59,7 +59,9 @@ def note(text: str) -> None:
 def progress_bar(text: str) -> Iterator[Callable[[float], None]]:
     """Show on stderr the completed fraction of a task, from 0 to 1."""
     columns = TextColumn("{task.description}"), BarColumn(), TimeRemainingColumn()
-    with Progress(*columns, console=problems, transient=True) as progress:
+    # without a terminal, its end would be an empty line
+    disable = not problems.is_terminal
+    with Progress(*columns, console=problems, transient=True, disable=disable) as progress:
         task = progress.add_task(text, total=1.0)
         yield lambda done: progress.update(task, completed=done)
 

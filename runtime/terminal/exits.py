@@ -88,7 +88,8 @@ def show_usage_error(error: Any) -> None:
 
     It is an exception of Click, whose context, if it has one, names the command.
     """
-    from .usage import usage_problem
+    from ..core.errors import InputError
+    from .usage import OptionError, usage_problem
 
     problem = usage_problem(error)
     if not problem:
@@ -96,9 +97,7 @@ def show_usage_error(error: Any) -> None:
     context = getattr(error, "ctx", None)
     command = "kintrafo" if context is None else context.command_path
     listed = "commands" if hasattr(getattr(context, "command", None), "commands") else "options"
-    message = f"{command}: 1 problem\n  - {problem}"
-    if context is not None:
-        message += f"\nThe {listed} are listed by: {command} --help"
+    message = OptionError([problem], command, listed) if context else InputError([problem], command)
     _print(f"error: {message}", "red")
 
 

@@ -3,20 +3,38 @@
 Click and Typer find them; their sentences are written here, with the correction.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+import os
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any, ClassVar
 
 import typer
 from rich.markup import escape
 from typer.core import TyperArgument, TyperCommand, TyperGroup, TyperOption
 
+from ..core.errors import InputError
 from ..core.suggestions import nearest, suggestion
 
 MistakenUsage: Any = typer.BadParameter.__mro__[2]
 """Click's base of all mistakes in arguments, of which Typer may have a copy of its own."""
 
 _COMMON = {"--help", "-h"}  # options of every command, which messages do not list
+# A problem of an argument, whose option may be in brackets.
+_ARGUMENT = re.compile(r"([\w-]*)(?: \((--[\w-]+)\))?(.*)", re.DOTALL)
 _FEW = 3  # most commands that a message about an option names
+
+
+class OptionError(InputError):
+    """Mistakes in the options of a command, whose path is the source, or in its `listed`."""
+
+    def __init__(self, problems: Iterable[str], source: str, listed: str = "options") -> None:
+        super().__init__(problems, source)
+        self.listed = listed
+
+    def __str__(self) -> str:
+        """Return the mistakes, and the command that lists the options."""
+        return f"{super().__str__()}\nThe {self.listed} are listed by: {self.source} --help"
 
 
 class Command(TyperCommand):
@@ -45,6 +63,13 @@ class Command(TyperCommand):
         if left and not ctx.resilient_parsing:
             ctx.fail(_too_many(self, left))
         return left
+
+    def invoke(self, ctx: Any) -> Any:
+        """Run the command; errors of its arguments name its options."""
+        try:
+            return super().invoke(ctx)
+        except InputError as error:
+            raise _of_command(error, ctx) from None
 
 
 class CommandGroup(TyperGroup):
@@ -94,6 +119,32 @@ def usage_problem(error: Any) -> str:
         case "BadParameter" if getattr(error, "param", None) is not None:
             return f"{_named(error.param)} {error.message}"
     return str(error.message)
+
+
+def _of_command(error: InputError, ctx: Any) -> InputError:
+    """Return an error with the name of its file, or with that of the command and its options.
+
+    Arguments of functions have the names of options that were given.
+    """
+    given = {key: value for key, value in ctx.params.items() if value is not None}
+    lists = (value if isinstance(value, list) else [value] for value in given.values())
+    values = {str(value) for each in lists for value in each}
+    source, words = error.source, error.source.removeprefix("kintrafo ")
+    # unlike that of pathlib, it takes texts that are too long for a path
+    if source in values or Path(source).suffix or os.path.exists(source):  # noqa: PTH110 (above)
+        return error
+    options = {p.name: _named(p) for p in ctx.command.params if p.param_type_name == "option"}
+
+    def renamed(problem: str) -> str:
+        name, option, rest = _ARGUMENT.fullmatch(problem).groups()  # type: ignore[union-attr]  # it fits all texts
+        known = name if name.startswith("--") else options.get(name) if name in given else ""
+        if option := option or known:
+            return f"{option}{rest.replace(' = ', ' ', 1)}"
+        return problem if words.isidentifier() else f"{words}: {problem}"
+
+    problems = [renamed(problem) for problem in error.problems]
+    of_options = any(problem.startswith("--") for problem in problems)
+    return (OptionError if of_options else InputError)(problems, ctx.command_path)
 
 
 def _named(parameter: Any) -> str:
