@@ -174,9 +174,9 @@ def _characteristics(
         from ..plots import first_curves
 
         drawn = {name: list(first_curves(dataset)) for name, dataset in curves.items()}
-    judged = wanted.judged({file: assembly.subject}, aims) if aims else []
+    judged = wanted.judged({file: assembly.subject}, aims, shown.goals) if aims else []
     if aims and outputs.drawn:
-        wanted.refuse_beyond(aims, curves)
+        wanted.refuse_beyond(aims, curves, shown.goals)
     written = [
         path
         for name, dataset in curves.items()

@@ -93,8 +93,8 @@ def command(
     if aims:
         wanted.refuse_elsewhere(dataset)
     if outputs.drawn:
-        wanted.refuse_beyond(aims, dict.fromkeys(looked_at, dataset))
-    judged = wanted.judged(subjects, aims)
+        wanted.refuse_beyond(aims, dict.fromkeys(looked_at, dataset), goals)
+    judged = wanted.judged(subjects, aims, goals)
     both = [f"{name}_{side}" for name in of or () for side in SIDES]
     of = [n for n in of or () if n in table or f"{n}_left" not in table] + [
         name for name in both if name in table

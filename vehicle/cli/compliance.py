@@ -166,7 +166,7 @@ class _Rig(NamedTuple):
             refuse_options("files with a rack", {"--rack": rack or None})
         rebound, bump = map(metres, ends)
         extent = SweepRange(rebound=rebound, bump=bump)
-        return cls(file, assembly, bushes_of(file, bushes), at / 1e3, rack / 1e3, extent)
+        return cls(file, assembly, bushes_of(assembly, bushes, file), at / 1e3, rack / 1e3, extent)
 
     def on_bushes(self) -> Any:
         """Return the subject of the file on these bushes."""
@@ -198,9 +198,9 @@ def _linear(
     columns = flat(curves)
     names = named(of_both(of), {held: curves})[held]
     aims = wanted.read(goals, [held], sweep_axes_of(subject))
-    judged = wanted.judged({rig.file: rig.on_bushes()}, aims) if aims else []
+    judged = wanted.judged({rig.file: rig.on_bushes()}, aims, goals) if aims else []
     if outputs.drawn:
-        wanted.refuse_beyond(aims, {held: columns})
+        wanted.refuse_beyond(aims, {held: columns}, goals)
     title = f"{title_of(rig.file)}: compliance, {found.attrs['held']}"
     written = outputs.write(found, title=title, names=names, rows=columns, drawn=curves, goals=aims)
     if json:

@@ -8,7 +8,7 @@ import typer
 from ...core.tabulated import significant
 from ...terminal.console import console, print_json, progress_bar, say, table
 from ...terminal.exits import Exit
-from .loading import variable_subject
+from .loading import of_study, variable_subject
 from .options import File, Held, among, argument, option
 from .outputs import CarOptions, name_files
 from .variation_options import Over
@@ -63,7 +63,7 @@ def command(
     curves = rig.measured_curves(measured)
     asked = variation.read(tolerances)
     names = among(of, map(str, curves)) if of else None
-    with progress_bar("fit") as progress:
+    with of_study(tolerances), progress_bar("fit") as progress:
         found = variation.fit(
             subject,
             curves,

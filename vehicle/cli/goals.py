@@ -9,6 +9,7 @@ import typer
 from ...core.tabulated import significant
 from ...terminal.console import note
 from ...terminal.console import table as table_of
+from .loading import of_study
 from .options import option
 
 if TYPE_CHECKING:
@@ -52,7 +53,9 @@ def read(
     if not looked_at:
         problem = f"goals are about curves over {_or(known)}, and these are over {_or(axes or ())}."
         raise InputError([problem], str(path))
-    every = variation.goals(variation.read(path), known)
+    content = variation.read(path)
+    with of_study(path):
+        every = variation.goals(content, known)
     if axes is None:
         axes = [goal.over for goal in every]
     found = [goal for goal in every if goal.over in axes]
@@ -89,12 +92,14 @@ def refuse_elsewhere(curves: "Dataset") -> None:
         raise typer.BadParameter(ELSEWHERE)
 
 
-def refuse_beyond(goals: "Sequence[Goal]", curves: "Mapping[str, Dataset]") -> None:
+def refuse_beyond(
+    goals: "Sequence[Goal]", curves: "Mapping[str, Dataset]", path: Path | None
+) -> None:
     """Refuse goals beyond the ends of the curves, by axis, with which they are drawn."""
     from ...core.validator import Validator
     from ..studies.sweep_axes import sweep_axis
 
-    with Validator("goals") as given:
+    with of_study(path), Validator("goals") as given:
         for goal in goals:
             over = sweep_axis(goal.over)
             along = curves[goal.over][over.along.name].values
@@ -111,15 +116,18 @@ def refuse_beyond(goals: "Sequence[Goal]", curves: "Mapping[str, Dataset]") -> N
                 )
 
 
-def judged(subjects: "Mapping[str, Subject]", goals: "Sequence[Goal]") -> list[dict[str, Any]]:
-    """Return the verdict on each goal for each subject, for tables and JSON."""
+def judged(
+    subjects: "Mapping[str, Subject]", goals: "Sequence[Goal]", path: Path | None
+) -> list[dict[str, Any]]:
+    """Return the verdict on each goal of a file for each subject, for tables and JSON."""
     from .. import studies as variation
 
-    return [
-        {"file": name, **vars(verdict)}
-        for name, subject in subjects.items()
-        for verdict in variation.judge(subject, goals)
-    ]
+    with of_study(path):
+        return [
+            {"file": name, **vars(verdict)}
+            for name, subject in subjects.items()
+            for verdict in variation.judge(subject, goals)
+        ]
 
 
 def table(found: Sequence[Mapping[str, Any]], title: str) -> "Table":

@@ -1,7 +1,6 @@
 """The suspension, axle or car in a file, and its equations."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
@@ -112,15 +111,28 @@ def car_of(file: str) -> "CarAssembly":
     return CarAssembly(subject_of(file, Car, needed))
 
 
-@contextmanager
-def naming(file: str) -> Iterator[None]:
-    """Add the file to problems of its car."""
-    from ...core.errors import InputError
+def naming(file: str) -> AbstractContextManager[None]:
+    """Add the file of a car, and the lines of keys, to problems of the car."""
+    from ..data import find
+    from ..data.starter import all_packaged
+    from ..input.toml_file import problems_in
 
-    try:
-        yield
-    except InputError as error:
-        raise InputError(error.problems, file) from None
+    return problems_in(find(file, all_packaged()), file)
+
+
+def of_study(file: Path | None) -> AbstractContextManager[None]:
+    """Add the file of a study, and the lines of keys, to problems of its targets and values."""
+    from ..input.toml_file import problems_in
+    from ..studies.goals import SECTIONS
+
+    return problems_in(file, sections=SECTIONS)
+
+
+def of_cases(file: Path | None) -> AbstractContextManager[None]:
+    """Add the file of load cases, and the lines of keys, to problems of the cases."""
+    from ..input.toml_file import problems_in
+
+    return problems_in(file, sections=("cases", "static_load"))
 
 
 def derived(assembly: "CarAssembly") -> "CarAssembly":
@@ -141,11 +153,19 @@ def system_of(file: str, name: str | None = None) -> "System":
     return System(compile_mechanism(file, name=name))
 
 
-def bushes_of(file: str, bushes: Path | None) -> dict[str, Any] | None:
-    """Return the bushes of a separate file, or None."""
+def bushes_of(assembly: "Assembly", bushes: Path | None, file: str = "") -> dict[str, Any] | None:
+    """Return the bushes of a separate file for an assembly, or None; print a note with `file`."""
+    from ...core.validator import Validator
     from ..analysis.compliance import read_bushes
+    from ..assembly.assembly import HeldAssembly
+    from ..input.toml_file import problems_in
 
     if bushes is None:
         return None
-    note(f"bushes: those of {bushes}, in place of any that {file} has.")
-    return read_bushes(bushes)
+    if file:
+        note(f"bushes: those of {bushes}, in place of any that {file} has.")
+    found = read_bushes(bushes)
+    with problems_in(bushes), Validator("compliance") as given:
+        if isinstance(assembly, HeldAssembly):
+            assembly.bushes(given, found)
+    return found

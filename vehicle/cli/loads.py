@@ -10,7 +10,7 @@ from ...core.errors import InputError
 from ...core.tabulated import whole
 from ...terminal.console import console, print_json, print_table, problems, say, table
 from ...terminal.exits import Exit
-from .loading import assembly_of_file
+from .loading import assembly_of_file, of_cases
 from .options import OUTPUT, File, among, option
 from .outputs import Outputs, SingleFigureOptions, name_files, title_of
 
@@ -122,7 +122,7 @@ def command(
     shown = among(case, [*named], "--case") if case else None
     data, cards = output.split()
     outputs = data.files(file, cases, drawn=[f"_{name}" for name in shown or named])
-    with problems.status("loads"):
+    with problems.status("loads"), of_cases(cases):
         found = study.static(assembly, named, static_load=described.get("static_load_N"))
     parts = among(part, dict.fromkeys(with_totals(found)["part"].values), "--part") if part else []
     bodies = [name for name in parts if name != ALL]

@@ -9,7 +9,7 @@ import typer
 from ...core.tabulated import significant
 from ...terminal.console import console, print_json, progress_bar, say, table
 from ...terminal.exits import Exit
-from .loading import variable_subject
+from .loading import of_study, variable_subject
 from .options import File, argument
 from .outputs import CarOptions, name_files, title_of
 
@@ -45,7 +45,7 @@ def command(
     outputs = output.files(file, goals, car=output.car)
     subject = variable_subject(file)
     asked = variation.read(goals)
-    with progress_bar("optimisation") as progress:
+    with of_study(goals), progress_bar("optimisation") as progress:
         found = variation.optimise(
             subject,
             asked.get("free", {}),

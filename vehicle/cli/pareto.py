@@ -9,7 +9,7 @@ import typer
 from ...core.tabulated import significant
 from ...terminal.console import console, print_json, progress_bar, say, table
 from ...terminal.exits import Exit
-from .loading import variable_subject
+from .loading import of_study, variable_subject
 from .optimise import moved_table
 from .options import OUTPUT, File, argument, option
 from .outputs import Outputs, SingleFigureOptions, name_files, title_of
@@ -69,7 +69,7 @@ def command(
     _refuse_member(member, population)
     subject = variable_subject(file)
     asked = variation.read(study)
-    with progress_bar("suspensions") as progress:
+    with of_study(study), progress_bar("suspensions") as progress:
         found = variation.pareto(
             subject,
             asked.get("free", {}),

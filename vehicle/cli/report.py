@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from ...terminal.console import problems, say
 from . import goals as wanted
-from .loading import assembly_of_file, system_of
+from .loading import assembly_of_file, bushes_of, of_cases, system_of
 from .options import Bushes, File, Force, Which, argument, option, refuse_options, refuse_which
 from .outputs import title_of
 
@@ -210,16 +210,17 @@ def _of_held(
     standard_cases: bool,
 ) -> "Iterator[Chapter]":
     """Yield the chapters of a suspension or an axle: loads, compliance, goals, K&C sheet."""
-    from ..analysis import compliance
     from ..analysis import loads as study
     from ..analysis.sheet import sheet
     from ..report import goals_chapter, loads_chapter, sheet_chapter
 
-    described = None if bushes is None else compliance.read_bushes(bushes)
+    described = bushes_of(assembly, bushes)
     if standard_cases or cases is not None:
-        of_cases = {} if cases is None else study.read(cases)
-        at_rest = of_cases.get("static_load_N")
-        yield loads_chapter(study.static(assembly, of_cases.get("cases"), static_load=at_rest))
+        content = {} if cases is None else study.read(cases)
+        at_rest = content.get("static_load_N")
+        with of_cases(cases):
+            found = study.static(assembly, content.get("cases"), static_load=at_rest)
+        yield loads_chapter(found)
     if described is not None or assembly.has_bushes:
         yield from _of_bushes(assembly, described, goals)
     if goals:

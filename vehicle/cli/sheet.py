@@ -31,7 +31,8 @@ def command(
     from ..analysis.sheet import one_page, sheet
 
     outputs = output.files(file, bushes)
-    found = sheet(assembly_of_file(file), bushes_of(file, bushes), held=held)
+    assembly = assembly_of_file(file)
+    found = sheet(assembly, bushes_of(assembly, bushes, file), held=held)
     written = outputs.write_data(found)
     if output.json:
         print_json(export.as_dict(found))

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from ...core.tabulated import significant
 from ...terminal.console import console, print_json, progress_bar, say, table
-from .loading import variable_subject
+from .loading import of_study, variable_subject
 from .options import File, argument, option
 from .outputs import SingleFigureOptions, name_files, title_of
 from .variation_options import StudyCurves, StudyOptions
@@ -52,7 +52,7 @@ def command(
     subject = variable_subject(file)
     given = variation.read(tolerances)
     look = StudyCurves.of(subject, asked)
-    with progress_bar("cars") as progress:
+    with of_study(tolerances), progress_bar("cars") as progress:
         dataset = variation.tolerance(
             subject,
             given.get("tolerances", {}),

@@ -224,7 +224,7 @@ def bushes_of(
     found = []
     for point, table in described.items():
         title = f"[bushings.{point}]"
-        if given.among("bushings at", point, known) != point or point == RACK:
+        if given.among(title, point, known) != point or point == RACK:
             continue
         if not isinstance(table, Mapping):
             given.fail(f"{title} must be a section, with {', '.join(_KEYS)}.")

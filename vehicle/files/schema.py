@@ -47,7 +47,7 @@ allowed range and what to do:
 
 ```text
 my_car.toml: 1 problem
-  - [strut] sprng_rate_N_per_m is not a known key. Did you mean spring_rate_N_per_m?
+  - line 43: [strut] sprng_rate_N_per_m is not a known key. Did you mean spring_rate_N_per_m?
 ```
 
 Editors that know JSON Schema complete keys, show their meaning and underline errors.

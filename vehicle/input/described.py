@@ -25,7 +25,7 @@ from ..data.starter import (
 from .messages import is_named, messages_of
 from .places import put
 from .section import Section
-from .toml_file import read_toml
+from .toml_file import problems_in, read_toml
 from .toml_writer import write_toml
 
 
@@ -153,8 +153,11 @@ class Described:
         others = all_packaged()
         file = find(path_or_name, others if path_or_name in others else cls.packaged())
         folder = file.parent if isinstance(file, Path) else Path()
+        data = read_toml(file)
         # the path of a packaged file would not help a caller who gave a name
-        return cls._of_file(read_toml(file), str(path_or_name), folder)
+        source = str(path_or_name)
+        with problems_in(file, source):
+            return cls._of_file(data, source, folder)
 
     @classmethod
     def _of_file(cls, data: Mapping[str, Any], source: str, folder: Path) -> Self:

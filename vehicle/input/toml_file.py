@@ -1,8 +1,10 @@
 """Reading TOML files, with errors that name the line and the remedy."""
 
+import os
 import re
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any
@@ -59,8 +61,9 @@ def read_sections(path: str | Path, known: Sequence[str], needed: str = "") -> d
     problems = [f"{key} is not known. {suggestion(key, known)}" for key in data if key not in known]
     if needed and not isinstance(data.get(needed.partition(".")[0]), dict):
         problems.append(f"there is no section [{needed}]: write one or more.")
-    if problems:
-        raise InputError(problems, str(path))
+    with problems_in(Path(path)):
+        if problems:
+            raise InputError(problems, str(path))
     return data
 
 
@@ -77,3 +80,100 @@ def _syntax_problem(message: str, text: str) -> str:
         f"Line {number} `{line}` is not valid TOML: {reason}. "
         "Write `key = value`, text in quotes, points as [x, y, z], decimals with a point."
     )
+
+
+@contextmanager
+def problems_in(
+    file: Path | Traversable | None, source: str = "", sections: Collection[str] | None = None
+) -> Iterator[None]:
+    """Add the name of a TOML file, and the lines of their keys, to problems of its content.
+
+    `source` is the printed name of the file, its path by default. Errors of other files are
+    unchanged; and with the `sections` that the file may have, those in which no problem begins with
+    a section or a key of the file, since they are errors of other arguments. All are unchanged
+    without a file.
+    """
+    try:
+        yield
+    except InputError as error:
+        source = source or str(file)
+        named = error.source == source
+        # unlike that of pathlib, it takes texts that are too long for a path
+        of_other_file = not named and os.path.exists(error.source)  # noqa: PTH110 (above)
+        if file is None or of_other_file:
+            raise
+        lines = lines_of_keys(text_of(file))
+        numbers = [_line_of(problem, lines) for problem in error.problems]
+        words = {re.split(r"[ :]", problem, maxsplit=1)[0] for problem in error.problems}
+        if not (named or sections is None or any(numbers) or words & {*sections}):
+            raise
+        located = (
+            f"line {number}: {problem}" if number else problem
+            for number, problem in zip(numbers, error.problems, strict=True)
+        )
+        raise InputError(located, source) from None
+
+
+# Texts and comments, which may have brackets in them; brackets; ends of lines.
+_TOKEN = re.compile(
+    r'"""(?:\\.|[^\\])*?"{3,5}|"(?:\\.|[^"\\\n])*"'
+    r"|'''.*?'{3,5}|'[^'\n]*'|#[^\n]*|[\[\]{}\n]",
+    re.DOTALL,
+)
+
+
+def lines_of_keys(text: str) -> dict[str, int]:
+    """Return the line of each key and table of a valid TOML text, by names with dots between them.
+
+    Keys that several tables of an array have are left out.
+    """
+    found: dict[str, int] = {}
+    repeated = set[str]()
+    table, start, line, depth = "", 0, 1, 0
+    for token in _TOKEN.finditer(f"{text}\n"):
+        depth += (token[0] in "[{") - (token[0] in "]}")
+        if token[0] != "\n" or depth:
+            continue
+        statement = text[start : token.end()]
+        try:
+            keys = dict(_paths(tomllib.loads(statement)))
+        except ValueError:
+            keys = {}
+        header = statement.lstrip().startswith("[")
+        if header:
+            table = max(keys, key=len)
+            keys = {table: statement.lstrip().startswith("[[")}
+        for key, leaf in keys.items():
+            name = key if header or not table else f"{table}.{key}"
+            if leaf and name in found:
+                repeated.add(name)
+            if header or name not in found:
+                found[name] = line
+        start, line = token.end(), line + statement.count("\n")
+    return {name: at for name, at in found.items() if name not in repeated}
+
+
+def _paths(tables: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, bool]]:
+    """Yield the names of all keys in tables, and whether each is a value."""
+    for key, value in tables.items():
+        yield before + key, not isinstance(value, dict)
+        if isinstance(value, dict):
+            yield from _paths(value, f"{before}{key}.")
+
+
+def _line_of(problem: str, lines: Mapping[str, int]) -> int:
+    """Return the line of the table and key that a problem begins with; 0 if it is not known."""
+    titled = re.match(r"\[([^\]\n]+)\]", problem)
+    first, *rest = re.findall(r"[^\s,:=]+", problem[titled.end() :] if titled else problem) or [""]
+    if titled:
+        path, rest = titled[1], [first, *rest]
+    elif first in lines:
+        path = first
+    else:
+        inner = [name for name in lines if name.endswith(f".{first}")]
+        path = inner[0] if len(inner) == 1 else ""
+    for word in rest:
+        if f"{path}.{word}" not in lines:
+            break
+        path = f"{path}.{word}"
+    return lines.get(path, 0)

@@ -120,10 +120,13 @@ def _units_of_points(sections: dict[str, Any]) -> dict[str, float]:
     return {"": factors.get("hardpoints", 1.0)} | factors
 
 
-def matching(given: Validator, suspension: Subject, patterns: Any) -> dict[str, DesignVariable]:
+def matching(
+    given: Validator, suspension: Subject, patterns: Any, section: str = ""
+) -> dict[str, DesignVariable]:
     """Return the numbers whose names match patterns, in the order of the file.
 
     Patterns are names of numbers, sections or points; ``*`` matches any text: ``hardpoints.*.z``.
+    `section` begins the messages about them: ``[free]``.
     """
     known = places_of(suspension)
     lists = _lists_of(suspension)
@@ -136,13 +139,14 @@ def matching(given: Validator, suspension: Subject, patterns: Any) -> dict[str, 
     for given_pattern in patterns:
         # a name without side or end is that of both sides, or of both axles of a car
         tried = (given_pattern, f"{_SIDE}{given_pattern}", f"*.{given_pattern}")
+        title = f"{section} {given_pattern}".lstrip()
         pattern = next((p for p in tried if any(_fits(name, p) for name in known)), given_pattern)
         found = {name for name in known if _fits(name, pattern) and _is_meant(name, pattern, known)}
         if not found and pattern in lists:
-            given.fail(f"{pattern} is a list, such as a curve; single numbers vary. Leave it out.")
+            given.fail(f"{title} is a list, such as a curve; single numbers vary. Leave it out.")
         elif not found:
             hint = _hint(pattern, known)
-            given.fail(f"{pattern} is neither a number nor a section of the input file. {hint}")
+            given.fail(f"{title} is neither a number nor a section of the input file. {hint}")
         wanted |= found
         if found:
             fixed = lists.keys() - found
@@ -190,22 +194,23 @@ def _hint(pattern: str, known: Mapping[str, DesignVariable]) -> str:
 
 
 def amounts(
-    given: Validator, suspension: Subject, by_pattern: Mapping[str, Any], what: str
+    given: Validator, suspension: Subject, by_pattern: Mapping[str, Any], name: str
 ) -> dict[DesignVariable, float]:
     """Return an amount in SI units for every number that a pattern matches, the last one if many.
 
-    They are in the order of the file. An amount such as "20 %" is a part of each value.
+    They are in the order of the file. An amount such as "20 %" is a part of each value. `name` is
+    that of the argument, and of its section in a file.
     """
     found: dict[str, tuple[DesignVariable, float]] = {}
     for pattern, amount in by_pattern.items():
-        for name, place in matching(given, suspension, [str(pattern)]).items():
-            title = f"{what} of {pattern}"
+        title = f"[{name}] {pattern}"
+        for full, place in matching(given, suspension, [str(pattern)], f"[{name}]").items():
             number = _part_of(given, title, amount, place) if isinstance(amount, str) else amount
             checked = given.number(title, number, place.unit, above=0.0, below=_GREATEST)
             if checked < _LEAST:
                 unit = f"{place.unit and ' '}{place.unit}"
                 given.fail(f"{title} = {checked:g}{unit}: {_LEAST:g}{unit} or more is needed.")
-            found[name] = place, checked * place.to_si
+            found[full] = place, checked * place.to_si
     return dict(found[name] for name in places_of(suspension) if name in found)
 
 

@@ -190,7 +190,7 @@ def fit(
         if not given.failed:
             check_data(given, suspension, targets)
             by_pattern = given.mapping("tolerances", tolerances, "places and numbers")
-            reach = amounts(given, suspension, by_pattern, "tolerance")
+            reach = amounts(given, suspension, by_pattern, "tolerances")
             if not reach:
                 given.fail("tolerances: one or more are needed.")
     search = Search(suspension, reach, targets, (), progress, SIGMAS)
@@ -245,7 +245,7 @@ def _targets(
         words = f"; not computed over {axis}: {', '.join(foreign)}" if foreign else ""
         given.fail(f"measured: one curve or more is needed{words}.")
     for name in accuracies:
-        given.among("accuracy of", name, known)
+        given.among("[accuracy]", name, known)
     targets = [
         target
         for name in chosen
@@ -265,7 +265,7 @@ def _target(given: Validator, curve: xr.DataArray, over: str, accuracy: Any) -> 
     shown = display_of(sweep_axis(over).known[name].attributes())
     if accuracy is not None:
         number = given.number(
-            f"accuracy of {name}", accuracy, shown.units, least=LEAST, below=GREATEST
+            f"[accuracy] {name}", accuracy, shown.units, least=LEAST, below=GREATEST
         )
         within = number / shown.factor
     else:

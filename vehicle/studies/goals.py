@@ -31,7 +31,7 @@ from .sweep_axes import (
     sweep_axis,
 )
 
-_SECTIONS = (
+SECTIONS = (
     "distribution", "tolerances", "free", "targets", "minimise", "maximise", "limits", "accuracy",
 )  # fmt: skip
 # Axes that are not named in titles.
@@ -154,7 +154,7 @@ def read(path: str | Path) -> dict[str, Any]:
     InputError
         If it cannot be read, or has other sections.
     """
-    return read_sections(path, _SECTIONS)
+    return read_sections(path, SECTIONS)
 
 
 def limits(described: Mapping[str, Any], axes: Sequence[str] = OF_CORNERS) -> list[Limit]:
@@ -436,7 +436,7 @@ def _tables(
             over = given.among(f"{title} held", table.get("held", "height"), HELD)
         for key in table.keys() - {*known_keys}:
             given.fail(f"{title} {key} is not known: there are {', '.join(known_keys)}.")
-        if given.among("characteristic", name, known) != name:
+        if given.among(title, name, known) != name:
             continue
         shown = display_of(known[name].attributes())
         unit, factor = sweep_axis(over).unit, sweep_axis(over).factor

@@ -147,7 +147,7 @@ def optimise(
         if not given.failed:
             check_data(given, suspension, [*aims, *bounds])
             by_pattern = given.mapping("free", free, "places and numbers")
-            reach = amounts(given, suspension, by_pattern, "range")
+            reach = amounts(given, suspension, by_pattern, "free")
             if not reach:
                 given.fail("free: one value or more is needed.")
             if not aims:

@@ -207,7 +207,7 @@ def pareto(
             goals = [*(o.goal for o in objectives), *bounds]
             check_data(given, suspension, goals)
             by_pattern = given.mapping("free", free, "places and numbers")
-            reach = amounts(given, suspension, by_pattern, "range")
+            reach = amounts(given, suspension, by_pattern, "free")
             refuse_bushes(given, reach, [goal.over for goal in goals])
             if not reach:
                 given.fail("free: one value or more is needed.")

@@ -116,7 +116,7 @@ def tolerance(
             curves = curves_of(given, suspension, over, positions, names, held)
             check_data(given, suspension, bounds)
             by_pattern = given.mapping("tolerances", tolerances, "places and numbers")
-            spread = amounts(given, suspension, by_pattern, "tolerance")
+            spread = amounts(given, suspension, by_pattern, "tolerances")
             refuse_bushes(given, spread, [curves.over, *(limit.over for limit in bounds)])
             if not spread:
                 given.fail("tolerances: one or more are needed.")

@@ -79,7 +79,7 @@ def test_all_that_is_wrong_is_reported_at_once():
 def test_what_is_wrong_of_many_is_reported_once():
     with pytest.raises(kintrafo.InputError) as caught:
         kintrafo.variation.tolerance(CAR.suspension, {"hardpoints": -1.0})
-    assert [p.split(":")[0] for p in caught.value.problems] == ["tolerance of hardpoints = -1 mm"]
+    assert [p.split(":")[0] for p in caught.value.problems] == ["[tolerances] hardpoints = -1 mm"]
 
 
 def test_any_number_of_steps():

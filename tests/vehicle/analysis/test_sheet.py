@@ -89,7 +89,7 @@ def test_what_cannot_be_is_refused_by_name():
         sheet("reference_car")
     with pytest.raises(InputError, match="held"):
         sheet(Model("reference_car"), held="tight")
-    with pytest.raises(InputError, match="bushings at 'arm_rear' is not known"):
+    with pytest.raises(InputError, match=r"\[bushings.arm_rear\] 'arm_rear' is not known"):
         sheet(RigidAxle.load("rigid_axle"), BUSHES)
 
 

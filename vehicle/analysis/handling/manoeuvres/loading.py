@@ -14,7 +14,7 @@ from ....data import find
 from ....data.starter import manoeuvres
 from ....input.messages import messages_of
 from ....input.places import put
-from ....input.toml_file import read_toml
+from ....input.toml_file import problems_in, read_toml
 from .acceleration import Acceleration
 from .braking import StraightBraking
 from .braking_in_turn import BrakingInTurn
@@ -75,13 +75,19 @@ def load_manoeuvre(
     100.0
     """
     if isinstance(path_or_name, Mapping):
-        source, data = "manoeuvre", dict(path_or_name)
-    else:
-        with Validator(_KEY) as given:
-            given.path("path_or_name", path_or_name)
-        source = str(path_or_name)
-        data = read_toml(find(path_or_name, manoeuvres()))
-    for place, value in (changes or {}).items():
+        return _manoeuvre(dict(path_or_name), changes or {}, _KEY)
+    with Validator(_KEY) as given:
+        given.path("path_or_name", path_or_name)
+    file, source = find(path_or_name, manoeuvres()), str(path_or_name)
+    data = read_toml(file)
+    # a line of the file has another value than a change
+    with problems_in(None if changes else file, source):
+        return _manoeuvre(data, changes or {}, source)
+
+
+def _manoeuvre(data: dict[str, Any], changes: Mapping[str, Any], source: str) -> Manoeuvre:
+    """Return the manoeuvre of the content of a file with changes."""
+    for place, value in changes.items():
         if value is None:
             data.pop(place, None)
         elif "." not in place:
