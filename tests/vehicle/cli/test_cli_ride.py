@@ -52,8 +52,8 @@ def test_a_bump_that_no_wheel_meets_is_refused(kintrafo):
     (["quarter_car", "--bump-length", "1"], "--bump-length is only for --bump"),
     (["quarter_car", "--wheels", "left"], "--wheels is only for --bump-height and --kerb"),
     (["quarter_car", "--bump-height", "20", "--seed", "2"], "--seed is only for a rough road"),
-    (["quarter_car", "--seed", "-1"], "--seed = -1: a whole number, 0 or more"),
-    (["quarter_car", "--contact-length", "-5"], "--contact-length = -5 mm"),
+    (["quarter_car", "--seed", "-1"], "--seed -1: a whole number, 0 or more"),
+    (["quarter_car", "--contact-length", "-5"], "--contact-length -5 mm"),
     (["reference_vehicle", "--road", "short.csv"], "the road is 2 m long, and the wheelbase 2.6 m"),
 ])  # fmt: skip
 def test_mistakes_are_named_before_equations_are_derived(kintrafo, monkeypatch, words, message):
