@@ -58,7 +58,7 @@ def test_the_command(kintrafo, tmp_path):
     assert "cornering_stiffness" in json.dumps(json.loads(out))
     for line, said in (
         (["none.tir"], "cannot be read"),
-        (["passenger_205_55", "--load", "much"], "--load = 'much'"),
+        (["passenger_205_55", "--load", "much"], "--load 'much'"),
         (["passenger_205_55", "--load", "90000"], "200 to 9000 N"),
         (["passenger_205_55", "--plot", "a.txt"], "a.txt"),
     ):
