@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 
 SPEED, SETTLED, TURNED, END = 22.0, 4.0, 6.0, 16.0  # m/s, s
 GRAVITY = 9.81
-# Of the steering wheel, or where that is a pinion of Chrono's, of the pinion [rad].
-LEAST, MOST = 0.02, 0.3
+# Angles of a pinion of Chrono's [rad]; a steering wheel turns farther, up to the last one.
+LEAST, MOST, LAST = 0.02, 0.3, 5.0
 
 
 def turn(car: CarAssembly, start: State, angle: float) -> tuple[float, float, float]:
@@ -66,7 +66,12 @@ def main() -> None:
     def left(angle: float) -> float:
         return turn(changed, start, angle)[0] - given.lateral
 
-    angle = brentq(left, LEAST, MOST, xtol=1e-5)
+    most = MOST
+    while left(most) < 0.0:
+        most *= 2.0
+        if most > LAST:
+            parser.error(f"--lateral {given.lateral:g}: {given.car} does not reach it")
+    angle = brentq(left, LEAST, most, xtol=1e-5)
     lateral, roll, speed = turn(changed, start, angle)
     print(f"{given.car}: {roll:.2f} deg of roll at {lateral:.3f} g and {speed:.1f} m/s")
 
