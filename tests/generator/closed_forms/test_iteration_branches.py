@@ -170,9 +170,8 @@ def test_positions_on_another_branch_are_no_part_of_a_batch():
         assert arm_angles_of_batch(batch, np.array([travel]), np.array([RACK]))[1] == reached
 
 
-@pytest.mark.parametrize("seed", range(2))
-def test_multi_links_are_on_the_branch_of_their_path(seed):
-    random = np.random.default_rng([1, seed])
+def test_multi_links_are_on_the_branch_of_their_path():
+    random = np.random.default_rng([1, 0])
     found = random_multi_links.judged(
         random_multi_links.some_cars(random, 12), random.uniform(-0.06, 0.06), random
     )

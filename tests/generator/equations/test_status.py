@@ -575,7 +575,7 @@ def test_results_are_new_and_constants_are_fixed(model):
 
 # -- anything -------------------------------------------------------------------------------------
 
-calm = settings(deadline=None, max_examples=100)
+calm = settings(deadline=None, max_examples=50)
 
 
 def attempt(call):

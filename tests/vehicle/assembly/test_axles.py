@@ -19,7 +19,6 @@ from kintrafo import (
     compare,
     compliance,
     equilibrium,
-    load,
     roads,
 )
 from kintrafo.systems.compile.compiler import find_compiler
@@ -590,18 +589,6 @@ def test_an_axle_has_a_chapter_in_the_report():
     assert {"roll steer", "anti-dive", "force of the drop link"} <= alike
     data = dict(of_alike.tables[2].rows)
     assert data["[anti_roll_bar] rate_Nm_per_deg"] == "17.5"
-
-
-@pytest.mark.parametrize("name", ["rigid_axle", "twist_beam", "steered_rigid_axle"])
-def test_the_chapter_of_an_axle_without_sides_has_all_of_it(name):
-    chapter = axle_chapter(load(name))
-    look, wheels, *_ = chapter.tables
-    rows = dict(look.rows)
-    assert {"equilibrium", "wheel rate, left", "roll stiffness of the anti-roll bar or beam"} <= {
-        *rows
-    }
-    assert {"camber", "toe angle", "wheel rate"} <= {row[0] for row in wheels.rows}
-    assert "from above" in chapter.pictures[0].words
 
 
 @pytest.mark.usefixtures("coarse_report", "first_page_of_curves", "one_picture")

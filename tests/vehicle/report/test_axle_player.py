@@ -1,4 +1,4 @@
-"""The player of axles without sides in their reports."""
+"""Chapters of axles without sides in their reports, and their player."""
 
 import json
 import re
@@ -9,10 +9,27 @@ import pytest
 from kintrafo.vehicle.report import axle_chapter
 
 
-@pytest.mark.parametrize("name", ["rigid_axle", "twist_beam", "steered_rigid_axle"])
-def test_wheels_move_as_on_a_rig(name):
+@pytest.fixture(scope="module", params=["rigid_axle", "twist_beam", "steered_rigid_axle"])
+def name(request):
+    return request.param
+
+
+@pytest.fixture(scope="module")
+def chapter(name):
+    return axle_chapter(kintrafo.load(name))
+
+
+def test_the_chapter_has_all_of_it(chapter):
+    look, wheels, *_ = chapter.tables
+    rows = {"equilibrium", "wheel rate, left", "roll stiffness of the anti-roll bar or beam"}
+    assert rows <= {*dict(look.rows)}
+    assert {"camber", "toe angle", "wheel rate"} <= {row[0] for row in wheels.rows}
+    assert "from above" in chapter.pictures[0].words
+
+
+def test_wheels_move_as_on_a_rig(chapter, name):
     """Wheels rise equally in bump and oppositely in roll; in steering they turn."""
-    (player,) = axle_chapter(kintrafo.load(name)).players
+    (player,) = chapter.players
     (text,) = re.findall(r'<script type="application/json">(.*?)</script>', str(player), re.DOTALL)
     data = json.loads(text)
     centers = np.array(data["centers"]).reshape(len(data["times"]), 2, 3)  # mm
