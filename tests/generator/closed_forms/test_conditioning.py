@@ -16,7 +16,7 @@ from oracle.maximal import Motion
 from support.models import Built, needs_gcc, own, shipped
 
 PROMISED = 1e-9
-FREE = 8  # hardpoint coordinates that are moved, besides those of the joints
+FREE = 4  # hardpoint coordinates that are moved, besides those of the joints
 DESCENT = 12
 # Each closed form of the shipped models once: the others are made of the same.
 SHIPPED = (
