@@ -110,7 +110,9 @@ def draw(
             if not names:
                 given.fail("names is empty: at least one variable is needed.")
     vertical = {dimension_along(dataset[name]) in upright for name in names} == {True}
-    columns = _columns(len(names), columns, vertical=vertical)
+    begins = [i for i, name in enumerate(names) if i == 0 or name in (headings or {})]
+    most = max(np.diff([*begins, len(names)]))
+    columns = _columns(int(most), columns, vertical=vertical)
     cells = _cells(names, columns, headings or {})
     rows = 1 + cells[-1] // columns
     panel = np.array(_UPRIGHT if vertical else _LEVEL)
@@ -146,7 +148,7 @@ def draw(
 
 
 def _columns(count: int, columns: int, *, vertical: bool) -> int:
-    """Return the number of panels in a row."""
+    """Return the number of panels in a row, for so many panels below a heading."""
     if vertical and columns == COLUMNS and count in _FOUR_IN_A_ROW:
         columns = 4
     if not vertical and columns == COLUMNS and count == _TWO_IN_A_ROW:

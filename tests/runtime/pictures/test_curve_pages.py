@@ -115,15 +115,16 @@ def test_lines_over_wheel_travel_are_named_in_each_panel(count):
 
 
 def test_headings_begin_rows():
-    several = xr.Dataset({name: curves(TRAVEL)["one"] for name in "abcde"})
-    drawn = figure(several, list("abcde"), alone=False, headings={"a": "First", "b": "Second"})
+    """The longest group determines the number of panels in a row."""
+    several = xr.Dataset({name: curves(TRAVEL)["one"] for name in "abcdef"})
+    drawn = figure(several, list("abcdef"), alone=False, headings={"a": "First", "b": "Second"})
     cells = [
         (place.rowspan.start, place.colspan.start)
         for place in (axes.get_subplotspec() for axes in drawn.axes)
     ]
-    assert cells == [(0, 0), (1, 0), (1, 1), (1, 2), (2, 0)]
+    assert cells == [(0, 0), (1, 0), (1, 1), (1, 2), (2, 0), (2, 1)]
     titles = [axes.get_title(loc="left").strip() for axes in drawn.axes]
-    assert titles == ["First", "Second", "", "", ""]
+    assert titles == ["First", "Second", "", "", "", ""]
 
 
 @pytest.mark.parametrize("at", [0.0113, -0.0312, TRAVEL[3] + 1e-6, -0.0799])
