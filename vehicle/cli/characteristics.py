@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ...terminal.console import console, print_curves, print_json, print_table, say
+from ...terminal.console import console, print_curves, print_json, print_table, problems, say
 from . import goals as wanted
 from .loading import assembly_of_file
 from .options import Bump, File, Of, Rebound, among, metres, option, refuse_options
@@ -166,7 +166,8 @@ def _characteristics(
     for name in motions:
         steers = name in {"rack", "steer"}
         still = {"travel": held["travel"]} if steers else {"rack_position": held["rack"]}
-        curves[name] = datasets.over(assembly, name, extent=extent, **still)
+        with problems.status(f"characteristics over {name}"):
+            curves[name] = datasets.over(assembly, name, extent=extent, **still)
     assembly.refuse_of_steering(of or ())
     # both wheels of an axle are drawn together
     drawn = named(of_both(of) if len(assembly.wheels) > 1 else of, curves)
