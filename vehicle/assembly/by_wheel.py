@@ -5,7 +5,7 @@ coordinate without a dimension. Tables of a spreadsheet have a column for each w
 ends in that of the wheel.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -14,6 +14,9 @@ import xarray as xr
 from ...core.named_types import Array
 from ...core.validator import Validator
 from ...datasets.columns import AS_COLUMNS, with_columns
+from ..models.car.car import WHEELS
+from ..models.car.file import ENDS
+from ..models.sides import SIDES
 from .quantity import Quantity
 
 WHEEL, AXLE, DATA_SET = "wheel", "axle", "data_set"
@@ -69,6 +72,24 @@ def flat(dataset: xr.Dataset) -> xr.Dataset:
     with Validator("flat") as given:
         given.dataset(dataset)
     return with_columns(with_columns(dataset, WHEEL), AXLE)
+
+
+def columns_of(names: Iterable[str], known: Collection[str]) -> list[str]:
+    """Return the known columns of a flat table with some names, each once.
+
+    A name without wheel or axle is that of the columns of all of them; others are unchanged.
+
+    Examples
+    --------
+    >>> columns_of(["track", "toe", "tow"], ["toe_left", "toe_right", "track", "track_change"])
+    ['track', 'toe_left', 'toe_right', 'tow']
+    """
+    ends = {f"_{place}" for place in (*SIDES, *ENDS, *WHEELS)}
+    found: dict[str, None] = {}
+    for name in names:
+        of_all = [] if name in known else [k for k in known if k.removeprefix(str(name)) in ends]
+        found |= dict.fromkeys(of_all or [name])
+    return [*found]
 
 
 def without_side(name: str) -> str:

@@ -32,7 +32,9 @@ class Quantity:
         }
 
     def of_wheel(self, wheel: str) -> "Quantity":
-        """Return the quantity of one wheel, as a column of a flat table."""
+        """Return the quantity of one wheel, as a column of a flat table; itself for no wheel."""
+        if not wheel:
+            return self
         name, words = f"{self.name}_{wheel}", f"{self.long_name}, {wheel.replace('_', ' ')}"
         return replace(self, name=name, long_name=words)
 

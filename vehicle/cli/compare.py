@@ -6,7 +6,6 @@ import typer
 
 from ...core.tabulated import significant
 from ...terminal.console import console, print_json, progress_bar, say, table
-from ..models.sides import SIDES
 from . import goals as wanted
 from .loading import assembly_of_file
 from .options import Held, Of, among, argument, option
@@ -76,7 +75,7 @@ def command(
     on. The other files are compared with it.
     """
     from ..analysis import compare
-    from ..assembly.by_wheel import flat
+    from ..assembly.by_wheel import columns_of, flat
     from ..studies.sweep_axes import (
         compliances_over,
         name_of_axis,
@@ -95,14 +94,11 @@ def command(
     if outputs.drawn:
         wanted.refuse_beyond(aims, dict.fromkeys(looked_at, dataset), goals)
     judged = wanted.judged(subjects, aims, goals)
-    both = [f"{name}_{side}" for name in of or () for side in SIDES]
-    of = [n for n in of or () if n in table or f"{n}_left" not in table] + [
-        name for name in both if name in table
-    ]
-    shown = among(of, map(str, table.data_vars)) if of else [str(n) for n in table.data_vars]
+    every = [*map(str, table.data_vars)]
+    shown = among(columns_of(of, every), every) if of else every
     of_cars = name_of_axis(axis) in AXES_OF_CARS
-    every = compare.differences(dataset, sweep_axis(axis).at if of_cars else 0.0)
-    found = [difference for difference in every if difference.name in shown]
+    differences = compare.differences(dataset, sweep_axis(axis).at if of_cars else 0.0)
+    found = [difference for difference in differences if difference.name in shown]
     first, *others = (str(name) for name in dataset["data_set"].values)
     drawn = table.assign_coords(
         data_set=("data_set", _titles(dataset["data_set"].values), dataset["data_set"].attrs)

@@ -77,8 +77,9 @@ def read(
 
 def _over(over: str) -> str:
     from ..analysis.compliance.flexibility import HELD
+    from ..studies.sweep_axes import title_of_axis
 
-    return f'with held = "{over}"' if over in HELD else f"over {over}"
+    return f'with held = "{over}"' if over in HELD else f"over {title_of_axis(over)}"
 
 
 def _or(names: Sequence[str]) -> str:

@@ -26,6 +26,7 @@ _MOST_VALUES = 100_000  # of one place
 EXAMPLES = (
     "kintrafo sweep my_car.toml strut.damper_rate_N_s_per_m=500:3000:11 --road-step 20",
     "kintrafo sweep my_car.toml hardpoints.tie_rod_inner.z=270,280,290 --keep toe:max -o toe.csv",
+    "kintrafo sweep my_car.toml strut.spring_rate_N_per_m=20e3,30e3 --over load:case=brake",
     "kintrafo sweep quarter_car corner.strut.spring_rate_N_per_m=20e3:30e3:3 --over speed:road=C",
 )
 
@@ -58,27 +59,31 @@ def command(
     """Compute motions, or characteristics of a car, for combinations of values.
 
     Each motion starts at rest, or at --height. The exit code is 1 if one does not reach the end.
-    A sweep of a car has no simulation: its table has characteristics of steady turns, of the ride
-    or of motions of the body (--over, --of, --at).
+    With --over, --of, --at or --held, and of a car, there is no simulation: the table has
+    characteristics, compliance or loads at one position.
     """
     from ...datasets import export
 
     outputs = output.files(file, driven.measured)
     subject = variable_subject(file)
-    of_car = subject.whole_car
-    _refuse_other_options(keep, asked, driven, of_car=of_car)
+    of_curves = subject.whole_car or asked != StudyOptions()
+    if of_curves and (keep or driven != ScenarioOptions()):
+        raise typer.BadParameter(
+            "a sweep of a car, or with --over, --of, --at or --held, has no simulation: leave out "
+            "--keep and the options of road, rack, start and time"
+        )
     grid = dict(map(_numbers, values))
     if len(grid) < len(values):
         raise typer.BadParameter("a place is named twice: write all of its values together")
     if outputs.pages and len(grid) > 2:
         raise typer.BadParameter("a figure shows one value or two; leave out --plot, or a value")
-    if of_car:
-        kept, names = _of_cars(subject, grid, asked)
+    if of_curves:
+        kept, names = _of_curves(subject, grid, asked)
     else:
         kept, names = _motions(subject, grid, keep, driven)
     drawn = kept.drop_vars([str(name) for name, data in kept.coords.items() if not data.ndim])
-    title = ", ".join([title_of(file), *([kept.attrs["where"]] if of_car else [])])
-    written = outputs.write(kept, title=title, drawn=drawn if of_car else kept, names=names)
+    title = ", ".join([title_of(file), *([kept.attrs["where"]] if of_curves else [])])
+    written = outputs.write(kept, title=title, drawn=drawn if of_curves else kept, names=names)
     if output.json:
         print_json(export.as_dict(kept))
     else:
@@ -89,23 +94,10 @@ def command(
         raise typer.Exit(Exit.REFUSED)
 
 
-def _refuse_other_options(
-    keep: list[str] | None, asked: StudyOptions, driven: ScenarioOptions, *, of_car: bool
-) -> None:
-    """Refuse options of motions for a car, and options of cars for a suspension."""
-    if of_car and (keep or driven != ScenarioOptions()):
-        raise typer.BadParameter(
-            "a sweep of a car has no simulation: leave out --keep and the options of road, rack, "
-            "start and time; --over, --of and --at choose its characteristics"
-        )
-    if not of_car and asked != StudyOptions():
-        raise typer.BadParameter("--over, --of, --at and --held are only for cars: --keep chooses")
-
-
-def _of_cars(
+def _of_curves(
     subject: "Subject", grid: dict[str, list[float]], asked: StudyOptions
 ) -> "tuple[Dataset, list[str]]":
-    """Return the results of cars over a grid of values at one position, and their names."""
+    """Return curves of cars over a grid of values at one position, and their names."""
     import xarray as xr
 
     from ...core.validator import Validator
@@ -122,7 +114,7 @@ def _of_cars(
     grid = dict(zip(places, grid.values(), strict=True))
     with progress_bar("cars") as progress:
         found = variation.cars(
-            subject, xr.Dataset(coords=grid), over=look.over, positions=[look.at],
+            subject, xr.Dataset(coords=grid), **look.how | {"positions": [look.at]},
             names=look.names, progress=progress,
         )  # fmt: skip
     along = next(str(name) for name in found.dims if name not in grid)

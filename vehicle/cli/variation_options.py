@@ -16,7 +16,8 @@ AXES_OF_CARS = ("lateral_acceleration", "speed")
 """Axes of curves of cars besides motions of the body."""
 
 _AXES = (
-    "travel", "rack", "bump", "roll", "left", "right", "steer", "heave", "pitch", *AXES_OF_CARS,
+    "travel", "rack", "bump", "roll", "left", "right", "steer", "heave", "pitch", "load",
+    *AXES_OF_CARS,
 )  # fmt: skip
 
 
@@ -24,7 +25,8 @@ Over = Annotated[
     str | None,
     option(
         "What varies along the curves: travel or rack of a suspension; bump, roll, left, right, "
-        "steer or rack of an axle; heave, pitch or roll of the body of a car; speed of a car on a "
+        "steer or rack of an axle; load, a load case of both (options case, cases, a file: "
+        "load:case=brake); heave, pitch or roll of the body of a car; speed of a car on a "
         "rough road (options road, seat: speed:road=C); lateral acceleration of steady turns at "
         "100 km/h (options speed_km_per_h, radius_m, steering_wheel_deg: "
         "lateral_acceleration:radius_m=60). Default: travel, bump of an axle, heave of a car.",
@@ -37,7 +39,8 @@ AtOfAxis = Annotated[
     float | None,
     option(
         "Position of the table; over roll, pitch and steer in deg, over acceleration in m/s^2, "
-        "over speed in km/h. Default: 0, 80 over speed, 1 at a radius or steering wheel angle.",
+        "over speed in km/h, over load in %. Default: 0, 80 over speed, 100 over load, 1 at a "
+        "radius or steering wheel angle.",
         "MM",
         show_default=False,
     ),
@@ -131,14 +134,18 @@ class StudyCurves:
 
 def _chosen(assembly: "Assembly", wanted: list[str] | None, over: str) -> list[str]:
     """Return the wanted characteristics, or the default ones."""
-    from ..studies.evaluation import available
-    from ..studies.sweep_axes import UNDER_LOADS, name_of_axis
+    from ..assembly.by_wheel import columns_of
+    from ..studies.evaluation import available, listed
+    from ..studies.sweep_axes import LOADING, UNDER_LOADS, name_of_axis
 
     assembly.refuse_of_steering(wanted or ())
     known = available(assembly, over)
     if wanted is not None:
-        return among(wanted, known)
+        columns = columns_of(wanted, known)
+        return among(columns, listed(over, known, columns))
     moved = (*_USUAL_OF_AXLES, *_OF_ENDS) if len(assembly.wheels) > 1 else _USUAL["travel"]
+    if name_of_axis(over) == LOADING:
+        return listed(over, known)
     usual = known if over in UNDER_LOADS else _USUAL.get(name_of_axis(over), moved)
     return [name for name in usual if name in known]
 

@@ -92,8 +92,8 @@ def write_optimum(found: Optimum, path: str | Path, **how: Unpack[FigureOptions]
         factor, step = (display_of(each.attributes()).factor for each in (quantity, over))
         for (label, model), (colour, dashes) in zip(models.items(), _PAIR, strict=True):
             values = Curves(panel.over, along, (panel.name,)).of(model)[0]
-            values = interrupted(factor * values)
-            axes.plot(step * along, values, dashes, color=colour, label=label)
+            values, marker = interrupted(factor * values), "o" if along.size == 1 else ""
+            axes.plot(step * along, values, dashes, color=colour, label=label, marker=marker)
         mark(axes, of_curve(goals, panel.name, panel.over))
         _around(axes, over.attributes() | {"long_name": over.long_name}, quantity.attributes())
 

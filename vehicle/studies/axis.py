@@ -32,8 +32,9 @@ class SweepAxis:
 
     @property
     def key(self) -> str:
-        """The key of positions in a file of goals: ``at_mm``, ``at_m_per_s2``."""
-        return f"at_{self.unit.replace('/', '_per_').replace('^', '')}"
+        """The key of positions in a file of goals: ``at_mm``, ``at_m_per_s2``, ``at_percent``."""
+        unit = self.unit.replace("%", "percent")
+        return f"at_{unit.replace('/', '_per_').replace('^', '')}"
 
     @property
     def factor(self) -> float:

@@ -18,7 +18,6 @@ from ...core.named_types import Array
 from ...core.threads import shared_out
 from ...equations.errors import ClosureError
 from ...simulation.lanes.run import usual_threads
-from ..analysis.compliance.flexibility import HELD
 from ..assembly.corner_kinematics import corner
 from ..assembly.measures.corner import OVER_RACK, OVER_TRAVEL
 from ..assembly.measures.measure import values
@@ -31,6 +30,7 @@ from ..models.positions import arm_angles_of_batch
 from .curves import Curves, changed
 from .design_variables import DesignVariable, is_factor, names_bushes
 from .evaluation import Subject
+from .sweep_axes import sweep_axis
 
 # Cars of a batch: many enough to make common work negligible, few enough for the cache.
 _TOGETHER = 256
@@ -105,7 +105,7 @@ def _some(
     found = [np.full((count, len(look.names), look.positions.size), np.nan) for look in looks]
     reasons = [""] * count
     together = np.zeros(count, dtype=bool)
-    alone = any(look.over in HELD for look in looks)
+    alone = any(sweep_axis(look.over).curves is not None for look in looks)
     alone = alone or any(is_factor(place) or names_bushes(place) for place in values)
     if isinstance(suspension, Suspension) and count >= _FEWEST and not alone:
         together = _together(suspension, values, looks, found)

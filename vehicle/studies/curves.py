@@ -10,10 +10,11 @@ from ...core.named_types import Array
 from ...core.validator import Validator
 from ..analysis.compliance.flexibility import HELD
 from ..assembly.assembly import Assembly
+from ..assembly.by_wheel import columns_of
 from ..assembly.of import assembly_of
 from ..assembly.quantity import Quantity
 from .design_variables import DesignVariable, scaled
-from .evaluation import Subject, available, usual_positions, values_of
+from .evaluation import Subject, available, listed, usual_positions, values_of
 from .sweep_axes import given_axis, sweep_axes_of, sweep_axis
 
 
@@ -102,10 +103,18 @@ def curves_of(
     if positions is None:
         positions = usual_positions(assembly, over)
     known = available(assembly, over)
-    chosen = known if names is None else given.names("names", names, known)
+    chosen = known if names is None else names_among(given, names, known, over)
     if not (chosen or given.failed):
         given.fail(f"names is empty: one characteristic or more is needed, of {', '.join(known)}.")
     return Curves(over, positions, tuple(dict.fromkeys(chosen)))
+
+
+def names_among(given: Validator, names: Any, known: Sequence[str], over: str) -> tuple[str, ...]:
+    """Return the checked columns over an axis with some names, see `columns_of`."""
+    if isinstance(names, list | tuple) and all(isinstance(name, str) for name in names):
+        names = columns_of(names, known)
+        known = listed(over, known, names)
+    return given.names("names", names, known)
 
 
 def _held(given: Validator, suspension: Subject, over: Any, held: Any) -> Any:
@@ -115,9 +124,7 @@ def _held(given: Validator, suspension: Subject, over: Any, held: Any) -> Any:
         given.fail(
             f"held: compliance is over {sweep_axis(usual).words}. Leave over = {over!r} out."
         )
-    if assembly_of(suspension).body_moves:
-        given.fail("held: compliance is that of an axle. Look at the file of an axle of the car.")
-    elif not assembly_of(suspension).has_bushes:
+    if not assembly_of(suspension).has_bushes:
         given.fail("held: compliance needs a file with [bushings]. Add them.")
     return given.among("held", held, HELD)
 

@@ -12,11 +12,14 @@ from ...core.named_types import Array
 from ...core.quantities import display_of
 from ...core.validator import Validator
 from ..analysis.compliance.flexibility import HELD, WheelSupport
+from ..assembly.by_wheel import columns_of
+from ..assembly.quantity import TRAVEL
+from .curves import names_among
 from .design_variables import DesignVariable, amounts
 from .evaluation import Subject, check_subject
 from .goals import GREATEST, LEAST, TargetValue, check_data
 from .search import Search, in_words, least
-from .sweep_axes import UNDER_LOADS, given_axis, known_over, sweep_axes_of, sweep_axis
+from .sweep_axes import compliances_over, given_axis, known_over, sweep_axes_of, sweep_axis
 from .tolerance import SIGMAS
 
 # Default accuracy of a curve, as a part of its range.
@@ -236,11 +239,16 @@ def _targets(
         for name in map(str, measured)
         if measured[name].dims == (along,) and np.issubdtype(measured[name].dtype, np.floating)
     ]
-    under_loads = UNDER_LOADS[held_by].known if axis == "travel" else {}
-    computed = {**known_over(axis, axes[0]), **under_loads}
-    known = [name for name in there if name in computed]
+    under_loads = compliances_over(axis) if along == TRAVEL.name else {}
+    over_axis = known_over(axis, axes[0])
+    known = [name for name in there if name in over_axis or name in under_loads]
     foreign = [name for name in there if name not in known] if names is None else []
-    chosen = known if names is None else given.names("names", names, known)
+    chosen = known if names is None else names_among(given, names, known, axis)
+    accuracies = {
+        column: number
+        for name, number in accuracies.items()
+        for column in columns_of([name], known)
+    }
     if not chosen and not given.failed:
         words = f"; not computed over {axis}: {', '.join(foreign)}" if foreign else ""
         given.fail(f"measured: one curve or more is needed{words}.")

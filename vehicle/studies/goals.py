@@ -1,9 +1,9 @@
 """Targets and limits of characteristics, from a file or an argument."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,13 +12,15 @@ from ...core.named_types import Array
 from ...core.quantities import bracketed, display_of
 from ...core.validator import Validator
 from ..analysis.compliance.flexibility import HELD
+from ..assembly.by_wheel import columns_of
 from ..assembly.of import assembly_of, given_assembly
 from ..assembly.quantity import Quantity
 from ..assembly.rig import STEERING
 from ..corner.wheeled import NOT_STEERED
 from ..input.toml_file import read_sections
 from .curves import CurveBundle, Curves
-from .evaluation import available
+from .evaluation import available, listed
+from .loading import CASES, LOADING
 from .sweep_axes import (
     ALL_AXES,
     OF_CORNERS,
@@ -29,6 +31,7 @@ from .sweep_axes import (
     options_of,
     sweep_axes_of,
     sweep_axis,
+    title_of_axis,
 )
 
 SECTIONS = (
@@ -147,14 +150,28 @@ def read(path: str | Path) -> dict[str, Any]:
     Returns
     -------
     dict
-        By the name of the section.
+        By the name of the section. Paths of load cases, which are relative to the file, include its
+        folder.
 
     Raises
     ------
     InputError
         If it cannot be read, or has other sections.
     """
-    return read_sections(path, SECTIONS)
+    folder = Path(path).parent
+    return {name: _in(folder, section) for name, section in read_sections(path, SECTIONS).items()}
+
+
+def _in(folder: Path, described: Any) -> Any:
+    """Return a section with the folder in the paths of load cases."""
+    if isinstance(described, list):
+        return [_in(folder, each) for each in described]
+    if not isinstance(described, Mapping):
+        return described
+    return {
+        key: str(folder / value) if key == CASES and isinstance(value, str) else _in(folder, value)
+        for key, value in described.items()
+    }
 
 
 def limits(described: Mapping[str, Any], axes: Sequence[str] = OF_CORNERS) -> list[Limit]:
@@ -185,7 +202,7 @@ def goals(described: Mapping[str, Any], axes: Sequence[str] = OF_CORNERS) -> lis
         Result of `read`; other sections are not used.
     axes : sequence of str, optional
         Motions of the goals, the first one by default: ``travel`` and ``rack``, or of an axle, also
-        a rigid one, ``bump``, ``roll``, ``left`` and ``right``.
+        a rigid one, ``bump``, ``roll``, ``left`` and ``right``; and ``load`` of load cases.
 
     Returns
     -------
@@ -257,7 +274,7 @@ def judge(suspension: Any, wanted: Sequence[Goal]) -> list[Verdict]:
     Returns
     -------
     list of Verdict
-        In the order of `wanted`.
+        In the order of `wanted`, for each wheel if a name is that of all wheels.
 
     Raises
     ------
@@ -281,6 +298,7 @@ def judge(suspension: Any, wanted: Sequence[Goal]) -> list[Verdict]:
         if not given.failed:
             assembly = assembly_of(suspension)
             check_data(given, assembly, wanted)
+    wanted = of_columns(assembly, wanted)
     found = CurveBundle([goal.curves for goal in wanted]).of(assembly) if wanted else []
     return [_verdict(goal, values[0]) for goal, values in zip(wanted, found, strict=True)]
 
@@ -300,6 +318,19 @@ def check_goals(given: Validator, name: str, wanted: Any) -> None:
         given.fail(f"{name}: a list of targets and limits, from `variation.goals`, is needed.")
 
 
+_Goal = TypeVar("_Goal", bound=Goal)
+
+
+def of_columns(suspension: Any, goals: Iterable[_Goal]) -> list[_Goal]:
+    """Return goals of single columns: those of all wheels for a name without wheel."""
+    assembly = assembly_of(suspension)
+    return [
+        replace(goal, name=name)
+        for goal in goals
+        for name in columns_of([goal.name], available(assembly, goal.over))
+    ]
+
+
 def check_data(given: Validator, suspension: Any, goals: Iterable[Goal]) -> None:
     """Add errors for goals without data in the file, or without a finite value.
 
@@ -308,18 +339,26 @@ def check_data(given: Validator, suspension: Any, goals: Iterable[Goal]) -> None
     assembly = assembly_of(suspension)
     axes = sweep_axes_of(suspension)
     for goal in goals:
-        name = f"{goal.name} over {axes[0] if goal.over in HELD else goal.over}"
+        over = axes[0] if goal.over in HELD else title_of_axis(goal.over)
+        name = f"{goal.name} over {over}"
         if name_of_axis(goal.over) not in (*axes, *HELD):
             given.fail(f"{name}: the curves of this subject are over {', '.join(axes)}.")
             continue
         assembly.refuse_of_steering([goal.name])
-        if goal.name not in available(assembly, goal.over):
+        known = available(assembly, goal.over)
+        columns = columns_of([goal.name], known)
+        if not {*columns} <= {*known}:
+            if name_of_axis(goal.over) == LOADING:
+                words = f"{sweep_axis(goal.over).words}:"
+                given.among(words, goal.name, listed(goal.over, known))
+                continue
             given.fail(
                 f"{name}: the file lacks data for this characteristic. Add them to [vehicle], "
                 "[rack], [tyre] or [bushings]."
             )
             continue
-        missing = goal.at[~np.isfinite(goal.curves.of(assembly)[0])]
+        values = replace(goal.curves, names=tuple(columns)).of(assembly)
+        missing = goal.at[~np.isfinite(values).all(axis=0)]
         if missing.size:
             over = sweep_axis(goal.over)
             places = ", ".join(f"{over.factor * at:g} {over.unit}" for at in missing)
@@ -412,7 +451,7 @@ def _tables(
 ) -> Iterable[tuple[str, _Table]]:
     section, axes = of
     for name, table in (
-        (name, table)
+        (str(name), table)
         for name, tables in described.items()
         for table in (tables if isinstance(tables, list | tuple) else [tables])
     ):
@@ -429,18 +468,23 @@ def _tables(
         chosen = {key: table[key] for key in options if key in table}
         over = given_axis(given, f"{title} over", named, axes, chosen)
         under_loads = compliances_over(over)
-        at_key, known = sweep_axis(over).key, {**known_over(over, axes[0]), **under_loads}
+        at_key, known = sweep_axis(over).key, known_over(over, axes[0])
+        if under_loads:
+            known = {**known, **under_loads}
+        columns = columns_of([name], known)
         known_keys = [at_key, "over", *options, *sorted(keys)]
-        if name in under_loads:
+        if {*columns} <= {*under_loads}:
             known_keys.append("held")
             over = given.among(f"{title} held", table.get("held", "height"), HELD)
         for key in table.keys() - {*known_keys}:
             given.fail(f"{title} {key} is not known: there are {', '.join(known_keys)}.")
-        if given.among(title, name, known) != name:
+        if columns[0] not in known:
+            given.among(title, name, known)
             continue
-        shown = display_of(known[name].attributes())
+        shown = display_of(known[columns[0]].attributes())
         unit, factor = sweep_axis(over).unit, sweep_axis(over).factor
         asked = table.get(at_key, factor * sweep_axis(over).at)
         at = given.array(f"{title} {at_key}", asked, unit, dimensions=[0, 1])
         positions = np.atleast_1d(at) / factor
-        yield name, _Table(given, title, table, over, positions, shown.units, shown.factor)
+        found = _Table(given, title, table, over, positions, shown.units, shown.factor)
+        yield from ((column, found) for column in columns)

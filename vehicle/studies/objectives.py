@@ -9,8 +9,9 @@ import numpy as np
 from ...core.named_types import Array
 from ...core.quantities import distinct
 from ...core.validator import Validator
-from .goals import Goal, TargetValue, extremes_of, targets_of
-from .sweep_axes import sweep_axis
+from .evaluation import Subject
+from .goals import Goal, TargetValue, extremes_of, of_columns, targets_of
+from .sweep_axes import sweep_axes_of, sweep_axis
 
 Kind = Literal["deviation", "greatest", "least"]
 
@@ -55,17 +56,20 @@ class Objective:
 
 def objectives_of(
     given: Validator,
+    suspension: Subject,
     targets: Mapping[str, Any],
     minimise: Mapping[str, Any],
     maximise: Mapping[str, Any],
-    axes: Sequence[str],
 ) -> list[Objective]:
     """Return objectives: deviations from targets, greatest and least values."""
+    axes = sweep_axes_of(suspension)
     goals: dict[Kind, Sequence[Goal]] = {
         "deviation": targets_of(given, targets, axes, weighed=False),
         "greatest": extremes_of(given, minimise, "minimise", axes),
         "least": extremes_of(given, maximise, "maximise", axes),
     }
+    if not given.failed:
+        goals = {kind: of_columns(suspension, several) for kind, several in goals.items()}
     found = [(kind, goal) for kind, several in goals.items() for goal in several]
     overs = [goal.over_words.replace(" the ", " ").replace(" ", "_") for _, goal in found]
     names = distinct([f"{g.name}{over}_{k}" for (k, g), over in zip(found, overs, strict=True)])

@@ -12,7 +12,7 @@ from ...core.named_types import Array
 from ...core.validator import Validator
 from .design_variables import DesignVariable, amounts
 from .evaluation import Subject, check_subject
-from .goals import Limit, TargetValue, check_data, limits_of, targets_of
+from .goals import Limit, TargetValue, check_data, limits_of, of_columns, targets_of
 from .search import (
     ENOUGH,
     MOST_STEPS,
@@ -99,7 +99,9 @@ def optimise(
         By characteristic, a table or a list of tables: ``at_mm``, the positions [mm]; ``value``,
         the wanted value in the display unit, one for all positions or one for each; ``within``, the
         deviation that counts as one; ``over``, the motion, 'travel' by default. For a file with
-        bushes also by the names of `kintrafo.compliance.linear`, with ``held``.
+        bushes also by the names of `kintrafo.compliance.linear`, with ``held``. Over 'load' also by
+        the names of loads, with ``case`` and ``cases``, a load case and the file or dict that has
+        it, by default the standard cases. A name without wheel is that of all wheels.
     limits : mapping, optional
         By characteristic, a table or a list of tables: ``at_mm``, ``over``, and the bounds
         ``least`` and ``most`` in the display unit.
@@ -146,6 +148,7 @@ def optimise(
         bounds = limits_of(given, described, axes)
         if not given.failed:
             check_data(given, suspension, [*aims, *bounds])
+            aims, bounds = of_columns(suspension, aims), of_columns(suspension, bounds)
             by_pattern = given.mapping("free", free, "places and numbers")
             reach = amounts(given, suspension, by_pattern, "free")
             if not reach:

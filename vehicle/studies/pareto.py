@@ -15,7 +15,7 @@ from .curves import changed, refuse_bushes
 from .design_variables import DesignVariable, amounts
 from .evaluation import Subject, check_subject
 from .front import check_installed, compromise, evolve, spread, unbeaten
-from .goals import Limit, check_data, limits_of
+from .goals import Limit, check_data, limits_of, of_columns
 from .objectives import Objective, objectives_of
 from .search import in_words
 from .sweep_axes import sweep_axes_of
@@ -196,13 +196,14 @@ def pareto(
         axes = sweep_axes_of(suspension)
         objectives = objectives_of(
             given,
+            suspension,
             _described(given, "targets", targets),
             _described(given, "minimise", minimise),
             _described(given, "maximise", maximise),
-            axes,
         )
         bounds = limits_of(given, _described(given, "limits", limits), axes)
         if not given.failed:
+            bounds = of_columns(suspension, bounds)
             _refuse_counts(given, len(objectives), population, generations)
             goals = [*(o.goal for o in objectives), *bounds]
             check_data(given, suspension, goals)

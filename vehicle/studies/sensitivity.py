@@ -66,12 +66,15 @@ def sensitivity(
         of axles 'bump' (both wheels), 'roll', 'left' or 'right', of steered ones also 'steer' or
         'rack'; of a car 'heave', 'pitch' or 'roll' of its body, its 'speed' on a rough road, or
         the 'lateral_acceleration' of steady turns, both with options after a colon:
-        ``speed:road=C``.
+        ``speed:road=C``. Of all but cars also 'load', a load case as those of
+        `kintrafo.loads.static`: ``load:case=brake`` is a standard case,
+        ``load:case=kerb,cases=cases.toml`` one of a file.
     positions : array_like, optional
         Wheel travel, heave, or displacement of the rack [m], roll, pitch or angle of the steering
-        wheel [rad], speed [m/s], or lateral acceleration [m/s^2]; by default the usual range.
+        wheel [rad], speed [m/s], lateral acceleration [m/s^2], or part of the load case; by default
+        the usual range, and the whole load case.
     names : sequence of str, optional
-        Characteristics; by default all.
+        Characteristics or loads; by default all. A name without wheel is that of all wheels.
     held : {'height', 'tyre', 'spring', 'locked'}, optional
         Instead of characteristics, compliance by the names of `kintrafo.compliance.linear`, over
         wheel travel, with this support of the wheels; bushes of the file may vary, too.

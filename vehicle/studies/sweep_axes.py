@@ -1,18 +1,30 @@
-"""Axes of curves: motions of a rig, supports of wheels under loads, steady turns, speeds."""
+"""Axes of curves: motions of a rig, supports of wheels, load cases, steady turns, speeds."""
 
+import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any
 
+import xarray as xr
+
+from ...core.named_types import Array
 from ...core.validator import Validator, shown
 from ..analysis.characteristics.datasets import KNOWN, OF_AXLES, OF_CARS
-from ..analysis.compliance.flexibility import HELD
-from ..analysis.compliance.linear import COMPLIANCES, COMPLIANCES_OF_AXLES
+from ..analysis.compliance.flexibility import HELD, WheelSupport
+from ..analysis.compliance.linear import (
+    COMPLIANCES,
+    COMPLIANCES_OF_AXLES,
+    COMPLIANCES_OF_CARS,
+    linear,
+)
+from ..assembly.assembly import Assembly
+from ..assembly.by_wheel import WHEEL, flat
 from ..assembly.of import assembly_of
 from ..assembly.quantity import HEAVE, PITCH, RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
-from . import riding, turning
+from . import loading, riding, turning
 from .axis import SweepAxis
+from .loading import CASES, LOADING
 from .riding import RIDE
 from .turning import TURNS
 
@@ -38,15 +50,37 @@ SWEEP_AXES: dict[str, SweepAxis] = {
 }
 """Axes of characteristics by the name of the motion."""
 
+
+def _compliance(held: WheelSupport, assembly: Assembly, travels: Array) -> xr.Dataset:
+    """Return the compliance of an assembly; of a car, the columns of its parts with bushes."""
+    if not assembly.body_moves:
+        return linear(assembly, None, travels, held=held).drop_dims(["moved", "by"])
+    curves: dict[str, xr.Variable] = {}
+    for name, part in assembly.held_parts.items():
+        if not part.has_bushes:
+            continue
+        found = _compliance(held, part, travels)
+        if assembly.axles:
+            wheels = found[WHEEL].copy(data=[f"{name}_{wheel}" for wheel in part.wheels])
+            of_axle = [str(one) for one, data in found.items() if WHEEL not in data.dims]
+            found = found.assign_coords({WHEEL: wheels})
+            found = found.rename_vars({one: f"{one}_{name}" for one in of_axle})
+        curves |= {str(one): data.variable for one, data in flat(found).items()}
+    return xr.Dataset(curves, {TRAVEL.name: (TRAVEL.name, travels, TRAVEL.attributes())})
+
+
+_COMPLIANCES = COMPLIANCES | COMPLIANCES_OF_AXLES | COMPLIANCES_OF_CARS
 UNDER_LOADS = {
-    held: SweepAxis(TRAVEL, COMPLIANCES | COMPLIANCES_OF_AXLES, "wheel travel") for held in HELD
+    held: SweepAxis(TRAVEL, _COMPLIANCES, "wheel travel", partial(_compliance, held))
+    for held in HELD
 }
 """Axes of compliance, wheel travel in parallel, by the support of the wheels."""
 
-OF_CORNERS = ("travel", "rack")
+OF_CORNERS = ("travel", "rack", LOADING)
 _COMPLIANCES_OVER: dict[str, Mapping[str, Quantity]] = {
     "travel": COMPLIANCES,
     "bump": COMPLIANCES_OF_AXLES,
+    "heave": COMPLIANCES | COMPLIANCES_OF_CARS,
 }
 # Curves over axes of one name that differ between subjects, by axis and usual axis.
 _OF_SUBJECTS = {
@@ -63,11 +97,14 @@ class _Family:
 
     options: tuple[str, ...]
     axis: Callable[[Validator, Mapping[str, Any]], SweepAxis]
+    # returns options as texts and numbers, from those that were given
+    plain: Callable[[Validator, Mapping[str, Any]], Mapping[str, Any]] = lambda _, given: given
 
 
 _FAMILIES = {
     TURNS: _Family(turning.OPTIONS, turning.axis),
     RIDE: _Family(riding.OPTIONS, riding.axis),
+    LOADING: _Family(loading.OPTIONS, loading.axis, loading.plain),
 }
 
 
@@ -79,6 +116,11 @@ def options_of(over: str) -> tuple[str, ...]:
 def name_of_axis(over: str) -> str:
     """Return the name of an axis without its options: that of ``speed:road=C`` is ``speed``."""
     return over.partition(":")[0]
+
+
+def title_of_axis(over: str) -> str:
+    """Return the name of an axis with its options for a message: of a load case, its name."""
+    return over.partition(f",{CASES}=")[0]
 
 
 def given_axis(
@@ -97,15 +139,16 @@ def given_axis(
     name = name_of_axis(over) if isinstance(over, str) else over
     if given.among(title, name, known) != name:
         return known[0]
-    texts = [text for text in over.partition(":")[2].split(",") if text]
     found: dict[str, Any] = {}
-    for key, mark, value in (text.partition("=") for text in texts):
+    for key, mark, value in _parts_of(over):
         if not mark or not options_of(name):
             given.fail(f"{title} = {shown(over)}: write NAME:OPTION=VALUE,... Options are those of "
                        f"{' and '.join(_FAMILIES)}.")  # fmt: skip
             return name
         found[given.among(f"option of {name}", key.strip(), options_of(name))] = value.strip()
     found |= options or {}
+    if name in _FAMILIES:
+        found = dict(_FAMILIES[name].plain(given, found))
     written = ",".join(f"{key}={found[key]}" for key in options_of(name) if key in found)
     chosen = f"{name}:{written}" if written else name
     if found:
@@ -116,12 +159,17 @@ def given_axis(
 @lru_cache(maxsize=256)
 def sweep_axis(over: str) -> SweepAxis:
     """Return an axis by its name with options, or raise an `InputError` if one is not allowed."""
-    name, _, text = over.partition(":")
+    name = name_of_axis(over)
     if name not in _FAMILIES:
         return (SWEEP_AXES | UNDER_LOADS)[name]
-    pairs = (option.partition("=") for option in text.split(",") if option)
     with Validator(name) as given:
-        return _FAMILIES[name].axis(given, {key: value for key, _, value in pairs})
+        return _FAMILIES[name].axis(given, {key: value for key, _, value in _parts_of(over)})
+
+
+def _parts_of(over: str) -> list[tuple[str, str, str]]:
+    """Return key, ``=`` and value of the options in a name; a value may have commas."""
+    texts = re.split(r",(?=\s*\w+\s*=)", over.partition(":")[2])
+    return [text.partition("=") for text in texts if text]
 
 
 def known_anywhere(name: str) -> Quantity:
@@ -141,7 +189,8 @@ def sweep_axes_of(subject: Any) -> tuple[str, ...]:
         return (*assembly.motions, TURNS if assembly.drives else RIDE)
     # without the ratio of the steering the motion 'steer' is over the rack
     along = {name: motion.along.name for name, motion in assembly.motions.items()}
-    return tuple(name for name in along if along[name] == SWEEP_AXES[name].along.name)
+    rig = tuple(name for name in along if along[name] == SWEEP_AXES[name].along.name)
+    return (*rig, LOADING)
 
 
 def known_over(over: str, usual: str) -> Mapping[str, Quantity]:

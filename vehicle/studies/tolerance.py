@@ -17,7 +17,7 @@ from .batch import curves_of_many, moved_by
 from .curves import Curves, curves_of, refuse_bushes
 from .design_variables import DesignVariable, amounts
 from .evaluation import Subject, check_subject
-from .goals import check_data, limits_of
+from .goals import check_data, limits_of, of_columns
 from .sensitivity import PLACE, ROUNDING, derivatives
 from .sweep_axes import sweep_axes_of
 
@@ -115,6 +115,7 @@ def tolerance(
         if not given.failed:
             curves = curves_of(given, suspension, over, positions, names, held)
             check_data(given, suspension, bounds)
+            bounds = of_columns(suspension, bounds)
             by_pattern = given.mapping("tolerances", tolerances, "places and numbers")
             spread = amounts(given, suspension, by_pattern, "tolerances")
             refuse_bushes(given, spread, [curves.over, *(limit.over for limit in bounds)])

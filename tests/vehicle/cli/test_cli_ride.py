@@ -102,7 +102,6 @@ def test_a_sweep_of_a_car_is_a_table_of_its_numbers(kintrafo):
     assert high / low == pytest.approx((340.0 / 390.0) ** 0.5, rel=0.02)
     for others, words in (
         ([*grid, "--keep", "toe:max"], "has no simulation"),
-        (["sweep", "reference_car", "wheel.mass_kg=30,40", "--at", "3"], "only for cars"),
         (["sweep", "quarter_car", "body.mas_kg=340,390"], "body.mass_kg"),
     ):
         code, _, message = kintrafo(*others)

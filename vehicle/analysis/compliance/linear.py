@@ -19,6 +19,8 @@ from ...assembly.part_poses import touching, wheel_axes
 from ...assembly.quantity import TRAVEL, Quantity
 from ...corner.bushes import left_out, refuse_rigid
 from ...corner.corner import CarrierMotion, RoadWheel
+from ...models.car.car import WHEELS
+from ...models.car.file import ENDS
 from ...models.sides import SIDES
 from .flexibility import HELD, Side, WheelSupport, flexibility, refuse_without_rate
 from .rig_loads import (
@@ -306,13 +308,19 @@ COMPLIANCES = {
 }
 """Compliances of a corner by name."""
 
-COMPLIANCES_OF_AXLES = {
-    quantity.name: quantity
-    for test in RIG_LOADS
-    for how in loadings(test, SIDES)
-    for quantity in (
-        *(q.of_wheel(side) for side in SIDES for q in quantities_under(test, how).values()),
-        *quantities_of_beam(test, how).values(),
-    )
-}
-"""Compliances of an axle by the names of their columns."""
+
+def _columns(wheels: Sequence[str], axles: Sequence[str]) -> dict[str, Quantity]:
+    """Return the compliances of wheels and axles by the names of their columns."""
+    return {
+        quantity.name: quantity
+        for test in RIG_LOADS
+        for how in loadings(test, SIDES)
+        for quantity in (
+            *(q.of_wheel(wheel) for wheel in wheels for q in quantities_under(test, how).values()),
+            *(q.of_wheel(axle) for axle in axles for q in quantities_of_beam(test, how).values()),
+        )
+    }
+
+
+COMPLIANCES_OF_AXLES, COMPLIANCES_OF_CARS = _columns(SIDES, [""]), _columns(WHEELS, ENDS)
+"""Compliances of an axle and of a car by the names of their columns."""

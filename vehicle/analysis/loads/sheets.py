@@ -70,13 +70,17 @@ def shown_rows(found: xr.Dataset, parts: Sequence[str] = ()) -> list[int]:
     if parts:
         wanted = {*parts, ALL} if CHASSIS in parts else {*parts}
         return [i for i, name in enumerate(given) if name in wanted and strong[i]]
+    return [i for i in once(found) if strong[i]]
+
+
+def once(found: xr.Dataset) -> list[int]:
+    """Return the indices of the loads other than weights, one of each pair of opposites."""
     seen: set[frozenset[str]] = set()
     rows = []
-    for i, (name, point, by) in enumerate(
-        zip(given, found["point"].values, found["by"].values, strict=True)
-    ):
-        pair = frozenset((by,) if acts(by) else (f"{name} {point}", f"{by} {point}"))
-        if strong[i] and pair not in seen and by != "gravity":
+    labels = (found[name].values.astype(str) for name in ("part", "point", "by"))
+    for i, (part, point, by) in enumerate(zip(*labels, strict=True)):
+        pair = frozenset((by,) if acts(by) else (f"{part} {point}", f"{by} {point}"))
+        if pair not in seen and by != "gravity":
             rows.append(i)
             seen.add(pair)
     return rows

@@ -89,8 +89,8 @@ def positions_of(assembly: Assembly, over: str, goals: Iterable[Goal]) -> NDArra
     """Return the usual positions over an axis and those of goals, with the same steps to these."""
     usual = usual_positions(assembly, over)
     wanted = [goal.at for goal in goals if goal.over == over]
-    if not wanted:
-        return usual
+    if not wanted or usual.size == 1:  # a load case has one usual position
+        return np.unique(np.concatenate([usual, *wanted]))
     own = np.concatenate([usual[:1], *wanted])
     step = float(np.diff(usual).max())
     ends = (usual[0], min(usual[0], own.min())), (usual[-1], max(usual[-1], own.max()))

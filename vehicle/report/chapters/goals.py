@@ -13,7 +13,7 @@ from ...assembly.assembly import Assembly
 from ...assembly.of import given_assembly
 from ...plots.by_axle import by_axle
 from ...studies.evaluation import curves_over
-from ...studies.goals import Goal, Verdict, judge, words_of
+from ...studies.goals import Goal, Verdict, judge, of_columns, words_of
 from ...studies.sweep_axes import sweep_axis
 from .chapter import Chapter, ChapterPicture
 from .curves import pictures, positions_of, with_wanted
@@ -49,6 +49,7 @@ def goals_chapter(subject: Any, goals: Sequence[Goal]) -> Chapter:
         if isinstance(goals, list | tuple) and not goals:
             given.fail("goals is empty: one target or limit is needed.")
     verdicts = judge(assembly, goals)
+    goals = of_columns(assembly, goals)
     missed = sum(not verdict.met for verdict in verdicts)
     words = f"{len(verdicts) - missed} of {len(verdicts)} are met, {missed} missed."
     axes = list(dict.fromkeys(goal.over for goal in goals))
