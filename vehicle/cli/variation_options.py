@@ -136,7 +136,8 @@ def _chosen(assembly: "Assembly", wanted: list[str] | None, over: str) -> list[s
     """Return the wanted characteristics, or the default ones."""
     from ..assembly.by_wheel import columns_of
     from ..studies.evaluation import available, listed
-    from ..studies.sweep_axes import LOADING, UNDER_LOADS, name_of_axis
+    from ..studies.loading import LOADING
+    from ..studies.sweep_axes import UNDER_LOADS, name_of_axis
 
     assembly.refuse_of_steering(wanted or ())
     known = available(assembly, over)

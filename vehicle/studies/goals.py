@@ -339,8 +339,8 @@ def check_data(given: Validator, suspension: Any, goals: Iterable[Goal]) -> None
     assembly = assembly_of(suspension)
     axes = sweep_axes_of(suspension)
     for goal in goals:
-        over = axes[0] if goal.over in HELD else title_of_axis(goal.over)
-        name = f"{goal.name} over {over}"
+        axis = axes[0] if goal.over in HELD else title_of_axis(goal.over)
+        name = f"{goal.name} over {axis}"
         if name_of_axis(goal.over) not in (*axes, *HELD):
             given.fail(f"{name}: the curves of this subject are over {', '.join(axes)}.")
             continue

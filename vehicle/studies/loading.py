@@ -38,24 +38,24 @@ def plain(given: Validator, options: Mapping[str, Any]) -> dict[str, Any]:
     """Return the options with the load case itself in place of its file, as a text."""
     found = {"case": _USUAL} | dict(options)
     cases = found.get(CASES)
-    if isinstance(cases, str) and cases.startswith("{"):
-        try:
+    if cases is None:
+        return found
+    try:
+        if isinstance(cases, str) and cases.startswith("{"):
             cases = json.loads(cases)
-        except ValueError:
-            given.fail(f"cases = {shown(cases)}: load cases or the name of their file are needed.")
-            return {}
-    elif isinstance(cases, str | Path):
-        of_file = read(cases)
-        cases = of_file.get(CASES, {})
-        if "static_load_N" in of_file:
-            found = {"static_load_N": of_file["static_load_N"]} | found
-    if cases is not None:
+        elif isinstance(cases, str | Path):
+            of_file = read(cases)
+            cases = of_file.get(CASES, {})
+            if "static_load_N" in of_file:
+                found = {"static_load_N": of_file["static_load_N"]} | found
         given.mapping(CASES, cases, "names and load cases")
         if not given.failed and given.among("case", found["case"], cases) == found["case"]:
             own = {found["case"]: cases[found["case"]]}
             text = json.dumps(own, default=lambda array: np.asarray(array).tolist())
             # options of a name are separated by commas before a key with an equals sign
             found[CASES] = text.replace("=", r"\u003d")
+    except (TypeError, ValueError):
+        given.fail(f"cases = {shown(cases)}: load cases or the name of their file are needed.")
     return found
 
 

@@ -4,14 +4,14 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache, partial
-from typing import Any
+from typing import Any, get_args
 
 import xarray as xr
 
 from ...core.named_types import Array
 from ...core.validator import Validator, shown
 from ..analysis.characteristics.datasets import KNOWN, OF_AXLES, OF_CARS
-from ..analysis.compliance.flexibility import HELD, WheelSupport
+from ..analysis.compliance.flexibility import WheelSupport
 from ..analysis.compliance.linear import (
     COMPLIANCES,
     COMPLIANCES_OF_AXLES,
@@ -72,7 +72,7 @@ def _compliance(held: WheelSupport, assembly: Assembly, travels: Array) -> xr.Da
 _COMPLIANCES = COMPLIANCES | COMPLIANCES_OF_AXLES | COMPLIANCES_OF_CARS
 UNDER_LOADS = {
     held: SweepAxis(TRAVEL, _COMPLIANCES, "wheel travel", partial(_compliance, held))
-    for held in HELD
+    for held in get_args(WheelSupport)
 }
 """Axes of compliance, wheel travel in parallel, by the support of the wheels."""
 
