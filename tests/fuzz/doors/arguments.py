@@ -195,6 +195,13 @@ CALLS = {
         ),
         {"value": 0.0, "within": 1.0, "at_mm": [0.0, 1.0], "over": "travel", "held": "height"},
     ),
+    "limit of a load": (
+        lambda **given: variation.judge(
+            _CAR.suspension, variation.goals({"limits": {"tie_rod_force": given}})
+        ),
+        {"least": -1.0, "at_percent": [50.0, 100.0], "over": "load", "case": "kerb",
+         "cases": {"kerb": {"contact_N": [0.0, -1000.0, 3000.0]}}, "static_load_N": 3000.0},
+    ),
     "limit of an axle under loads": (
         lambda **given: variation.judge(
             _SOFT_AXLE,

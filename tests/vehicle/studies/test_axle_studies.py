@@ -140,7 +140,7 @@ WRONG = [
     {"places": ["left.hardpoint"]},
     {"places": ["anti_roll_bar.rate"]},
     {"over": "travel"},
-    {"names": ["toe"]},
+    {"names": ["tow"]},
 ]
 
 
