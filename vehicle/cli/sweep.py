@@ -26,8 +26,7 @@ _MOST_VALUES = 100_000  # of one place
 EXAMPLES = (
     "kintrafo sweep my_car.toml strut.damper_rate_N_s_per_m=500:3000:11 --road-step 20",
     "kintrafo sweep my_car.toml hardpoints.tie_rod_inner.z=270,280,290 --keep toe:max -o toe.csv",
-    "kintrafo sweep my_car.toml hardpoints.tie_rod_outer.x=-140,-130 --over load:case=corner "
-    "--of tie_rod_force",
+    "kintrafo sweep my_car.toml wheel.toe_deg=0,1 --over load:case=corner --of tie_rod_force",
     "kintrafo sweep quarter_car corner.strut.spring_rate_N_per_m=20e3:30e3:3 --over speed:road=C",
 )
 
