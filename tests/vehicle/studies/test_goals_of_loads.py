@@ -13,6 +13,7 @@ from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.cli import app
 from kintrafo.vehicle.models.reach import PositionError
+from kintrafo.vehicle.report import goals_chapter
 from kintrafo.vehicle.studies.evaluation import values_of
 from typer.testing import CliRunner
 
@@ -264,3 +265,17 @@ def test_compliance_of_a_car_is_that_of_its_axles_on_bushes():
 def test_five_rods_have_no_loads_with_rigid_joints():
     with pytest.raises(InputError):
         variation.sensitivity(FIVE, over="load", names=["panhard_rod_force"])
+
+
+def test_a_goal_without_a_wheel_is_drawn_for_both(tmp_path):
+    path, plot = tmp_path / "goals.toml", tmp_path / "curves.png"
+    path.write_text("[limits.camber]\nmost = 1.0\n", encoding="utf-8")
+    words = ["--over", "bump", "--goals", str(path), "--plot", str(plot), "--json"]
+    done = called("characteristics", "twist_beam", *words)
+    assert [goal["name"] for goal in json.loads(done.stdout)["goals"]] == [
+        "camber_left", "camber_right"
+    ]  # fmt: skip
+    assert [*tmp_path.glob("curves*.png")]
+    wanted = variation.goals({"limits": {"camber": {"most": 1.0}}}, ["heave"])
+    chapter = goals_chapter(load("reference_vehicle"), wanted)
+    assert len(chapter.tables[0].rows) == 4
