@@ -10,7 +10,18 @@ import typer
 from ...terminal.console import console, print_json, print_table, say
 from . import goals as wanted
 from .loading import assembly_of_file, bushes_of
-from .options import SUPPORT, Bump, Bushes, File, Held, Rebound, metres, option, refuse_options
+from .options import (
+    SUPPORT,
+    Bump,
+    Bushes,
+    File,
+    Held,
+    Rebound,
+    among,
+    metres,
+    option,
+    refuse_options,
+)
 from .outputs import Outputs, PlotOptions, name_files, named, of_both, only, title_of
 from .variation_options import with_position
 
@@ -52,12 +63,18 @@ class NonlinearOptions:
         float | None, option("Greatest load, N or N m. Default: 5000; aligning: 250.", "N")
     ] = None
     wheels: Annotated[
-        Literal["parallel", "opposed", "left", "right"] | None,
-        option("Of an axle: the loaded wheels. Default: parallel."),
+        Literal["both", "opposed", "left", "right"] | None,
+        option(
+            "Of an axle: the loaded wheels; both in one direction, or in opposed ones. Default: "
+            "both."
+        ),
     ] = None
     over: Annotated[
-        Literal["bump", "roll", "left", "right", "steer"] | None,
-        option("With --nonlinear, of an axle: the motion of the rig. Default: bump."),
+        Literal["travel", "bump", "roll", "left", "right", "steer"] | None,
+        option(
+            "With --nonlinear: the motion of the rig; travel of one suspension, others of an axle. "
+            "Default: travel, bump of an axle."
+        ),
     ] = None
     hardpoints: Annotated[
         Literal["loaded", "relaxed"] | None,
@@ -80,7 +97,10 @@ class NonlinearOptions:
     def refuse_without_effect(self, rig: "_Rig", held: Held | None) -> None:
         """Refuse options without effect on this file or with the other options."""
         if len(rig.assembly.wheels) == 1:
-            refuse_options("the file of an axle", {"--wheels": self.wheels} | self.motions)
+            refuse_options("the file of an axle", {"--wheels": self.wheels})
+        if self.over is not None:
+            rig.assembly.refuse_motion(self.over)
+            among([self.over], [name for name in rig.assembly.motions if name != "rack"], "--over")
         if self.under is None:
             refuse_options("--under", self.loads | {"--held": held})
 
@@ -250,7 +270,8 @@ def _under(rig: _Rig, large: NonlinearOptions, held: Held) -> "Dataset":
         raise InputError([f"--most {greatest}: a load of more than 0 is needed."], "compliance")
     amounts = np.linspace(-greatest, greatest, _STEPS)
     return compliance.nonlinear(
-        rig.assembly, rig.bushings, str(large.under), amounts, wheels=large.wheels, travel=rig.at,
+        rig.assembly, rig.bushings, str(large.under), amounts,
+        wheels="parallel" if large.wheels == "both" else large.wheels, travel=rig.at,
         rack_position=rig.rack, held=held, hardpoints=large.hardpoints or "loaded",
     )  # fmt: skip
 

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
@@ -23,7 +23,7 @@ EXAMPLES = (
     "kintrafo loads my_car.toml --cases cases.toml -o loads.csv",
     "kintrafo loads my_car.toml --out loads.xlsx",
     "kintrafo loads my_car.toml --part knuckle,chassis -o loads.bdf",
-    "kintrafo loads my_car.toml -o loads.inp --units m --axes vehicle",
+    "kintrafo loads my_car.toml -o loads.inp --units m --axes-of vehicle",
     "kintrafo loads my_car.toml --case brake,corner --part knuckle --plot knuckle.pdf",
     "kintrafo loads reference_axle --case corner",
     "kintrafo loads rigid_axle --case brake --part beam --plot beam.png",
@@ -46,12 +46,13 @@ class LoadOptions(SingleFigureOptions):
         ),
     ] = None
     axes: Annotated[
-        str | None,
+        Literal["vehicle", "part"] | None,
         option(
             "Axes of the data and cards: those of the vehicle, or of each part, fixed in it and "
             "parallel to those of the vehicle at design. Default: vehicle for data, part for "
             "cards.",
-            "NAME",
+            None,
+            "--axes-of",
             panel=OUTPUT,
         ),
     ] = None
@@ -64,14 +65,12 @@ class LoadOptions(SingleFigureOptions):
         """Return the options of data alone, and the files of cards; refuse unused options."""
         from ..analysis.loads.cards import ENDINGS
         from ..analysis.loads.cards.sheet import LENGTHS
-        from ..analysis.loads.dataset import AXES
 
         every = self.out or []
         cards = [path for path in every if path.suffix.lower() in ENDINGS]
         problem = ""
         if self.axes is not None:
-            among([self.axes], AXES, "--axes")
-            problem = "" if every else "--axes is for files of data or cards: give one by --out"
+            problem = "" if every else "--axes-of is for files of data or cards: give one by --out"
         if self.units is not None:
             among([self.units], LENGTHS, "--units")
             problem = "" if cards else "--units is for load cards: --out loads.bdf or loads.inp"

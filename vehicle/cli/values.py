@@ -31,7 +31,9 @@ def explained(command: Callable[..., None]) -> Callable[..., None]:
             continue
         if hint.__origin__ is bool:
             (info,) = hint.__metadata__
-            info.param_decls = info.param_decls or (f"--{name.replace('_', '-')}",)
+            # its default is the first of the names that it has
+            if info.default is ...:
+                info.param_decls = (f"--{name.replace('_', '-')}",)
         kinds = _kinds(hint.__origin__)
         kind = next((kind for kind in (float, int) if kind in kinds), None)
         choices = next((get_args(kind) for kind in kinds if get_origin(kind) is Literal), None)

@@ -328,7 +328,8 @@ def test_tables_have_each_wheel_and_both():
 @pytest.mark.parametrize(
     ("line", "words"),
     [
-        ("reference_car --over roll", "--over is only for the file of an axle"),
+        ("reference_car --over roll", "--over 'roll' is not known. Known are: travel."),
+        ("reference_axle --over travel", "--over 'travel' is not known. Known are: bump"),
         ("reference_axle --wheels left", "--wheels is only for --under"),
         ("reference_axle --over roll --bump 10", "--bump is only for curves over wheel travel"),
         ("reference_axle --under braking --over bump", "--over is only for curves over"),

@@ -121,7 +121,7 @@ def test_files_of_others_stay(tmp_path, found):
 
 def test_the_command(request, tmp_path):
     command = request.getfixturevalue("kintrafo")
-    line = "loads reference_car --part knuckle,total --axes part -o l.bdf -o l.inp -o l.csv"
+    line = "loads reference_car --part knuckle,total --axes-of part -o l.bdf -o l.inp -o l.csv"
     code, out, err = command(*line.split(), "--units", "m")
     assert code == 0, err
     assert "l_knuckle.bdf" in out
@@ -131,7 +131,7 @@ def test_the_command(request, tmp_path):
     assert "$ Units: N, m, N m." in (tmp_path / "l_knuckle.bdf").read_text(encoding="ascii")
     assert ",part as at design: x forward" in (tmp_path / "l.csv").read_text(encoding="utf-8")
     for words, wrong in (
-        ("--axes is for files", "--axes part"),
+        ("--axes-of is for files", "--axes-of part"),
         ("--units is for load cards", "--units m -o l.csv"),
         ("'yard' is not known", "--units yard -o k.inp"),
     ):

@@ -173,8 +173,8 @@ def test_help_says_all_that_the_function_does(name, monkeypatch):
             assert " ".join((info.help or "").split()) in " ".join(shown.split())
 
 
-# Options with different lists of names: frames, motions, wheels on a road or under a load.
-_OF_SEVERAL_LISTS = {"--axes", "--over", "--wheels"}
+# Options with different lists of names: motions, wheels on a road or under a load.
+_OF_SEVERAL_LISTS = {"--over", "--wheels"}
 
 
 def test_options_of_one_name_have_values_of_one_kind():
@@ -186,6 +186,7 @@ def test_options_of_one_name_have_values_of_one_kind():
             groups += [command] if hasattr(command, "commands") else []
             for option in command.params:
                 if option.param_type_name == "option":
+                    assert sum(name.startswith("--") for name in option.opts) == 1, option.opts
                     kinds[max(option.opts, key=len)].add(option.metavar)
     assert len(kinds) > 80
     assert {name for name, found in kinds.items() if len(found) > 1} == _OF_SEVERAL_LISTS
