@@ -163,6 +163,16 @@ def _short_formula(kind: str, parts: Sequence[Operation], of: Any) -> str:
 
 
 @dataclass
+class _Written:
+    """Values as far as they are assigned, by their numbers."""
+
+    repeated: set[int]  # those with several readers
+    owners: dict[int, str]  # first readers of those without a name
+    assignments: dict[int, Assignment] = field(default_factory=dict)
+    by_name: dict[int, Operation] = field(default_factory=dict)
+
+
+@dataclass
 class _Values:
     """The values of several functions, each with a number."""
 
@@ -266,21 +276,21 @@ class _Values:
     ) -> dict[int, str]:
         """Return the first reader of each value without a name: a step, or a function."""
         found: dict[int, str] = {}
-
-        def claim(value: int, owner: str) -> None:
-            for operand in self.operations[value][1]:
-                if operand not in self.named and operand not in found:
-                    found[operand] = owner
-                    claim(operand, owner)
-
         for value, step in steps:
             if value in self.named:
-                claim(value, step.within or self.named[value])
+                self._claim(value, step.within or self.named[value], found)
         for value, source in zip(results, sources, strict=True):
             if value not in self.named and value not in found:
                 found[value] = source
-            claim(value, source)
+            self._claim(value, source, found)
         return found
+
+    def _claim(self, value: int, owner: str, found: dict[int, str]) -> None:
+        """Note the owner of all values without a name and owner that a value depends on."""
+        for operand in self.operations[value][1]:
+            if operand not in self.named and operand not in found:
+                found[operand] = owner
+                self._claim(operand, owner, found)
 
     def _repeated(self, results: Iterable[int]) -> set[int]:
         """Return the values that are read more than once."""
@@ -295,29 +305,28 @@ class _Values:
         results: Sequence[int],
         sources: Sequence[str],
     ) -> Schedule:
-        assignments: dict[int, Assignment] = {}
-        by_name: dict[int, Operation] = {}
-        repeated, owners = self._repeated(results), self._owners(steps, results, sources)
-
-        def place(value: int, section: str) -> Operation:
-            """Return the operation or the name of a value, with named ones assigned before."""
-            operation, operands = self.operations[value]
-            if operation.kind in _LEAVES:
-                return operation
-            if value not in by_name:
-                parts = tuple([place(operand, section) for operand in operands])
-                operation = Operation(operation.kind, parts, operation.of, operation.ready)
-                if value in repeated and value not in self.named:
-                    self._name_shared(value, operation.kind, parts, operation.of, owners[value])
-                if value not in self.named:
-                    return operation
-                name = self.named[value]
-                assignments[value] = Assignment(name, operation, section)
-                by_name[value] = Operation("symbol", of=sp.Symbol(name), ready=operation.ready)
-            return by_name[value]
-
+        written = _Written(self._repeated(results), self._owners(steps, results, sources))
         for value, step in steps:
-            if value in self.named or value in repeated:
-                place(value, step.section)
-        finals = tuple(place(value, "results") for value in results)
-        return Schedule(tuple(assignments.values()), finals)
+            if value in self.named or value in written.repeated:
+                self._place(value, step.section, written)
+        finals = tuple(self._place(value, "results", written) for value in results)
+        return Schedule(tuple(written.assignments.values()), finals)
+
+    def _place(self, value: int, section: str, written: _Written) -> Operation:
+        """Return the operation or the name of a value, with named ones assigned before."""
+        operation, operands = self.operations[value]
+        if operation.kind in _LEAVES:
+            return operation
+        if value not in written.by_name:
+            parts = tuple([self._place(operand, section, written) for operand in operands])
+            operation = Operation(operation.kind, parts, operation.of, operation.ready)
+            if value in written.repeated and value not in self.named:
+                owner = written.owners[value]
+                self._name_shared(value, operation.kind, parts, operation.of, owner)
+            if value not in self.named:
+                return operation
+            name = self.named[value]
+            written.assignments[value] = Assignment(name, operation, section)
+            symbol = Operation("symbol", of=sp.Symbol(name), ready=operation.ready)
+            written.by_name[value] = symbol
+        return written.by_name[value]

@@ -23,37 +23,48 @@ def regrouped(expressions: Iterable[sp.Expr]) -> dict[sp.Expr, Unevaluated]:
     SymPy builds the negative of each sum and product, to find the better one of both. Here the new
     operands of each sum, product and power that is regrouped are not yet combined.
     """
-    found: dict[sp.Expr, Unevaluated] = {}
-    seen: set[sp.Expr] = set()
-    # in their order, which decides which parts are found first
-    sums: dict[sp.Expr, None] = {}
-    products: dict[sp.Expr, None] = {}
+    parts = _Parts()
+    for expression in expressions:
+        parts.look_at(expression)
+    _group(sp.Add, parts.sums, parts.regrouped)
+    _group(sp.Mul, parts.products, parts.regrouped)
+    return parts.regrouped
 
-    def look_at(expression: sp.Expr) -> None:
-        if expression.is_Atom or expression in seen:
+
+class _Parts:
+    """The sums and products within expressions, in the order in which they are found.
+
+    A class, since a function within a function that calls itself is a reference circle, which
+    would keep all of them in memory.
+    """
+
+    def __init__(self) -> None:
+        self.regrouped: dict[sp.Expr, Unevaluated] = {}
+        # in their order, which decides which parts are found first
+        self.sums: dict[sp.Expr, None] = {}
+        self.products: dict[sp.Expr, None] = {}
+        self._seen: set[sp.Expr] = set()
+
+    def look_at(self, expression: sp.Expr) -> None:
+        """Add the parts of an expression."""
+        if expression.is_Atom or expression in self._seen:
             return
-        seen.add(expression)
+        self._seen.add(expression)
         for part in expression.args:
-            look_at(part)
+            self.look_at(part)
         if _is_better_negative(expression):
             opposite = _opposite(expression)
             if not opposite.is_Atom:
-                found[expression] = Unevaluated(sp.Mul, (sp.S.NegativeOne, opposite))
-                seen.add(opposite)
+                self.regrouped[expression] = Unevaluated(sp.Mul, (sp.S.NegativeOne, opposite))
+                self._seen.add(opposite)
                 expression = opposite
         if expression.is_Mul:
-            products[composed(sp.Mul, expression.args)] = None
+            self.products[composed(sp.Mul, expression.args)] = None
         elif expression.is_Add:
-            sums[expression] = None
+            self.sums[expression] = None
         elif expression.is_Pow and expression.exp.could_extract_minus_sign():
             power = sp.Pow(expression.base, -expression.exp)
-            found[expression] = Unevaluated(sp.Pow, (power, -1))
-
-    for expression in expressions:
-        look_at(expression)
-    _group(sp.Add, sums, found)
-    _group(sp.Mul, products, found)
-    return found
+            self.regrouped[expression] = Unevaluated(sp.Pow, (power, -1))
 
 
 def _group(

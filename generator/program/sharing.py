@@ -38,28 +38,31 @@ def share(
     waiting = common.definitions
     owner: dict[sp.Symbol, sp.Symbol] = {}
     shared: list[Step] = []
-
-    def place(expression: sp.Expr, section: str) -> None:
-        for symbol in sorted(symbols_of(expression) & waiting.keys(), key=attrgetter("name")):
-            if symbol in waiting:  # not placed meanwhile, with an earlier one
-                definition = waiting.pop(symbol)
-                place(definition, section)
-                shared.append(Step(symbol, definition, section))
-
     for step, expression in zip(steps, reduced, strict=False):
         if expression in waiting:  # a whole step is shared: it keeps its own name
             definition = waiting.pop(expression)
-            place(definition, step.section)
+            _place(definition, step.section, waiting, shared)
             owner[expression] = step.symbol
             shared.append(Step(step.symbol, definition, step.section))
         else:
-            place(expression, step.section)
+            _place(expression, step.section, waiting, shared)
             shared.append(Step(step.symbol, expression, step.section))
     results = list(reduced[len(steps) :])
     for result in results:
-        place(result, "results")
+        _place(result, "results", waiting, shared)
     renamed = [Step(s.symbol, with_symbols(s.expression, owner), s.section) for s in shared]
     return renamed, [with_symbols(r, owner) for r in results]
+
+
+def _place(
+    expression: sp.Expr, section: str, waiting: dict[sp.Symbol, sp.Expr], shared: list[Step]
+) -> None:
+    """Add the steps that an expression reads, and that wait for their first reader."""
+    for symbol in sorted(symbols_of(expression) & waiting.keys(), key=attrgetter("name")):
+        if symbol in waiting:  # not placed meanwhile, with an earlier one
+            definition = waiting.pop(symbol)
+            _place(definition, section, waiting, shared)
+            shared.append(Step(symbol, definition, section))
 
 
 class _Common:
