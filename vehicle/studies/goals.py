@@ -158,8 +158,8 @@ def read(path: str | Path) -> dict[str, Any]:
     InputError
         If it cannot be read, or has other sections.
     """
-    folder = Path(path).parent
-    return {name: _in(folder, section) for name, section in read_sections(path, SECTIONS).items()}
+    found = read_sections(path, SECTIONS)
+    return {name: _in(Path(path).parent, section) for name, section in found.items()}
 
 
 def _in(folder: Path, described: Any) -> Any:

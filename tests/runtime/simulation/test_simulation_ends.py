@@ -136,7 +136,8 @@ def test_who_follows_the_advice_is_not_refused(
             others.get("backend", backend), other, stop and "stop_at_outputs" not in left
         )
         in_c = found is simulation.solve_native
-        assert in_c == ("in C then" in message) == (compiled and moves and linked is not None)
+        may_be = compiled and moves and linked is not None
+        assert in_c == ("are then integrated in C" in message) == may_be
         assert other == "RK4" or method != "RK4" or "step" in left
 
 

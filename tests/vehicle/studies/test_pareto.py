@@ -271,7 +271,7 @@ def test_a_member_that_is_not_there(kintrafo, tmp_path, member):
         "-o", "a.csv", "--plot", "a.svg", "--member-file", "a.toml",
     )  # fmt: skip
     assert (code, out) == (2, "")
-    assert f"member = {member}: a whole number, 1 to " in " ".join(err.split())
+    assert f"--member {member}: a whole number, 1 to " in " ".join(err.split())
     assert [path.name for path in tmp_path.iterdir()] == ["s.toml"]
 
 
