@@ -4,6 +4,7 @@ A file of a suspension has some thousand bytes, and a measurement of an hour at 
 million. The limits for all readers are here.
 """
 
+import os
 from importlib.resources.abc import Traversable
 from pathlib import Path
 
@@ -15,6 +16,11 @@ MOST_OF_DATA = 4 * MIB
 """Most bytes of a file that describes a suspension or a study: TOML, JSON, TeimOrbit, points."""
 MOST_OF_MEASUREMENTS = 256 * MIB
 """Most bytes of a table of measurements."""
+
+
+def is_path(text: str) -> bool:
+    """Return whether a text, of any length, is the path of a file or folder that exists."""
+    return os.path.exists(text)  # noqa: PTH110 (that of pathlib takes no text longer than a path)
 
 
 def bytes_of(file: str | Path | Traversable, most: int = MOST_OF_DATA) -> bytes:

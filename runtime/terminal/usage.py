@@ -3,7 +3,6 @@
 Click and Typer find them; their sentences are written here, with the correction.
 """
 
-import os
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -14,6 +13,7 @@ from rich.markup import escape
 from typer.core import TyperArgument, TyperCommand, TyperGroup, TyperOption
 
 from ..core.errors import InputError
+from ..core.reading import is_path
 from ..core.suggestions import nearest, suggestion
 
 MistakenUsage: Any = typer.BadParameter.__mro__[2]
@@ -130,8 +130,7 @@ def _of_command(error: InputError, ctx: Any) -> InputError:
     lists = (value if isinstance(value, list) else [value] for value in given.values())
     values = {str(value) for each in lists for value in each}
     source, words = error.source, error.source.removeprefix("kintrafo ")
-    # unlike that of pathlib, it takes texts that are too long for a path
-    if source in values or Path(source).suffix or os.path.exists(source):  # noqa: PTH110 (above)
+    if source in values or Path(source).suffix or is_path(source):
         return error
     options = {p.name: _named(p) for p in ctx.command.params if p.param_type_name == "option"}
 

@@ -1,6 +1,5 @@
 """Reading TOML files, with errors that name the line and the remedy."""
 
-import os
 import re
 import tomllib
 from collections.abc import Collection, Iterator, Mapping, Sequence
@@ -11,7 +10,7 @@ from typing import Any
 
 from ...core.errors import InputError
 from ...core.legible import short, strange
-from ...core.reading import text_of
+from ...core.reading import is_path, text_of
 from ...core.suggestions import suggestion
 from ...core.validator import Validator
 
@@ -98,9 +97,7 @@ def problems_in(
     except InputError as error:
         source = source or str(file)
         named = error.source == source
-        # unlike that of pathlib, it takes texts that are too long for a path
-        of_other_file = not named and os.path.exists(error.source)  # noqa: PTH110 (above)
-        if file is None or of_other_file:
+        if file is None or (not named and is_path(error.source)):
             raise
         lines = lines_of_keys(text_of(file))
         numbers = [_line_of(problem, lines) for problem in error.problems]

@@ -14,7 +14,9 @@ MASSES = np.random.default_rng(0).uniform(0.1, 100.0, 50)  # kg
 
 def compiled(name, first, second):
     reported = [j.slide if isinstance(j, g.Prismatic) else j.angle for j in (first, second)]
-    shown = tuple(tell(j.name, j.name) for tell, j in zip(reported, (first, second), strict=True))
+    shown = tuple(
+        name_in(j.name, j.name) for name_in, j in zip(reported, (first, second), strict=True)
+    )
     mechanism = g.Mechanism(name, "Two bodies in a row", (first, second), (g.Weight(),), shown)
     model = g.Formulation(name, "Two bodies in a row", mechanism, (first, second))
     return kintrafo.System(kintrafo.compile(model))

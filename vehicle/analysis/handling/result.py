@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import xarray as xr
 
-from ....core.quantities import variable
+from ....core.quantities import Display, variable
 from ....core.units import KM_PER_H
 from ..run import Run
 
@@ -51,8 +51,8 @@ _DEGREES = 180.0 / math.pi
 _READ = {
     "m": ("m", 1.0),
     "m/s": ("km/h", KM_PER_H),
-    "rad s^2/m": ("deg/g", 9.80665 * _DEGREES),
-    "N m s^2/m": ("N m/g", 9.80665),
+    "rad s^2/m": Display.of("deg/g"),
+    "N m s^2/m": Display.of("N m/g"),
     "m/(s^2 rad)": ("m/s^2/deg", 1.0 / _DEGREES),
     "rad s": ("deg s", _DEGREES),
 }
