@@ -34,8 +34,8 @@ _NAME = re.compile(r"(\w+?)_(force|moment)(?:_([xyz]))?(?:_(left|right))?")
 def columns(found: xr.Dataset) -> dict[str, Array]:
     """Return the loads of a result of `static` by name, (cases,), SI units.
 
-    ``NAME_force`` and ``NAME_moment`` are sizes, ``NAME_force_x`` and so on components on the part
-    that `kintrafo loads --case` names, in chassis axes. ``ROD_force`` is positive in tension.
+    ``NAME_force`` and ``NAME_moment`` are magnitudes, ``NAME_force_x`` and so on components on the
+    part that `kintrafo loads --case` names, in chassis axes. ``ROD_force`` is positive in tension.
     Names end in the side of an axle.
     """
     found = flat(found)
