@@ -122,9 +122,9 @@ class CarrierOnRods(Iteration):
         known.placed.add(self.body)
         known.on_line |= {rod.rod for rod in self.rods}
         links = [link for rod in self.rods for link in rod.links]
-        at_rods = [j for link in links for j in known.mechanism.joints_of(link)]
-        at_body = filter(known.joins, known.mechanism.joints_of(self.body))
-        return known.add_all([*at_rods, *at_body])
+        held = [self.body, *links]
+        joints = [joint for body in held for joint in known.mechanism.joints_of(body)]
+        return known.add_all(filter(known.joins, joints))
 
     def lines(self) -> Iterator[Ends]:
         yield from ((rod.rod, rod.anchor, rod.end) for rod in self.rods)
@@ -166,8 +166,10 @@ def _rod(known: Known, body: Body, joint: Joint) -> Leg | None:
 
 
 def _beyond(known: Known, joint: Joint, link: str) -> Joint | None:
-    """Return the other joint of a link that has two."""
+    """Return the other joint of a link; of several the one at a placed body."""
     others = [j for j in known.mechanism.joints_of(link) if j != joint]
+    if len(others) > 1:  # other links may hang at it, such as a drop link
+        others = [j for j in others if j.other(link) in known.placed]
     return others[0] if len(others) == 1 else None
 
 
