@@ -1,6 +1,6 @@
 # `make` or `make help` lists what can be done.
 .DEFAULT_GOAL := help
-.PHONY: docs drawings help setup sundials generate build run test test-elsewhere golden fuzz package wheel lint tree types format baseline clean \
+.PHONY: docs drawings help setup sundials generate build run test test-elsewhere test-oldest golden fuzz package wheel lint tree types format baseline clean \
 	benchmark benchmark-andrews benchmark-axles benchmark-bits benchmark-braking benchmark-bushes benchmark-car-peers benchmark-cluster benchmark-derivatives benchmark-drive benchmark-ensemble benchmark-export benchmark-growth benchmark-loads benchmark-loops benchmark-microcontroller benchmark-page benchmark-peers benchmark-real-time benchmark-ride benchmark-speed benchmark-stiff benchmark-studies format-page front-axle-page report-assets
 PYTHON := .venv/bin/python
 
@@ -33,7 +33,7 @@ run: build ## The paper's suspension: topology, Figures 4 to 6, summary, all in 
 	@$(PYTHON) -m kintrafo paper out --force
 
 # Tests start hundreds of processes, and each would compile what it imports again.
-test test-elsewhere: export PYTHONDONTWRITEBYTECODE =
+test test-elsewhere test-oldest: export PYTHONDONTWRITEBYTECODE =
 
 # Of all that tests make for each other, deriving takes longest: one process runs a file, and those
 # that take longest come first.
@@ -42,6 +42,13 @@ test: build ## Run all tests
 
 test-elsewhere: build ## Run what is compared with oracles as a processor of 2008 would compute
 	@$(PYTHON) -m benchmarks.older_processor $(PYTHON) -m pytest -q -n 2 --dist loadfile --no-loadscope-reorder -m numbers
+
+# Those of the packages for development stay the newest. Old packages use what others have deprecated.
+test-oldest: build ## Run all tests with the oldest packages that pyproject.toml accepts
+	@$(PYTHON) -m venv build/oldest && $(PYTHON) .ci/oldest.py >build/oldest/constraints.txt
+	@build/oldest/bin/python -m pip install -q "setuptools>=77" "cython>=3.1" wheel
+	@build/oldest/bin/python -m pip install -q --no-build-isolation -c build/oldest/constraints.txt -e ".[dev]"
+	@build/oldest/bin/python -m pytest -q -n 2 --dist loadfile --no-loadscope-reorder -o filterwarnings=default
 
 golden: build ## Which numbers of any analysis differ from those stored (ARGS=store: store these)
 	@PYTHONPATH=tests $(PYTHON) -m golden $(ARGS)
