@@ -62,13 +62,15 @@ class ArrayFunctions:
         def text(expression: sp.Expr) -> str:
             return formula(expression.xreplace(called), dialect)
 
+        def size(expression: sp.Expr) -> str:
+            return dialect.magnitude.format(text(expression))
+
         tests = [
             *(
-                f"abs({text(a.quantity)}) > ROUNDING"
-                + ("" if a.scale == 1 else f" * {text(a.scale)}")
+                f"{size(a.quantity)} > ROUNDING" + ("" if a.scale == 1 else f" * {text(a.scale)}")
                 for a in derivation.assumptions
             ),
-            *(f"abs({text(c.quantity)}) <= {text(c.least)}" for c in derivation.conditions),
+            *(f"{size(c.quantity)} <= {text(c.least)}" for c in derivation.conditions),
         ]
         holds = [f"{place}: {dialect.negation.format(test)}" for place, test in enumerate(tests)]
         names = [e.name for e in derivation.parameters]

@@ -33,6 +33,7 @@ class Dialect:
     # of an array of states, inputs, constants or parameters, by its index
     element: str = "{}[..., {}]"
     negation: str = "not {}"  # comparison that must not hold
+    magnitude: str = "abs({})"
 
 
 def text_of(

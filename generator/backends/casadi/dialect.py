@@ -23,4 +23,5 @@ CASADI = Dialect(
     component="{}[{}]",
     element="{}[{}]",
     negation="casadi.logic_not({})",
+    magnitude="casadi.fabs({})",  # abs(...) only since CasADi 3.8
 )
